@@ -73,6 +73,16 @@ class Compare(RunCase):
         self.assertNotIn("<script", page)
         self.assertIn("one/results.csv", page)
 
+    def test_runs_without_a_common_channel(self):
+        (self.folder / "other.csv").write_text("time [s],mine [m]\n0,1\n0.1,2\n")
+        (self.folder / "bare.csv").write_text("time [s]\n0\n0.1\n")
+        for other in ("other.csv", "bare.csv"):
+            for arguments in ((), ("--tolerance", "1"), ("--json",), ("--report", "page.html")):
+                done = self.program("compare", "one", other, *arguments, code=2)
+                self.assertIn(f"{other}:1: found no channel that 'one/results.csv' has too", done.stderr)
+                self.assertEqual(done.stdout, "")
+        self.assertFalse((self.folder / "page.html").exists())
+
     def test_bad_input(self):
         self.assertIn("does not exist", self.program("compare", "one", "three", code=2).stderr)
         self.assertIn("there is no channel 'spinn', did you mean 'spin'?",

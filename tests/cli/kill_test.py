@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -112,6 +113,60 @@ class Kill(RunCase):
                         self.same_files("out", "whole")
                         self.assertFalse((self.folder / "out/run.checkpoint").exists())
             self.assertGreater(continued, 0)
+
+    def test_repeated_command(self):
+        """The same command at random moments of a run that goes on, and after its end by SIGKILL: it is refused without a
+        trace, or it replaces what was complete. What is not of the program stays in any case."""
+        foreign = {"notes.txt": b"mine\n", "results.csv.part-mine": b"1,2\n", "previous/notes.txt": b"also mine\n"}
+        command = ("run", "m.yaml", "--set", "duration=10", "--quiet", "--out", "out", "--checkpoint-every", "0.05")
+        whole = self.timed(*command[:-4], "--out", "whole")
+        expected = (self.folder / "whole/results.csv").read_bytes()
+        (self.folder / "out/previous").mkdir(parents=True)
+        for name, content in foreign.items():
+            (self.folder / "out" / name).write_bytes(content)
+        refused = 0
+        for k, moment in self.moments(whole):
+            with self.subTest(seed=SEED, repetition=k, moment=moment):
+                process = self.begin(*command)
+                time.sleep(moment)
+                if process.poll() is None:
+                    again = self.program(*command, code=None)
+                    if again.returncode == 2:
+                        self.assertRegex(again.stderr, "is in use|holds an unfinished run")
+                process.kill()
+                process.communicate()
+                before = {p: p.read_bytes() for p in (self.folder / "out").rglob("*") if p.is_file() and p.name != "run.lock"}
+                if (self.folder / "out/run.checkpoint").exists() and self.summary("out")["status"] != "completed":
+                    refused += 1
+                    self.assertIn("holds an unfinished run", self.program(*command, code=2).stderr)
+                    after = {p: p.read_bytes() for p in (self.folder / "out").rglob("*") if p.is_file()}
+                    self.assertEqual({p: c for p, c in before.items() if not re.search(r"\.part-\d+-\d+$", p.name)},
+                                     {p: c for p, c in after.items() if p.name != "run.lock"})
+                    self.program(*command[:-2], "--resume")
+                else:
+                    self.program(*command)
+                self.assertEqual((self.folder / "out/results.csv").read_bytes(), expected)
+                self.assertEqual(self.summary("out")["status"], "completed")
+                for name, content in foreign.items():
+                    self.assertEqual((self.folder / "out" / name).read_bytes(), content)
+        if KILLS >= 3:
+            self.assertGreater(refused, 0)
+
+    def test_a_completed_run_survives_kills_of_the_next(self):
+        command = ("run", "m.yaml", "--quiet", "--out", "out")
+        self.program(*command, "--set", "duration=0.5")
+        kept = (self.folder / "out/results.csv").read_bytes()
+        whole = self.timed("run", "m.yaml", "--quiet", "--out", "whole", "--set", "duration=3")
+        for k, moment in self.moments(whole):
+            with self.subTest(seed=SEED, kill=k, moment=moment):
+                killed = self.killed(moment, *command, "--set", "duration=3")
+                places = [self.folder / "out" / p / "results.csv" for p in ("", "previous")]
+                found = [p.read_bytes() for p in places if p.exists()]
+                if killed and kept not in found:  # it was complete before the kill
+                    self.assertEqual(self.summary("out")["status"], "completed")
+                self.program(*command, "--set", "duration=0.5")
+                self.assertEqual(places[0].read_bytes(), kept)
+                self.assertFalse(places[1].exists())
 
     def test_sweep(self):
         setting = ("sweep", "m.yaml", "--vary", "mass=1:2:6", "--set", "duration=1.5", "--keep-results", "--threads", "2",

@@ -99,7 +99,7 @@ class OutputFiles(unittest.TestCase):
         (self.folder / "results.csv").write_text(TABLE)
         (self.folder / "t.yaml").write_text(MODEL)
         self.refused("run", "t.yaml", "--out", ".", message="--out: found './results.csv', which this command reads")
-        self.refused(*REDUCE, "-o", "beam_b31_mesh.inp", message="-o: found 'beam_b31_mesh.inp', which this command")
+        self.refused(*REDUCE, "-o", "beam_b31_mesh.inp", "--overwrite", message="-o: found 'beam_b31_mesh.inp', which this command")
         (self.folder / "sweep.csv").write_text("v\n1\n2\n")
         self.refused("sweep", "m.yaml", "--table", "sweep.csv", "--out", ".", message="sweep.csv', which this command")
 

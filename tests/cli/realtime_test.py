@@ -352,6 +352,20 @@ class RealTime(unittest.TestCase):
         self.lock_step(lambda link, outputs: link.send({"push": 1e6}))
         self.assertEqual(self.report()["inputs"]["push"], {"value": 20.0, "refused": 0, "clamped": 50})
 
+    def test_a_controller_that_sends_only_nan_is_silent(self):
+        link = self.link()
+        process = self.start("cart.yaml", "--input", "udp", "--output", "udp", "--listen", "127.0.0.1:0", "--send",
+                             f"127.0.0.1:{link.address[1]}", "--duration", "0.8", "--input-timeout", "0.1", "--fallback",
+                             "stop", "--report", "report.json")
+        first = True
+        while not link.receive(PATIENCE)["last"]:
+            link.send({"push": 4.0 if first else float("nan")})
+            first = False
+        errors = process.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertRegex(errors, r"the run failed: no inputs came for 0\.1 s after t = ")
+        self.assertGreater(self.report()["inputs"]["push"]["refused"], 10)
+
     def test_a_silent_controller_is_reported_and_the_fallback_acts(self):
         for fallback, value in (("hold", 4.0), ("initial", 0.5), ("stop", 4.0)):
             with self.subTest(fallback=fallback):

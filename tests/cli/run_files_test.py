@@ -206,7 +206,7 @@ class Resumed(RunCase):
         done = self.program(*run, "--resume", "--quiet")
         self.assertEqual((done.stdout, done.stderr), ("", f"floatframe: {complete}\n"))
         # Killed after its summary and before its checkpoint went.
-        (self.folder / "out/run.checkpoint").write_bytes(b"of this run")
+        (self.folder / "out/run.checkpoint").write_bytes(b"ffcheck\nof this run")
         self.assertIn(complete, self.program(*run, "--resume").stderr)
         self.assertIn(f"--write-state: {complete}; its state at the end is not known",
                       self.program(*run, "--resume", "--write-state", "end.json", code=2).stderr)
@@ -227,7 +227,7 @@ class Resumed(RunCase):
         process = self.begin("run", "m.yaml", "--out", "out", "--checkpoint-every", "0.1")
         self.wait_for((self.folder / "out/run.checkpoint").exists, process)
         self.end(process, signal.SIGKILL)
-        self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.1", "--quiet")
+        self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.1", "--quiet", "--overwrite")
         self.assertFalse((self.folder / "out/run.checkpoint").exists())
 
 

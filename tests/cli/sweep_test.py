@@ -202,7 +202,7 @@ class Input(Sweep):
                 ((CRANK,), "expected --vary or --table: what changes from run to run"),
                 ((CRANK, "--vary", "rate=1,2", "--table", "x.csv"), "found --vary and --table, expected one of the two"),
                 ((CRANK, "--vary", "rate"), "--vary rate: expected NAME=LO:HI:N"),
-                ((CRANK, "--vary", "rate=1:2:0"), "found '0', expected a number of values from 2 to 1000000"),
+                ((CRANK, "--vary", "rate=1:2:0"), "found '0', expected a number of values from 1 to 1000000"),
                 ((CRANK, "--vary", "raet=1,2"), "nor a simulation option, did you mean 'rate'?"),
                 ((CRANK, "--vary", "rate=1,2", "--threads", "0"), "--threads"),
                 ((CRANK, "--vary", "rate=1,2", "--set", "l_rod"), "--set: found 'l_rod', expected NAME=VALUE"),

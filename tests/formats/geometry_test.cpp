@@ -106,9 +106,10 @@ double volume(const TriangleGeometry& g) {
   return sum;
 }
 
-std::string geometry_error(const std::string& bytes, const std::string& name) {
+std::string geometry_error(const std::string& bytes, const std::string& name,
+                           const GeometryLoader& loader = {}) {
   try {
-    parse_geometry(bytes, name);
+    parse_geometry(bytes, name, loader);
   } catch (const InputError& error) {
     EXPECT_EQ(error.errors().size(), 1u);
     return error.what();
@@ -208,6 +209,15 @@ TEST(Geometry, ErrorsAreOneSentence) {
        "without it (no compression, no quantization)");
   const std::string other = geometry_error(gltf_json("other.bin"), "t.gltf");
   EXPECT_NE(other.find("found a buffer at 'other.bin'"), std::string::npos) << other;
+  for (const char* uri :
+       {"/etc/passwd", "../other.bin", "%2e%2e/other.bin", "a/../../b.bin", "file:///etc/passwd"}) {
+    const std::string outside =
+        geometry_error(gltf_json(uri), "t.gltf", [](const std::string& name) {
+          ADD_FAILURE() << "asked for " << name;
+          return std::string();
+        });
+    EXPECT_NE(outside.find("expected one in"), std::string::npos) << outside;
+  }
   EXPECT_NE(geometry_error(gltf().substr(0, 100), "t.gltf").find("the file is not glTF: "),
             std::string::npos);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "floatframe/core/build_info.hpp"
 #include "floatframe/history/recorded_motion.hpp"
 #include "history/recorded_run.hpp"
 #include "support/error_of.hpp"
@@ -195,6 +196,22 @@ outputs:
     }
     EXPECT_THROW(motion.at(motion.instants()), InputError);
   }
+}
+
+TEST(NewChannelsErrors, StatesOfAnotherCopyOfTheProgramAreRefused) {
+  const TemporaryFolder folder;
+  const Model model = model_of(std::string(recorded_machine) + own_outputs);
+  HistoryOrigin origin;
+  origin.library = build_description();
+  recorded_run(model, model.simulation, folder.file("own.ffr"), origin);
+  EXPECT_NO_THROW(require_model(StateHistory(folder.file("own.ffr")), model));
+  origin.library = "0.0.1, Debug, GNU 1.0, z80";
+  recorded_run(model, model.simulation, folder.file("other.ffr"), origin);
+  EXPECT_EQ(error_of([&] { require_model(StateHistory(folder.file("other.ffr")), model); }),
+            folder.file("other.ffr") +
+                ": its states were made by another copy of the program (found 0.0.1, Debug, GNU "
+                "1.0, z80, this is " +
+                build_description() + ")");
 }
 
 TEST(NewChannelsErrors, ImpulsesAndOtherModelsAreRefused) {

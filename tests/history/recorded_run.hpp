@@ -50,11 +50,11 @@ struct Recorded {
 
 /// `path`: of the file to write.
 inline Recorded recorded_run(const Model& model, const SimulationDescription& o,
-                             const std::string& path) {
+                             const std::string& path, const HistoryOrigin& origin = {}) {
   std::optional<StatesFile> file;
   RunOptions options;
   options.states = [&](const StateLayout& layout, std::span<const double> numbers) {
-    if (!file) file.emplace(path, history_content(model, o, layout, {}), false);
+    if (!file) file.emplace(path, history_content(model, o, layout, origin), false);
     file->append(numbers);
   };
   Recorded out{run(model, o, options), path};

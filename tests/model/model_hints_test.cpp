@@ -129,6 +129,16 @@ forces:
     target: {polynomial: [0, 30]}
 )")),
             Texts{});
+  const auto motion = [](const std::string& table) {
+    return hints_of(description_of(
+        "points: {o: [0, 0, 0]}\nbodies: {a: {rigid: {mass: 1, centre_of_mass: o, inertia: [1, 1, "
+        "1]}}}\njoints: {a: {type: revolute, child: a, at: o, axis: z, motion: {table: " +
+        table + "}}}\n"));
+  };
+  // A motor that runs up or turns evenly, in whole numbers; a quarter turn after the other is not.
+  EXPECT_EQ(motion("[[0, 0], [1, 50], [2, 150], [10, 950]]"), Texts{});
+  EXPECT_EQ(motion("[[0, 0], [1, 10], [2, 20], [3, 30]]"), Texts{});
+  EXPECT_EQ(motion("[[0, 0], [1, 90], [2, 180]]").size(), 1u);
 }
 
 TEST(Hints, InertiaThatWasForgotten) {

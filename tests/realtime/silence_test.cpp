@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 
 #include "realtime/recorder.hpp"
 
@@ -20,6 +21,16 @@ class Sometimes : public Recorder {
 
  private:
   std::function<bool(long)> speaks_;
+};
+
+/// Speaks at every step, in words that no input understands: NaN from some step on.
+class Confused : public Recorder {
+ public:
+  bool receive(InputBuffer& inputs) noexcept override {
+    const double nan = std::nan("");
+    return inputs.accept(++received < 3 ? std::vector<double>{30.0, 1.0, 0.1, 0.0}
+                                        : std::vector<double>{nan, nan, nan, nan});
+  }
 };
 
 RealTimeOptions four_steps_of_patience(SilenceFallback fallback) {
@@ -47,6 +58,26 @@ TEST(Silence, SilentInputsAreHeldOrReturnToTheirInitialValues) {
     EXPECT_EQ(spoken.input_timeouts, 0);
     EXPECT_EQ(spoken.inputs[0], 30.0);
   }
+}
+
+TEST(Silence, InputsThatAreAllNaNAreSilence) {
+  for (const auto fallback : {SilenceFallback::hold, SilenceFallback::initial}) {
+    Confused confused;
+    const RealTimeReport r =
+        run_real_time(model(), simulation(0.1), four_steps_of_patience(fallback), &confused);
+    EXPECT_EQ(r.input_timeouts, 1);
+    EXPECT_EQ(r.inputs[0], fallback == SilenceFallback::hold ? 30.0 : 3.25);
+  }
+  Confused confused;
+  const RealTimeReport stopped = run_real_time(
+      model(), simulation(0.1), four_steps_of_patience(SilenceFallback::stop), &confused);
+  EXPECT_EQ(stopped.status, "failed");
+  // One value is enough.
+  InputBuffer buffer(model());
+  const double nan = std::nan("");
+  EXPECT_TRUE(buffer.accept(std::vector<double>{nan, nan, 0.1, nan}));
+  EXPECT_FALSE(buffer.accept(std::vector<double>{nan, nan, nan, nan}));
+  EXPECT_EQ(buffer.refused(0), 2);
 }
 
 TEST(Silence, SilenceIsReportedAfterASecondByDefault) {

@@ -137,7 +137,21 @@ TEST_F(Comparing, ChannelsThatOnlyOneHas) {
   EXPECT_TRUE(compared(a, b, {"x"}).same_channels());
   EXPECT_THROW(compared(a, b, {"y"}), InputError);
   const auto mm = results("mm", 0, 1, 3, {one}, "mm");
-  EXPECT_EQ(compared(b, mm).other_units, std::vector<std::string>{"x [m] and [mm]"});
+  // Nothing to compare is no agreement.
+  const auto sentence = [&](const std::string& first, const std::string& second) {
+    try {
+      compared(first, second);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(sentence(b, mm).find("found no channel that"), std::string::npos) << sentence(b, mm);
+  EXPECT_NE(sentence(b, mm).find("of other units: 'x [m] and [mm]'"), std::string::npos);
+  const auto none = results("none", 0, 1, 3, {});
+  EXPECT_NE(sentence(a, none).find("(here none, there 'x', 'y', 'z')"), std::string::npos)
+      << sentence(a, none);
+  EXPECT_NE(sentence(none, none).find("found no channel that"), std::string::npos);
 }
 
 TEST_F(Comparing, NamesAreTextOnThePage) {

@@ -2,6 +2,7 @@
 // formulations, for loads, targets and motions; what is located and what is said of the rest.
 #include "floatframe/simulation/time_corners.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -201,6 +202,47 @@ TEST(TimeCorners, StepsOfALoadAreExact) {
 }
 
 // The impulse of a pulse that lies between two steps.
+// Ends of steps are sums of steps, and rounding leaves them on either side of jumps that are written
+// as numbers: 0.09 + 0.01 is less than 0.1.
+TEST(TimeCorners, JumpsAtEndsOfStepsAreMetWhateverTheRounding) {
+  struct Grid {
+    double step, on, off;
+  };
+  for (const Grid& g : {Grid{0.01, 0.09, 0.1}, Grid{0.01, 0.05, 0.07}, Grid{0.005, 0.035, 0.05},
+                        Grid{0.0005, 0.8, 0.9}, Grid{0.001, 0.3, 0.7}})
+    for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+      Model model = model_of(
+          "points: {o: [0, 0, 0]}\nbodies: {m: {rigid: {mass: 2, centre_of_mass: o, inertia: [1, "
+          "1, 1]}}}\njoints: {s: {type: prismatic, child: m, at: o, axis: x}}\nforces:\n  push: "
+          "{type: force, body: m, direction: x, magnitude: {table: [[" +
+          fmt::format("{0}, 0], [{0}, 100], [{1}, 100], [{1}, 0]]}}}}\n", g.on, g.off) +
+          "outputs: {v: {joint_velocity: s}}\nsimulation: {step: 0.01, duration: 1}\n");
+      model.simulation.step = g.step;
+      const RunResult r = run_in(model, c);
+      EXPECT_EQ(r.summary.corners, 2) << g.step;
+      EXPECT_NEAR(r.table.at(r.table.rows() - 1, 1), 50.0 * (g.off - g.on), 1e-9) << g.step;
+      EXPECT_TRUE(r.summary.warnings.empty()) << r.summary.warnings.front().sentence;
+    }
+}
+
+// A force on very little mass is no direction without mass.
+TEST(TimeCorners, LightPartsFollowJumpsToo) {
+  for (const double mass : {1.0, 1e-6, 1e-9}) {
+    const Model model = model_of(
+        "gravity: [0, 0, 0]\npoints: {o: [0, 0, 0]}\nbodies: {m: {rigid: {mass: " +
+        fmt::format("{}", mass) +
+        ", centre_of_mass: o}}}\njoints: {s: {type: prismatic, child: m, at: o, axis: x}}\nforces: "
+        "{push: {type: force, body: m, direction: x, magnitude: {table: [[0.05, 0], [0.05, 1], "
+        "[0.0551, 1], [0.0551, 0]]}}}\noutputs: {v: {joint_velocity: s}}\nsimulation: {step: "
+        "0.001, "
+        "duration: 0.1}\n");
+    for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+      const RunResult r = run_in(model, c);
+      EXPECT_NEAR(r.table.at(r.table.rows() - 1, 1) * mass, 0.0051, 1e-9) << mass;
+    }
+  }
+}
+
 TEST(TimeCorners, APulseBetweenTwoStepsHasItsImpulse) {
   for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
     const RunResult r =

@@ -47,6 +47,13 @@ TEST(GridPlan, LogarithmicRangesHaveEqualRatios) {
   EXPECT_EQ(std::stod(plan.runs.back()[0]), 1e6);
 }
 
+TEST(GridPlan, OneValueIsTheFirst) {
+  EXPECT_EQ(grid_plan({"x=3:6:1"}).runs, (std::vector<std::vector<std::string>>{{"3"}}));
+  EXPECT_EQ(grid_plan({"x=3:3:1"}).runs.size(), 1u);
+  EXPECT_EQ(grid_plan({"x=3:6:1:log", "y=1,2"}).runs,
+            (std::vector<std::vector<std::string>>{{"3", "1"}, {"3", "2"}}));
+}
+
 TEST(GridPlan, ErrorsAreOneSentence) {
   for (const auto& [variation, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"speed", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
@@ -55,9 +62,9 @@ TEST(GridPlan, ErrorsAreOneSentence) {
            {"a=1:2:3:lin", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
            {"a=1:x:3", "found 'x', expected a number"},
            {"a=nan:1:3", "found 'nan', expected a number"},
-           {"a=1:2:1", "found '1', expected a number of values from 2 to 1000000"},
-           {"a=1:2:2.5", "found '2.5', expected a number of values from 2 to 1000000"},
-           {"a=1:2:1e9", "found '1e9', expected a number of values from 2 to 1000000"},
+           {"a=1:2:0", "found '0', expected a number of values from 1 to 1000000"},
+           {"a=1:2:2.5", "found '2.5', expected a number of values from 1 to 1000000"},
+           {"a=1:2:1e9", "found '1e9', expected a number of values from 1 to 1000000"},
            {"a=2:2:3", "both ends are the same, expected different ones"},
            {"a=-1:2:3:log", "equal ratios need two ends of the same sign, neither of them zero"},
            {"a=1,,2", "found nothing, expected a value"},

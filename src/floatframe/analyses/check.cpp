@@ -70,9 +70,7 @@ nlohmann::ordered_json bending_json(const Model& model) {
     for (std::size_t k = 0; k < 2; ++k)
       sides.push_back(
           {{"direction", json_array(b.direction[k])}, {"stiffness_N_m2", b.stiffness[k]}});
-    rows.push_back({{"body", model.bodies[static_cast<std::size_t>(b.body)].name},
-                    {"bars", b.bars},
-                    {"sides", sides}});
+    rows.push_back({{"body", model.bodies[b.body].name}, {"bars", b.bars}, {"sides", sides}});
   }
   return rows;
 }

@@ -17,7 +17,7 @@ namespace {
 struct AnalysisArguments {
   ModelArguments model;
   std::string step, duration;
-  bool json = false, strict = false;
+  bool json = false, strict = false, overwrite = false;
   std::vector<std::string> files;  ///< their names, in the order of `Analysis::files`
 };
 
@@ -56,7 +56,7 @@ AnalysisReport run_with_files(const Analysis& analysis, const Model& model,
 int run_analysis(const Analysis& analysis, const AnalysisArguments& a) {
   ModelFingerprint used;
   ModelDescription description = read_model(a.model, false, &used);
-  require_writable(output_files(analysis, a), files_of(used));
+  require_writable(output_files(analysis, a), files_of(used), a.overwrite);
   if (analysis.makes_steps) {
     set_clock(description.simulation, a.step, a.duration);
     require_steps(description.simulation);
@@ -90,6 +90,7 @@ Command analysis_command(const Analysis& analysis) {
   for (std::size_t k = 0; k < analysis.files.size(); ++k)
     options.push_back(
         text_option(analysis.files[k].option, a->files[k], "FILE", analysis.files[k].help));
+  if (!analysis.files.empty()) options.push_back(overwrite_option(a->overwrite));
   if (!analysis.strict.empty())
     options.push_back(flag("--strict", a->strict, "Warnings count as errors: exit code 1"));
   return {.name = analysis.name,

@@ -16,6 +16,7 @@ namespace {
 struct ChainArguments {
   ChainOptions options;
   std::string step, duration, tolerance, spectral_radius, seconds, json_file;
+  bool overwrite = false;
   std::string coordinates, inertia;
 };
 
@@ -46,7 +47,7 @@ ChainOptions checked(const ChainArguments& a) {
 
 int run_chain(const ChainArguments& arguments) {
   ChainOptions options = checked(arguments);
-  require_writable({{"--json", arguments.json_file}});
+  require_writable({{"--json", arguments.json_file}}, {}, arguments.overwrite);
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   const ChainResult result = bench_chain(options);
@@ -84,7 +85,8 @@ Command bench_chain_command() {
                         "Least number of timed runs of a row (default 5)"),
            text_option("--seconds", a->seconds, "SECONDS",
                        "Approximate processor time for the timed runs of a row (default 2)"),
-           text_option("--json", a->json_file, "FILE", "Write the figures to this file as JSON")},
+           text_option("--json", a->json_file, "FILE", "Write the figures to this file as JSON"),
+           overwrite_option(a->overwrite)},
       .footer =
           "Links are steel beams of 1 m hung by parallel hinges and released from the horizontal.\n"
           "Times are processor times of stepping, without input and output.",

@@ -12,6 +12,7 @@ namespace {
 struct BenchArguments {
   BenchOptions options;
   std::string step, duration, json_file;
+  bool overwrite = false;
 };
 
 int run_bench(const BenchArguments& arguments) {
@@ -22,7 +23,7 @@ int run_bench(const BenchArguments& arguments) {
     options.duration = positive_number("--duration", arguments.duration);
   }
   if (options.model.empty()) options.model = find_iltis();
-  require_writable({{"--json", json_file}});
+  require_writable({{"--json", json_file}}, {}, arguments.overwrite);
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   const BenchResult result = bench_iltis(options);
@@ -50,7 +51,8 @@ Command bench_iltis_command() {
                   text_option("--step", a->step, "SECONDS",
                               "Time step [s]; default: that of the model file"),
                   text_option("--duration", a->duration, "SECONDS",
-                              "Time to simulate [s]; default: that of the model file")},
+                              "Time to simulate [s]; default: that of the model file"),
+                  overwrite_option(a->overwrite)},
       .footer = "Times are processor seconds of stepping, without input and output.",
       .run = [a] { return run_bench(*a); }};
 }

@@ -12,6 +12,7 @@ namespace {
 struct ScalingArguments {
   ScalingOptions options;
   std::vector<std::string> sweeps;
+  bool overwrite = false;
   std::string step, seconds, coordinates, inertia, json_file;
 };
 
@@ -28,7 +29,7 @@ int run_scaling(const ScalingArguments& a) {
         options.sweeps.push_back(sweep);
     }
   }
-  require_writable({{"--json", a.json_file}});
+  require_writable({{"--json", a.json_file}}, {}, a.overwrite);
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   const ScalingResult result = bench_scaling(options);
@@ -60,7 +61,8 @@ Command bench_scaling_command() {
                         "Least number of timed runs of a row (default 5)"),
            text_option("--seconds", a->seconds, "SECONDS",
                        "Approximate processor time for the timed runs of a row (default 0.5)"),
-           text_option("--json", a->json_file, "FILE", "Write the figures to this file as JSON")},
+           text_option("--json", a->json_file, "FILE", "Write the figures to this file as JSON"),
+           overwrite_option(a->overwrite)},
       .footer = "Times are processor times of stepping, without input and output.",
       .run = [a] { return run_scaling(*a); }};
 }

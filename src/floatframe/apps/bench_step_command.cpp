@@ -29,6 +29,7 @@ namespace {
 struct StepArguments {
   std::string model = "chain", step, duration, tolerance, spectral_radius, coordinates, inertia;
   std::string json_file;
+  bool overwrite = false;
   std::vector<std::string> settings;
   bool inputs_jump = false;
   int links = 4, modes = 8, elements = 20, across = 0, iterations = 0;
@@ -64,7 +65,7 @@ int run_steps(const StepArguments& a) {
     o.spectral_radius = number_within("--spectral-radius", a.spectral_radius, 0.0, 1.0);
   if (!a.coordinates.empty()) o.coordinates = coordinates_from(a.coordinates);
   if (!a.inertia.empty()) o.inertia = inertia_from(a.inertia);
-  require_writable({{"--json", a.json_file}}, {a.model});
+  require_writable({{"--json", a.json_file}}, {a.model}, a.overwrite);
   check_inertia_method(description, o.inertia);
   const Model model = build_model(description);
   if (a.inputs_jump && model.inputs.empty())
@@ -133,7 +134,8 @@ Command bench_step_command() {
                        "Newton tolerance; default: that of the model"),
            text_option("--spectral-radius", a->spectral_radius, "NUMBER",
                        "Spectral radius at infinite frequency; default: that of the model"),
-           text_option("--json", a->json_file, "FILE", "Write the counts to this file as JSON")},
+           text_option("--json", a->json_file, "FILE", "Write the counts to this file as JSON"),
+           overwrite_option(a->overwrite)},
       .footer =
           "All steps are made inside the function floatframe_counted_steps, for instance:\n"
           "valgrind --tool=callgrind --toggle-collect=floatframe_counted_steps \\\n"

@@ -2,26 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "floatframe/apps/own_file.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/sweep/simulation_option.hpp"
 
 namespace floatframe {
 
 std::vector<Option> model_options(ModelArguments& arguments) {
-  return {file_position("MODEL", arguments.path, "Model file (YAML)"),
-          repeated_option("--set", arguments.settings, "NAME=VALUE",
-                          "Change a parameter of the model file; may be repeated")};
+  return {
+      file_position("MODEL", arguments.path, "Model file (YAML)"),
+      repeated_option(
+          "--set", arguments.settings, "NAME=VALUE",
+          "Set a parameter of the model file, or else an option of its section simulation (step, "
+          "tolerance, ...); may be repeated")};
 }
 
 std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second) {
@@ -37,20 +44,61 @@ Option inertia_option(std::string& word, std::string help) {
   return word_option("--inertia", word, {"preprocessing", "projection"}, std::move(help));
 }
 
-ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFingerprint* used) {
-  std::vector<ParameterOverride> overrides;
+namespace {
+
+/// What --set sets: parameters of the model file, or else options of the simulation.
+struct Settings {
+  std::vector<ParameterOverride> parameters, options;
+};
+
+Settings settings_of(const ModelArguments& arguments) {
+  constexpr std::string_view prefix = "simulation.";
+  const std::vector<std::string>& known = simulation_option_names();
+  const auto is_among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  Settings settings;
+  std::optional<std::vector<std::string>> parameters;  // read only where a name may be both
   for (const std::string& setting : arguments.settings) {
     const std::size_t equal = setting.find('=');
-    if (equal == std::string::npos || equal == 0) {
+    if (equal == std::string::npos || equal == 0)
       throw InputError(fmt::format("--set: found '{}', expected NAME=VALUE", setting));
+    const std::string name = setting.substr(0, equal), value = setting.substr(equal + 1);
+    if (name.starts_with(prefix) && is_among(known, name.substr(prefix.size()))) {
+      settings.options.push_back({name.substr(prefix.size()), value});
+      continue;
     }
-    overrides.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
+    if (is_among(known, name) && !parameters) parameters = model_parameters(arguments.path);
+    if (is_among(known, name) && !is_among(*parameters, name))
+      settings.options.push_back({name, value});
+    else
+      settings.parameters.push_back({name, value});
   }
+  return settings;
+}
+
+void set_options(const std::vector<ParameterOverride>& options, SimulationDescription& simulation) {
+  ErrorList errors;
+  for (const auto& [name, value] : options)
+    if (const std::string error = set_simulation_option(simulation, name, value); !error.empty())
+      errors.add({}, fmt::format("--set: {}: {}", name, error));
+  if (!options.empty())
+    if (const std::string error = simulation_error(simulation); !error.empty())
+      errors.add({}, error);
+  errors.throw_if_any();
+}
+
+}  // namespace
+
+ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFingerprint* used) {
+  const Settings settings = settings_of(arguments);
   ReadOptions options;
   if (!quiet) options.say = say_line;
   options.keep_text = used != nullptr;
   options.outputs = arguments.outputs;
-  return read_model(arguments.path, overrides, used, options);
+  ModelDescription description = read_model(arguments.path, settings.parameters, used, options);
+  set_options(settings.options, description.simulation);
+  return description;
 }
 
 namespace {
@@ -99,13 +147,29 @@ void set_clock(SimulationDescription& simulation, const std::string& step,
   }
 }
 
+Option overwrite_option(bool& overwrite) {
+  return flag("--overwrite", overwrite,
+              "Replace files that are there already and were not written by this program");
+}
+
+void refuse_foreign(const std::string& option, const std::string& path) {
+  throw InputError(fmt::format(
+      "{}: the file '{}' was not written by this program; expected another name, or --overwrite",
+      option, path));
+}
+
+void require_own(const OutputFile& output) {
+  if (!is_own_file(output.path)) refuse_foreign(output.option, output.path);
+}
+
 void require_writable(const std::vector<OutputFile>& outputs,
-                      const std::vector<std::string>& inputs) {
+                      const std::vector<std::string>& inputs, bool overwrite) {
   require_distinct(outputs, inputs);
   for (const OutputFile& output : outputs) {
     if (output.path.empty()) continue;
     try {
       check_writable(output.path);
+      if (!overwrite) require_own(output);
     } catch (const OutputError& error) {
       throw InputError(error.what());
     }

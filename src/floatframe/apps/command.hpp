@@ -56,10 +56,17 @@ double positive_number(const std::string& option, const std::string& text);
 void set_clock(SimulationDescription& simulation, const std::string& step,
                const std::string& duration);
 
-/// Proves that files that are to be written at the end can be, and that none is one of `inputs` or
-/// another output. Paths may be empty. Throws InputError.
+/// Files that other programs have written are replaced only with --overwrite.
+Option overwrite_option(bool& overwrite);
+/// Proves that files that are to be written at the end can be, that none is one of `inputs` or
+/// another output, and, unless `overwrite`, none a file of another program (own_file.hpp). Paths
+/// may be empty. Throws InputError.
 void require_writable(const std::vector<OutputFile>& outputs,
-                      const std::vector<std::string>& inputs = {});
+                      const std::vector<std::string>& inputs, bool overwrite);
+/// The last of these alone.
+void require_own(const OutputFile& output);
+/// Throws the InputError of such a file.
+[[noreturn]] void refuse_foreign(const std::string& option, const std::string& path);
 /// Makes a folder for files that are to be written. Throws InputError.
 void require_folder(const std::string& path);
 /// A folder stands for the results.csv in it.

@@ -9,6 +9,7 @@
 #include <new>
 #include <set>
 
+#include "floatframe/apps/ample_stack.hpp"
 #include "floatframe/apps/command_parser.hpp"
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -51,12 +52,7 @@ void occupy_standard_files() {
       static_cast<void>(::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-}  // namespace
-
-int command_line_main(int argc, char** argv) {
-  occupy_standard_files();
-  // A limit of the size of files is an error of the file that reaches it.
-  std::signal(SIGXFSZ, SIG_IGN);
+int act_or_say_why(int argc, char** argv) {
   try {
     return parse_and_act(argc, argv);
   } catch (const InputError& error) {
@@ -69,6 +65,15 @@ int command_line_main(int argc, char** argv) {
     say(error.what());
   }
   return exit_code::failed;
+}
+
+}  // namespace
+
+int command_line_main(int argc, char** argv) {
+  occupy_standard_files();
+  // A limit of the size of files is an error of the file that reaches it.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return on_ample_stack([&] { return act_or_say_why(argc, argv); });
 }
 
 }  // namespace floatframe

@@ -17,7 +17,7 @@ namespace {
 struct CompareArguments {
   std::string a, b, tolerance, absolute, report;
   std::vector<std::string> channels;
-  bool overlap = false, json = false;
+  bool overlap = false, json = false, overwrite = false;
 };
 
 std::optional<ComparisonTolerance> tolerance_of(const CompareArguments& a) {
@@ -47,7 +47,7 @@ int compare(const CompareArguments& a) {
   results.file_b = results_file(a.b);
   results.tolerance = tolerance_of(a);
   results.overlap = a.overlap;
-  require_writable({{"--report", a.report}}, {results.file_a, results.file_b});
+  require_writable({{"--report", a.report}}, {results.file_a, results.file_b}, a.overwrite);
   ResultsReader first(results.file_a), second(results.file_b);
   results.comparison = compare_results(first, second, a.channels);
   if (!a.report.empty()) write_file(a.report, report_of(results, first, second));
@@ -78,7 +78,8 @@ Command compare_command() {
                        "difference"),
                   flag("--json", a->json, "JSON on standard output"),
                   text_option("--report", a->report, "FILE",
-                              "Page with the curves of both over each other")},
+                              "Page with the curves of both over each other"),
+                  overwrite_option(a->overwrite)},
       .footer =
           "Instants: those that both have, if one has all of the other; else those of A, between\n"
           "which B is taken as linear. Any file with a header line and a first column `time` will "

@@ -12,12 +12,13 @@ struct ConvertArguments {
   PartArguments options;
   std::string from, to;
   int modes = 20;
+  bool overwrite = false;
 };
 
 int convert(const ConvertArguments& a) {
   PartJob job = a.options.job();
   job.file = a.from;
-  require_writable({{"OUT", a.to}}, {a.from});
+  require_writable({{"OUT", a.to}}, {a.from}, a.overwrite);
   print(save_converted_mesh(job, a.to, a.modes));
   return 0;
 }
@@ -32,7 +33,8 @@ Command convert_command() {
               {file_position("PART", a->from, "Finite-element file (also .gz)"),
                file_position("OUT", a->to, "File to write; its ending says what: .inp, .msh, .vtu"),
                whole_option("--modes", a->modes, 0, 100000,
-                            "Modes of the vibration step of a deck; 0: no step; default 20")},
+                            "Modes of the vibration step of a deck; 0: no step; default 20"),
+               overwrite_option(a->overwrite)},
               a->options.table(true)),
           .footer =
               "Mesh, sets, materials, sections, connections and point masses as they were "

@@ -17,9 +17,19 @@ namespace {
 struct ExportArguments {
   RecordedRunArguments run;
   std::string vtk, glb, npz, csv;
-  bool stress = false;
+  bool stress = false, overwrite = false;
   SelectionArguments selection;
 };
+
+/// The files that a series replaces.
+void require_own_series(const std::string& folder) {
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator it(folder, ignored), end; !ignored && it != end;
+       it.increment(ignored)) {
+    const std::string name = it->path().filename().string();
+    if (is_file_of_series(name)) require_own({"--vtk", it->path().string()});
+  }
+}
 
 int export_motion(const ExportArguments& arguments) {
   if (arguments.vtk.empty() && arguments.glb.empty() && arguments.npz.empty() &&
@@ -30,8 +40,11 @@ int export_motion(const ExportArguments& arguments) {
   const ExportSelection selection = arguments.selection.selection();
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--glb", arguments.glb}, {"--npz", arguments.npz}, {"--csv", arguments.csv}},
-                   run.inputs);
-  if (!arguments.vtk.empty()) require_folder(arguments.vtk);
+                   run.inputs, arguments.overwrite);
+  if (!arguments.vtk.empty()) {
+    require_folder(arguments.vtk);
+    if (!arguments.overwrite) require_own_series(arguments.vtk);
+  }
   const Model model = build_model(run.description);
   const std::vector<std::size_t> instants = selected_instants(run.history, selection);
   const ExportBodies bodies{&model, selected_bodies(run.history, model, selection),
@@ -82,7 +95,7 @@ Command export_command() {
                text_option("--csv", a->csv, "FILE",
                            "One table: a row for each instant, body and named node")},
               a->selection.table()),
-          {recorded_model_option(a->run)}),
+          {recorded_model_option(a->run), overwrite_option(a->overwrite)}),
       .footer =
           "The model file and all that it refers to must be as they were in the run.\n"
           "Exit codes: 0 done, 1 the model cannot be started or a file not be written, "

@@ -13,13 +13,14 @@ namespace {
 struct OutputsArguments {
   RecordedRunArguments run;
   std::string out;
+  bool overwrite = false;
 };
 
 int outputs(const OutputsArguments& arguments) {
   if (arguments.run.outputs.empty())
     throw InputError("found no --add, expected a channel as a model file writes it");
   const RecordedRun run = load_recorded_run(arguments.run);
-  require_writable({{"--out", arguments.out}}, run.inputs);
+  require_writable({{"--out", arguments.out}}, run.inputs, arguments.overwrite);
   const Model model = build_model(run.description);
   for (const std::string& note : doubtful_gauges(model, model.outputs.size() - run.added))
     say("note: " + note);
@@ -49,7 +50,8 @@ Command outputs_command() {
                                       "{position: {body: arm, node: BALL}}'; may be repeated"),
                       recorded_model_option(a->run),
                       text_option("--out", a->out, "FILE",
-                                  "File for the table (CSV); default: standard output")},
+                                  "File for the table (CSV); default: standard output"),
+                      overwrite_option(a->overwrite)},
           .footer =
               "The model file and all that it refers to must be as they were in the run.\n"
               "Exit codes: 0 done, 1 the model cannot be started, 2 bad input.",

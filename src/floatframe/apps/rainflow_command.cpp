@@ -21,6 +21,7 @@ namespace {
 
 struct RainflowArguments {
   std::string result, out;
+  bool overwrite = false;
   std::vector<std::string> channels;
   double slope = 5.0, cycles = 2e6;
   int bins = 64;
@@ -117,6 +118,11 @@ void write_files(const RainflowArguments& a, const std::vector<CountedChannel>& 
   require_folder(a.out);
   const std::filesystem::path folder = a.out;
   const std::vector<std::string> names = file_names(channels);
+  std::vector<OutputFile> outputs{{"--out", (folder / "equivalent.csv").string()}};
+  for (const std::string& name : names)
+    for (const char* kind : {".cycles.csv", ".ranges.csv", ".history.csv"})
+      outputs.push_back({"--out", (folder / (name + kind)).string()});
+  require_writable(outputs, {results_file(a.result)}, a.overwrite);
   std::string equivalent =
       "channel,unit,turning points,cycles,largest range,slope,reference cycles,equivalent range\n";
   for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -185,7 +191,8 @@ Command rainflow_command() {
                   whole_option("--bins", a->bins, 1, 100000, "Classes of the ranges in the files"),
                   text_option("--out", a->out, "DIR",
                               "Folder for CSV files: of each channel its cycles, its classes and "
-                              "its history, and the equivalent ranges")},
+                              "its history, and the equivalent ranges"),
+                  overwrite_option(a->overwrite)},
       .footer =
           "Damage: (sum n_i range_i^M / N)^(1/M) over cycles and half cycles. Gauges are outputs "
           "of\n"

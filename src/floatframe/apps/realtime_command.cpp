@@ -26,7 +26,7 @@ struct RealTimeArguments {
   std::string input = "none", output = "none", listen, send, peer, fallback;
   int iterations = 0, priority = 0;
   bool endless = false, lock_step = false, no_pace = false, lock_memory = false, strict = false;
-  bool layout = false, json = false, quiet = false;
+  bool layout = false, json = false, quiet = false, overwrite = false;
 };
 
 constexpr const char* default_send = "127.0.0.1:47101";
@@ -152,7 +152,8 @@ int run_paced(const RealTimeArguments& arguments) {
   require_valid(options, description.simulation);
   // The log is opened at the start and may be a pipe that somebody reads.
   require_distinct({{"--log", arguments.log}, {"--report", arguments.report}}, files_of(used));
-  require_writable({{"--report", arguments.report}});
+  require_writable({{"--report", arguments.report}}, {}, arguments.overwrite);
+  if (!arguments.log.empty() && !arguments.overwrite) require_own({"--log", arguments.log});
   const StopSignal stop_signal;
   const std::unique_ptr<UdpPort> port = open_port(arguments, model);
   if (port && !arguments.quiet) print(port_line(arguments, *port));
@@ -234,6 +235,7 @@ std::vector<Option> options_of(RealTimeArguments& a) {
                   "Write figures and histograms to this file as JSON"),
       text_option("--log", a.log, "FILE",
                   "Write inputs and outputs of every step to this CSV file"),
+      overwrite_option(a.overwrite),
       flag("--layout", a.layout, "Only print names and order of the values in the packets"),
       flag("--json", a.json, "With --layout: as JSON"),
       flag("--quiet", a.quiet,

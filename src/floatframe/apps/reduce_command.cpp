@@ -19,7 +19,7 @@ namespace {
 struct ReduceArguments {
   PartArguments options;
   std::string part, out, report, sid;
-  bool quiet = false;
+  bool quiet = false, overwrite = false;
 };
 
 /// Nothing in most files says which units they are in; the material may give a hint.
@@ -51,7 +51,7 @@ int reduce_file(const ReduceArguments& a) {
   const std::vector<OutputFile> outputs{{"-o", out}, {"--report", a.report}, {"--sid", a.sid}};
   std::vector<std::string> inputs{a.part};
   for (const std::filesystem::path& file : other_files(job)) inputs.push_back(file.string());
-  require_writable(outputs, inputs);
+  require_writable(outputs, inputs, a.overwrite);
   const BodyFile content = reduce_part_file(job);
   // Files that the part includes are known by now.
   for (const auto& [file, hash] : content.provenance.files)
@@ -81,6 +81,7 @@ std::vector<Option> file_options(ReduceArguments& a) {
           text_option("--report", a.report, "FILE",
                       "Health report: a page with the modes in motion (.html), else JSON"),
           text_option("--sid", a.sid, "FILE", "Standard Input Data (SID_FEM) as well"),
+          overwrite_option(a.overwrite),
           flag("--quiet", a.quiet, "No progress; the report is still printed")};
 }
 

@@ -1,6 +1,7 @@
 // floatframe run: simulates a model and writes results.csv, report.html and summary.json.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -30,7 +31,7 @@ struct RunArguments {
   ModelArguments model;
   std::string coordinates, inertia, step, duration, out, write_state;
   std::string checkpoint_every, record;
-  bool resume = false, no_report = false, quiet = false, strict = false;
+  bool resume = false, no_report = false, quiet = false, strict = false, overwrite = false;
 };
 
 void apply(const RunArguments& arguments, SimulationDescription& simulation) {
@@ -118,8 +119,11 @@ RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFin
     };
   o.report = !arguments.no_report;
   o.resume = arguments.resume;
+  o.overwrite = arguments.overwrite;
   if (!arguments.checkpoint_every.empty())
-    o.checkpoint_every = positive_number("--checkpoint-every", arguments.checkpoint_every);
+    // None is due behind the end, however far.
+    o.checkpoint_every = std::min(positive_number("--checkpoint-every", arguments.checkpoint_every),
+                                  2.0 * description.simulation.duration);
   o.summary = asked_summary(description.name, description.simulation);
   o.summary.duration = description.simulation.duration;
   o.summary.settings = arguments.model.settings;
@@ -155,7 +159,8 @@ RunResult run_with(RunFiles& files, const Model& model, const SimulationDescript
 
 /// The last sentences, and the exit code.
 int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
-           const std::vector<std::string>& unwritten, std::optional<double> cut_at) {
+           const std::vector<std::string>& unwritten, const RunFiles& files) {
+  const std::optional<double> cut_at = files.cut_at();
   for (const RangeWarning& warning : summary.warnings) say("warning: " + warning.sentence);
   const bool interrupted = summary.status == "interrupted";
   if (interrupted)
@@ -168,6 +173,7 @@ int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
   // A step that fails would fail again.
   if ((interrupted || cut_at) && std::filesystem::exists(paths.checkpoint))
     say("the same command with --resume continues the run");
+  if (const std::string kept = files.kept_sentence(); !kept.empty()) say(kept);
   for (const std::string& sentence : unwritten) say(sentence);
   if (interrupted && unwritten.empty()) return 128 + StopSignal::number();
   return summary.status == "completed" && unwritten.empty() ? exit_code::done : exit_code::failed;
@@ -189,7 +195,7 @@ int run_model(const RunArguments& arguments) {
   apply(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
-  require_writable({{"--write-state", arguments.write_state}}, files_of(used));
+  require_writable({{"--write-state", arguments.write_state}}, files_of(used), arguments.overwrite);
   const RunPaths paths = make_paths(arguments, description.name);
   require_writable({{"--write-state", arguments.write_state},
                     {"--out", paths.results},
@@ -197,7 +203,7 @@ int run_model(const RunArguments& arguments) {
                     {"--out", paths.report},
                     {"--out", paths.summary},
                     {"--out", paths.checkpoint}},
-                   files_of(used));
+                   files_of(used), true);  // whose they are RunFiles looks at
   RunFiles files(paths, run_file_options(arguments, used, description, model, paths));
   if (files.complete()) return complete_before(arguments, paths);
   const StopSignal stop_signal;
@@ -232,10 +238,10 @@ int run_model(const RunArguments& arguments) {
       unwritten.emplace_back(error.what());
     }
   }
-  if (!arguments.quiet)
+  if (!arguments.quiet && !files.untouched())
     print((has_table ? summary_text(summary) : "") + files_text(paths, has_table) +
           (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
-  return end_of(paths, summary, has_table, unwritten, files.cut_at());
+  return end_of(paths, summary, has_table, unwritten, files);
 }
 
 }  // namespace
@@ -266,6 +272,9 @@ Command run_command() {
                "time [s]"),
            flag("--resume", a->resume,
                 "Continue from the checkpoint in DIR: same model, options and copy of the program"),
+           flag("--overwrite", a->overwrite,
+                "Begin anew where a run in DIR is unfinished; replace files that were not written "
+                "by this program"),
            word_option(
                "--record", a->record, {"states", "none"},
                "Keep the states of the run in DIR/states.ffr, or not; default: as the model "
@@ -278,9 +287,12 @@ Command run_command() {
           "Files: results.csv (SI units, radians) and states.ffr, which grow while the run goes "
           "on,\n"
           "report.html, summary.json. Ctrl-C ends the run with its files.\n"
+          "A completed run in DIR is replaced once the new one is complete; until then it is kept "
+          "in\n"
+          "DIR/previous.\n"
           "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, "
           "with\n"
-          "warnings, 2 bad input, 130 or 143 interrupted.",
+          "warnings, 2 bad input, 128 + signal interrupted (130 for Ctrl-C, 143 for SIGTERM).",
       .run = [a] { return run_model(*a); }};
 }
 

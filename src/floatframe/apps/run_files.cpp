@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/apps/completed_run.hpp"
+#include "floatframe/apps/earlier_result.hpp"
+#include "floatframe/apps/own_file.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/output_place.hpp"
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/report/page_trust.hpp"
 #include "floatframe/report/results_csv.hpp"
@@ -23,9 +26,13 @@
 namespace floatframe {
 namespace {
 
-bool is_regular_or_new(const std::string& path) {
-  std::error_code ignored;
-  return !std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored);
+/// ", which has reached 1.25 s", or nothing if the checkpoint does not say.
+std::string progress_of(const std::string& checkpoint) {
+  try {
+    return fmt::format(", which has reached {:g} s", read_checkpoint(checkpoint).run.time);
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 }  // namespace
@@ -42,17 +49,54 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
     : paths_(paths),
       options_(std::move(options)),
       lock_(paths.folder),
-      streams_(is_regular_or_new(paths.results)) {
+      streams_(is_replaceable(paths.results)) {
   remove_remains();
   if (!streams_ && (options_.resume || options_.checkpoint_every > 0.0))
     throw InputError(fmt::format(
         "'{}' is not a regular file, expected one that a run with checkpoints can continue",
         paths_.results));
-  if (!options_.resume) return;
+  if (keeps_states() && !is_replaceable(paths_.states))
+    throw InputError(fmt::format(
+        "'{}' is not a regular file, expected one that states can be kept in, or --record none",
+        paths_.states));
+  if (!options_.overwrite && !options_.resume) require_own_files();
+  holds_completed_ = holds_completed_run(paths_);
+  if (options_.resume) {
+    resume();
+    return;
+  }
+  // Of a completed run a checkpoint is there only if it was killed before it could be removed.
+  holds_checkpoint_ = !holds_completed_ && std::filesystem::exists(paths_.checkpoint);
+  if (holds_checkpoint_ && !options_.overwrite) require_no_unfinished_run();
+}
+
+void RunFiles::require_own_files() const {
+  const auto refuse = [](const std::string& path) {
+    throw InputError(
+        fmt::format("the file '{}' was not written by this program; give another --out, or "
+                    "--overwrite to replace it",
+                    path));
+  };
+  for (const std::string& path : {paths_.summary, paths_.report, paths_.states})
+    if (!is_own_file(path)) refuse(path);
+  // One that is to be resumed is read, and refused for what is wrong with it.
+  if (!options_.resume && !is_own_file(paths_.checkpoint)) refuse(paths_.checkpoint);
+  if (!is_own_results(paths_.results)) refuse(paths_.results);
+}
+
+void RunFiles::require_no_unfinished_run() const {
+  throw InputError(fmt::format(
+      "the folder '{}' holds an unfinished run{}: --resume continues it, --overwrite begins anew",
+      paths_.folder, progress_of(paths_.checkpoint)));
+}
+
+void RunFiles::resume() {
   const EarlierRun earlier = earlier_run(paths_.summary, options_.summary);
   complete_ = earlier == EarlierRun::completed;
   if (complete_) {
-    remove_file(paths_.checkpoint);  // if the run was killed before it could
+    // If the run was killed before it could.
+    if (is_own_file(paths_.checkpoint)) remove_file(paths_.checkpoint);
+    remove_set_aside(paths_);
     return;
   }
   if (earlier == EarlierRun::other && !std::filesystem::exists(paths_.checkpoint))
@@ -63,6 +107,7 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
   from_ = read_checkpoint(paths_.checkpoint);
   if (const std::string text = origin_difference(from_->origin, options_.origin); !text.empty())
     throw InputError(fmt::format("the checkpoint '{}' {}", paths_.checkpoint, text));
+  if (!options_.overwrite) require_own_files();
   if (!(options_.checkpoint_every > 0.0)) options_.checkpoint_every = from_->every;
 }
 
@@ -74,8 +119,9 @@ void RunFiles::remove_remains() const {
        it.increment(ignored))
     for (const std::string& path :
          {paths_.results, paths_.report, paths_.summary, paths_.checkpoint})
-      if (it->path().filename().string().starts_with(
-              std::filesystem::path(path).filename().string() + ".part-"))
+      if (const std::string name = it->path().filename().string();
+          is_temporary_name(name) &&
+          name.starts_with(std::filesystem::path(path).filename().string() + ".part-"))
         torn.push_back(it->path());
   for (const auto& file : torn) remove_file(file.string());
 }
@@ -84,6 +130,7 @@ void RunFiles::begin(const std::vector<Column>& columns) {
   // Continued files are looked at before anything is changed.
   if (from_ && keeps_states()) GrowingFile::require(paths_.states, from_->states);
   if (from_) results_.emplace(paths_.results, columns, from_->results);
+  if (!from_ && holds_completed_) set_aside(paths_);
   options_.summary.status = "running";
   options_.summary.message = "not complete: the run has not ended, or was killed";
   write_file(paths_.summary, summary_json(options_.summary));
@@ -178,6 +225,8 @@ void RunFiles::finish_states(const RunSummary& summary, std::vector<std::string>
 std::vector<std::string> RunFiles::finish(Report&& report) {
   if (from_ && !results_) return {};  // not even begun: all is as it was
   const RunResult& result = report.result;
+  untouched_ = !results_ && result.table.rows() == 0 && (holds_completed_ || holds_checkpoint_);
+  if (untouched_) return {};
   report.rows_end = cut_at_;
   std::vector<std::string> failed;
   const auto attempt = [&](const std::function<void()>& write) {
@@ -202,8 +251,22 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
   if (states_) finish_states(result.summary, failed);
   attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });
   // Last: a run that is killed before goes on from there.
-  if (result.summary.status == "completed" || !results_) remove_file(paths_.checkpoint);
+  const bool completed = result.summary.status == "completed";
+  if (completed || !results_) remove_file(paths_.checkpoint);
+  if ((completed || result.summary.strict) && failed.empty()) remove_set_aside(paths_);
   return failed;
+}
+
+std::string RunFiles::kept_sentence() const {
+  if (untouched_)
+    return fmt::format("the {} run in {} is left as it was",
+                       holds_completed_ ? "completed" : "unfinished", paths_.folder);
+  std::error_code ignored;
+  if (!std::filesystem::exists(std::filesystem::path(previous_folder(paths_)) / "summary.json",
+                               ignored))
+    return {};
+  return fmt::format("the completed run that was there before is kept in {}",
+                     previous_folder(paths_));
 }
 
 }  // namespace floatframe

@@ -28,8 +28,9 @@ class RunFiles {
     bool report = true;
     double checkpoint_every = 0.0;  ///< [s]; 0: none
     bool resume = false;
-    RunOrigin origin;    ///< for checkpoints
-    RunSummary summary;  ///< of what was asked for, with its duration
+    bool overwrite = false;  ///< an unfinished run, and files of other programs
+    RunOrigin origin;        ///< for checkpoints
+    RunSummary summary;      ///< of what was asked for, with its duration
     /// What is written before the states, which are kept if it is there.
     std::function<HistoryContent(const StateLayout&)> history;
     const Model* model = nullptr;                       ///< what the view of the report shows
@@ -37,7 +38,8 @@ class RunFiles {
   };
 
   /// Takes the folder for itself. Throws InputError if another run has it, if there is nothing to
-  /// go on from, or not with this run.
+  /// go on from, or not with this run; if a run there is unfinished and is neither to be resumed
+  /// nor overwritten; if a file there is of another program.
   RunFiles(const RunPaths& paths, Options options);
 
   /// False: results go to a device, at the end.
@@ -53,6 +55,12 @@ class RunFiles {
   void take_states(const StateLayout& layout, std::span<const double> numbers);
   void keep(const RunCheckpoint& checkpoint);
 
+  /// True: the run could not start, and all in the folder is as it was.
+  bool untouched() const noexcept { return untouched_; }
+  /// What was there before and still is, as a sentence for the end: of a run that could not start
+  /// all is as it was, a completed one that was set aside stays until there is another. Or empty.
+  std::string kept_sentence() const;
+
   /// Writes what is left to be written. What cannot be is said in a sentence each, in the result.
   std::vector<std::string> finish(Report&& report);
 
@@ -64,6 +72,9 @@ class RunFiles {
   template <class Write>
   void watched(const Write& write);
   void remove_remains() const;
+  void require_own_files() const;
+  void require_no_unfinished_run() const;
+  void resume();
   /// The page of the viewer, or without it the static report.
   void write_report(Report& report) const;
   void finish_states(const RunSummary& summary, std::vector<std::string>& failed);
@@ -72,6 +83,9 @@ class RunFiles {
   Options options_;
   FolderLock lock_;
   bool streams_, complete_ = false;
+  /// Of the folder before: a completed run, a checkpoint that is to be overwritten.
+  bool holds_completed_ = false, holds_checkpoint_ = false;
+  bool untouched_ = false;
   std::optional<CheckpointFile> from_;
   std::optional<ResultsFile> results_;
   std::optional<StatesFile> states_;

@@ -8,26 +8,29 @@ std::atomic<int> signal_number{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 extern "C" void note_signal(int number) {
-  signal_number.store(number, std::memory_order_relaxed);
+  if (!signal_came.load(std::memory_order_relaxed))
+    signal_number.store(number, std::memory_order_relaxed);
   signal_came.store(true, std::memory_order_relaxed);
 }
 
 }  // namespace
 
-StopSignal::StopSignal() {
+StopSignal::StopSignal(int flags) {
   signal_number = 0;
   signal_came = false;
-  struct sigaction action {};
-  action.sa_handler = note_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &interrupt_before_);
-  sigaction(SIGTERM, &action, &terminate_before_);
+  for (std::size_t k = 0; k < signals.size(); ++k) {
+    struct sigaction action {};
+    action.sa_handler = note_signal;
+    action.sa_flags = flags | (signals[k] == SIGXCPU ? 0 : static_cast<int>(SA_RESETHAND));
+    sigemptyset(&action.sa_mask);
+    sigaction(signals[k], &action, &before_[k]);
+    if (signals[k] == SIGHUP && before_[k].sa_handler == SIG_IGN)
+      sigaction(SIGHUP, &before_[k], nullptr);
+  }
 }
 
 StopSignal::~StopSignal() {
-  sigaction(SIGINT, &interrupt_before_, nullptr);
-  sigaction(SIGTERM, &terminate_before_, nullptr);
+  for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
 }
 
 const std::atomic<bool>& StopSignal::asked() noexcept { return signal_came; }

@@ -1,14 +1,19 @@
 #pragma once
-// SIGINT and SIGTERM end a run between two steps: with its files, its summary and its report.
+// SIGINT, SIGTERM, SIGHUP and SIGXCPU end a run between two steps: with its files, its summary and
+// its report.
+#include <array>
 #include <atomic>
 #include <csignal>
 
 namespace floatframe {
 
-/// While it is there the first signal asks for the end, a second one ends the program.
+/// While it is there the first signal asks for the end, a second one ends the program; but the
+/// limit of processor time, which the system repeats every second, only asks. SIGHUP stays ignored
+/// where it was (nohup).
 class StopSignal {
  public:
-  StopSignal();
+  /// `flags` beside those above, as of sigaction: SA_RESTART.
+  explicit StopSignal(int flags = 0);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
@@ -19,8 +24,8 @@ class StopSignal {
   static int number() noexcept;
 
  private:
-  struct sigaction interrupt_before_ {};
-  struct sigaction terminate_before_ {};
+  static constexpr std::array<int, 4> signals{SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+  std::array<struct sigaction, signals.size()> before_{};
 };
 
 }  // namespace floatframe

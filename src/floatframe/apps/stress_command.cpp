@@ -19,7 +19,7 @@ struct StressArguments {
   SelectionArguments selection;
   int top = 10;
   std::string out;
-  bool json = false;
+  bool json = false, overwrite = false;
 };
 
 bool knows_stress(const Body& body) {
@@ -89,7 +89,7 @@ int stress(const StressArguments& arguments) {
     require_writable({{"--out", (out / "envelope.npz").string()},
                       {"--out", (out / "hot_spots.csv").string()},
                       {"--out", (out / "section_forces.csv").string()}},
-                     run.inputs);
+                     run.inputs, arguments.overwrite);
   }
   try {
     replay(run, selection, report);
@@ -123,7 +123,8 @@ Command stress_command() {
                              text_option("--out", a->out, "DIR",
                                          "Folder for envelope.npz (every place), hot_spots.csv and "
                                          "section_forces.csv"),
-                             flag("--json", a->json, "JSON on standard output")},
+                             flag("--json", a->json, "JSON on standard output"),
+                             overwrite_option(a->overwrite)},
                             a->selection.table()),
                      {recorded_model_option(a->run)}),
           .footer =

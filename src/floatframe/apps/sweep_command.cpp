@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <exception>
@@ -14,7 +12,9 @@
 #include <thread>
 
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/own_file.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/apps/stop_signal.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/regular_file.hpp"
@@ -31,7 +31,8 @@ struct SweepArguments {
   std::vector<std::string> vary, measures;
   std::string files_in, table, out, coordinates, inertia, step, duration, case_timeout, case_memory;
   int threads = 0;
-  bool keep_results = false, fresh = false, retry_failed = false, strict = false, quiet = false;
+  bool keep_results = false, fresh = false, retry_failed = false, strict = false, quiet = false,
+       overwrite = false;
 };
 
 /// Processors this process may use, shared with the other processes of the study on this machine.
@@ -46,35 +47,6 @@ int processors() {
   return std::max(1, count);
 }
 
-/// The first signal asks for a clean end, the second ends at once.
-std::atomic<bool> stop_asked{false};
-std::atomic<int> signal_got{0};
-
-extern "C" void ask_to_stop(int signal) {
-  signal_got.store(signal);
-  stop_asked.store(true);
-}
-
-class SignalsAskToStop {
- public:
-  SignalsAskToStop() {
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigemptyset(&action.sa_mask);
-    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &action, &before_[k]);
-  }
-  ~SignalsAskToStop() {
-    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
-  }
-  SignalsAskToStop(const SignalsAskToStop&) = delete;
-  SignalsAskToStop& operator=(const SignalsAskToStop&) = delete;
-
- private:
-  static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
-  std::array<struct sigaction, 3> before_{};
-};
-
 /// 0 if not given.
 double megabytes(const std::string& text) {
   if (text.empty()) return 0.0;
@@ -82,6 +54,22 @@ double megabytes(const std::string& text) {
   if (!(memory_of(::getpid()) > 0.0))
     throw InputError("--case-memory: /proc does not tell how much memory a process uses");
   return value;
+}
+
+/// The files of a study, and of the runs that it keeps.
+void require_own_study(const std::filesystem::path& folder) {
+  for (const char* name : {"sweep.csv", "sweep.journal"})
+    require_own({"--out", (folder / name).string()});
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator it(folder / "runs", ignored), end; !ignored && it != end;
+       it.increment(ignored)) {
+    if (it->path().filename().string().find_first_not_of("0123456789") != std::string::npos)
+      continue;
+    for (const char* name : {"summary.json", "states.ffr"})
+      require_own({"--out", (it->path() / name).string()});
+    if (const std::string results = (it->path() / "results.csv").string(); !is_own_results(results))
+      refuse_foreign("--out", results);
+  }
 }
 
 SweepOptions options_from(const SweepArguments& a) {
@@ -128,6 +116,7 @@ SweepOptions options_from(const SweepArguments& a) {
   }
   const std::filesystem::path folder(o.folder);
   require_distinct({{"--out", (folder / "sweep.csv").string()}}, {a.table});
+  if (!a.overwrite) require_own_study(folder);
   return o;
 }
 
@@ -162,7 +151,7 @@ int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWork
   {
     ProgressBar bar(!arguments.quiet, 1.0, "");
     auto shown = start - std::chrono::seconds(1);
-    report = run_sweep(options, workers, ranks, stop_asked, [&](const SweepProgress& p) {
+    report = run_sweep(options, workers, ranks, StopSignal::asked(), [&](const SweepProgress& p) {
       const auto now = std::chrono::steady_clock::now();
       if (now - shown < std::chrono::milliseconds(100)) return;
       shown = now;
@@ -204,11 +193,11 @@ int sweep(const SweepArguments& arguments) {
   if (started_on_ranks()) ranks = open_ranks();
   int code = 0;
   {
-    const SignalsAskToStop signals;
+    const StopSignal signals(SA_RESTART);
     if (ranks && ranks->rank() > 0) {
       // Process 0 says what is wrong with the arguments.
       serve_sweep(options ? *options : SweepOptions{}, workers ? &*workers : nullptr, *ranks,
-                  stop_asked);
+                  StopSignal::asked());
       return 0;
     }
     try {
@@ -223,7 +212,7 @@ int sweep(const SweepArguments& arguments) {
   workers.reset();
   // The caller sees that a signal ended the program; under a launcher that would be taken for a
   // crash.
-  if (stop_asked.load() && code != 0 && !ranks) std::raise(signal_got.load());
+  if (StopSignal::asked().load() && code != 0 && !ranks) std::raise(StopSignal::number());
   return code;
 }
 
@@ -266,6 +255,7 @@ Command sweep_command() {
            flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed"),
            flag("--strict", a->strict,
                 "A run with warnings counts as failed; its figures are kept"),
+           overwrite_option(a->overwrite),
            text_option("--case-timeout", a->case_timeout, "SECONDS",
                        "A run that takes longer is stopped and counts as failed"),
            text_option("--case-memory", a->case_memory, "MB",

@@ -1,15 +1,21 @@
 #include "floatframe/core/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+
+#include "floatframe/core/code_points.hpp"
+#include "floatframe/core/output_place.hpp"
+#include "floatframe/core/printable.hpp"
 
 namespace floatframe {
 namespace {
@@ -20,7 +26,7 @@ class SignalHold {
   SignalHold() {
     sigset_t set;
     sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) sigaddset(&set, signal);
     pthread_sigmask(SIG_BLOCK, &set, &before_);
   }
   ~SignalHold() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -42,22 +48,23 @@ std::string temporary_name(const std::string& path) {
 }
 
 /// What is not a regular file is written to in place, where that cannot wait for somebody without
-/// end or destroy a file system: a terminal, a null device, a pipe that this process already holds.
-enum class Place { regular, special };
+/// end or destroy a file system: a terminal, a null device, what this process already holds.
+enum class Way { replaced, in_place };
 
-Place place_of(const std::string& path) {
+Way way_to(const std::string& name, const OutputPlace& place) {
+  if (place.descriptor >= 0) return Way::in_place;
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return Place::regular;
-  if (S_ISDIR(status.st_mode)) throw OutputError(cannot("the file", path, EISDIR));
-  std::error_code nameless;  // a pipe behind /dev/stdout or /dev/fd/N
-  if (S_ISFIFO(status.st_mode)) static_cast<void>(std::filesystem::canonical(path, nameless));
-  if (!S_ISCHR(status.st_mode) && !nameless)
-    throw OutputError("the file '" + path + "' cannot be written: this is a " +
+  if (::stat(place.path.c_str(), &status) != 0)
+    return place.is_open ? Way::in_place : Way::replaced;
+  if (S_ISDIR(status.st_mode)) throw OutputError(cannot("the file", name, EISDIR));
+  if (S_ISREG(status.st_mode)) return place.is_open ? Way::in_place : Way::replaced;
+  if (!S_ISCHR(status.st_mode) && !place.is_open)
+    throw OutputError("the file '" + name + "' cannot be written: this is a " +
                       (S_ISFIFO(status.st_mode)  ? "named pipe"
                        : S_ISBLK(status.st_mode) ? "block device"
                                                  : "socket") +
                       ", expected a regular file");
-  return Place::special;
+  return Way::in_place;
 }
 
 /// 0 or the system's error number.
@@ -66,7 +73,10 @@ int write_all(int file, std::string_view content) {
     const ssize_t written = ::write(file, content.data(), content.size());
     if (written < 0) {
       if (errno == EINTR) continue;
-      return errno;
+      if (errno != EAGAIN) return errno;
+      pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};  // a pipe that does not block
+      static_cast<void>(::poll(&ready, 1, -1));
+      continue;
     }
     content.remove_prefix(written);
   }
@@ -83,6 +93,26 @@ int write_to(const std::string& path, int flags, std::string_view content, bool 
   if (error == 0 && flush_to_disk && ::fsync(file) != 0 && errno != EINVAL) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
   return error;
+}
+
+/// Into what is open under a descriptor where that stands, after what has been written there;
+/// elsewhere a regular file is emptied first.
+int write_in_place(const OutputPlace& place, std::string_view content) {
+  if (place.descriptor < 0)
+    return write_to(place.path, content.empty() ? 0 : O_TRUNC, content, false);
+  const int flags = ::fcntl(place.descriptor, F_GETFL);
+  if (flags < 0) return errno;
+  if ((flags & O_ACCMODE) == O_RDONLY) return EBADF;
+  return write_all(place.descriptor, content);
+}
+
+/// Characters beyond ASCII that nobody sees, or that turn what stands around them: they make names
+/// that look alike.
+bool is_blank_or_control(std::string_view character) {
+  const char32_t code = code_points(character).front();
+  return code < 0xA1 || code == 0xAD || code == 0x1680 || (code >= 0x2000 && code <= 0x200F) ||
+         (code >= 0x2028 && code <= 0x202F) || (code >= 0x205F && code <= 0x206F) ||
+         code == 0x3000 || code == 0xFEFF || (code >= 0xE000 && code <= 0xF8FF) || code >= 0xE0000;
 }
 
 }  // namespace
@@ -102,28 +132,30 @@ void make_output_folder(const std::string& path) {
 }
 
 void check_writable(const std::string& path) {
-  if (place_of(path) == Place::special) {
-    const int failed = write_to(path, 0, "", false);
+  const OutputPlace place = output_place(path);
+  if (way_to(path, place) == Way::in_place) {
+    const int failed = write_in_place(place, "");
     if (failed != 0) throw OutputError(cannot("the file", path, failed));
     return;
   }
   const SignalHold hold;
-  const std::string probe = temporary_name(path);
+  const std::string probe = temporary_name(place.path);
   const int failed = write_to(probe, O_CREAT | O_TRUNC, "", false);
   ::unlink(probe.c_str());
   if (failed != 0) throw OutputError(cannot("the file", path, failed));
 }
 
 void write_file(const std::string& path, std::string_view content, Flush flush) {
-  if (place_of(path) == Place::special) {  // a slow reader can be interrupted
-    const int error = write_to(path, 0, content, false);
+  const OutputPlace place = output_place(path);
+  if (way_to(path, place) == Way::in_place) {  // a slow reader can be interrupted
+    const int error = write_in_place(place, content);
     if (error != 0) throw OutputError(cannot("the file", path, error));
     return;
   }
   const SignalHold hold;
-  const std::string temporary = temporary_name(path);
+  const std::string temporary = temporary_name(place.path);
   int error = write_to(temporary, O_CREAT | O_TRUNC, content, flush == Flush::now);
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0 && ::rename(temporary.c_str(), place.path.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     throw OutputError(cannot("the file", path, error));
@@ -139,15 +171,34 @@ void flush_files(const std::string& folder) {
 
 void remove_file(const std::string& path) {
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+  if (!std::filesystem::exists(path, ignored)) return;  // also links in a circle
+  const OutputPlace place = output_place(path);
+  if (!place.is_open && std::filesystem::is_regular_file(place.path, ignored))
+    std::filesystem::remove(place.path, ignored);
+}
+
+bool is_temporary_name(std::string_view name) noexcept {
+  const std::size_t at = name.rfind(".part-");
+  if (at == std::string_view::npos) return false;
+  const std::string_view numbers = name.substr(at + 6);
+  const std::size_t dash = numbers.find('-');
+  return dash != std::string_view::npos && dash > 0 && dash + 1 < numbers.size() &&
+         numbers.find_first_not_of("0123456789-") == std::string_view::npos &&
+         numbers.find('-', dash + 1) == std::string_view::npos;
 }
 
 std::string file_name_from(std::string_view name) {
   std::string text;
-  for (const char c : name) {
+  for (std::size_t at = 0; at < name.size();) {
+    const char c = name[at];
+    const std::size_t length = utf8_length(name, at);
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                        c == '-' || c == '_' || c == '.';
-    text += plain ? c : '_';
+    if (plain || (length > 1 && !is_blank_or_control(name.substr(at, length))))
+      text += name.substr(at, length);
+    else
+      text += '_';
+    at += std::max<std::size_t>(1, length);
   }
   if (text.empty()) return "model";
   if (text.front() == '.') text.front() = '_';

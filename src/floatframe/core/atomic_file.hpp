@@ -1,7 +1,8 @@
 #pragma once
 // Output files are written atomically: the content goes to a temporary file in the same folder,
-// which is renamed when it is complete. SIGINT, SIGTERM and SIGHUP wait while a file is written, so
-// no temporary file stays behind.
+// which is renamed when it is complete. SIGINT, SIGTERM, SIGHUP and SIGXCPU wait while a file is
+// written, so no temporary file stays behind. Links are followed first: what they lead to is
+// replaced, never they themselves (output_place.hpp).
 #include <string>
 #include <string_view>
 
@@ -23,19 +24,23 @@ enum class Flush {
   later  ///< by `flush_files`: of many files that count only when a last one names them
 };
 
-/// Replaces the file at `path` by `content` in one stroke. A terminal, a null device and a pipe
-/// without a name (/dev/stdout) are written to directly; what check_writable refuses is refused.
-/// Throws OutputError.
+/// Replaces the file at `path` by `content` in one stroke. A terminal, a null device and what this
+/// process holds open (/dev/stdout, /dev/stderr, /dev/fd/N: whatever that is) are written to
+/// directly; what check_writable refuses is refused. Throws OutputError.
 void write_file(const std::string& path, std::string_view content, Flush flush = Flush::now);
 
 /// Waits until the files of this folder are on the disk. Throws OutputError.
 void flush_files(const std::string& folder);
 
-/// Removes the file if it is there.
+/// Removes the regular file if it is there; of a link what it leads to.
 void remove_file(const std::string& path);
 
-/// `name` as the name of a folder or file: letters, digits, '.', '-', '_' stay, others become '_';
-/// never empty, never starting with a dot.
+/// True for names of temporary files that `write_file` makes: NAME.part-NUMBER-NUMBER.
+bool is_temporary_name(std::string_view name) noexcept;
+
+/// `name` as the name of a folder or file: letters and other visible characters of any script,
+/// digits, '.', '-', '_' stay, what else ASCII has and what nobody sees become '_'; never empty,
+/// never starting with a dot.
 std::string file_name_from(std::string_view name);
 
 }  // namespace floatframe

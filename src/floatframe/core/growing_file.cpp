@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/output_place.hpp"
 
 namespace floatframe {
 namespace {
@@ -25,9 +26,12 @@ InputError not_continued(const std::string& path, const std::string& what) {
 }  // namespace
 
 GrowingFile::GrowingFile(const std::string& path, bool hashed) : path_(path), hashed_(hashed) {
+  if (!is_replaceable(path))
+    throw OutputError("the file '" + path + "' cannot be written: this is not a regular file");
+  const std::string place = output_place(path).path;
   // Whoever has the earlier file open keeps it.
-  if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw not_written(path, errno);
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOCTTY, 0666);
+  if (::unlink(place.c_str()) != 0 && errno != ENOENT) throw not_written(path, errno);
+  file_ = ::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOCTTY, 0666);
   if (file_ < 0) throw not_written(path, errno);
 }
 

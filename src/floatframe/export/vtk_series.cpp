@@ -17,7 +17,7 @@ constexpr const char* series_name = "motion";
 
 std::string file_of_series(std::size_t k) { return fmt::format("{}_{:06}.vtu", series_name, k); }
 
-bool is_file_of_series(const std::string& name) {
+bool is_grid_of_series(const std::string& name) {
   const std::string begin = std::string(series_name) + "_", end = ".vtu";
   if (name.size() < begin.size() + end.size() + 6 || !name.starts_with(begin) ||
       !name.ends_with(end))
@@ -89,7 +89,7 @@ class VtkSeries : public ExportFile {
     std::vector<std::string> old;
     for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
       const std::string name = entry.path().filename().string();
-      if (is_file_of_series(name) && !written.contains(name)) old.push_back(name);
+      if (is_grid_of_series(name) && !written.contains(name)) old.push_back(name);
     }
     for (const std::string& name : old) remove_file(path(name));
     flush_files(folder_);
@@ -179,6 +179,10 @@ class VtkSeries : public ExportFile {
 };
 
 }  // namespace
+
+bool is_file_of_series(const std::string& name) {
+  return name == std::string(series_name) + ".pvd" || is_grid_of_series(name);
+}
 
 std::unique_ptr<ExportFile> vtk_series(const ExportBodies& bodies, const std::string& folder) {
   return std::make_unique<VtkSeries>(bodies, folder);

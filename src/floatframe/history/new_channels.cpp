@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/history/recorded_motion.hpp"
 #include "floatframe/model/model_hash.hpp"
@@ -64,10 +65,15 @@ class RecordedParts {
 }  // namespace
 
 void require_model(const StateHistory& history, const Model& model) {
+  const std::string& library = history.header().origin.library;
+  if (!library.empty() && library != build_description())
+    refuse(history, fmt::format("its states were made by another copy of the program (found {}, "
+                                "this is {})",
+                                library, build_description()));
   if (history.header().model_hash != model_hash(model))
     refuse(history, fmt::format("its states are not of this model: it was changed, or another copy "
                                 "of the program ({}) made them",
-                                history.header().origin.library));
+                                library));
 }
 
 ResultTable new_channels(const StateHistory& history, const Model& model,

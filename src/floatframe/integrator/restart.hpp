@@ -76,7 +76,7 @@ template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::settle_accelerations(double s, double penalty,
                                                   double enough) noexcept {
   constexpr int most_passes = 40;
-  constexpr double too_large = 1e7, no_stiffness = 1e-30;
+  constexpr double no_stiffness = 1e-30;
   if (f_.factorize_metric(s > 0.0 ? s : no_stiffness, penalty, projection_slot) >= 0) return false;
   const bool exact = f_.constraints() == 0 && !(s > 0.0);
   double last = std::numeric_limits<double>::infinity();
@@ -93,7 +93,7 @@ bool AugmentedLagrangian<F>::settle_accelerations(double s, double penalty,
     }
     a_ += delta_;
     const double change = largest(delta_), most = enough * (1.0 + largest(a_));
-    if (!(most < enough * too_large)) return false;
+    if (!(most < enough * options_.largest_acceleration)) return false;
     // The next pass would change it by change^2 / last.
     if (exact ||
         (pass > 0 && (change < most || (change < 0.5 * last && change * change < most * last))))

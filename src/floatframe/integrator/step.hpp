@@ -29,6 +29,8 @@ struct StepOptions {
   /// > 0: no iteration is begun later than this after the start of the step [s of wall clock]; the
   /// step is accepted as it is then.
   double time_budget = 0.0;
+  /// What lies beyond is of directions without mass, in a restart [m/s2, rad/s2, amplitudes/s2].
+  double largest_acceleration = 1e7;
 };
 
 /// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "floatframe/core/library_path.hpp"
+#include "floatframe/math/blas_room.hpp"
 #include "floatframe/math/sparse_engine.hpp"
 
 namespace floatframe {
@@ -28,6 +29,10 @@ Module open_module() {
   Module module;
   const std::string file = module_path("libfloatframe_mumps.so");
   if (file.empty()) return module;
+  if (!reserve_blas_room()) {
+    module.why = "its BLAS needs more memory than the process may take (ulimit -v)";
+    return module;
+  }
   // Local: the sequential MUMPS brings stubs with names of MPI functions.
   void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
@@ -35,6 +40,7 @@ Module open_module() {
     module.why = why ? why : "its module cannot be loaded";
     return module;
   }
+  warm_blas(handle);
   module.engine = reinterpret_cast<MumpsEngineFunction>(::dlsym(handle, mumps_engine_symbol));
   if (!module.engine) module.why = "'" + file + "' is not its module";
   return module;

@@ -12,6 +12,7 @@
 
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/model/hint_list.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
@@ -54,15 +55,26 @@ std::string turns_text(const std::string& what, double angle) {
 /// A turn that is written with few digits is one.
 bool beyond_a_turn(double angle) { return std::abs(angle) > 1.001 * full_turn; }
 
+/// Never turns back, and never rests on the way: a motor that runs up or turns evenly.
+bool goes_on(const std::vector<double>& values) {
+  const double sense = values.back() - values.front();
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (!((values[k] - values[k - 1]) * sense > 0.0)) return false;
+  return true;
+}
+
 /// Whole multiples of 5 of which one is more than a turn: a table in degrees. One that counts turns
-/// has other numbers.
+/// has other numbers; one that goes on turning must look more like it: multiples of 15 of at most
+/// two turns.
 bool looks_like_degrees(const std::vector<double>& values) {
+  const bool on = values.size() > 2 && goes_on(values);
+  const double unit = on ? 15.0 : 5.0;
   double most = 0.0;
   for (const double x : values) {
-    if (!(std::abs(x - 5.0 * std::round(x / 5.0)) < 1e-9 * (1.0 + std::abs(x)))) return false;
+    if (!(std::abs(x - unit * std::round(x / unit)) < 1e-9 * (1.0 + std::abs(x)))) return false;
     most = std::max(most, std::abs(x));
   }
-  return most > full_turn;
+  return most > full_turn && (!on || most <= 720.0);
 }
 
 void hint_at_angle_of_time(const std::string& kind, const std::string& name,
@@ -185,34 +197,40 @@ struct HeldNodes {
 /// Of a hinge that stands for several bearings: the nodes of the body of its marker that lie on the
 /// axis.
 void add_nodes_on_axis(const Model& model, int marker, std::vector<HeldNodes>& held) {
-  const Marker& m = model.markers[static_cast<std::size_t>(marker)];
+  const Marker& m = model.markers[marker];
   if (m.body < 0) return;
-  const std::vector<ModalNode>& nodes = model.bodies[static_cast<std::size_t>(m.body)].data->nodes;
-  const Vec3 origin =
-      m.node < 0 ? m.X_NM.p : Vec3(nodes[static_cast<std::size_t>(m.node)].p + m.X_NM.p);
+  const std::vector<ModalNode>& nodes = model.bodies[m.body].data->nodes;
+  const Vec3 origin = m.node < 0 ? m.X_NM.p : Vec3(nodes[m.node].p + m.X_NM.p);
   for (const ModalNode& n : nodes)
     if ((n.p - origin).cross(m.X_NM.R.col(2)).norm() < 1e-6 * (1.0 + n.p.norm()))
-      held[static_cast<std::size_t>(m.body)].names.insert(n.name);
+      held[m.body].names.insert(n.name);
+}
+
+bool turns_about_one_axis(JointType type) {
+  int axes = 0;
+  for (int k = 0; k < joint_kind(type).coordinates.count(); ++k)
+    axes += joint_unit(type, k) == JointUnit::rad ? 1 : 0;
+  return axes == 1;
 }
 
 std::vector<HeldNodes> held_nodes(const Model& model) {
   std::vector<HeldNodes> held(model.bodies.size());
   const auto use = [&](int marker, bool joint) {
     if (marker < 0) return;
-    const Marker& m = model.markers[static_cast<std::size_t>(marker)];
+    const Marker& m = model.markers[marker];
     if (m.body < 0) return;
-    HeldNodes& h = held[static_cast<std::size_t>(m.body)];
+    HeldNodes& h = held[m.body];
     h.by_joint = h.by_joint || joint;
     h.frame = h.frame || (joint && m.node < 0);
     if (m.node < 0) return;
-    const FlexibleBody& body = *model.bodies[static_cast<std::size_t>(m.body)].data;
-    h.names.insert(body.nodes[static_cast<std::size_t>(m.node)].name);
+    const FlexibleBody& body = *model.bodies[m.body].data;
+    h.names.insert(body.nodes[m.node].name);
   };
   for (const Joint& j : model.joints) {
     if (joint_is_free(j.type)) continue;
     use(j.frame_F, true);
     use(j.frame_M, true);
-    if (j.type != JointType::revolute && j.type != JointType::cylindrical) continue;
+    if (!turns_about_one_axis(j.type)) continue;
     add_nodes_on_axis(model, j.frame_F, held);
     add_nodes_on_axis(model, j.frame_M, held);
   }

@@ -76,6 +76,15 @@ std::vector<ErrorEntry> sorted(std::vector<ErrorEntry> errors, const ModelFiles&
 
 }  // namespace
 
+std::vector<std::string> model_parameters(const std::string& path) {
+  ReadErrors errors;
+  ModelFiles files(errors);
+  std::vector<std::string> names;
+  if (const auto root = load_instances(path, {}, files, errors))
+    for (const auto& [name, value] : root->scope) names.push_back(name);
+  return names;
+}
+
 ModelDescription read_model(const std::string& path,
                             const std::vector<ParameterOverride>& overrides, ModelFingerprint* used,
                             const ReadOptions& options) {

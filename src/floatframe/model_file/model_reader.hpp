@@ -33,4 +33,8 @@ ModelDescription read_model(const std::string& path,
                             const std::vector<ParameterOverride>& overrides = {},
                             ModelFingerprint* used = nullptr, const ReadOptions& options = {});
 
+/// The names of the parameters of a model file, without reading what they are for: few, if it
+/// cannot be read.
+std::vector<std::string> model_parameters(const std::string& path);
+
 }  // namespace floatframe

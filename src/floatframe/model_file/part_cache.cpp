@@ -10,6 +10,7 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/library_path.hpp"
+#include "floatframe/parts/kept_part.hpp"
 #include "floatframe/parts/part_options.hpp"
 
 namespace floatframe {
@@ -35,7 +36,7 @@ std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job, std::str
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
   try {
-    BodyFile found = read_body_file(file);
+    BodyFile found = kept_part(file);
     const Provenance& from = found.provenance;
     if (from.version != version() || from.options != option_list(job) || from.files.empty())
       return std::nullopt;
@@ -105,7 +106,7 @@ BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::strin
   if (!file.empty()) {
     try {
       make_output_folder(cache.string());
-      write_body_file(file, made);
+      keep_part(file, made);
       kept = "kept in " + file.string();
     } catch (const OutputError& error) {
       kept += fmt::format(" ({})", error.what());

@@ -3,6 +3,7 @@
 // outside of its input's limits, unless the input is to be clamped: then the nearer limit takes its
 // place. Of a refused value the last valid one stays. Both are counted by input. Nothing here
 // allocates after construction.
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -22,9 +23,12 @@ class InputBuffer {
   std::size_t size() const noexcept { return values_.size(); }
   std::span<const double> values() const noexcept { return values_; }
 
-  /// One value an input, in the order of the model.
-  void accept(std::span<const double> wanted) noexcept {
+  /// One value an input, in the order of the model. False: none of them was finite, as if nothing
+  /// had come.
+  bool accept(std::span<const double> wanted) noexcept {
+    bool any = values_.empty();
     for (std::size_t i = 0; i < values_.size() && i < wanted.size(); ++i) {
+      any = any || std::isfinite(wanted[i]);
       const std::optional<double> value = accepted_value(inputs_[i], wanted[i]);
       if (!value) {
         ++refused_[i];
@@ -33,6 +37,7 @@ class InputBuffer {
       if (*value != wanted[i]) ++clamped_[i];
       values_[i] = *value;
     }
+    return any;
   }
 
   /// Back to the initial values.

@@ -92,7 +92,7 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
   if (options.watch) {
     report.warnings =
         unresolved_forcing(steps.model(), d.step, steps.begin(), report.time - steps.begin());
-    const auto left = watch.range().warnings(EnergySummary(), d.spectral_radius);
+    const auto left = watch.range().warnings(EnergySummary(), d.spectral_radius, {});
     report.warnings.insert(report.warnings.end(), left.begin(), left.end());
   }
   const std::span<const double> row = runner.sample();

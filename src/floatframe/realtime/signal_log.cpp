@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,9 +11,11 @@
 #include <chrono>
 #include <cstring>
 #include <iterator>
+#include <utility>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/csv_field.hpp"
+#include "floatframe/core/output_place.hpp"
 
 namespace floatframe {
 namespace {
@@ -36,11 +39,18 @@ SignalLog::SignalLog(const Model& model, const std::string& path, bool wait)
       width_(1 + model.inputs.size() + model.outputs.size()),
       capacity_(std::max(fewest_rows, ring_numbers / width_)),
       ring_(capacity_ * width_, 0.0) {
-  // A pipe that nobody reads is an error, not a wait without end.
-  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
+  // A pipe that nobody reads is an error, not a wait without end. What is open already is written
+  // into where it stands; a log that is there stays until there is a first row of the new one.
+  const OutputPlace place = output_place(path);
+  descriptor_ = place.descriptor >= 0
+                    ? fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0)
+                    : open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+  struct stat status {};
+  replaces_ = place.descriptor < 0 && descriptor_ >= 0 && fstat(descriptor_, &status) == 0 &&
+              S_ISREG(status.st_mode) && status.st_size > 0;
   if (descriptor_ < 0)
     throw OutputError(fmt::format("'{}' cannot be written: {}", path, std::strerror(errno)));
-  fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
+  if (place.descriptor < 0) fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
   text_ = header(model);
   thread_ = std::thread([this] { loop(); });
 }
@@ -94,6 +104,7 @@ void SignalLog::drain() {
   std::size_t row = read_.load(std::memory_order_relaxed);
   long pending = 0;  // rows in text_
   const auto put = [this, &pending] {
+    if (std::exchange(replaces_, false) && ftruncate(descriptor_, 0) != 0) error_ = errno;
     for (std::size_t done = 0; done < text_.size() && error_ == 0;) {
       const ssize_t n = write(descriptor_, text_.data() + done, text_.size() - done);
       if (n >= 0)
@@ -123,7 +134,7 @@ void SignalLog::drain() {
     }
     read_.store(row + 1, std::memory_order_release);
   }
-  if (!text_.empty()) put();
+  if (!text_.empty() && (pending > 0 || !replaces_)) put();
 }
 
 }  // namespace floatframe

@@ -54,6 +54,7 @@ class SignalLog {
   std::string text_;
   long rows_ = 0;
   int error_ = 0;
+  bool replaces_ = false;  ///< an earlier file, which the first row empties
   std::mutex mutex_;
   std::condition_variable ended_;
   bool end_ = false;

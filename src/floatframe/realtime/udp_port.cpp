@@ -75,8 +75,7 @@ bool UdpPort::wait() noexcept {
 
 bool UdpPort::receive(InputBuffer& inputs) noexcept {
   if (!options_.inputs || !(options_.lock_step ? filter_.fresh() : drain())) return false;
-  inputs.accept(filter_.hand_over());
-  return true;
+  return inputs.accept(filter_.hand_over());
 }
 
 void UdpPort::send(std::uint64_t step, double time, std::span<const double> outputs,

@@ -5,6 +5,7 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/history/history_content.hpp"
 #include "floatframe/history/state_history.hpp"
@@ -108,7 +109,10 @@ void save_run(const Model& model, const KeptRun& run, const std::string& folder)
   const auto path = [&](const char* name) {
     return (std::filesystem::path(folder) / name).string();
   };
-  for (const char* name : {"run.checkpoint", "states.ffr", "report.html"}) remove_file(path(name));
+  if (std::filesystem::exists(path("run.checkpoint")))
+    throw InputError("the folder '" + folder +
+                     "' holds an unfinished run (run.checkpoint), expected another one");
+  for (const char* name : {"states.ffr", "report.html"}) remove_file(path(name));
   RunSummary summary = run.result.summary;
   summary.settings = run.settings;
   summary.files = run.source.files;

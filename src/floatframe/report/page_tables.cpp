@@ -44,8 +44,8 @@ const char* mass_text(const FlexibleBody& data) {
 }
 
 std::string body_name(const Model& model, int marker) {
-  const int body = marker < 0 ? -1 : model.markers[static_cast<std::size_t>(marker)].body;
-  return body < 0 ? ground_name : model.bodies[static_cast<std::size_t>(body)].name;
+  const int body = marker < 0 ? -1 : model.markers[marker].body;
+  return body < 0 ? ground_name : model.bodies[body].name;
 }
 
 std::string short_number(double value, const char* format) {
@@ -111,7 +111,7 @@ PageTable bending_table(const Model& model) {
       "Directions in the design configuration; a rectangle that stands is stiffest along "
       "its height."};
   for (const BarBending& b : model.hints.bending) {
-    const std::string& body = model.bodies[static_cast<std::size_t>(b.body)].name;
+    const std::string& body = model.bodies[b.body].name;
     const std::string stiffness = short_number(b.stiffness[0], "{:.5g}");
     if (b.alike())
       table.rows.push_back({body, names_text(b.bars), "any", stiffness, "", ""});

@@ -166,6 +166,28 @@ void require_channels(const ResultsReader& r, const std::vector<std::string>& na
                        fmt::format("there is no channel '{}'{}", name, did_you_mean(name, known)));
 }
 
+/// "'x', 'y' and 3 more"
+std::string some_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 4;
+  if (names.empty()) return "none";
+  const std::size_t shown = std::min(most, names.size());
+  std::string text;
+  for (std::size_t k = 0; k < shown; ++k) text += (k > 0 ? ", '" : "'") + names[k] + "'";
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+InputError nothing_in_common(const ResultsReader& a, const ResultsReader& b,
+                             const ResultsComparison& found) {
+  const std::string units =
+      found.other_units.empty() ? "" : "; of other units: " + some_names(found.other_units);
+  return InputError(
+      {b.file(), 1, 0},
+      fmt::format("found no channel that '{}' has too, expected one or more (here {}, "
+                  "there {}{})",
+                  a.file(), some_names(found.only_b), some_names(found.only_a), units));
+}
+
 }  // namespace
 
 bool ResultsComparison::spans_differ() const noexcept {
@@ -205,6 +227,7 @@ ResultsComparison compare_results(ResultsReader& a, ResultsReader& b,
     const std::string& name = b.columns()[c].name;
     if (is_wanted(name) && !of_a.contains(name)) out.only_b.push_back(name);
   }
+  if (pairs.empty()) throw nothing_in_common(a, b, out);
   Merge(a, b, pairs).run(out);
   return out;
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/regular_file.hpp"
 
@@ -100,7 +101,7 @@ void ResultsReader::read_header() {
     const std::size_t begin = at;
     std::string title;
     if (!read_title(line_, at, title)) refuse(begin, "found a quote that is not closed");
-    columns_.push_back(column_of(title));
+    columns_.push_back(column_of(csv_text(title)));
     const std::string& name = columns_.back().name;
     if (columns_.size() == 1 && name != "time")
       refuse(begin, fmt::format("found '{}' as the first column, expected 'time [s]'",

@@ -8,7 +8,9 @@
 // what a force changes by, which is not less at a smaller step where a flank is steep.
 //
 // A corner at the end of a step belongs to this step: what is sampled there is of its right side,
-// as the functions are. Nothing here allocates after construction.
+// as the functions are. Ends of steps are sums of steps, which rounding leaves on either side of
+// a corner that is written as a number: a fixed small part of a step is no distance. Nothing here
+// allocates after construction.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,11 +25,14 @@ namespace floatframe {
 template <class F>
 class CornerSteps {
  public:
-  CornerSteps(F& formulation, AugmentedLagrangian<F>& integrator, std::vector<TimeCorner> corners)
+  /// `step`: the nominal size of steps [s].
+  CornerSteps(F& formulation, AugmentedLagrangian<F>& integrator, std::vector<TimeCorner> corners,
+              double step)
       : f_(formulation),
         integrator_(integrator),
         move_(formulation, integrator),
-        corners_(std::move(corners)) {}
+        corners_(std::move(corners)),
+        slack_(time_corner_width * step) {}
 
   const std::vector<TimeCorner>& corners() const noexcept { return corners_; }
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
@@ -35,7 +40,7 @@ class CornerSteps {
   /// A step of size h from time t meets a corner.
   bool within(double t, double h) const noexcept {
     const auto next = after(t);
-    return next != corners_.end() && !(next->from > t + h);
+    return next != corners_.end() && !(next->from > t + h + slack_);
   }
 
   /// One step of size h. `smooth(size)` makes a step of the state in which no function has a
@@ -46,8 +51,8 @@ class CornerSteps {
                    const Behind& behind) noexcept {
     const double end = state.t + h;
     StepAttempt total;
-    for (auto c = after(state.t); c != corners_.end() && !(c->from > end); ++c) {
-      const double left = before(c->from, state.t, h);
+    for (auto c = after(state.t); c != corners_.end() && !(c->from > end + slack_); ++c) {
+      const double left = std::min(before(c->from, state.t, h), end);
       if (!reach(state, left, h, smooth, total)) return total;
       pass(state, *c, h, behind);
       ++passed;
@@ -66,7 +71,7 @@ class CornerSteps {
   enum class Made { nothing, moved, stepped };
 
   std::vector<TimeCorner>::const_iterator after(double t) const noexcept {
-    return std::upper_bound(corners_.begin(), corners_.end(), t,
+    return std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
                             [](double x, const TimeCorner& c) { return x < c.to; });
   }
 
@@ -122,6 +127,7 @@ class CornerSteps {
   AugmentedLagrangian<F>& integrator_;
   ExplicitMove<F> move_;
   std::vector<TimeCorner> corners_;
+  double slack_;  ///< [s]
   EdgeWatch watch_;
   Made made_ = Made::nothing;
 };

@@ -18,10 +18,9 @@ void note_wheel_heights(const RelativeFormulation& f, std::vector<std::string>& 
   constexpr double high = 3.0, low = 0.6;  // of the radius
   const Model& model = f.model();
   for (const Force& tyre : model.forces) {
-    if (tyre.type != ForceType::tyre) continue;
+    if (tyre.road < 0) continue;
     const Vec3 centre = f.origin() + f.marker(tyre.b).r;
-    const double height =
-        centre.z() - road_at(model.roads[static_cast<std::size_t>(tyre.road)], centre.x()).z;
+    const double height = centre.z() - road_at(model.roads[tyre.road], centre.x()).z;
     if (height > low * tyre.radius && height < high * tyre.radius) continue;
     const double gap = height - tyre.radius;
     notes.push_back(

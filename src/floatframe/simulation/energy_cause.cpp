@@ -34,7 +34,8 @@ double range_of_values(const PiecewisePolynomial& f) {
 
 class CauseFinder {
  public:
-  CauseFinder(double from, double to, double step) : from_(from - step), to_(to), step_(step) {}
+  CauseFinder(double from, double to, double step, std::span<const TimeCorner> corners)
+      : from_(from - step), to_(to), step_(step), corners_(corners) {}
 
   /// A corner: the velocity jumps.
   void motion(const std::string& name, const TimeFunction& f, const char* unit) {
@@ -60,28 +61,25 @@ class CauseFinder {
     }
   }
 
-  /// A jump, or what is one for the steps: a good part of the whole way within one of them, also
-  /// where the table is smooth.
-  void signal(const std::string& name, const TimeFunction& f, const char* unit) {
+  /// Values that steps sample as they are (time_corners.hpp): a good part of the whole way of
+  /// a table within one of them. Jumps that steps are divided at are resolved.
+  void sampled(const std::string& name, const TimeFunction& f, const char* unit) {
     const std::vector<double>& breaks = f.pieces.breaks();
     if (breaks.empty()) return;
     const double range = std::max(range_of_values(f.pieces), 1e-300);
     for (std::size_t k = 0; k < breaks.size(); ++k) {
-      if (breaks[k] < from_ || breaks[k] > to_) continue;
-      const EdgeSides here = edge_sides(f.pieces, breaks[k]);
-      double jump = here.right.f - here.left.f, least = 1e-3;
+      if (breaks[k] < from_ || breaks[k] > to_ || divided(breaks[k])) continue;
+      const double here = edge_sides(f.pieces, breaks[k]).left.f;
+      double way = 0.0;
       for (std::size_t n = k + 1; n < breaks.size() && breaks[n] - breaks[k] < step_; ++n) {
-        const double way = edge_sides(f.pieces, breaks[n]).right.f - here.left.f;
-        if (std::abs(way) <= std::abs(jump)) continue;
-        jump = way;
-        least = 0.1;
+        const double there = edge_sides(f.pieces, breaks[n]).right.f - here;
+        if (std::abs(there) > std::abs(way)) way = there;
       }
-      const double share = std::abs(jump) / range;
-      if (share > least)
-        offer(share,
-              fmt::format("{} jumps by {:.4g} {} at t = {:.6g} s: no step resolves that, let it go "
-                          "there over several steps",
-                          name, jump, unit, breaks[k]));
+      const double share = std::abs(way) / range;
+      if (share > 0.1)
+        offer(share, fmt::format("{} goes by {:.4g} {} within a step from t = {:.6g} s on: take a "
+                                 "smaller step than {:g} s, or locate_edges: true",
+                                 name, way, unit, breaks[k], step_));
     }
   }
 
@@ -94,29 +92,37 @@ class CauseFinder {
     text_ = std::move(text);
   }
 
+  bool divided(double at) const {
+    return std::any_of(corners_.begin(), corners_.end(), [&](const TimeCorner& c) {
+      return at > c.from - time_corner_width * step_ && at < c.to + time_corner_width * step_;
+    });
+  }
+
   double from_, to_, step_;
+  std::span<const TimeCorner> corners_;
   double share_ = 0.0;
   std::string text_;
 };
 
 }  // namespace
 
-std::string energy_cause(const Model& model, double from, double to, double step) {
-  CauseFinder finder(from, to, step);
+std::string energy_cause(const Model& model, double from, double to, double step,
+                         std::span<const TimeCorner> corners) {
+  CauseFinder finder(from, to, step, corners);
   for (const Joint& j : model.joints)
     if (j.motion) finder.motion(j.name, *j.motion, joint_unit_name(j.type, 0));
   for (const Force& f : model.forces) {
     const bool load = force_account(f.type) == ForceAccount::loads;
     const std::string owner = fmt::format(" of force '{}'", f.name);
     if (load || f.driven)
-      finder.signal((load ? "the magnitude" : "the actuator") + owner, f.magnitude,
-                    force_output_unit(f, ForceQuantity::force));
+      finder.sampled((load ? "the magnitude" : "the actuator") + owner, f.magnitude,
+                     force_output_unit(f, ForceQuantity::force));
     if (!f.targeted) continue;
-    finder.signal("the target" + owner, f.target.function,
-                  force_output_unit(f, ForceQuantity::length));
+    finder.sampled("the target" + owner, f.target.function,
+                   force_output_unit(f, ForceQuantity::length));
     if (!f.derived_rate)
-      finder.signal("the target rate" + owner, f.target_rate.function,
-                    force_output_unit(f, ForceQuantity::rate));
+      finder.sampled("the target rate" + owner, f.target_rate.function,
+                     force_output_unit(f, ForceQuantity::rate));
   }
   return finder.text();
 }

@@ -122,7 +122,7 @@ std::vector<std::size_t> bodies_moved(F& f, const State& state, const MatX& dire
       for (std::size_t m = 0; m < model.markers.size(); ++m)
         if (model.markers[m].body == static_cast<int>(i))
           v = std::max(v, f.marker(static_cast<int>(m)).v.norm());
-      speed[static_cast<Eigen::Index>(i)] = std::max(speed[static_cast<Eigen::Index>(i)], v);
+      speed[i] = std::max(speed[i], v);
     }
   }
   std::vector<std::size_t> moved;

@@ -169,7 +169,7 @@ ModelOrder model_order(const Model& model, const ModelOrderOptions& options) {
   if (!(options.below > 0.0) || !std::isfinite(options.below))
     throw InputError(
         fmt::format("below: found {:g}, expected a frequency above 0 [Hz]", options.below));
-  if (!(options.tolerance > 0.0) || !(options.tolerance <= 1.0))
+  if (!(options.tolerance >= 0.0) || !(options.tolerance <= 1.0))
     throw InputError(
         fmt::format("tolerance: found {:g}, expected a number from 0 to 1", options.tolerance));
   ModelOrder order;

@@ -31,8 +31,8 @@ std::string percent(double x) { return fmt::format("{:.3g} %", 100.0 * x); }
 class Writer {
  public:
   Writer(const Model& model, const std::vector<BodyRange>& bodies, double step,
-         const RangeLimits& limits)
-      : model_(model), bodies_(bodies), step_(step), limits_(limits) {}
+         const RangeLimits& limits, std::span<const TimeCorner> corners = {})
+      : model_(model), bodies_(bodies), step_(step), limits_(limits), corners_(corners) {}
 
   void displacement(std::vector<RangeWarning>& out) const {
     about_worst(
@@ -193,7 +193,7 @@ class Writer {
   /// What the balance came apart by, if that can be seen; else the step is to blame.
   std::string remedy(const EnergySummary& e, const char* or_else) const {
     const std::string cause =
-        energy_cause(model_, e.largest_growth_from, e.largest_growth_to, step_);
+        energy_cause(model_, e.largest_growth_from, e.largest_growth_to, step_, corners_);
     if (cause.empty()) return fmt::format("take a smaller step than {:g} s{}", step_, or_else);
     return fmt::format("{:.4g} J of it appear between t = {:.4g} and {:.4g} s, where {}",
                        e.largest_growth, e.largest_growth_from, e.largest_growth_to, cause);
@@ -228,6 +228,7 @@ class Writer {
   const std::vector<BodyRange>& bodies_;
   double step_;
   const RangeLimits& limits_;
+  std::span<const TimeCorner> corners_;
 };
 
 }  // namespace
@@ -263,9 +264,9 @@ std::vector<RangeWarning> equilibrium_warnings(const Model& model,
   return out;
 }
 
-std::vector<RangeWarning> RangeWatch::warnings(const EnergySummary& energy,
-                                               double spectral_radius) const {
-  const Writer writer(model_, bodies_, step_, limits_);
+std::vector<RangeWarning> RangeWatch::warnings(const EnergySummary& energy, double spectral_radius,
+                                               std::span<const TimeCorner> corners) const {
+  const Writer writer(model_, bodies_, step_, limits_, corners);
   std::vector<RangeWarning> out;
   writer.displacement(out);
   writer.rotation(out);

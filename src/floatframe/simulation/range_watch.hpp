@@ -3,11 +3,13 @@
 // deformations, slow spin, a step that resolves the motion. `observe` functions belong to a run:
 // noexcept, no allocation; what is measured becomes sentences at the end.
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/time_corners.hpp"
 #include "floatframe/simulation/turn_watch.hpp"
 
 namespace floatframe {
@@ -145,8 +147,10 @@ class RangeWatch {
   double noise() const noexcept;
   const RangeLimits& limits() const noexcept { return limits_; }
 
-  /// One sentence for each kind of limit that was passed; the balance is that of the same run.
-  std::vector<RangeWarning> warnings(const EnergySummary& energy, double spectral_radius) const;
+  /// One sentence for each kind of limit that was passed; balance and corners, which steps were
+  /// divided at, are those of the same run.
+  std::vector<RangeWarning> warnings(const EnergySummary& energy, double spectral_radius,
+                                     std::span<const TimeCorner> corners) const;
   template <class Stream>
   void walk(Stream& s) {
     for (BodyRange& body : bodies_) body.walk(s);

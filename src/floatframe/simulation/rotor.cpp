@@ -43,16 +43,15 @@ void require_one_piece(const Model& model, const TreeKinematics& tree, const Rot
           fmt::format("rotor on joint '{}': body '{}' moves on the rotor by joint '{}', expected "
                       "bodies of a rotor that "
                       "are welded to each other",
-                      rotor.name, model.bodies[static_cast<std::size_t>(i)].name,
-                      model.joints[static_cast<std::size_t>(tree.body(i).joint)].name));
+                      rotor.name, model.bodies[i].name, model.joints[tree.body(i).joint].name));
 }
 
 Pose marker_pose(const Model& model, int index) {
-  const Marker& m = model.markers[static_cast<std::size_t>(index)];
+  const Marker& m = model.markers[index];
   Pose X = m.X_NM;
   if (m.body < 0) return X;
-  const Body& b = model.bodies[static_cast<std::size_t>(m.body)];
-  if (m.node >= 0) X.p += b.data->nodes[static_cast<std::size_t>(m.node)].p;
+  const Body& b = model.bodies[m.body];
+  if (m.node >= 0) X.p += b.data->nodes[m.node].p;
   return b.X_WB * X;
 }
 
@@ -95,7 +94,7 @@ std::vector<Mat3X> seen_from_axis(const FlexibleBody& body, const Vec3& p_BP,
     seen.push_back(moment / (I.m * length));
   }
   for (const int k : on_axis) {
-    const ModalNode& n = body.nodes[static_cast<std::size_t>(k)];
+    const ModalNode& n = body.nodes[k];
     seen.push_back(n.X);
     seen.push_back(length * n.X_theta);
   }
@@ -213,7 +212,7 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   Rotor rotor;
   rotor.joint = joint_named(model, name);
   rotor.name = name;
-  const Joint& joint = model.joints[static_cast<std::size_t>(rotor.joint)];
+  const Joint& joint = model.joints[rotor.joint];
   rotor.body = tree.body_of_joint(rotor.joint);
   if (rotor.body < 0)
     throw InputError(fmt::format(
@@ -236,7 +235,7 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   const std::vector<int> bodies = bodies_below(tree, rotor.body);
   require_one_piece(model, tree, rotor, bodies);
   rotor.sign = b.reversed && !rotor.free ? -1.0 : 1.0;
-  const Body& first = model.bodies[static_cast<std::size_t>(rotor.body)];
+  const Body& first = model.bodies[rotor.body];
   Mat3 axes = Mat3::Identity();
   for (int k = 0; rotor.free && k < 3; ++k) {
     rotor.axis_F = Vec3::Unit(k);
@@ -254,7 +253,7 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   rotor.e_1 = (rotor.e_1 - axis_W * axis_W.dot(rotor.e_1)).normalized();
   rotor.length = 0.0;
   for (const int i : bodies) {
-    const Body& body = model.bodies[static_cast<std::size_t>(i)];
+    const Body& body = model.bodies[i];
     rotor.bodies.push_back(rotor_body(body, i, p_W, axis_W));
     rotor.length = std::max(rotor.length, body.length);
   }

@@ -21,9 +21,7 @@ struct RigidRotor {
 
   RigidRotor(const Model& model, const std::vector<int>& bodies) {
     Vec3 moment = Vec3::Zero();
-    const auto body = [&](int i) -> const Body& {
-      return model.bodies[static_cast<std::size_t>(i)];
-    };
+    const auto body = [&](int i) -> const Body& { return model.bodies[i]; };
     for (const int i : bodies) {
       const InertiaInvariants& I = body(i).data->invariants;
       moment += I.m * (body(i).X_WB * I.centre_of_mass());
@@ -63,7 +61,7 @@ std::vector<int> bodies_of(const Rotor& rotor) {
 }
 
 std::string distance_text(const Model& model, const RotorBody& r) {
-  const Body& b = model.bodies[static_cast<std::size_t>(r.body)];
+  const Body& b = model.bodies[r.body];
   const Vec3 c = b.data->invariants.centre_of_mass() - r.p_BP;
   const double off = (c - r.axis * r.axis.dot(c)).norm(), m = b.data->invariants.m;
   return fmt::format("the mass of body '{}' ({:.4g} kg) is {:.4g} m off the axis ({:.4g} kg m)",
@@ -76,7 +74,7 @@ std::optional<std::string> unbalance(const Model& model, const Rotor& rotor) {
   double mass = 0.0, largest = 0.0;
   const RotorBody* worst = nullptr;
   for (const RotorBody& r : rotor.bodies) {
-    const Body& b = model.bodies[static_cast<std::size_t>(r.body)];
+    const Body& b = model.bodies[r.body];
     const Vec3 c = b.data->invariants.centre_of_mass() - r.p_BP;
     const Vec3 moment = b.data->invariants.m * (b.X_WB.R * (c - r.axis * r.axis.dot(c)));
     sum += moment;
@@ -98,16 +96,15 @@ std::optional<int> axis_of_bearings(const Model& model, const std::vector<int>& 
                                     const Mat3& axes) {
   const auto on_rotor = [&](int marker) {
     if (marker < 0) return false;
-    const int body = model.markers[static_cast<std::size_t>(marker)].body;
+    const int body = model.markers[marker].body;
     return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
   };
   std::vector<int> along{0, 1, 2};
   bool bearings = false;
   for (const Force& force : model.forces) {
     if (force.type != ForceType::bearing || on_rotor(force.a) == on_rotor(force.b)) continue;
-    const Marker& m =
-        model.markers[static_cast<std::size_t>(on_rotor(force.a) ? force.a : force.b)];
-    const Vec3 z = model.bodies[static_cast<std::size_t>(m.body)].X_WB.R * m.X_NM.R.col(2);
+    const Marker& m = model.markers[on_rotor(force.a) ? force.a : force.b];
+    const Vec3 z = model.bodies[m.body].X_WB.R * m.X_NM.R.col(2);
     bearings = true;
     std::erase_if(along, [&](int k) { return z.cross(axes.col(k)).norm() > 1e-6; });
   }
@@ -121,7 +118,7 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
   std::vector<std::string> found;
   if (auto text = unbalance(model, rotor)) found.push_back(std::move(*text));
   const RotorBody& first = rotor.bodies.front();
-  const Vec3 axis = model.bodies[static_cast<std::size_t>(first.body)].X_WB.R * first.axis;
+  const Vec3 axis = model.bodies[first.body].X_WB.R * first.axis;
   const AcrossInertia across(RigidRotor(model, bodies_of(rotor)).J, axis);
   if (found.empty() && !across.symmetric())
     found.push_back(
@@ -132,7 +129,7 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
             : fmt::format("its moments of inertia across the axis are {:.6g} and {:.6g} kg m2",
                           across.low, across.high));
   for (const RotorBody& r : rotor.bodies) {
-    const Body& b = model.bodies[static_cast<std::size_t>(r.body)];
+    const Body& b = model.bodies[r.body];
     const VecX& f = b.data->fixed_interface_frequencies;
     const Eigen::Index n = f.size();
     const bool bars = n > 0 && b.data->mode_names.back().rfind("normal ", 0) == 0;

@@ -91,14 +91,16 @@ class RunWatch {
     s(records_);
   }
 
-  /// Fills the balance and the warnings of the summary, with the state at the end.
-  void finish(const State& s, double spectral_radius, RunSummary& out) {
+  /// Fills the balance and the warnings of the summary, with the state at the end. `corners`: what
+  /// steps were divided at.
+  void finish(const State& s, double spectral_radius, std::span<const TimeCorner> corners,
+              RunSummary& out) {
     const auto branch = branches_.warning(f_);
     evaluate(s);
     balance_.check(s.t, energies(s));
     out.energy.balanced = true;
     balance_.write(out.energy);
-    out.warnings = motion_.range().warnings(out.energy, spectral_radius);
+    out.warnings = motion_.range().warnings(out.energy, spectral_radius, corners);
     if (branch) out.warnings.push_back(*branch);
   }
 

@@ -53,9 +53,9 @@ class Runner {
     locator_->hold(state_);
   }
   bool locates_edges() const noexcept { return locator_.has_value(); }
-  /// From now on steps are divided at these corners of functions of time.
-  void locate_corners(const std::vector<TimeCorner>& corners) {
-    if (!corners.empty()) corners_.emplace(f_, integrator_, corners);
+  /// From now on steps, of about this size, are divided at these corners of functions of time.
+  void locate_corners(const std::vector<TimeCorner>& corners, double step) {
+    if (!corners.empty()) corners_.emplace(f_, integrator_, corners, step);
   }
   std::span<const TimeCorner> corners() const noexcept {
     return corners_ ? std::span<const TimeCorner>(corners_->corners())

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -24,8 +27,29 @@ double default_penalty_mass(const Model& model, Coordinates coordinates) {
   return (coordinates == Coordinates::absolute ? 1e8 : 1e5) * model.mean_mass;
 }
 
+namespace {
+
+/// Of the bodies: masses and principal moments of inertia that are more than rounding.
+double smallest_inertia(const Model& model) {
+  double least = 1.0;
+  for (const Body& b : model.bodies) {
+    const InertiaInvariants& v = b.data->invariants;
+    if (!(v.m > 0.0)) continue;
+    const Vec3 c = v.centre_of_mass();
+    const Mat3 P = v.P_u - v.m * c * c.transpose();
+    least = std::min(least, v.m);
+    for (const double J : symmetric_eigenvalues(P.trace() * Mat3::Identity() - P))
+      if (J > 1e-9 * v.m * b.length * b.length) least = std::min(least, J);
+  }
+  return least;
+}
+
+}  // namespace
+
 StepOptions step_options(const Model& model, const SimulationDescription& o) {
   StepOptions s;
+  // A force of 1 N on a part of 1e-7 kg is no sign of a direction without mass.
+  s.largest_acceleration /= smallest_inertia(model);
   s.spectral_radius = o.spectral_radius;
   s.tolerance = o.tolerance;
   s.max_iterations = o.max_iterations;

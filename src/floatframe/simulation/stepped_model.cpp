@@ -51,7 +51,7 @@ SteppedModel<F>::SteppedModel(const SteppedModel& found, double duration)
       min_step_(found.min_step_),
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, found.grid_.step(), duration) {
-  runner_.locate_corners({found.corners().begin(), found.corners().end()});
+  runner_.locate_corners({found.corners().begin(), found.corners().end()}, grid_.step());
   runner_.use_inputs(found.runner_.input_use());
   begin_at_start(found.runner_.locates_edges());
   prepare_reactions();
@@ -62,7 +62,7 @@ void SteppedModel<F>::find_corners(const SimulationDescription& o, const StepLim
   TimeCorners found = time_corners(
       model(),
       {.step = o.step, .begin = begin(), .duration = limits.duration, .all = o.locate_edges});
-  if (!limits.bounded) runner_.locate_corners(found.located);
+  if (!limits.bounded) runner_.locate_corners(found.located, o.step);
   for (std::string& note : found.velocity_jumps) start_.add_note(std::move(note));
   for (std::string& note : limits.bounded ? found.passed : found.dense)
     start_.add_note(std::move(note));

@@ -191,7 +191,9 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
       first = missed->at;
       earliest = f.name;
     }
-    for (const Kink& kink : k.located) times.push_back(kink.at);
+    // Steps count what is hardly behind the begin to what is before it.
+    const double first_step = o.begin + 2.0 * time_corner_width * o.step;
+    for (const Kink& kink : k.located) times.push_back(std::max(kink.at, first_step));
   }
   if (dense_functions > 0)
     out.dense.push_back(

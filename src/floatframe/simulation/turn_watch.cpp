@@ -7,7 +7,7 @@ namespace floatframe {
 TurnWatch::TurnWatch(const Model& model, double step) : model_(model), step_(step) {
   for (std::size_t k = 0; k < model.forces.size(); ++k) {
     const Force& force = model.forces[k];
-    const bool counts = force.type == ForceType::joint_spring && force.rotational;
+    const bool counts = force.rotational;
     if (!counts && !ends_at_half_turn(force)) continue;
     Watched x;
     x.force = static_cast<int>(k);
@@ -25,7 +25,7 @@ void TurnWatch::warn(std::vector<RangeWarning>& out) const {
     if (first == nullptr || x.first < first->first) first = &x;
   }
   if (first == nullptr) return;
-  const Force& force = model_.forces[static_cast<std::size_t>(first->force)];
+  const Force& force = model_.forces[first->force];
   const std::string who = fmt::format("{} '{}'{}", force_type_name(force.type), force.name,
                                       others > 0 ? fmt::format(" (and {} more)", others) : "");
   if (first->counts) {

@@ -30,7 +30,7 @@ class TurnWatch {
   void follow(const F& f, double t) noexcept {
     for (Watched& x : watched_) {
       if (x.counts) {
-        const Force& force = model_.forces[static_cast<std::size_t>(x.force)];
+        const Force& force = model_.forces[x.force];
         const MarkerState &a = f.marker(force.a), &b = f.marker(force.b);
         const double turn = step_ * std::abs(a.R.col(2).dot(b.w - a.w));
         if (turn > std::numbers::pi && x.first < 0.0) x.first = t;
@@ -67,7 +67,7 @@ class TurnWatch {
   static bool quarter(const Vec3& theta) noexcept { return theta.norm() > 0.5 * std::numbers::pi; }
   template <class F>
   Vec3 rotation(const F& f, const Watched& x) const noexcept {
-    const Force& force = model_.forces[static_cast<std::size_t>(x.force)];
+    const Force& force = model_.forces[x.force];
     const Mat3 R = f.marker(force.a).R.transpose() * f.marker(force.b).R;
     return quaternion_log(Eigen::Quaterniond(R));
   }

@@ -23,7 +23,7 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
   std::vector<std::string> names;
   const RotorBody* on = nullptr;
   for (const RotorBody& r : rotor.bodies) {
-    names.push_back(model.bodies[static_cast<std::size_t>(r.body)].name);
+    names.push_back(model.bodies[r.body].name);
     if (names.back() == u.body) on = &r;
   }
   if (!on)
@@ -32,7 +32,7 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
   if (!std::isfinite(u.moment) || !std::isfinite(u.angle))
     throw InputError(
         fmt::format("unbalance on body '{}': found a number that is not finite", u.body));
-  const FlexibleBody& body = *model.bodies[static_cast<std::size_t>(on->body)].data;
+  const FlexibleBody& body = *model.bodies[on->body].data;
   AxisForce force;
   force.body = on->body;
   force.size = std::polar(u.moment, u.angle);
@@ -43,7 +43,7 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
   }
   std::vector<std::string> nodes;
   for (const int k : on->on_axis) {
-    const ModalNode& on_axis = body.nodes[static_cast<std::size_t>(k)];
+    const ModalNode& on_axis = body.nodes[k];
     if (is_surface_point(on_axis)) continue;
     const std::string& name = on_axis.name;
     if (!name.empty()) nodes.push_back(name);
@@ -83,8 +83,7 @@ void leave_out(const Model& model, std::vector<int>& outputs, const std::vector<
   std::string names;
   for (std::size_t k = 0; k < outputs.size(); ++k)
     if (bad[k])
-      names +=
-          (names.empty() ? "" : ", ") + model.outputs[static_cast<std::size_t>(outputs[k])].name;
+      names += (names.empty() ? "" : ", ") + model.outputs[outputs[k]].name;
     else
       left.push_back(outputs[k]);
   if (!names.empty()) notes.push_back(fmt::format("left out, {}: {}", why, names));
@@ -103,8 +102,7 @@ void keep_outputs(TurningModel& turning, const std::vector<AxisForce>& forces, d
   const Model& model = turning.model();
   std::vector<char> bad;
   for (const int k : outputs)
-    bad.push_back(output_kind(model.outputs[static_cast<std::size_t>(k)].type).terms ==
-                  OutputTerms::reactions);
+    bad.push_back(output_kind(model.outputs[k].type).terms == OutputTerms::reactions);
   leave_out(model, outputs, bad, "since they need reactions", notes);
   if (speed == 0.0) return;
   const TurningResponse a = turning.response(speed, at_speed(forces, speed), outputs),
@@ -115,7 +113,7 @@ void keep_outputs(TurningModel& turning, const std::vector<AxisForce>& forces, d
     largest = std::max(largest, std::abs(a.amplitudes[k]));
   for (Eigen::Index k = 0; k < a.amplitudes.size(); ++k) {
     const double size = std::max(std::abs(a.amplitudes[k]), std::abs(b.amplitudes[k]));
-    rough.push_back(!a.smooth[static_cast<std::size_t>(k)]);
+    rough.push_back(!a.smooth[k]);
     const bool other = std::abs(a.amplitudes[k] - b.amplitudes[k]) > 1e-2 * size + 1e-9 * largest,
                moved = std::abs(a.means[k] - b.means[k]) > 1e-6 * (1.0 + std::abs(a.means[k]));
     turns.push_back(!rough.back() && (other || moved));
@@ -148,7 +146,7 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
   require_symmetry(turning.model(), turning.rotor(), turning.dependence_on_angle(r.speeds.back()));
   keep_outputs(turning, forces, r.speeds.back(), outputs, r.notes);
   for (const int k : outputs) {
-    const Output& output = model.outputs[static_cast<std::size_t>(k)];
+    const Output& output = model.outputs[k];
     r.curves.push_back({{output.name, output.unit}, {}, {}});
   }
   for (const double speed : r.speeds) {
@@ -156,8 +154,8 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     const TurningResponse y =
         turning.response(speed == 0.0 ? 1e-3 * o.step : speed, at_speed(forces, speed), outputs);
     for (std::size_t k = 0; k < r.curves.size(); ++k) {
-      r.curves[k].amplitudes.push_back(y.amplitudes[static_cast<Eigen::Index>(k)]);
-      r.curves[k].means.push_back(y.means[static_cast<Eigen::Index>(k)]);
+      r.curves[k].amplitudes.push_back(y.amplitudes[k]);
+      r.curves[k].means.push_back(y.means[k]);
     }
   }
   for (const std::string& note : turning.notes()) r.notes.push_back(note);

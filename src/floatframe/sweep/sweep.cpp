@@ -25,7 +25,8 @@ namespace {
 using What = ServiceRequest::What;
 using Clock = std::chrono::steady_clock;
 
-/// What earlier calls left in the folder, except the journal.
+/// Runs that earlier calls kept in the folder. The table of an earlier study stays until there is a
+/// new one.
 void remove_results(const std::string& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> runs;
@@ -40,7 +41,6 @@ void remove_results(const std::string& folder) {
     }
     std::filesystem::remove(run, ignored);  // only if nothing else is in it
   }
-  remove_file((std::filesystem::path(folder) / "sweep.csv").string());
 }
 
 /// Process 0: hands out runs, takes their lines.

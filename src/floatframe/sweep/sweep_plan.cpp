@@ -49,14 +49,15 @@ std::vector<std::string> range(const std::string& variation,
   const auto lo = number(parts[0]), hi = number(parts[1]), n = number(parts[2]);
   if (!lo || !hi)
     refuse(variation, fmt::format("found '{}', expected a number", parts[lo ? 1 : 0]));
-  if (!n || *n < 2.0 || *n != std::floor(*n) || *n > static_cast<double>(most_sweep_runs))
-    refuse(variation, fmt::format("found '{}', expected a number of values from 2 to {}", parts[2],
+  if (!n || *n < 1.0 || *n != std::floor(*n) || *n > static_cast<double>(most_sweep_runs))
+    refuse(variation, fmt::format("found '{}', expected a number of values from 1 to {}", parts[2],
                                   most_sweep_runs));
-  if (*lo == *hi) refuse(variation, "both ends are the same, expected different ones");
+  if (*lo == *hi && *n > 1.0) refuse(variation, "both ends are the same, expected different ones");
   if (logarithmic && !(*lo * *hi > 0.0))
     refuse(variation, "equal ratios need two ends of the same sign, neither of them zero");
   std::vector<std::string> values;
   const std::size_t count = *n;
+  if (count == 1) return {number_text(*lo)};
   for (std::size_t k = 0; k < count; ++k) {
     const double s = static_cast<double>(k) / (*n - 1.0);
     double x = logarithmic ? *lo * std::pow(*hi / *lo, s) : *lo + (*hi - *lo) * s;

@@ -40,8 +40,7 @@ void remove_torn_files(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (std::filesystem::directory_iterator it(folder, ignored), end; !ignored && it != end;
        it.increment(ignored))
-    if (it->path().filename().string().find(".part-") != std::string::npos)
-      torn.push_back(it->path());
+    if (is_temporary_name(it->path().filename().string())) torn.push_back(it->path());
   for (const auto& file : torn) remove_file(file.string());
 }
 

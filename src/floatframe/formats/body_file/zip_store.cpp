@@ -15,6 +15,8 @@
 namespace floatframe {
 namespace {
 
+/// By which a file is known as one of this program.
+constexpr std::string_view archive_comment = "Written by Floatframe";
 constexpr std::uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
 constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22;
 constexpr std::uint16_t needed_version = 20, first_january_1980 = 0x21, utf8_names = 0x0800;
@@ -147,7 +149,7 @@ class ArchiveReader {
 
 std::string zip_archive(const std::vector<ZipMember>& members) {
   std::string out, directory;
-  std::size_t total = end_size;
+  std::size_t total = end_size + archive_comment.size();
   for (const ZipMember& m : members)
     total += local_size + entry_size + 2 * m.name.size() + m.content.size();
   if (total > largest || members.size() >= 0xffff)
@@ -182,7 +184,8 @@ std::string zip_archive(const std::vector<ZipMember>& members) {
   put16(out, members.size());
   put32(out, directory.size());
   put32(out, start);
-  put16(out, 0);
+  put16(out, archive_comment.size());
+  out += archive_comment;
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -201,6 +202,10 @@ class GltfReader {
     if (!loader_ || name.find(':') != std::string::npos || name.find('\0') != std::string::npos)
       out_.stop("found a buffer at '" + excerpt(uri) +
                 "', expected one inside or in a file beside");
+    const auto place = std::filesystem::path(name).lexically_normal();
+    if (name.empty() || place.is_absolute() || *place.begin() == "..")
+      out_.stop("found a buffer at '" + excerpt(uri) +
+                "', expected one in the folder of this file or below it");
     return loader_(name);
   }
   static bool hex(char c, int& code) {

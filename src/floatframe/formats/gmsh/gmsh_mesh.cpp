@@ -47,6 +47,9 @@ class GmshParser {
         } else {
           version_4_ ? elements_4() : elements_2();
         }
+      } else if (section == "Comments") {
+        in_.end_section(at, section);
+        continue;
       } else if (section == "PartitionedEntities") {
         in_.stop(at,
                  "the mesh is partitioned; save it in one part (Mesh.PartitionSplitMeshFiles = "

@@ -99,7 +99,9 @@ class GmshFile {
   }
 
   WrittenMesh written() {
-    std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    std::string text =
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+        "$Comments\nWritten by Floatframe\n$EndComments\n";
     add_groups(text);
     add_entities(text);
     add_nodes(text);

@@ -1,0 +1,63 @@
+#include "floatframe/apps/earlier_result.hpp"
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "floatframe/apps/run_files.hpp"
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/output_place.hpp"
+#include "floatframe/core/regular_file.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr std::array<const char*, 4> kept_names{"results.csv", "states.ffr", "report.html",
+                                                "summary.json"};
+
+void move_file(const std::string& from, const std::string& to) {
+  std::error_code error;
+  if (!std::filesystem::exists(from, error) || !is_replaceable(from)) return;
+  const std::string place = output_place(from).path;
+  std::filesystem::rename(place, to, error);
+  if (error == std::errc::cross_device_link) {
+    error.clear();
+    std::filesystem::copy_file(place, to, std::filesystem::copy_options::overwrite_existing, error);
+    if (!error) std::filesystem::remove(place, error);
+  }
+  if (error)
+    throw OutputError("the file '" + from + "' cannot be set aside to '" + to +
+                      "': " + error.message());
+}
+
+}  // namespace
+
+std::string previous_folder(const RunPaths& paths) {
+  return (std::filesystem::path(paths.folder) / "previous").string();
+}
+
+bool holds_completed_run(const RunPaths& paths) {
+  std::string text;
+  if (!read_regular_file(paths.summary, largest_file_read, text).empty()) return false;
+  const auto found = nlohmann::json::parse(text, nullptr, false);
+  return found.is_object() && found.value("status", nlohmann::json()) == "completed";
+}
+
+void set_aside(const RunPaths& paths) {
+  const std::filesystem::path folder(previous_folder(paths));
+  // The results are moved first: where they are gone, an earlier call was killed on its way.
+  if (std::filesystem::exists(paths.results)) remove_set_aside(paths);
+  make_output_folder(folder.string());
+  for (const char* name : kept_names)
+    move_file((std::filesystem::path(paths.folder) / name).string(), (folder / name).string());
+}
+
+void remove_set_aside(const RunPaths& paths) noexcept {
+  const std::filesystem::path folder(previous_folder(paths));
+  std::error_code ignored;
+  // The summary last: until then the others are known as those of this program.
+  for (const char* name : kept_names) std::filesystem::remove(folder / name, ignored);
+  std::filesystem::remove(folder, ignored);  // only if nothing else is in it
+}
+
+}  // namespace floatframe

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Little memory and a small stack: every command ends, with its result or with one sentence."""
+import os
+import pathlib
+import resource
+import shutil
+import unittest
+
+from run_case import RunCase
+
+DATA = pathlib.Path(os.environ.get("FLOATFRAME_TEST_DATA") or pathlib.Path(__file__).resolve().parents[1] / "data")
+REDUCE = ("reduce", "aarm_coarse_free.inp", "--units", "mm-t-s", "--interface", "A=set:BUSH_F", "--interface", "B=set:BALL",
+          "--modes", "5", "--quiet", "--overwrite", "-o", "arm.ffb")
+PROCESSOR_SECONDS = 120  # what spins takes them all; the reduction needs three
+
+
+class Limits(RunCase):
+    def setUp(self):
+        super().setUp()
+        for name in ("aarm_coarse_free.inp", "aarm_coarse_mesh.inp.gz"):
+            shutil.copy(DATA / "fe" / name, self.folder)
+
+    def limited(self, limit, size, *arguments):
+        def set_limits():
+            resource.setrlimit(resource.RLIMIT_CPU, (PROCESSOR_SECONDS, PROCESSOR_SECONDS + 10))
+            resource.setrlimit(limit, (size, size))
+        return self.program(*arguments, code=None, preexec_fn=set_limits)
+
+    def test_addresses(self):
+        """BLAS asks again without end for buffers that the process may not have: 150 to 400 MB were such limits."""
+        codes = []
+        for megabytes in (150, 200, 250, 300, 400, 3000):
+            with self.subTest(megabytes=megabytes):
+                done = self.limited(resource.RLIMIT_AS, megabytes << 20, *REDUCE)
+                codes.append(done.returncode)
+                self.assertIn(done.returncode, (0, 1), done.stderr)
+                if done.returncode == 1:
+                    self.assertRegex(done.stderr, "memory")
+                    self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(codes[-1], 0)
+
+    def test_stack(self):
+        for kilobytes in (64, 256):
+            for command in (REDUCE, ("run", "m.yaml", "--set", "duration=0.05", "--quiet", "--out", "run"),
+                            ("realtime", "m.yaml", "--no-pace", "--duration", "0.01", "--quiet"),
+                            ("bench", "step", "chain", "--links", "32", "--duration", "0.01"),
+                            ("sweep", "m.yaml", "--vary", "mass=1,2", "--set", "duration=0.02", "--out", "study", "--quiet"),
+                            ("modes", "m.yaml"), ("linearize", "m.yaml")):
+                with self.subTest(kilobytes=kilobytes, command=command[0]):
+                    done = self.limited(resource.RLIMIT_STACK, kilobytes << 10, *command)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
