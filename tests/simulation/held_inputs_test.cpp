@@ -226,7 +226,7 @@ EnergySummary balance(const Model& model, const SimulationDescription& d, double
     watch.step(steps.state(), steps.reactions(), true, planned.whole);
   }
   RunSummary summary;
-  watch.finish(steps.state(), d.spectral_radius, summary);
+  watch.finish(steps.state(), d.spectral_radius, {}, summary);
   return summary.energy;
 }
 

@@ -12,6 +12,7 @@ namespace {
 struct StartArguments {
   StartOptions options;
   std::vector<std::string> kinds;
+  bool overwrite = false;
   std::string coordinates, json_file;
 };
 
@@ -22,7 +23,7 @@ int run_starts(const StartArguments& a) {
     std::erase_if(options.kinds, [&](StartKind kind) {
       return std::find(a.kinds.begin(), a.kinds.end(), word(kind)) == a.kinds.end();
     });
-  require_writable({{"--json", a.json_file}});
+  require_writable({{"--json", a.json_file}}, {}, a.overwrite);
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double percent) { bar.show(percent); };
   const StartResult result = bench_start(options);
@@ -53,7 +54,8 @@ Command bench_start_command() {
                       whole_option("--repeat", a->options.runs, 1, 1000,
                                    "Timed starts of a row, at most (default 3)"),
                       text_option("--json", a->json_file, "FILE",
-                                  "Write the figures to this file as JSON")},
+                                  "Write the figures to this file as JSON"),
+                      overwrite_option(a->overwrite)},
           .footer = "Times are processor times, the least of the repetitions.",
           .run = [a] { return run_starts(*a); }};
 }

@@ -36,6 +36,7 @@ bool is_own_json(std::string_view text) {
           holds_all(text, {"\"model\"", "\"coordinates\"", "\"inertia\"", "\"step_s\""}) ||
           holds_all(text, {"\"nodes\"", "\"elements\"", "\"degrees_of_freedom\"", "\"modes\""}) ||
           holds_all(text, {"\"rows\"", "\"coordinates\"", "\"inertia\""}) ||
+          holds_all(text, {"\"rows\"", "\"allowed_s\""}) ||
           holds_all(text, {"\"rows\"", "\"us_per_"}));
 }
 
