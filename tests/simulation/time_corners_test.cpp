@@ -202,8 +202,8 @@ TEST(TimeCorners, StepsOfALoadAreExact) {
 }
 
 // The impulse of a pulse that lies between two steps.
-// Ends of steps are sums of steps, and rounding leaves them on either side of jumps that are written
-// as numbers: 0.09 + 0.01 is less than 0.1.
+// Ends of steps are sums of steps, and rounding leaves them on either side of jumps that are
+// written as numbers: 0.09 + 0.01 is less than 0.1.
 TEST(TimeCorners, JumpsAtEndsOfStepsAreMetWhateverTheRounding) {
   struct Grid {
     double step, on, off;

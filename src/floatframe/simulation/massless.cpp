@@ -17,8 +17,8 @@ double little_stiffness(const F& f) {
   return std::min(1e-10, 1e-4 / std::max(stiffest, 1.0));
 }
 
-/// Some body is bent. What has no mass then is a bend that turns with its body, which stiffness seems
-/// to hold, although the elastic energy does not change.
+/// Some body is bent. What has no mass then is a bend that turns with its body, which stiffness
+/// seems to hold, although the elastic energy does not change.
 template <class F>
 bool bent(const F& f, const VecX& q) {
   const Model& model = f.model();
