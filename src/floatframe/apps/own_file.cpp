@@ -131,7 +131,11 @@ bool is_own_results(const std::string& path) {
     const std::string beside = (std::filesystem::path(path).parent_path() / name).string();
     if (std::filesystem::exists(beside, error) && is_own_file(beside)) return true;
   }
-  return false;
+  // A run of a study that was killed before its summary was there: STUDY/runs/N.
+  const std::filesystem::path study =
+      std::filesystem::absolute(path, error).parent_path().parent_path().parent_path();
+  const std::string journal = (study / "sweep.journal").string();
+  return std::filesystem::exists(journal, error) && is_own_file(journal);
 }
 
 }  // namespace floatframe
