@@ -193,6 +193,15 @@ class Foreign(KeptCase):
                 for file in (self.folder / "new").iterdir():
                     file.unlink()
 
+    def test_a_run_of_a_study_that_was_killed_before_its_summary_is_its_own(self):
+        study = ("sweep", "m.yaml", "--vary", "mass=1,2", *SHORT, "--keep-results", "--out", "study")
+        self.program(*study)
+        for name in ("summary.json", "states.ffr"):
+            (self.folder / "study/runs/1" / name).unlink(missing_ok=True)
+        self.program(*study)
+        (self.folder / "study/sweep.journal").unlink()
+        self.refused("the file 'study/runs/1/results.csv' was not written by this program", *study, folder="study")
+
     def test_the_table_of_a_study_stays_until_there_is_a_new_one(self):
         self.program("sweep", "m.yaml", "--vary", "mass=1,2", *SHORT, "--out", "study")
         table = (self.folder / "study/sweep.csv").read_bytes()

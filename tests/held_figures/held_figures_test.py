@@ -21,6 +21,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SOURCES = ROOT / "src" / "floatframe"
 COUNTED = "floatframe_counted_steps"
+COUNTED_START = "floatframe_counted_start"
 COMPILER = "GNU 12"
 LISTS = {
     "joint": ("model/joint_list.hpp", "JointType"),
@@ -46,6 +47,13 @@ COUNTS = {
     "rotor, sections without inertia": ROTOR + ["--set", "section_inertia=false", "--set", "stiffening=false"],
     "rotor, sections with inertia": ROTOR + ["--set", "stiffening=false"],
     "rotor, with geometric stiffening": ROTOR,
+}
+
+
+# Starts of systems with massless directions, which dense linear algebra took 20 s for, and of many loops.
+STARTS = {
+    "chain of 111 links, relative": ["chain", "--links", "111", "--coordinates", "relative", "--duration", "0.001"],
+    "chain of 111 links, absolute": ["chain", "--links", "111", "--coordinates", "absolute", "--duration", "0.001"],
 }
 
 
@@ -87,11 +95,11 @@ def source_figures():
     return figures
 
 
-def collected(program, arguments):
-    """Instructions of a step or of a full iteration, and what the program says of the run."""
+def collected(program, arguments, counted=COUNTED):
+    """Instructions of a step, of a full iteration or of all that is counted, and what the program says of the run."""
     with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
         facts = pathlib.Path(folder) / "facts.json"
-        command = ["valgrind", "--tool=callgrind", f"--toggle-collect={COUNTED}", f"--callgrind-out-file={folder}/out",
+        command = ["valgrind", "--tool=callgrind", f"--toggle-collect={counted}", f"--callgrind-out-file={folder}/out",
                    str(program), "bench", "step", *arguments, "--json", str(facts)]
         done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT,
                               env={**os.environ, "LD_BIND_NOW": "1"})
@@ -100,7 +108,8 @@ def collected(program, arguments):
         total = int(re.search(r"Collected : (\d+)", done.stderr)[1])
         words = facts.read_text(encoding="utf-8")
         number = {key: int(re.search(rf'"{key}": (\d+)', words)[1]) for key in ("steps", "full_iterations")}
-        return total / (number["full_iterations"] or number["steps"]), words
+        each = 1 if counted == COUNTED_START else number["full_iterations"] or number["steps"]
+        return total / each, words
 
 
 def instruction_figures(program):
@@ -114,6 +123,8 @@ def instruction_figures(program):
             sys.exit(0)
         kind = "iteration" if "--iterations" in arguments else "step"
         figures[f"instructions per {kind}: {name}"] = round(count)
+    for name, arguments in STARTS.items():
+        figures[f"instructions of the start: {name}"] = round(collected(program, arguments, COUNTED_START)[0])
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")

@@ -84,8 +84,9 @@ StartResult bench_start(const StartOptions& options) {
 }
 
 double exponent(const std::vector<StartRow>& series) {
-  if (series.size() < 2) return 0.0;
+  if (series.empty()) return 0.0;
   const StartRow &a = series.front(), &b = series.back();
+  if (a.freedoms == b.freedoms) return 0.0;
   return std::log(b.start / a.start) / std::log(static_cast<double>(b.freedoms) / a.freedoms);
 }
 
@@ -108,12 +109,12 @@ std::string start_text(const StartResult& result) {
                fmt::format("{}", r.freedoms), fmt::format("{:.3g}", 1e3 * r.start),
                fmt::format("{:.3g}", 1e3 * r.step),
                fmt::format("{:.3g}{}", 1e3 * r.allowed(), r.start > r.allowed() ? " exceeded" : ""),
-               series.size() > 1 ? fmt::format("{:.2f}", exponent(series)) : ""});
+               r.freedoms > series[0].freedoms ? fmt::format("{:.2f}", exponent(series)) : ""});
   }
   return table.text() +
-         "\nFrom the built model to the first step, processor time. Allowed: 20 steps of 1 ms, 2 "
-         "ms "
-         "and 50 us for each coordinate.\nThe exponent is that from the first row of a series.\n";
+         "\nFrom the built model to the first step, processor time. Allowed: the time of 20 steps, "
+         "2 ms and 50 us\nfor each coordinate. The exponent is that from the first row of a "
+         "series.\n";
 }
 
 std::string start_json(const StartResult& result) {

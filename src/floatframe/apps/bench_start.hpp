@@ -41,7 +41,8 @@ struct StartResult {
 /// start fails says so; the others go on.
 StartResult bench_start(const StartOptions& options);
 
-/// Exponent of the start over the coordinates in rows of one series, from the first to the last.
+/// Exponent of the start over the coordinates in rows of one series, from the first to the last; 0
+/// if they have as many coordinates.
 double exponent(const std::vector<StartRow>& series);
 
 std::string start_text(const StartResult& result);

@@ -23,6 +23,12 @@ extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStep
   return stepper->advance(steps);
 }
 
+/// From the built model to the first step, for the same tools.
+extern "C" [[gnu::noinline]] floatframe::BenchStepper* floatframe_counted_start(
+    const floatframe::Model* model, const floatframe::SimulationDescription* options) {
+  return floatframe::make_bench_stepper(*model, *options).release();
+}
+
 namespace floatframe {
 namespace {
 
@@ -70,7 +76,7 @@ int run_steps(const StepArguments& a) {
   const Model model = build_model(description);
   if (a.inputs_jump && model.inputs.empty())
     throw InputError("--inputs-jump: found a model without inputs, expected one with some");
-  const auto stepper = make_bench_stepper(model, o);
+  const std::unique_ptr<BenchStepper> stepper(floatframe_counted_start(&model, &o));
   if (a.inputs_jump) stepper->jump_inputs();
   const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));
   if (!floatframe_counted_steps(stepper.get(), steps, a.iterations))

@@ -1,5 +1,8 @@
 #include "floatframe/apps/start_models.hpp"
 
+#include <array>
+#include <map>
+
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/core/enum_index.hpp"
 
@@ -32,6 +35,7 @@ class Builder {
     body.name = name;
     body.X_WB.p = body.X_WT.p = a;
     body.kind = f;
+    ends_[name] = {a, b};
     d_.bodies.push_back(body);
   }
   void joint(JointType type, const std::string& parent, const std::string& child, const Vec3& at,
@@ -73,15 +77,15 @@ class Builder {
     AttachmentDescription p;
     p.body = body;
     p.point = at;
-    for (const BodyDescription& b : d_.bodies)
-      if (b.name == body)
-        if (const auto* f = std::get_if<FlexibleDescription>(&b.kind))
-          p.node = (f->points.at("start") - at).norm() < (f->points.at("end") - at).norm() ? "start"
-                                                                                           : "end";
+    if (const auto ends = ends_.find(body); ends != ends_.end()) {
+      const auto& [start, end] = ends->second;
+      p.node = (start - at).norm() < (end - at).norm() ? "start" : "end";
+    }
     return p;
   }
 
   bool flexible_;
+  std::map<std::string, std::array<Vec3, 2>> ends_;  ///< of flexible beams
   ModelDescription d_;
 };
 

@@ -1,8 +1,7 @@
 #pragma once
-// The rows of a sparse matrix in their order: which repeat those before them, and solutions of
-// least norm. Sparse QR of the transpose without a change of the order, so that rows that are
-// listed from neighbour to neighbour (chains, ladders, vehicles one after the other) cost in
-// proportion to their number. Load time.
+// The rows of a sparse matrix in their order: which depend on those before them, and solutions of
+// least norm. Sparse QR of the transpose in natural ordering, which keeps the order of the rows.
+// Each dependent row costs a new elimination tree. Load time.
 #include <Eigen/SparseCore>
 #include <memory>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Whoever wants to see the state where forces jump, just before and just after it.
+// A callback on both sides of an instant at which forces jump.
 #include "floatframe/integrator/step.hpp"
 
 namespace floatframe {

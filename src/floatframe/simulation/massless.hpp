@@ -41,7 +41,7 @@ template <class F>
 bool start_by_passes(F& f, State& state, double penalty_mass, bool lacks_mass, bool must_settle);
 
 /// Coordinates up to which dense linear algebra takes milliseconds.
-inline constexpr Eigen::Index few_dense = 250;
+inline constexpr Eigen::Index few_dense = 150;
 /// Coordinates beyond which dense linear algebra takes minutes.
 inline constexpr Eigen::Index most_dense = 1000;
 

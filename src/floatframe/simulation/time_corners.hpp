@@ -35,7 +35,7 @@ struct TimeCornerOptions {
 struct TimeCorners {
   std::vector<TimeCorner> located;  ///< ascending
   /// Sentences: motions whose velocity jumps; tables that are too dense; for steps that are not
-  /// divided, what is passed over. What falls on the end of a step is not told of.
+  /// divided, corners within a step. Corners at the end of a step are not mentioned.
   std::vector<std::string> velocity_jumps, dense, passed;
 };
 
