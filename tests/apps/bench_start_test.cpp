@@ -97,7 +97,7 @@ TEST(Starts, AFlexibleChainLacksMassAndIsHeldByStiffness) {
 
 // Each field of a ladder is a planar loop of hinges: three of its constraints repeat others.
 TEST(Starts, RedundantDirectionsOfShortAndLongLadders) {
-  for (const int fields : {5, 80}) {  // fewer and more rows than `few_rows`
+  for (const int fields : {5, 80}) {
     const ModelCounts counts = check(build_model(start_model(StartKind::ladder, false, fields)));
     EXPECT_EQ(counts.start.redundant.size(), static_cast<std::size_t>(3 * fields));
     EXPECT_EQ(counts.degrees_of_freedom, 1);

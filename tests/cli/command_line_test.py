@@ -408,6 +408,9 @@ class Bench(CommandLine):
             self.assertGreater(row["iterations"], 0)
             self.assertGreater(row["cpu_s_min"], 0)
             self.assertGreaterEqual(row["cpu_s_median"], row["cpu_s_min"])
+        self.assertEqual([row["step_s"] for row in figures["errors"]], [0.01, 0.005, 0.002, 0.001])
+        for row, next_row in zip(figures["errors"], figures["errors"][1:]):
+            self.assertGreater(row["error_m"], 1.5 * next_row["error_m"])
         self.assertGreater(figures["dense_llt_98_us"], 0)
         self.assertGreater(figures["rel_p_iteration_us"], 0)
         self.assertEqual(self.files(), ["bench.json", "pendulum.yaml"])

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/command.hpp"
@@ -19,6 +20,12 @@ constexpr Combination combinations[] = {{Coordinates::absolute, InertiaMethod::p
                                         {Coordinates::absolute, InertiaMethod::preprocessing},
                                         {Coordinates::relative, InertiaMethod::projection},
                                         {Coordinates::relative, InertiaMethod::preprocessing}};
+
+/// Processor time of a run without input and output, in blocks of steps.
+StepTime stepping_time(const Model& model, const SimulationDescription& simulation, long steps,
+                       int repeats) {
+  return time_steps(*make_bench_stepper(model, simulation), steps, repeats, 0.0);
+}
 
 BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
                          const Combination& combination, const BenchOptions& options, int elements,
@@ -44,13 +51,62 @@ BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
   row.factorizations = summary.factorizations;
   row.max_position_violation = summary.max_position_violation;
   row.max_velocity_violation = summary.max_velocity_violation;
-  const auto stepper = make_bench_stepper(model, simulation);
-  const StepTime time = time_steps(*stepper, summary.steps, options.repeats, 0.0);
+  const StepTime time = stepping_time(model, simulation, summary.steps, options.repeats);
   row.cpu_min = time.least * static_cast<double>(time.steps);
   row.cpu_median = time.median * static_cast<double>(time.steps);
   row.real_time_factor = row.cpu_min > 0.0 ? summary.duration / row.cpu_min : 0.0;
   one_done();
   return row;
+}
+
+ResultTable rows_of(const Model& model, const SimulationDescription& simulation, double step,
+                    long& steps) {
+  SimulationDescription s = simulation;
+  s.step = step;
+  s.given_by("--step", "step");
+  const RunResult result = run(model, s);
+  steps = result.summary.steps;
+  if (result.summary.status != "completed")
+    throw RunError(
+        fmt::format("steps of {:g} ms: the run failed: {}", 1e3 * step, result.summary.message));
+  return result.table;
+}
+
+/// The largest difference of two tables of the same instants in a column of lengths.
+void compare_lengths(const ResultTable& table, const ResultTable& fine, BenchError& e) {
+  for (std::size_t k = 1; k < table.columns.size(); ++k) {
+    if (table.columns[k].unit != "m") continue;
+    for (std::size_t i = 0; i < std::min(table.rows(), fine.rows()); ++i) {
+      const double apart = std::abs(table.at(i, k) - fine.at(i, k));
+      if (!(apart > e.error)) continue;
+      e.error = apart;
+      e.channel = table.columns[k].name;
+      e.time = table.at(i, 0);
+    }
+  }
+}
+
+std::vector<BenchError> errors_of_steps(const Model& model, SimulationDescription simulation,
+                                        int repeats) {
+  simulation.coordinates = Coordinates::relative;
+  simulation.inertia = InertiaMethod::preprocessing;
+  const double step = simulation.step;
+  simulation.output_interval = step;
+  long steps = 0;
+  const ResultTable fine = rows_of(model, simulation, step / 100.0, steps);
+  std::vector<BenchError> errors;
+  for (const double parts : {1.0, 2.0, 5.0, 10.0}) {
+    BenchError e;
+    e.step = step / parts;
+    compare_lengths(rows_of(model, simulation, e.step, steps), fine, e);
+    SimulationDescription timed = simulation;
+    timed.step = e.step;
+    const StepTime time = stepping_time(model, timed, steps, repeats);
+    e.cpu_min = time.least * static_cast<double>(time.steps);
+    e.real_time_factor = e.cpu_min > 0.0 ? simulation.duration / e.cpu_min : 0.0;
+    errors.push_back(e);
+  }
+  return errors;
 }
 
 /// One full Newton iteration at the start, in relative coordinates [s].
@@ -91,6 +147,7 @@ BenchResult bench_iltis(const BenchOptions& options) {
     if (elements == largest) {
       result.dense_llt = dense_factorization_seconds(98);
       result.rel_p_iteration = iteration_seconds(model, description.simulation);
+      result.errors = errors_of_steps(model, description.simulation, options.repeats);
     }
     for (const Combination& combination : combinations) {
       result.rows.push_back(

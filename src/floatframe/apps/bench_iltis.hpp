@@ -1,8 +1,9 @@
 #pragma once
 // Table 1 of the paper on this machine: processor time of the Iltis manoeuvre in the four
 // combinations of coordinates and inertia method against the number of elements per bar; what the
-// model's preparation costs; and two yardsticks measured in the same run, a dense Cholesky
-// factorisation and one full Newton iteration.
+// model's preparation costs; how accurate the steps are that shorter ones cost more than; and two
+// yardsticks measured in the same run, a dense Cholesky factorisation and one full Newton
+// iteration.
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,9 +31,18 @@ struct BenchBuild {
          build = 0;  ///< [s] reading the model file; finite elements, modes and constant integrals
 };
 
+/// Cost beside error: in relative coordinates, preprocessing, at the largest number of elements.
+struct BenchError {
+  double step = 0, cpu_min = 0, real_time_factor = 0;  ///< as above
+  double error = 0;     ///< largest of any position among the outputs, to steps of a hundredth [m]
+  std::string channel;  ///< where
+  double time = 0;      ///< when [s]
+};
+
 struct BenchResult {
   std::vector<BenchRow> rows;      ///< by combination, then by elements per bar
   std::vector<BenchBuild> builds;  ///< one for each number of elements
+  std::vector<BenchError> errors;  ///< by falling step
   double step = 0, duration = 0;   ///< [s]
   int repeats = 0;
   double dense_llt = 0;        ///< [s], 98 x 98

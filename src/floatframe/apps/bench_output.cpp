@@ -80,6 +80,16 @@ std::string table1_text(const BenchResult& result) {
   return table.text(2);
 }
 
+std::string error_text(const BenchResult& result) {
+  TextTable table(
+      {"Rel. + P, step [ms]", "seconds", "x real time", "largest error [m]", "of", "at [s]"}, {4});
+  for (const BenchError& e : result.errors)
+    table.add({fmt::format("{:g}", 1e3 * e.step), fmt::format("{:.4f}", e.cpu_min),
+               fmt::format("{:.1f}", e.real_time_factor), fmt::format("{:.1e}", e.error), e.channel,
+               fmt::format("{:.4g}", e.time)});
+  return table.text(2);
+}
+
 std::string work_text(const BenchResult& result) {
   TextTable table({"", "elements per bar", "steps", "by halving", "Newton iterations",
                    "us per iteration", "us per step", "LLTs per step", "positions [m]",
@@ -110,6 +120,9 @@ std::string bench_text(const BenchResult& result) {
          "\n  x real time: of the minimum. build: once a model, not part of the processor "
          "seconds; preprocessing\n"
          "  is finite elements, modes and constant integrals of all bodies.\n\n" +
+         error_text(result) +
+         fmt::format("\n  Errors of positions among the outputs, against steps of {:g} ms.\n\n",
+                     10.0 * result.step) +
          work_text(result) +
          fmt::format(
              "\n  one dense LLT of a 98 x 98 matrix        {:8.2f} us\n"
@@ -121,7 +134,7 @@ std::string bench_text(const BenchResult& result) {
 
 std::string bench_json(const BenchResult& result) {
   using Json = nlohmann::ordered_json;
-  Json rows = Json::array(), builds = Json::array();
+  Json rows = Json::array(), builds = Json::array(), errors = Json::array();
   for (const BenchRow& row : result.rows) {
     rows.push_back({{"coordinates", word(row.coordinates)},
                     {"inertia", word(row.inertia)},
@@ -143,7 +156,15 @@ std::string bench_json(const BenchResult& result) {
                       {"read_s", build.read},
                       {"build_s", build.build}});
   }
+  for (const BenchError& e : result.errors)
+    errors.push_back({{"step_s", e.step},
+                      {"cpu_s_min", e.cpu_min},
+                      {"real_time_factor", e.real_time_factor},
+                      {"error_m", e.error},
+                      {"channel", e.channel},
+                      {"time_s", e.time}});
   const Json json = {{"rows", rows},
+                     {"errors", errors},
                      {"dense_llt_98_us", 1e6 * result.dense_llt},
                      {"rel_p_iteration_us", 1e6 * result.rel_p_iteration},
                      {"preprocessing", builds},

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -68,11 +69,12 @@ std::string edges_text(const RunSummary& s) {
 
 std::string summary_text(const RunSummary& s) {
   return fmt::format(
-      "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time){}\n"
+      "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time at steps of "
+      "{:g} ms){}\n"
       "  {} coordinates, inertia terms by {}, step {:g} s\n"
       "  {}, {} by halving, {}, {}\n"
       "{}  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
-      s.model, s.duration, s.cpu, s.real_time_factor,
+      s.model, s.duration, s.cpu, s.real_time_factor, 1e3 * s.step,
       s.status == "completed" || s.strict ? ""
       : s.status == "interrupted"         ? ", then it was interrupted"
                                           : ", then it failed",
@@ -189,7 +191,20 @@ int complete_before(const RunArguments& arguments, const RunPaths& paths) {
   return exit_code::done;
 }
 
+using WallClock = std::chrono::steady_clock;
+
+std::string wall_text(WallClock::time_point begin, WallClock::time_point computed) {
+  const auto seconds = [](WallClock::time_point a, WallClock::time_point b) {
+    return std::chrono::duration<double>(b - a).count();
+  };
+  const WallClock::time_point now = WallClock::now();
+  return fmt::format(
+      "  wall time {:.3g} s, of it {:.2g} s after the last step: results and report\n",
+      seconds(begin, now), seconds(computed, now));
+}
+
 int run_model(const RunArguments& arguments) {
+  const WallClock::time_point begin = WallClock::now();
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, arguments.quiet, &used);
   apply(arguments, description.simulation);
@@ -216,6 +231,7 @@ int run_model(const RunArguments& arguments) {
     // A summary and a report that say so, in place of older results.
     report.result.summary = failed_summary(description.name, description.simulation, error.what());
   }
+  const WallClock::time_point computed = WallClock::now();
   report.subjects = channel_subjects(model);
   report.facts.push_back(
       setting_facts(arguments.model.path, arguments.model.settings, description.simulation));
@@ -240,7 +256,8 @@ int run_model(const RunArguments& arguments) {
   }
   if (!arguments.quiet && !files.untouched())
     print((has_table ? summary_text(summary) : "") + files_text(paths, has_table) +
-          (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
+          (state ? fmt::format("  state    {}\n", arguments.write_state) : "") +
+          wall_text(begin, computed));
   return end_of(paths, summary, has_table, unwritten, files);
 }
 

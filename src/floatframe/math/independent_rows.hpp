@@ -1,9 +1,10 @@
 #pragma once
 // The rows of a sparse matrix in their order: which depend on those before them, and solutions of
-// least norm. Sparse QR of the transpose in natural ordering, which keeps the order of the rows.
-// Each dependent row costs a new elimination tree. Load time.
+// least norm. Householder QR of the transpose, a column at a time, which takes up only the
+// reflections that reach what is not zero in it. A reflection ends at the coordinate that the rows
+// to come use for the shortest time, so that those of a chain of loops reach from one to the next:
+// the cost is proportional to their number. Load time.
 #include <Eigen/SparseCore>
-#include <memory>
 #include <vector>
 
 #include "floatframe/math/types.hpp"
@@ -16,19 +17,32 @@ class IndependentRows {
  public:
   /// A row is dependent if less than `threshold` of its length is left beside the rows before it.
   IndependentRows(const SparseRowMatrix& A, double threshold);
-  ~IndependentRows();
-  IndependentRows(IndependentRows&&) noexcept;
-  IndependentRows& operator=(IndependentRows&&) noexcept;
 
-  Eigen::Index rank() const;
+  Eigen::Index rank() const noexcept { return columns_.size(); }
   /// Ascending.
-  std::vector<int> dependent() const;
+  const std::vector<int>& dependent() const noexcept { return dependent_; }
   /// The x of least norm that meets the independent rows of A x = b.
   VecX least_norm(const VecX& b) const;
 
  private:
-  struct Factors;
-  std::unique_ptr<Factors> factors_;
+  struct Entry {
+    int at;
+    double value;
+  };
+  /// Of an independent row a: H_k ... H_1 a / |a| = R_k + diagonal e_pivot, H_k = I - factor v v^T.
+  struct Column {
+    int row, pivot;
+    double inverse_length;  ///< 1 / |a|
+    double diagonal, factor;
+    std::vector<Entry> R;  ///< at the pivots of columns before
+    std::vector<Entry> v;
+  };
+
+  Eigen::Index unknowns_;
+  std::vector<Column> columns_;
+  std::vector<int> dependent_;
+
+  class Elimination;
 };
 
 }  // namespace floatframe

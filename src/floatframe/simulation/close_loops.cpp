@@ -19,6 +19,9 @@ namespace {
 
 using Given = TreeKinematics::Given;
 
+/// Up to here dense linear algebra is as fast, which takes the rows in the best order.
+constexpr int few_rows = 200;
+
 /// Least weighted change x with J x = b.
 VecX least_change(const SparseRowMatrix& J, const VecX& w, const VecX& b) {
   if (J.cols() == 0) return VecX();

@@ -67,10 +67,7 @@ std::vector<int> dependent_rows(const MatX& J) {
   return rows;
 }
 
-int rank_of(const SparseRowMatrix& J) {
-  if (J.rows() > few_rows) return static_cast<int>(IndependentRows(J, dependent).rank());
-  return static_cast<int>(pivoted_rank(MatX(J).transpose(), dependent));
-}
+int rank_of(const SparseRowMatrix& J) { return IndependentRows(J, dependent).rank(); }
 
 ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
     : model_(tree.model()), f_(tree.model(), tree.model().simulation.inertia) {
@@ -125,32 +122,12 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
 
 std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
   std::vector<RedundantDirection> found;
-  if (J_.rows() > few_rows) {
-    const std::vector<int> rows = IndependentRows(J_, dependent).dependent();
-    auto next = rows.begin();
-    for (std::size_t k = 0; k < parts().size(); ++k)
-      for (; next != rows.end() && *next < row_of(k) + parts()[k].rows(); ++next)
-        found.push_back(
-            {owner_name(model_, parts()[k].owner), direction_text(parts()[k], rows_[*next])});
-    return found;
-  }
-  const MatX J(J_);
-  MatX basis(J.cols(), std::min(J.rows(), J.cols()));  // orthonormal, of the rows met so far
-  Eigen::Index rank = 0;
-  for (std::size_t k = 0; k < parts().size(); ++k) {
-    const ConstraintPart& part = parts()[k];
-    for (int r = 0; r < part.rows(); ++r) {
-      const Eigen::Index i = row_of(k) + r;
-      VecX x = J.row(i).transpose();
-      const double size = x.norm();
-      for (int pass = 0; pass < 2; ++pass)  // twice is enough
-        x -= basis.leftCols(rank) * (basis.leftCols(rank).transpose() * x);
-      if (rank < basis.cols() && x.norm() > dependent * size)
-        basis.col(rank++) = x.normalized();
-      else
-        found.push_back({owner_name(model_, part.owner), direction_text(part, rows_[i])});
-    }
-  }
+  const IndependentRows independent(J_, dependent);
+  auto next = independent.dependent().begin();
+  for (std::size_t k = 0; k < parts().size(); ++k)
+    for (; next != independent.dependent().end() && *next < row_of(k) + parts()[k].rows(); ++next)
+      found.push_back(
+          {owner_name(model_, parts()[k].owner), direction_text(parts()[k], rows_[*next])});
   return found;
 }
 

@@ -6,7 +6,7 @@
 //   reactions are J^T lambda, so a lambda with J^T lambda = 0 may be added to them: a component
 //   that all of these leave alone is unique, for the others the lambda of least norm is given.
 // Tree joints of the relative formulation have no multipliers, so the rows are those of the
-// absolute formulation. Dense linear algebra, load time only.
+// absolute formulation. Load time only.
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/results.hpp"
@@ -43,8 +43,6 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
 
 /// Rank of the rows of J.
 int rank_of(const SparseRowMatrix& J);
-/// Below, dense linear algebra is as fast and tells the rank by the best order of the rows.
-inline constexpr int few_rows = 200;
 /// The rows with the largest part in the combination of rows of J that is nearest to zero without
 /// being zero.
 std::vector<int> dependent_rows(const MatX& J);
