@@ -43,7 +43,7 @@ void* memalign(std::size_t alignment, std::size_t size) {
   ++allocations;
   return __libc_memalign(alignment, size);
 }
-int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
+int posix_memalign(void** out, std::size_t alignment, std::size_t size) noexcept {
   ++allocations;
   void* p = __libc_memalign(alignment, size);
   if (p == nullptr) return ENOMEM;
