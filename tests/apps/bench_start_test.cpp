@@ -61,8 +61,8 @@ double penalty_of(const Model& model) {
 // Links of a chain have no inertia about their own axes. From 17 links on the start is sparse: the
 // same accelerations as by dense linear algebra.
 template <class F>
-void starts_as_by_dense_linear_algebra(int links) {
-  const Model model = build_model(start_model(StartKind::chain, true, links));
+void starts_as_by_dense_linear_algebra(StartKind kind, bool flexible, int number) {
+  const Model model = build_model(start_model(kind, flexible, number));
   Started<F> s(model);
   State sparse = s.state, dense = s.state;
   start_accelerations_dense(s.f, dense);
@@ -73,14 +73,20 @@ void starts_as_by_dense_linear_algebra(int links) {
   const VecX weight = (diagonal.array() > no_mass * diagonal.maxCoeff()).template cast<double>();
   const double size = 1.0 + dense.a.lpNorm<Eigen::Infinity>();
   EXPECT_LT(weight.cwiseProduct(sparse.a - dense.a).lpNorm<Eigen::Infinity>(), 1e-6 * size)
-      << links;
+      << word(kind) << ' ' << number;
 }
 
 TEST(Starts, SparseAsByDenseLinearAlgebra) {
   for (const int links : {12, 30}) {
-    starts_as_by_dense_linear_algebra<RelativeFormulation>(links);
-    starts_as_by_dense_linear_algebra<AbsoluteFormulation>(links);
+    starts_as_by_dense_linear_algebra<RelativeFormulation>(StartKind::chain, true, links);
+    starts_as_by_dense_linear_algebra<AbsoluteFormulation>(StartKind::chain, true, links);
   }
+}
+
+// All loops of a ladder are one cluster, which is wide enough here for a front by its profile.
+TEST(Starts, LaddersAsByDenseLinearAlgebra) {
+  starts_as_by_dense_linear_algebra<RelativeFormulation>(StartKind::ladder, false, 60);
+  starts_as_by_dense_linear_algebra<RelativeFormulation>(StartKind::ladder, true, 15);
 }
 
 TEST(Starts, AFlexibleChainLacksMassAndIsHeldByStiffness) {

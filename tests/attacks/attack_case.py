@@ -34,17 +34,18 @@ def files_of(folder):
 
 
 class AttackCase(unittest.TestCase):
-    def attacks(self, kind):
-        """(number, its own random numbers, an empty folder) of each attack."""
+    def attacks(self, kind, one):
+        """Calls one(random, folder) for each attack, with random numbers and an empty folder of its own."""
         for k in range(ATTACKS):
             seed = f"{kind} {SEED + k}"
             folder = pathlib.Path(tempfile.mkdtemp(prefix="floatframe_attack_"))
             try:
                 with self.subTest(seed=seed):
-                    yield random.Random(seed), folder
-            except BaseException:
-                self.keep(folder, seed)
-                raise
+                    try:
+                        one(random.Random(seed), folder)
+                    except BaseException:
+                        self.keep(folder, seed)
+                        raise
             finally:
                 shutil.rmtree(folder, ignore_errors=True)
 

@@ -10,12 +10,25 @@ LINES = ("", "  ", "\t", "---", "...", "? x", "- - - -", "{", "]", "include: mod
          "simulation: {step: 1e-300}", "simulation: {duration: 1e300, step: 1e-9}", "a: &a [*a, *a]")
 
 
-def number(random):
-    return random.choice(NUMBERS)
+NUMBER = r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])"
+FACTORS = (-1.0, 0.0, 1e-9, 1e-3, 0.3, 3.0, 30.0, 1e3, 1e6, 1e9, 1e-15)
+
+
+def unlikely(random, good):
+    """The text with one to three of its numbers multiplied: what reads well and means something else."""
+    for _ in range(random.randint(1, 3)):
+        found = list(re.finditer(NUMBER, good))
+        if not found:
+            return good
+        one = random.choice(found)
+        good = f"{good[:one.start()]}{float(one[0]) * random.choice(FACTORS):.12g}{good[one.end():]}"
+    return good
 
 
 def text(random, good, changes=None):
-    """The lines of a good file after one to four changes."""
+    """The lines of a good file after one to four changes, or with unlikely numbers."""
+    if random.random() < 0.6:
+        return unlikely(random, good)
     lines = good.split("\n")
     for _ in range(changes or random.randint(1, 4)):
         if not lines:
@@ -38,7 +51,7 @@ def text(random, good, changes=None):
         elif change == 6:
             lines[k] = replaced(random, lines[k], r"[A-Za-z_][A-Za-z_0-9]*", random.choice(WORDS))
         else:
-            lines[k] = replaced(random, lines[k], r"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?", number(random))
+            lines[k] = replaced(random, lines[k], NUMBER, random.choice(NUMBERS))
     return "\n".join(lines)
 
 

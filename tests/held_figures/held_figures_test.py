@@ -53,6 +53,8 @@ COUNTS = {
 # Starts of systems with massless directions, which dense linear algebra took 20 s for, and of many loops.
 STARTS = {
     "chain of 111 links, relative": ["chain", "--links", "111", "--coordinates", "relative", "--duration", "0.001"],
+    "ladder of 100 fields, relative": ["ladder", "--links", "100", "--coordinates", "relative", "--duration", "0.001"],
+    "ladder of 400 fields, relative": ["ladder", "--links", "400", "--coordinates", "relative", "--duration", "0.001"],
     "chain of 111 links, absolute": ["chain", "--links", "111", "--coordinates", "absolute", "--duration", "0.001"],
 }
 

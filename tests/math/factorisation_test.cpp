@@ -6,6 +6,7 @@
 
 #include "floatframe/math/block_ldlt.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
+#include "floatframe/math/profile_ldlt.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
@@ -65,6 +66,46 @@ TEST(PartialLdlt, TrailingBlockIsTheSchurComplement) {
       const VecX rest = b.segment(ne, m) - A21 * A11.llt().solve(b.head(ne));
       partial_forward(f.data(), n, ne, b.data());
       EXPECT_LT((b.segment(ne, m) - rest).norm(), 1e-11 * (1.0 + rest.norm()));
+    }
+}
+
+/// A band with a border, and how far its columns reach.
+MatX bordered_band(Random& random, int n, int ne, int width, FrontProfile& profile) {
+  MatX a = random_spd(random, n);
+  profile.assign(ne, 0);
+  for (int j = 0; j < ne; ++j) {
+    const int end = std::min(ne, j + 1 + (j % width));
+    profile[j] = std::max(j == 0 ? 0 : profile[j - 1], (end + 3) & ~3);
+    for (int i = end; i < ne; ++i) a(i, j) = a(j, i) = 0.0;
+  }
+  a.diagonal().array() += 2.0 * n;
+  return a;
+}
+
+TEST(ProfileLdlt, EqualsTheFullFactorisation) {
+  Random random(4);
+  for (const int border : {0, 1, 6, 9})
+    for (int ne = 1; ne <= 30; ++ne) {
+      const int n = ne + border, ld = front_stride(n);
+      FrontProfile profile;
+      const MatX a = bordered_band(random, n, ne, 6, profile);
+      const VecX b0 = padded(random.vector(n));
+      MatX full = front_of(a, ld), narrow = MatX::Constant(ld, n, std::nan(""));
+      profile_clear(narrow.data(), n, ne, profile);
+      for (int j = 0; j < n; ++j)
+        for (int i = j; i < n; ++i)
+          if (a(i, j) != 0.0) narrow(i, j) = a(i, j);
+      VecX diagonal(n), b = b0, c = b0;
+      ASSERT_EQ(partial_ldlt(full.data(), n, ne, diagonal.data()), -1);
+      ASSERT_EQ(profile_ldlt(narrow.data(), n, ne, diagonal.data(), profile), -1);
+      for (int j = ne; j < n; ++j)
+        for (int i = j; i < n; ++i) EXPECT_NEAR(narrow(i, j), full(i, j), 1e-11 * n);
+      partial_forward(full.data(), n, ne, b.data());
+      profile_forward(narrow.data(), n, ne, c.data(), profile);
+      EXPECT_LT((b - c).norm(), 1e-12 * b.norm()) << ne << ' ' << border;
+      partial_backward(full.data(), n, ne, b.data());
+      profile_backward(narrow.data(), n, ne, c.data(), profile);
+      EXPECT_LT((b - c).norm(), 1e-12 * b.norm()) << ne << ' ' << border;
     }
 }
 

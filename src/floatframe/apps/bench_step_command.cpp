@@ -9,6 +9,7 @@
 #include "floatframe/apps/bench_command.hpp"
 #include "floatframe/apps/bench_scaling.hpp"
 #include "floatframe/apps/chain_model.hpp"
+#include "floatframe/apps/start_models.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -56,6 +57,8 @@ ModelDescription described(const StepArguments& a) {
     d.simulation.spectral_radius = chain_spectral_radius;
     return d;
   }
+  for (const StartKind kind : all_start_kinds)
+    if (a.model == word(kind)) return start_model(kind, false, a.links);
   ModelArguments arguments;
   arguments.path = a.model == "iltis" ? find_iltis() : a.model;
   arguments.settings = a.settings;
@@ -116,10 +119,13 @@ Command bench_step_command() {
       .name = "step",
       .help = "Only the steps of a run, for a profiler or an instruction counter",
       .options =
-          {text_position("MODEL", a->model, "chain (default), iltis or a model file"),
+          {text_position("MODEL", a->model,
+                         "chain (default), ladder or vehicles (rigid, as in bench start), "
+                         "iltis or a model file"),
            repeated_option("--set", a->settings, "NAME=VALUE",
                            "Change a parameter of the model file; may be repeated"),
-           whole_option("--links", a->links, 1, 4096, "Links of the chain (default 4)"),
+           whole_option("--links", a->links, 1, 4096,
+                        "Links of the chain (default 4), fields of the ladder, vehicles"),
            whole_option("--modes", a->modes, 1, 1000, "Modes per link of the chain (default 8)"),
            whole_option("--elements", a->elements, 1, 100000,
                         "Elements per link of the chain (default 20)"),

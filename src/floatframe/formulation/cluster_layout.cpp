@@ -29,8 +29,9 @@ ClusterTangent::ClusterTangent(const TreeKinematics& tree, const ConstraintSet& 
     bodies_.push_back(std::move(t));
   }
   for (const Cluster& c : clusters_)
-    fronts_.push_back({{}, VecX::Zero(c.n), VecX::Zero(front_stride(c.n))});
+    fronts_.push_back({{}, VecX::Zero(c.n), VecX::Zero(front_stride(c.n)), {}});
   make_elements();
+  for (std::size_t k = 0; k < clusters_.size(); ++k) fronts_[k].profile = profile_of(k);
   std::size_t widest = 64, gradients = 0;
   for (const TreeBody& b : tree.bodies())
     widest = std::max(widest, static_cast<std::size_t>(6 + b.nm));
@@ -42,7 +43,12 @@ ClusterTangent::ClusterTangent(const TreeKinematics& tree, const ConstraintSet& 
     gradients += static_cast<std::size_t>(part_elements_[k].width * constraints.parts()[k].rows());
   for (Factors& f : factors_) {
     for (const TreeBody& b : tree.bodies()) f.bodies.push_back({b.own, b.of_parent});
-    for (const Cluster& c : clusters_) f.fronts.push_back(MatX::Zero(front_stride(c.n), c.n));
+    for (std::size_t k = 0; k < clusters_.size(); ++k) {
+      const int n = clusters_[k].n;
+      // What no column reaches takes no memory until it is touched.
+      f.fronts.emplace_back(front_stride(n), n);
+      if (fronts_[k].profile.empty()) f.fronts.back().setZero();
+    }
     f.gradients.assign(gradients, 0.0);
   }
 }
@@ -72,6 +78,38 @@ void ClusterTangent::make_elements() {
       force_elements_.push_back(e);
     }
   }
+}
+
+FrontProfile ClusterTangent::profile_of(std::size_t cluster) const {
+  const Cluster& c = clusters_[cluster];
+  if (c.size < wide_cluster) return {};
+  FrontProfile end(c.size, 0);
+  const auto reach = [&](int first, int last, int row) {
+    for (int j = first; j < std::min(last, c.size); ++j) end[j] = std::max(end[j], row);
+  };
+  for (const int i : c.bodies) {
+    const TreeBody& b = tree_.body(i);
+    const int at = b.iv - c.offset, row = at + b.nj + b.nm;
+    reach(at, row, row);
+    for (int p = b.parent; p >= 0 && p != c.parent; p = tree_.body(p).parent) {
+      const int above = tree_.body(p).iv - c.offset;
+      reach(above, above + tree_.body(p).nj + tree_.body(p).nm, row);
+    }
+  }
+  for (const std::vector<TreeElement>* elements : {&part_elements_, &force_elements_})
+    for (const TreeElement& e : *elements)
+      if (e.cluster == static_cast<int>(cluster))
+        reach(e.first, e.first + e.width, e.first + e.width);
+  // A column fills up those to its right as far as it reaches itself.
+  int farthest = 0;
+  double entries = 0.0;
+  for (int j = 0; j < c.size; ++j) {
+    farthest = std::max(farthest, std::min(end[j], c.size));
+    end[j] = (farthest + 3) & ~3;
+    entries += end[j] - j;
+  }
+  if (entries > 0.25 * c.size * c.size) return {};
+  return end;
 }
 
 SparseRowMatrix ClusterTangent::constraint_rows() {

@@ -97,7 +97,11 @@ void ClusterTangent::solve(VecX& x, const VecX* w, VecX* increments, int slot) n
     for (int j = c.size; j < front.size(); ++j) work[j] = 0.0;
     if (w) add_part_loads(factors, k, *w);
     gather_loads(factors, k);
-    partial_forward(factors.fronts[k].data(), c.n, c.size, work);
+    const FrontProfile& profile = fronts_[k].profile;
+    if (profile.empty())
+      partial_forward(factors.fronts[k].data(), c.n, c.size, work);
+    else
+      profile_forward(factors.fronts[k].data(), c.n, c.size, work, profile);
     if (c.parent >= 0) {
       double* up = loads_[c.parent].data();
       for (int j = c.size; j < c.n; ++j) up[j - c.size] += work[j];
@@ -110,7 +114,11 @@ void ClusterTangent::solve(VecX& x, const VecX* w, VecX* increments, int slot) n
       const double* up = increments_[c.parent].data();
       for (int j = c.size; j < c.n; ++j) work[j] = up[j - c.size];
     }
-    partial_backward(factors.fronts[k].data(), c.n, c.size, work);
+    const FrontProfile& profile = fronts_[k].profile;
+    if (profile.empty())
+      partial_backward(factors.fronts[k].data(), c.n, c.size, work);
+    else
+      profile_backward(factors.fronts[k].data(), c.n, c.size, work, profile);
     for (int j = 0; j < c.size; ++j) x[c.offset + j] = work[j];
     if (increments) part_increments(factors, k, *increments);
     spread_increments(factors, k);

@@ -358,14 +358,23 @@ int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights
   if (weights.geometric) gather_geometric(weights.s);
   load_bodies(terms, weights, factors);
   if (second_order_ && weights.geometric) add_stiffening(terms, weights.s);
-  for (MatX& front : factors.fronts) clear_lower(front);
+  for (std::size_t k = 0; k < clusters_.size(); ++k) {
+    if (fronts_[k].profile.empty())
+      clear_lower(factors.fronts[k]);
+    else
+      profile_clear(factors.fronts[k].data(), clusters_[k].n, clusters_[k].size,
+                    fronts_[k].profile);
+  }
   assemble_forces(weights, factors);
   assemble_parts(weights, factors);
   for (std::size_t k = clusters_.size(); k-- > 0;) {
     const Cluster& c = clusters_[k];
     MatX& front = factors.fronts[k];
     assemble_cluster(c, front);
-    const int failed = partial_ldlt(front.data(), c.n, c.size, fronts_[k].original.data());
+    double* original = fronts_[k].original.data();
+    const FrontProfile& profile = fronts_[k].profile;
+    const int failed = profile.empty() ? partial_ldlt(front.data(), c.n, c.size, original)
+                                       : profile_ldlt(front.data(), c.n, c.size, original, profile);
     if (failed >= 0) return c.offset + failed;
     if (c.parent >= 0) hand_front_to_parent(c, front);
   }

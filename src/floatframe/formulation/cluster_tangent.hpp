@@ -31,6 +31,7 @@
 #include "floatframe/formulation/tree_element.hpp"
 #include "floatframe/formulation/tree_kinematics.hpp"
 #include "floatframe/math/independent_rows.hpp"
+#include "floatframe/math/profile_ldlt.hpp"
 
 namespace floatframe {
 
@@ -83,6 +84,7 @@ class ClusterTangent {
   struct Front {
     std::vector<int> parts;  ///< constraint parts whose elements lie in this cluster
     VecX original, work;
+    FrontProfile profile;  ///< of a front that is mostly zeros
   };
   /// Directions of motion of a body.
   struct Directions {
@@ -95,6 +97,7 @@ class ClusterTangent {
   };
 
   void make_elements();
+  FrontProfile profile_of(std::size_t cluster) const;
   void clear_geometric() noexcept;
   void gather_geometric(double s) noexcept;
   void add_geometric(int marker, const Vec3& force) noexcept;

@@ -13,13 +13,13 @@ class Sets {
  public:
   explicit Sets(int n) : set_(n) { std::iota(set_.begin(), set_.end(), 0); }
   int find(int i) const {
-    while (set_[i] != i) i = set_[i];
+    while (set_[i] != i) i = set_[i] = set_[set_[i]];
     return i;
   }
   void join(int i, int j) { set_[find(i)] = find(j); }
 
  private:
-  std::vector<int> set_;
+  mutable std::vector<int> set_;  // ways are shortened when they are gone
 };
 
 /// Bodies on the way between two markers, without their lowest common ancestor.
@@ -36,6 +36,52 @@ Sets tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>
     for (std::size_t i = 1; i < way.size(); ++i) sets.join(way[i], way[0]);
   }
   return sets;
+}
+
+/// Which bodies of one cluster are joined by a tie or by a joint of the tree.
+std::vector<std::vector<int>> neighbours(const TreeKinematics& tree, const Sets& sets,
+                                         std::span<const std::pair<int, int>> ties) {
+  std::vector<std::vector<int>> near(tree.body_count());
+  const auto join = [&](int a, int b) {
+    if (a < 0 || b < 0 || a == b || sets.find(a) != sets.find(b)) return;
+    near[a].push_back(b);
+    near[b].push_back(a);
+  };
+  for (const auto& [a, b] : ties) join(tree.marker(a).body, tree.marker(b).body);
+  for (int i = 0; i < tree.body_count(); ++i) join(i, tree.body(i).parent);
+  return near;
+}
+
+/// The bodies that hang together with `first`, the nearest in front.
+std::vector<int> by_distance(int first, const std::vector<std::vector<int>>& near) {
+  std::vector<int> order{first};
+  std::vector<bool> met(near.size(), false);
+  met[first] = true;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (const int i : near[order[k]])
+      if (!met[i]) {
+        met[i] = true;
+        order.push_back(i);
+      }
+  return order;
+}
+
+/// By the distance from the outermost body (Cuthill and McKee 1969), but parents before children.
+void order_bodies(Cluster& c, const TreeKinematics& tree,
+                  const std::vector<std::vector<int>>& near) {
+  const std::vector<int> order = by_distance(by_distance(c.bodies.front(), near).back(), near);
+  if (order.size() != c.bodies.size()) return;  // tied by their parent only
+  std::vector<bool> waits(near.size(), false);
+  for (const int i : c.bodies) waits[i] = true;
+  c.bodies.clear();
+  for (const int body : order) {
+    std::vector<int> way;
+    for (int i = body; i >= 0 && waits[i]; i = tree.body(i).parent) way.push_back(i);
+    for (auto i = way.rbegin(); i != way.rend(); ++i) {
+      c.bodies.push_back(*i);
+      waits[*i] = false;
+    }
+  }
 }
 
 /// The parent of a cluster: of all bodies that hang from outside of it the one nearest to the
@@ -78,7 +124,13 @@ std::vector<Cluster> find_clusters(const TreeKinematics& tree,
     clusters[cluster_of_set[root]].bodies.push_back(link.body);
     depth[link.body] = link.parent < 0 ? 1 : depth[link.parent] + 1;
   }
-  for (Cluster& c : clusters) c.parent = parent_of(c, tree, sets, depth);
+  const std::vector<std::vector<int>> near = neighbours(tree, sets, ties);
+  for (Cluster& c : clusters) {
+    c.parent = parent_of(c, tree, sets, depth);
+    int coordinates = 0;
+    for (const int i : c.bodies) coordinates += tree.body(i).nj + tree.body(i).nm;
+    if (coordinates >= wide_cluster) order_bodies(c, tree, near);
+  }
   // A cluster found early may hang from a body of one found later.
   std::vector<int> level(clusters.size(), -1);
   const std::function<int(int)> level_of = [&](int k) {

@@ -17,7 +17,11 @@ struct Cluster {
   int n = 0;                 ///< size of its front: [coordinates | Z_p | y_p]
 };
 
-/// The clusters, parents before children. `ties`: pairs of markers that one element joins.
+/// Clusters of fewer coordinates are factorised as full fronts.
+inline constexpr int wide_cluster = 100;
+
+/// The clusters, parents before children. Bodies of wide ones that are tied together follow each
+/// other, so that their fronts are narrow. `ties`: pairs of markers that one element joins.
 std::vector<Cluster> find_clusters(const TreeKinematics& tree,
                                    std::span<const std::pair<int, int>> ties);
 

@@ -157,8 +157,8 @@ class TreeKinematics {
   int body_of_joint(int joint) const noexcept;
   /// The body that hangs from the joint between these two markers, -1 if there is none.
   int body_between(int marker_a, int marker_b) const noexcept;
-  /// Velocity coordinate i is a modal amplitude.
-  bool is_elastic(int i) const noexcept;
+  /// Which velocity coordinates are modal amplitudes; load time.
+  std::vector<bool> elastic_coordinates() const;
   /// Indices into q of the translations of free joints to the ground.
   std::vector<int> free_translations() const;
   /// "joint 'hinge'" or "mode 2 of body 'arm'" that velocity coordinate i belongs to.

@@ -65,12 +65,12 @@ void TreeKinematics::number_coordinates(const std::vector<int>& order) {
 void TreeKinematics::need_markers(std::vector<char> needed) {
   for (const TreeBody& b : bodies_) needed[b.frame_F] = 1;
   used_markers_.assign(bodies_.size(), {});
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (std::size_t k = 0; k < markers_.size(); ++k)
-      if (markers_[k].body == static_cast<int>(i) && static_cast<int>(k) != bodies_[i].frame_M) {
-        used_markers_[i].all.push_back(static_cast<int>(k));
-        if (needed[k]) used_markers_[i].dynamic.push_back(static_cast<int>(k));
-      }
+  for (int k = 0; k < static_cast<int>(markers_.size()); ++k) {
+    const int i = markers_[k].body;
+    if (i < 0 || k == bodies_[i].frame_M) continue;
+    used_markers_[i].all.push_back(k);
+    if (needed[k]) used_markers_[i].dynamic.push_back(k);
+  }
 }
 
 BodyVectors TreeKinematics::body_vectors() const {
@@ -139,10 +139,11 @@ int TreeKinematics::body_between(int marker_a, int marker_b) const noexcept {
   return -1;
 }
 
-bool TreeKinematics::is_elastic(int i) const noexcept {
+std::vector<bool> TreeKinematics::elastic_coordinates() const {
+  std::vector<bool> elastic(nv_, false);
   for (const TreeBody& b : bodies_)
-    if (i >= b.iy && i < b.iy + b.nm) return true;
-  return false;
+    for (int k = 0; k < b.nm; ++k) elastic[b.iy + k] = true;
+  return elastic;
 }
 
 std::vector<int> TreeKinematics::free_translations() const {

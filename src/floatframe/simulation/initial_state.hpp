@@ -190,7 +190,6 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
-  constexpr double s = 1e-30;  // no stiffness in the tangent: M + penalty Phi_q^T Phi_q
   const VecX diagonal = mass_diagonal(f, state);
   // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
   const bool lacks_mass = may_lack_mass(f, diagonal, possible, penalty_mass);
@@ -199,8 +198,7 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   const bool good = lacks_mass
                         ? !small && start_held_by_stiffness(
                                         f, state, mass_scale(diagonal, possible), penalty_mass)
-                        : f.factorize(1.0, 0.0, s, penalty_mass / s) < 0 &&
-                              start_by_passes(f, state, penalty_mass, false, false);
+                        : start_by_passes(f, state, no_stiffness, penalty_mass, false, false);
   if (!good) start_accelerations_dense(f, state);
   state.a_alg = state.a;
   f.positions(state.t, state.q);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "floatframe/simulation/initial_state.hpp"
 
@@ -26,6 +27,15 @@ bool bent(const F& f, const VecX& q) {
     for (int k = 0; k < model.bodies[i].modes(); ++k)
       if (f.amplitude(q, static_cast<int>(i), k) != 0.0) return true;
   return false;
+}
+
+/// For passes. The mass that loops in a row show where they are moved against each other falls with
+/// the square of their number, and a pass takes away penalty over that mass.
+template <class F>
+double penalty_of_passes(const F& f, double penalty_mass) {
+  if constexpr (std::is_same_v<F, AbsoluteFormulation>) return penalty_mass;
+  const double loops = std::max(1.0, f.constraints() / 100.0);
+  return penalty_mass * loops * loops;
 }
 
 /// x without what of it has no mass, by T of slot 0: T^-1 M x with the same Phi_q x.
@@ -82,7 +92,10 @@ bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double pena
 }
 
 template <class F>
-bool start_by_passes(F& f, State& state, double penalty_mass, bool lacks_mass, bool must_settle) {
+bool start_by_passes(F& f, State& state, double s, double least_penalty, bool lacks_mass,
+                     bool must_settle) {
+  const double penalty_mass = penalty_of_passes(f, least_penalty);
+  if (f.factorize(1.0, 0.0, s, penalty_mass / s) >= 0) return false;
   const int nv = f.velocities(), nc = f.constraints();
   state.a = VecX::Zero(nv);
   state.lambda = VecX::Zero(nc);
@@ -127,13 +140,10 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
   for (int attempt = 0; attempt < attempts; ++attempt, s *= 1e-3) {
     const double held = large ? 0.0 : growth_of_motions(f, scale, s, penalty_mass);
     if (!(held < 1e13 && held < 1e-2 * nothing)) break;
-    if (f.factorize(1.0, 0.0, s, penalty_mass / s) >= 0) break;
-    if (start_by_passes(f, state, penalty_mass, true, !large || attempt == 0)) return true;
+    if (start_by_passes(f, state, s, penalty_mass, true, !large || attempt == 0)) return true;
   }
   // Or there is mass, little but more than rounding: long chains fold up with a 1e-10 of theirs.
-  constexpr double no_stiffness = 1e-30;
-  return nothing < 1e12 && f.factorize(1.0, 0.0, no_stiffness, penalty_mass / no_stiffness) < 0 &&
-         start_by_passes(f, state, penalty_mass, false, true);
+  return nothing < 1e12 && start_by_passes(f, state, no_stiffness, penalty_mass, false, true);
 }
 
 template VecX mass_diagonal(RelativeFormulation&, const State&);
@@ -142,8 +152,8 @@ template double growth_of_motions(RelativeFormulation&, const VecX&, double, dou
 template double growth_of_motions(AbsoluteFormulation&, const VecX&, double, double);
 template bool may_lack_mass(RelativeFormulation&, const VecX&, const VecX&, double);
 template bool may_lack_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
-template bool start_by_passes(RelativeFormulation&, State&, double, bool, bool);
-template bool start_by_passes(AbsoluteFormulation&, State&, double, bool, bool);
+template bool start_by_passes(RelativeFormulation&, State&, double, double, bool, bool);
+template bool start_by_passes(AbsoluteFormulation&, State&, double, double, bool, bool);
 template bool start_held_by_stiffness(RelativeFormulation&, State&, const VecX&, double);
 template bool start_held_by_stiffness(AbsoluteFormulation&, State&, const VecX&, double);
 

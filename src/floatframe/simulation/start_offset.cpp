@@ -91,6 +91,7 @@ double move_to(RelativeFormulation& f, OffsetGoal& goal, double t, bool hold, Ve
   const int nc = f.constraints(), n = goal.rows(hold);
   VecX q1 = q;
   double left = 0.0;
+  const std::vector<bool> elastic = f.tree().elastic_coordinates();
   for (int pass = 0; pass < 60; ++pass) {
     f.positions(t, q);
     f.velocities(rest);
@@ -102,7 +103,7 @@ double move_to(RelativeFormulation& f, OffsetGoal& goal, double t, bool hold, Ve
     J.topRows(nc) = f.constraint_jacobian();
     J.bottomRows(n) = goal.jacobian(hold);
     for (int j = 0; j < f.velocities(); ++j)
-      if (f.tree().is_elastic(j)) J.col(j).setZero();
+      if (elastic[j]) J.col(j).setZero();
     VecX x = LeastNorm(J, 1e-9).solve(b);
     const double size = x.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) break;
