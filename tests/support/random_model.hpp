@@ -121,8 +121,9 @@ inline void random_configuration(RelativeFormulation& f, Random& random, VecX& q
   f.start(q0, v);
   q = q0;
   VecX x = random.vector(f.velocities(), 0.7);
+  const std::vector<bool> elastic = f.tree().elastic_coordinates();
   for (int i = 0; i < x.size(); ++i)
-    if (f.tree().is_elastic(i)) x[i] *= 0.3;
+    if (elastic[i]) x[i] *= 0.3;
   f.retract(q0, x, q);
   v = random.vector(f.velocities(), 1.5);
 }

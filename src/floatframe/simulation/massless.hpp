@@ -38,8 +38,8 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
 inline constexpr double no_stiffness = 1e-30;
 
 /// Passes that solve M a + Phi_q^T lambda = Q, Phi_q a = gamma with T, in slot 0. False if T has a
-/// vanishing pivot; true if the constraints hold and nothing is beyond measure, and with `must_settle` only
-/// if the passes settle.
+/// vanishing pivot; true if the constraints hold and nothing is beyond measure, and with
+/// `must_settle` only if the passes settle.
 template <class F>
 bool start_by_passes(F& f, State& state, double s, double penalty_mass, bool lacks_mass,
                      bool must_settle);

@@ -92,7 +92,11 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
   for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
     const Eigen::Index size = f_.body_size(static_cast<int>(i));
     const Eigen::Index own = f_.body_rows(static_cast<int>(i));
-    const MatX N = null_space(MatX(all.middleRows(row, own)).middleCols(column, size));
+    MatX own_rows = MatX::Zero(own, size);
+    for (Eigen::Index r = 0; r < own; ++r)
+      for (SparseRowMatrix::InnerIterator it(all, row + r); it; ++it)
+        own_rows(r, it.col() - column) = it.value();
+    const MatX N = null_space(own_rows);
     load_.segment(motions, N.cols()) = -(N.transpose() * load.segment(column, size));
     for (Eigen::Index k = column; k < column + size; ++k) {
       first_of[static_cast<std::size_t>(k)] = {column, motions};
