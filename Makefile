@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export test-decks test-figures python test-python test-python-asan wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -10,8 +10,9 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
-	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
+	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
+	@echo "make attacks       hostile input of every kind, ATTACKS=5000 each, for a night; SEED=1 begins it"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make test-python-asan  its tests with address and undefined-behaviour sanitizers"
 	@echo "make wheel         the Python package with all that it needs, in dist; make test-wheel tries it in a fresh environment"
@@ -44,6 +45,7 @@ test: build
 test-all: test
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
 	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
+	$(MAKE) --no-print-directory attacks ATTACKS=200
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
@@ -51,6 +53,12 @@ test-all: test
 	$(MAKE) --no-print-directory test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
+
+# Hostile models, results, decks, command lines, signals and limits, so many of each kind; another SEED makes others.
+ATTACKS ?= 5000
+SEED ?= 1
+attacks: build
+	FLOATFRAME_ATTACKS=$(ATTACKS) FLOATFRAME_SEED=$(SEED) FLOATFRAME_BINARY=build/floatframe python3 -B tests/attacks/attack_test.py
 
 # Files for other programs, opened by VTK and by Khronos' validator of glTF.
 test-export:

@@ -50,8 +50,10 @@ COUNTS = {
 }
 
 
-# Starts of systems with massless directions, which dense linear algebra took 20 s for, and of many loops.
+# Starts of systems with massless directions, which dense linear algebra took 20 s for, and of many loops; of the Iltis
+# with its equilibrium, which finite differences took 190 million for.
 STARTS = {
+    "Iltis": ["iltis", "--duration", "0.01"],
     "chain of 111 links, relative": ["chain", "--links", "111", "--coordinates", "relative", "--duration", "0.001"],
     "ladder of 100 fields, relative": ["ladder", "--links", "100", "--coordinates", "relative", "--duration", "0.001"],
     "ladder of 400 fields, relative": ["ladder", "--links", "400", "--coordinates", "relative", "--duration", "0.001"],

@@ -48,6 +48,20 @@ TEST_F(BuildFlexible, TheSameFrameElsewhereIsReducedOnce) {
   EXPECT_NEAR(there->K(0, 0), first->K(0, 0), 1e-9 * first->K(0, 0));
 }
 
+// For variants of a model: what they do not change is not reduced again.
+TEST_F(BuildFlexible, ModelsShareTheBodiesOfAnotherOne) {
+  ModelDescription d;
+  d.bodies.push_back(body_of(bar_description()));
+  const Model first = build_model(d, builder_);
+  d.gravity = Vec3(0.0, 0.0, -1.0);
+  EXPECT_EQ(build_model(d, builder_).bodies[0].data, first.bodies[0].data);
+  EXPECT_EQ(builder_.reduced(), 1u);
+  std::get<FlexibleDescription>(d.bodies[0].kind).young *= 2.0;
+  const Model stiffer = build_model(d, builder_);
+  EXPECT_EQ(builder_.reduced(), 2u);
+  EXPECT_EQ(stiffer.bodies[0].data->K, build_model(d).bodies[0].data->K);
+}
+
 TEST_F(BuildFlexible, EveryChangeOfTheDescriptionMakesAnotherBody) {
   using F = FlexibleDescription;
   const std::vector<std::pair<const char*, std::function<void(F&)>>> changes{

@@ -49,6 +49,25 @@ TEST(Stability, HeldByASpring) {
   EXPECT_NEAR(growth_time(less[0]), std::sqrt(0.6 / 0.01), 0.05);
 }
 
+// Beside fifty that hang, which the tangent of steps knows to be softer than the one on its head.
+TEST(Stability, OneOfManySoftMotions) {
+  const auto notes = [](double k) {
+    std::string bodies = "bodies:\n", joints = "joints:\n";
+    for (int i = 0; i <= 50; ++i) {
+      const std::string n = std::to_string(i), y = "[0, " + n + ", ";
+      bodies += "  b" + n + ": {rigid: {mass: 2, centre_of_mass: " + y +
+                (i == 37 ? "0.5" : "-0.5") + "], inertia: [0.1, 0.1, 0.001]}}\n";
+      joints += "  j" + n + ": {type: revolute, child: b" + n + ", at: " + y + "0], axis: y}\n";
+    }
+    return notes_of(bodies + joints + "forces: {s: {type: joint_spring, joint: j37, spring: " +
+                    std::to_string(k) + "}}\n");
+  };
+  EXPECT_EQ(notes(9.9), Notes{});
+  const Notes less = notes(9.7);
+  ASSERT_EQ(less.size(), 1u);
+  EXPECT_NE(less[0].find("'b37'"), std::string::npos) << less[0];
+}
+
 TEST(Stability, NeutralIsNotUnstable) {
   EXPECT_EQ(
       notes_of("gravity: [0, 0, 0]\n"

@@ -1,5 +1,6 @@
 // Linear systems against closed forms, at rest and turning, and in both formulations the same.
 #include "floatframe/simulation/linear_system.hpp"
+#include "floatframe/simulation/run_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -123,7 +123,9 @@ void AbsoluteFormulation::make_factors() {
   int widest = 6;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const int size = 6 + bodies_[i].nm;
-    blocks.push_back({.size = size, .chooses = lacks_mass(static_cast<int>(i))});
+    blocks.push_back({.size = size,
+                      .chooses = lacks_mass(static_cast<int>(i)),
+                      .mass = model_.bodies[i].data->invariants.m});
     if (bodies_[i].M.isZero(0.0)) omega2_.segment<12>(bodies_[i].offset).setConstant(no_inertia);
     widest = std::max(widest, size);
   }
@@ -134,6 +136,17 @@ void AbsoluteFormulation::make_factors() {
   };
   for (const ConstraintPart& p : constraint_set_.parts()) couple(p.a, p.b);
   for (const Force& f : model_.forces) couple(f.a, f.b);
+  std::vector<int> rows(bodies_.size(), 0), on_ground = rows;
+  for (const ConstraintPart& p : constraint_set_.parts()) {
+    const int a = body_of(p.a), b = body_of(p.b);
+    for (const int body : {a, b}) {
+      if (body < 0) continue;
+      rows[body] += p.rows();
+      if (a < 0 || b < 0) on_ground[body] += p.rows();
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    blocks[i].held = rows[i] >= 6 && on_ground[i] > 0;
   const std::vector<int> order = BlockLdlt::elimination_order(blocks, edges);
   for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<int>(k);
   for (const ConstraintPart& p : constraint_set_.parts()) {

@@ -351,6 +351,14 @@ double ClusterTangent::log_pivots(int slot) const noexcept {
   return sum;
 }
 
+int ClusterTangent::negative_pivots(int slot) const noexcept {
+  int count = 0;
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    for (int j = 0; j < clusters_[k].size; ++j)
+      if (factors_[slot].fronts[k](j, j) < 0.0) ++count;
+  return count;
+}
+
 int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights& weights,
                               int slot) noexcept {
   Factors& factors = factors_[slot];

@@ -57,6 +57,8 @@ class ClusterTangent {
   int factorize(const std::vector<BodyTerms>& terms, const Weights& weights, int slot) noexcept;
   /// Sum of the logarithms of the pivots.
   double log_pivots(int slot) const noexcept;
+  /// As many negative ones as (1) has negative eigenvalues.
+  int negative_pivots(int slot) const noexcept;
   /// b := T^-1 b
   void solve(VecX& b, int slot) noexcept { solve(b, nullptr, nullptr, slot); }
   /// b := T^-1 (b + Phi_q^T w), increments := Phi_q b with the Phi_q of the factorisation.

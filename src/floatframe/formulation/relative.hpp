@@ -84,6 +84,7 @@ class RelativeFormulation {
     return tangent_.factorize(terms_, {1.0, 0.0, s, penalty, false}, slot);
   }
   double log_pivots(int slot) const noexcept { return tangent_.log_pivots(slot); }
+  int negative_pivots(int slot) const noexcept { return tangent_.negative_pivots(slot); }
   void solve(VecX& b, int slot = 0) noexcept { tangent_.solve(b, slot); }
   void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept {
     weights_ = -penalty * phi;

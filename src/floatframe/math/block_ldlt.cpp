@@ -40,13 +40,23 @@ void by_minimum_degree(const std::vector<BlockLdlt::Block>& blocks,
                        const std::vector<std::pair<int, int>>& edges, const Eliminate& eliminate) {
   const std::size_t n = blocks.size();
   std::vector<std::set<int>> neighbours = neighbours_of(n, edges);
-  std::vector<long> degree(n, 0);
+  std::vector<long> degree(n, 0), key(n, 0);
+  double heaviest = 0.0;
+  for (const BlockLdlt::Block& b : blocks) heaviest = std::max(heaviest, b.mass);
+  const auto is_light = [&](std::size_t k, double part) {
+    return blocks[k].mass > 0.0 && blocks[k].mass < part * heaviest;
+  };
+  const auto key_of = [&](std::size_t k) {
+    constexpr long first = -1'000'000'000, second = -500'000'000, last = 500'000'000;  // no degrees
+    if (blocks[k].chooses) return degree[k] + first;
+    if (blocks[k].held) return degree[k] + (is_light(k, 1e-6) ? last : 0);
+    return degree[k] + (neighbours[k].size() == 1 && is_light(k, 1e-3) ? second : 0);
+  };
   std::set<std::pair<long, int>> left;
   for (std::size_t k = 0; k < n; ++k) {
-    constexpr long first = -1'000'000'000;  // below any degree
-    degree[k] = blocks[k].chooses ? first : 0;
     for (int j : neighbours[k]) degree[k] += blocks[j].size;
-    left.emplace(degree[k], static_cast<int>(k));
+    key[k] = key_of(k);
+    left.emplace(key[k], static_cast<int>(k));
   }
   while (!left.empty()) {
     const int best = left.begin()->second;
@@ -55,12 +65,13 @@ void by_minimum_degree(const std::vector<BlockLdlt::Block>& blocks,
     eliminate(best, neighbours[b]);
     for (int i : neighbours[b]) {
       const std::size_t k = i;
-      left.erase({degree[k], i});
+      left.erase({key[k], i});
       for (int j : neighbours[b])
         if (i != j && neighbours[k].insert(j).second) degree[k] += blocks[j].size;
       neighbours[k].erase(best);
       degree[k] -= blocks[b].size;
-      left.emplace(degree[k], i);
+      key[k] = key_of(k);
+      left.emplace(key[k], i);
     }
   }
 }

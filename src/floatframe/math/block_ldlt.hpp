@@ -8,7 +8,9 @@
 // are eliminated later, but are eliminated with it: the multipliers of a saddle point. Pivots are
 // taken in the order given (z of a body with mass, then multipliers: quasi-definite, so every order
 // has a factorisation); in blocks that ask for it they are chosen within the block, 1x1 or 2x2.
-// Such blocks come first: what others hand on to them would bury what is small in them.
+// Such blocks come first: what others hand on to them would bury what is small in them. So do light
+// blocks that hang from one other: a link of 1 g on a crane. Light ones that are held come last: of
+// what their constraints ask of each other their own mass would leave no digits.
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,8 @@ class BlockLdlt {
     int size = 0;          ///< unknowns that other blocks see
     int inner = 0;         ///< more unknowns at its end
     bool chooses = false;  ///< its pivots are chosen
+    double mass = 0.0;     ///< against those of others; 0: not known
+    bool held = false;     ///< joints hold it on two sides, one of them the ground
   };
 
   BlockLdlt() = default;
@@ -30,8 +34,9 @@ class BlockLdlt {
   BlockLdlt(const std::vector<Block>& blocks, const std::vector<std::pair<int, int>>& edges);
   BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges);
 
-  /// The blocks in the order of their elimination: first those whose pivots are chosen, then by
-  /// minimum degree, counted in unknowns that others see, then the order given.
+  /// The blocks in the order of their elimination: first those whose pivots are chosen, then light
+  /// ones at the ends, then by minimum degree, counted in unknowns that others see, then the order
+  /// given; last light ones that are held.
   static std::vector<int> elimination_order(const std::vector<Block>& blocks,
                                             const std::vector<std::pair<int, int>>& edges);
 

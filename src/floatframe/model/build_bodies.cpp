@@ -65,8 +65,7 @@ void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
                  "reduction that computes them)");
 }
 
-void ModelBuilder::bodies() {
-  FlexibleBuilder flexible;
+void ModelBuilder::bodies(FlexibleBuilder& flexible) {
   for (const BodyDescription& b : d.bodies) {
     Body body;
     body.name = b.name;

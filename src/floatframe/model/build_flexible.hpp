@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
@@ -19,6 +19,7 @@ class FlexibleBuilder {
   /// `stiffens`: with geometric stiffening.
   std::shared_ptr<const FlexibleBody> build(const BodyDescription& body, bool stiffens,
                                             ErrorList& errors);
+  std::size_t reduced() const noexcept { return known_.size(); }
 
  private:
   struct Known {
@@ -27,5 +28,9 @@ class FlexibleBuilder {
   };
   std::vector<Known> known_;
 };
+
+/// As `build_model` of one description (model.hpp): bodies that `flexible` has reduced before are
+/// not reduced again.
+Model build_model(const ModelDescription& description, FlexibleBuilder& flexible);
 
 }  // namespace floatframe

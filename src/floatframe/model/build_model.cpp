@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
@@ -43,13 +44,18 @@ const Model& built(const Model& model) {
 }
 
 Model build_model(const ModelDescription& description) {
+  FlexibleBuilder flexible;
+  return build_model(description, flexible);
+}
+
+Model build_model(const ModelDescription& description, FlexibleBuilder& flexible) {
   ModelBuilder b(description);
   b.model.name = description.name;
   b.model.gravity = description.gravity;
   b.model.simulation = description.simulation;
   validate(description, b.errors);
   b.errors.throw_if_any();
-  b.bodies();
+  b.bodies(flexible);
   b.errors.throw_if_any();
   b.roads();
   b.inputs();

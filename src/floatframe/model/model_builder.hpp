@@ -12,6 +12,8 @@
 
 namespace floatframe {
 
+class FlexibleBuilder;
+
 /// What is described has been checked by `validate`: errors are left to what shows only when bodies
 /// are reduced.
 struct ModelBuilder {
@@ -32,7 +34,7 @@ struct ModelBuilder {
         road_names(description.roads),
         input_names(description.inputs) {}
 
-  void bodies();
+  void bodies(FlexibleBuilder& flexible);
   void stiffening(const BodyDescription& b, Body& body);
   void roads();
   void inputs();

@@ -228,7 +228,8 @@ const YamlDocument* ModelFiles::load(const std::string& file, const SourceMark& 
 
 const YamlDocument* ModelFiles::parse(const std::string& file, const std::string& text) {
   const std::size_t before = errors_.size();
-  auto document = std::make_unique<YamlDocument>(parse_yaml(file, text, errors_));
+  auto document = parsed_ ? parsed_->get(file, text, errors_)
+                          : std::make_shared<const YamlDocument>(parse_yaml(file, text, errors_));
   // Nothing was understood: no second error about missing keys.
   if (errors_.size() > before && document->root.line == 0) document.reset();
   documents_.emplace_back(file, std::move(document));

@@ -7,13 +7,16 @@
 #include <vector>
 
 #include "floatframe/model_file/model_instance.hpp"
+#include "floatframe/model_file/parsed_files.hpp"
 
 namespace floatframe {
 
 /// Files already parsed, each once.
 class ModelFiles {
  public:
-  explicit ModelFiles(ReadErrors& errors) : errors_(errors) {}
+  /// `parsed`: files of earlier readings, if they are kept.
+  explicit ModelFiles(ReadErrors& errors, ParsedFiles* parsed = nullptr)
+      : errors_(errors), parsed_(parsed) {}
   /// Read instead of a file.
   void give(const std::string& file, const std::string& text);
   /// nullptr and an error if the file cannot be read. `where`, `subject`: the place that names the
@@ -27,7 +30,8 @@ class ModelFiles {
   const YamlDocument* parse(const std::string& file, const std::string& text);
 
   ReadErrors& errors_;
-  std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
+  ParsedFiles* parsed_;
+  std::vector<std::pair<std::string, std::shared_ptr<const YamlDocument>>> documents_;
 };
 
 /// Reads the file and, recursively, its subsystems: parameters, points and the names of all

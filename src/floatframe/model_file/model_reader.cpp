@@ -91,7 +91,7 @@ ModelDescription read_model(const std::string& path,
   std::optional<FilesRead> record;
   if (used) record.emplace(used->files);
   ReadErrors errors;
-  ModelFiles files(errors);
+  ModelFiles files(errors, options.parsed.get());
   if (options.text) files.give(path, *options.text);
   ReadModel model;
   model.options = options;

@@ -2,6 +2,7 @@
 // Reads a model file (YAML 1.2 subset, `floatframe: 1`) into a ModelDescription. docs/model-file.md
 // is its reference.
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "floatframe/model_file/parameter_override.hpp"
 
 namespace floatframe {
+
+class ParsedFiles;  // parsed_files.hpp
 
 /// What takes time while a model is read, and what is remembered of it.
 struct ReadOptions {
@@ -24,6 +27,8 @@ struct ReadOptions {
   /// Read instead of the file, whose name stands for it in messages and says where the files are
   /// that it names.
   const std::string* text = nullptr;
+  /// Keeps what was parsed, for the next reading.
+  std::shared_ptr<ParsedFiles> parsed = nullptr;
 };
 
 /// Throws InputError with every error found (file:line:column: sentence). `path` may hold subsystem

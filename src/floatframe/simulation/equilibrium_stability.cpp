@@ -4,6 +4,11 @@
 // symmetric (loads that follow, slopes), if (1) has a negative eigenvalue. K is of finite
 // differences, whose rounding is large beside small stiffnesses where other parts are stiff: what
 // is found counts only if the forces along that motion alone say the same.
+//
+// Most equilibria are stable by far: then the tangent T of steps, with a mass of 1/s2, has no
+// negative pivot, and on all its soft motions, found by subspace iteration, K, by finite
+// differences along these only, is positive. T does not know gravity on turned bodies, which can
+// only tip over what is soft.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -56,6 +61,83 @@ double stiffness_along(RelativeFormulation& f, const State& s, const VecX& x, do
   return (g[0] - g[1]) / (2.0 * step);
 }
 
+/// Columns orthonormal with these masses.
+void orthonormalise(MatX& X, const VecX& mass) {
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    for (int pass = 0; pass < 2; ++pass)
+      for (Eigen::Index j = 0; j < k; ++j)
+        X.col(k) -= X.col(j).dot(mass.cwiseProduct(X.col(k))) * X.col(j);
+    X.col(k) /= std::sqrt(X.col(k).dot(mass.cwiseProduct(X.col(k))));
+  }
+}
+
+/// The softest motions of T, in slot `slot`; as many columns as X has. Returns the stiffness per
+/// mass from which on motions are missing, about, times `scale` that of T [1/s2].
+double find_softest(RelativeFormulation& f, const VecX& mass, double scale, int slot, MatX& X) {
+  constexpr int rounds = 3;
+  for (Eigen::Index j = 0; j < X.cols(); ++j)
+    for (Eigen::Index i = 0; i < X.rows(); ++i) {
+      const double golden = static_cast<double>(i * X.cols() + j + 1) * 0.6180339887498949;
+      X(i, j) = (golden - std::floor(golden) - 0.5) / std::sqrt(mass[i]);
+    }
+  VecX x(X.rows());
+  MatX flexibility;
+  for (int round = 0; round < rounds; ++round) {
+    orthonormalise(X, mass);
+    const MatX before = mass.asDiagonal() * X;
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      x = before.col(j);
+      f.solve(x, slot);
+      X.col(j) = x;
+    }
+    flexibility = before.transpose() * X;
+  }
+  orthonormalise(X, mass);
+  const SymmetricEigen e = symmetric_eigen(0.5 * (flexibility + flexibility.transpose()));
+  return e.found && e.values[0] > 0.0 ? 1.0 / (scale * e.values[0]) : 0.0;
+}
+
+/// X^T K X of the symmetric part of K, by finite differences along the columns of X.
+MatX stiffness_of(RelativeFormulation& f, const State& s, const MatX& X) {
+  MatX KX(X.rows(), X.cols());
+  VecX q = s.q;
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    const double step = 1e-5 / largest(X.col(j));
+    VecX g[2];
+    for (int side = 0; side < 2; ++side) {
+      f.retract(s.q, VecX((side == 0 ? step : -step) * X.col(j)), q);
+      g[side] = residual_at(f, s.t, q, s.v, s.lambda);
+    }
+    KX.col(j) = (g[0] - g[1]) / (2.0 * step);
+  }
+  const MatX K = X.transpose() * KX;
+  return 0.5 * (K + K.transpose());
+}
+
+/// The quick way above: true if nothing can be unstable.
+bool surely_stable(RelativeFormulation& f, const State& s, const VecX& possible) {
+  constexpr double scale = 1e-4;  // [s2], of T
+  // Gravity on a body turns it over by g over its radius of gyration, 1e3 for a centimetre [1/s2].
+  constexpr double stiff = 1e4;
+  constexpr int slot = 1, most = 64;
+  residual_at(f, s.t, s.q, s.v, s.lambda);
+  const double penalty_mass = default_penalty_mass(f.model(), Coordinates::relative);
+  if (f.factorize(scale, 0.0, scale, penalty_mass / scale, slot) >= 0) return false;
+  if (f.negative_pivots(slot) > 0) return false;
+  const VecX mass = mass_scale(f.mass_diagonal(), possible);
+  const Eigen::Index n = f.velocities();
+  for (Eigen::Index k = std::min<Eigen::Index>(16, n); k <= most && (k <= 16 || 2 * k <= n);
+       k *= 2) {
+    MatX X(n, k);
+    const double missing = find_softest(f, mass, scale, slot, X);
+    if (!X.allFinite()) return false;
+    if (k < n && missing < stiff) continue;
+    const SymmetricEigen e = symmetric_eigen(stiffness_of(f, s, X));
+    return e.found && e.values[0] > -least_growth;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const VecX& lambda) {
@@ -66,6 +148,7 @@ std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const Ve
   s.v = s.a = VecX::Zero(nv);
   s.lambda = lambda;
   const VecX possible = possible_masses(f, s);
+  if (surely_stable(f, s, possible)) return "";
   const VecX r = residual_at(f, s.t, s.q, s.v, s.lambda);
   const MatX mass = mass_matrix(f, test_accelerations(r, possible), r, s.lambda);
   const MatX J = f.constraint_jacobian();

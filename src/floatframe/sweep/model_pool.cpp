@@ -13,7 +13,8 @@ std::shared_ptr<const Model> ModelPool::get(const ModelFingerprint& fingerprint,
     entries_.splice(entries_.begin(), entries_, known);
   } else {
     if (entries_.size() >= capacity_) entries_.pop_back();  // first: room for the new one
-    auto model = std::make_shared<const Model>(build_model(read()));
+    if (bodies_.reduced() > most_bodies) bodies_ = {};
+    auto model = std::make_shared<const Model>(build_model(read(), bodies_));
     entries_.push_front({fingerprint.model, fingerprint.simulation, std::move(model)});
   }
   const Entry& entry = entries_.front();

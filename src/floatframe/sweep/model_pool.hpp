@@ -1,13 +1,14 @@
 #pragma once
 // Built models kept by a worker of a study: runs whose values do not change the model itself use
-// one. A model never changes once built; each run has a state and a workspace of its own.
+// one, and bodies that they do not change are not reduced again. A model never changes once built;
+// each run has a state and a workspace of its own.
 #include <cstdint>
 #include <functional>
 #include <list>
 #include <memory>
 #include <string>
 
-#include "floatframe/model/model.hpp"
+#include "floatframe/model/build_flexible.hpp"
 #include "floatframe/sweep/sweep_case.hpp"
 
 namespace floatframe {
@@ -29,7 +30,11 @@ class ModelPool {
     std::string key, simulation;
     std::shared_ptr<const Model> model;
   };
+  /// Bodies kept beyond models: of a study that varies them no more are kept than this.
+  static constexpr std::size_t most_bodies = 100;
+
   std::size_t capacity_;
+  FlexibleBuilder bodies_;
   std::list<Entry> entries_;  ///< the one used last in front
 };
 

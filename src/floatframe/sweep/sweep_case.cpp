@@ -7,6 +7,7 @@
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model_file/parsed_files.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 
 namespace floatframe {
@@ -39,6 +40,7 @@ SweepCaseReader::SweepCaseReader(std::string model, const std::optional<std::str
   // The file may be wrong with its own values and right with those of the study: only its
   // parameters are asked for here.
   if (text) options_.text = &*text;
+  options_.parsed = std::make_shared<ParsedFiles>();
   ModelFingerprint file;
   try {
     read_model(model_, {}, &file, options_);

@@ -20,7 +20,7 @@ namespace floatframe {
 /// memory.
 inline constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;  ///< [byte]
 /// Above 64 MiB, no file may be compressed better than this; decks and matrices reach 20.
-inline constexpr std::uint64_t largest_compression = 200;
+inline constexpr std::uint64_t largest_compression = 40;
 
 /// Content of a regular file, decompressed if it is gzip (by its first bytes, not by its
 /// name). Throws InputError naming the file.
