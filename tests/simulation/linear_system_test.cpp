@@ -1,6 +1,5 @@
 // Linear systems against closed forms, at rest and turning, and in both formulations the same.
 #include "floatframe/simulation/linear_system.hpp"
-#include "floatframe/simulation/run_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/run_error.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
