@@ -1,4 +1,4 @@
-"""Text and bytes as nobody wants them: from good ones, by random numbers."""
+"""Hostile text and bytes, made from valid ones by random numbers."""
 import re
 
 NUMBERS = ("0", "-1", "1e308", "-1e308", "1e-308", "nan", "inf", "-.inf", "1e999", "9223372036854775808", "0x10", "1_000", "1e6",
