@@ -44,8 +44,9 @@ def block(_run=None):
     return text(json.loads(RECORD.read_text())) if RECORD.is_file() else "Not recorded yet: `make race`."
 
 
-def fill_page():
+def fill_page(name="race", content=None):
+    """Replaces one block of docs/performance.md."""
     page = ROOT / "docs" / "performance.md"
-    pattern = re.compile(r"(<!-- BEGIN race -->\n).*?(<!-- END race -->)", re.S)
-    page.write_text(pattern.sub(lambda m: m[1] + block() + "\n" + m[2], page.read_text(encoding="utf-8")),
+    pattern = re.compile(rf"(<!-- BEGIN {name} -->\n).*?(<!-- END {name} -->)", re.S)
+    page.write_text(pattern.sub(lambda m: m[1] + (content or block()) + "\n" + m[2], page.read_text(encoding="utf-8")),
                     encoding="utf-8")

@@ -9,16 +9,15 @@ import argparse
 import json
 import math
 import pathlib
-import re
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import race_table  # noqa: E402
+from race_table import digits  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RECORD = ROOT / "bench" / "starts.json"
-
-
-def digits(x):
-    return f"{x:.3g}" if abs(x) < 100 else f"{x:,.0f}".replace(",", " ")
 
 
 def series(record):
@@ -33,7 +32,7 @@ def exponent(rows):
 
 
 def text(record):
-    lines = ["| model | | coordinates | freedoms | start [ms] | step [ms] | start of what is allowed | exponent |",
+    lines = ["| model | | coordinates | freedoms | start [ms] | step [ms] | start / allowed | exponent |",
              "|---|---|---|---|---|---|---|---|"]
     for (model, flexible, coordinates), rows in series(record).items():
         lines.append("| " + " | ".join([
@@ -58,10 +57,7 @@ def main():
                            "--json", str(RECORD)], check=False)
     if done.returncode:
         return done.returncode
-    page = ROOT / "docs" / "performance.md"
-    pattern = re.compile(r"(<!-- BEGIN starts -->\n).*?(<!-- END starts -->)", re.S)
-    page.write_text(pattern.sub(lambda m: m[1] + block() + "\n" + m[2], page.read_text(encoding="utf-8")),
-                    encoding="utf-8")
+    race_table.fill_page("starts", block())
     return 0
 
 

@@ -61,8 +61,8 @@ double penalty_of(const Model& model) {
 // Links of a chain have no inertia about their own axes. From 17 links on the start is sparse: the
 // same accelerations as by dense linear algebra.
 template <class F>
-void starts_as_by_dense_linear_algebra(StartKind kind, bool flexible, int number) {
-  const Model model = build_model(start_model(kind, flexible, number));
+void starts_as_by_dense_linear_algebra(const ModelDescription& description) {
+  const Model model = build_model(description);
   Started<F> s(model);
   State sparse = s.state, dense = s.state;
   start_accelerations_dense(s.f, dense);
@@ -73,20 +73,34 @@ void starts_as_by_dense_linear_algebra(StartKind kind, bool flexible, int number
   const VecX weight = (diagonal.array() > no_mass * diagonal.maxCoeff()).template cast<double>();
   const double size = 1.0 + dense.a.lpNorm<Eigen::Infinity>();
   EXPECT_LT(weight.cwiseProduct(sparse.a - dense.a).lpNorm<Eigen::Infinity>(), 1e-6 * size)
-      << word(kind) << ' ' << number;
+      << model.name;
 }
 
 TEST(Starts, SparseAsByDenseLinearAlgebra) {
   for (const int links : {12, 30}) {
-    starts_as_by_dense_linear_algebra<RelativeFormulation>(StartKind::chain, true, links);
-    starts_as_by_dense_linear_algebra<AbsoluteFormulation>(StartKind::chain, true, links);
+    const ModelDescription chain = start_model(StartKind::chain, true, links);
+    starts_as_by_dense_linear_algebra<RelativeFormulation>(chain);
+    starts_as_by_dense_linear_algebra<AbsoluteFormulation>(chain);
   }
 }
 
 // All loops of a ladder are one cluster, which is wide enough here for a front by its profile.
 TEST(Starts, LaddersAsByDenseLinearAlgebra) {
-  starts_as_by_dense_linear_algebra<RelativeFormulation>(StartKind::ladder, false, 60);
-  starts_as_by_dense_linear_algebra<RelativeFormulation>(StartKind::ladder, true, 15);
+  starts_as_by_dense_linear_algebra<RelativeFormulation>(start_model(StartKind::ladder, false, 60));
+  starts_as_by_dense_linear_algebra<RelativeFormulation>(start_model(StartKind::ladder, true, 15));
+}
+
+// Its front then has a border: the coordinates of the body that the cluster hangs from.
+TEST(Starts, LaddersOnAMovingBodyAsByDenseLinearAlgebra) {
+  ModelDescription d = start_model(StartKind::ladder, false, 60);
+  d.name = "ladder_on_a_car";
+  for (JointDescription& j : d.joints)
+    if (j.parent.body == ground_name) j.parent.body = "car";
+  BodyDescription car;
+  car.name = "car";
+  car.kind = RigidDescription{100.0, Vec3::Zero(), 50.0 * Mat3::Identity()};
+  d.bodies.push_back(car);
+  starts_as_by_dense_linear_algebra<RelativeFormulation>(d);
 }
 
 TEST(Starts, AFlexibleChainLacksMassAndIsHeldByStiffness) {

@@ -39,6 +39,19 @@ class Limits(RunCase):
                     self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertEqual(codes[-1], 0)
 
+    def test_statics_of_many_bodies(self):
+        """Two thousand hinged links with stiff springs: dense linear algebra took minutes."""
+        bodies, joints, forces = ["bodies:"], ["joints:"], ["forces:"]
+        for k in range(2000):
+            parent = f"parent: b{k - 1}, " if k else ""
+            bodies.append(f"  b{k}: {{rigid: {{mass: 1, centre_of_mass: [{k}.5, 0, 0], inertia: [0.01, 0.1, 0.1]}}}}")
+            joints.append(f"  j{k}: {{type: revolute, {parent}child: b{k}, at: [{k}, 0, 0], axis: y}}")
+            forces.append(f"  s{k}: {{type: joint_spring, joint: j{k}, spring: 1e9}}")
+        (self.folder / "many.yaml").write_text("\n".join(["floatframe: 1", "name: many", *bodies, *joints, *forces, ""]))
+        done = self.limited(resource.RLIMIT_CPU, 60, "statics", "many.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, "many: static equilibrium after")
+
     def test_stack(self):
         for kilobytes in (64, 256):
             for command in (REDUCE, ("run", "m.yaml", "--set", "duration=0.05", "--quiet", "--out", "run"),

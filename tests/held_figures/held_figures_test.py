@@ -100,7 +100,7 @@ def source_figures():
 
 
 def collected(program, arguments, counted=COUNTED):
-    """Instructions of a step, of a full iteration or of all that is counted, and what the program says of the run."""
+    """Instructions of a step, of a full iteration or of the start, and the facts that the program writes of the run."""
     with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
         facts = pathlib.Path(folder) / "facts.json"
         command = ["valgrind", "--tool=callgrind", f"--toggle-collect={counted}", f"--callgrind-out-file={folder}/out",

@@ -59,17 +59,12 @@ BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
   return row;
 }
 
-ResultTable rows_of(const Model& model, const SimulationDescription& simulation, double step,
-                    long& steps) {
-  SimulationDescription s = simulation;
-  s.step = step;
-  s.given_by("--step", "step");
-  const RunResult result = run(model, s);
-  steps = result.summary.steps;
+RunResult run_to_end(const Model& model, const SimulationDescription& simulation) {
+  RunResult result = run(model, simulation);
   if (result.summary.status != "completed")
-    throw RunError(
-        fmt::format("steps of {:g} ms: the run failed: {}", 1e3 * step, result.summary.message));
-  return result.table;
+    throw RunError(fmt::format("steps of {:g} ms: the run failed: {}", 1e3 * simulation.step,
+                               result.summary.message));
+  return result;
 }
 
 /// The largest difference of two tables of the same instants in a column of lengths.
@@ -92,16 +87,16 @@ std::vector<BenchError> errors_of_steps(const Model& model, SimulationDescriptio
   simulation.inertia = InertiaMethod::preprocessing;
   const double step = simulation.step;
   simulation.output_interval = step;
-  long steps = 0;
-  const ResultTable fine = rows_of(model, simulation, step / 100.0, steps);
+  simulation.given_by("--step", "step");
+  simulation.step = step / 100.0;
+  const ResultTable fine = run_to_end(model, simulation).table;
   std::vector<BenchError> errors;
   for (const double parts : {1.0, 2.0, 5.0, 10.0}) {
     BenchError e;
-    e.step = step / parts;
-    compare_lengths(rows_of(model, simulation, e.step, steps), fine, e);
-    SimulationDescription timed = simulation;
-    timed.step = e.step;
-    const StepTime time = stepping_time(model, timed, steps, repeats);
+    e.step = simulation.step = step / parts;
+    const RunResult result = run_to_end(model, simulation);
+    compare_lengths(result.table, fine, e);
+    const StepTime time = stepping_time(model, simulation, result.summary.steps, repeats);
     e.cpu_min = time.least * static_cast<double>(time.steps);
     e.real_time_factor = e.cpu_min > 0.0 ? simulation.duration / e.cpu_min : 0.0;
     errors.push_back(e);

@@ -1,9 +1,8 @@
 #pragma once
 // Table 1 of the paper on this machine: processor time of the Iltis manoeuvre in the four
 // combinations of coordinates and inertia method against the number of elements per bar; what the
-// model's preparation costs; how accurate the steps are that shorter ones cost more than; and two
-// yardsticks measured in the same run, a dense Cholesky factorisation and one full Newton
-// iteration.
+// model's preparation costs; the error of several step sizes beside their cost; and two yardsticks
+// measured in the same run, a dense Cholesky factorisation and one full Newton iteration.
 #include <functional>
 #include <string>
 #include <vector>
@@ -34,7 +33,7 @@ struct BenchBuild {
 /// Cost beside error: in relative coordinates, preprocessing, at the largest number of elements.
 struct BenchError {
   double step = 0, cpu_min = 0, real_time_factor = 0;  ///< as above
-  double error = 0;     ///< largest of any position among the outputs, to steps of a hundredth [m]
+  double error = 0;  ///< largest error of an output in metres, against a hundredth of the step [m]
   std::string channel;  ///< where
   double time = 0;      ///< when [s]
 };

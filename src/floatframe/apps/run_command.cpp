@@ -198,9 +198,8 @@ std::string wall_text(WallClock::time_point begin, WallClock::time_point compute
     return std::chrono::duration<double>(b - a).count();
   };
   const WallClock::time_point now = WallClock::now();
-  return fmt::format(
-      "  wall time {:.3g} s, of it {:.2g} s after the last step: results and report\n",
-      seconds(begin, now), seconds(computed, now));
+  return fmt::format("  wall time {:.3g} s, {:.2g} s of it for results and report\n",
+                     seconds(begin, now), seconds(computed, now));
 }
 
 int run_model(const RunArguments& arguments) {

@@ -1,6 +1,7 @@
 #include "floatframe/formulation/clusters.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <numeric>
 
@@ -19,7 +20,7 @@ class Sets {
   void join(int i, int j) { set_[find(i)] = find(j); }
 
  private:
-  mutable std::vector<int> set_;  // ways are shortened when they are gone
+  mutable std::vector<int> set_;  // `find` shortens the paths
 };
 
 /// Bodies on the way between two markers, without their lowest common ancestor.
@@ -70,7 +71,7 @@ std::vector<int> by_distance(int first, const std::vector<std::vector<int>>& nea
 void order_bodies(Cluster& c, const TreeKinematics& tree,
                   const std::vector<std::vector<int>>& near) {
   const std::vector<int> order = by_distance(by_distance(c.bodies.front(), near).back(), near);
-  if (order.size() != c.bodies.size()) return;  // tied by their parent only
+  assert(order.size() == c.bodies.size());
   std::vector<bool> waits(near.size(), false);
   for (const int i : c.bodies) waits[i] = true;
   c.bodies.clear();

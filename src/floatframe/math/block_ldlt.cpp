@@ -47,7 +47,9 @@ void by_minimum_degree(const std::vector<BlockLdlt::Block>& blocks,
     return blocks[k].mass > 0.0 && blocks[k].mass < part * heaviest;
   };
   const auto key_of = [&](std::size_t k) {
-    constexpr long first = -1'000'000'000, second = -500'000'000, last = 500'000'000;  // no degrees
+    // Beyond any degree. Light ends cause no fill wherever they come; held bodies may, so that only
+    // those are moved whose mass is lost otherwise.
+    constexpr long first = -1'000'000'000, second = -500'000'000, last = 500'000'000;
     if (blocks[k].chooses) return degree[k] + first;
     if (blocks[k].held) return degree[k] + (is_light(k, 1e-6) ? last : 0);
     return degree[k] + (neighbours[k].size() == 1 && is_light(k, 1e-3) ? second : 0);

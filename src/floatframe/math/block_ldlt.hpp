@@ -8,9 +8,9 @@
 // are eliminated later, but are eliminated with it: the multipliers of a saddle point. Pivots are
 // taken in the order given (z of a body with mass, then multipliers: quasi-definite, so every order
 // has a factorisation); in blocks that ask for it they are chosen within the block, 1x1 or 2x2.
-// Such blocks come first: what others hand on to them would bury what is small in them. So do light
-// blocks that hang from one other: a link of 1 g on a crane. Light ones that are held come last: of
-// what their constraints ask of each other their own mass would leave no digits.
+// Such blocks come first: the Schur complements of others would leave no digits of their small
+// entries. So do light blocks that are coupled with one other (a link of 1 g on a crane). Light
+// ones that are held come last: with their own mass alone the pivots of their multipliers cancel.
 #include <utility>
 #include <vector>
 
@@ -25,7 +25,7 @@ class BlockLdlt {
     int size = 0;          ///< unknowns that other blocks see
     int inner = 0;         ///< more unknowns at its end
     bool chooses = false;  ///< its pivots are chosen
-    double mass = 0.0;     ///< against those of others; 0: not known
+    double mass = 0.0;     ///< compared with that of other blocks; 0: unknown
     bool held = false;     ///< joints hold it on two sides, one of them the ground
   };
 

@@ -1,6 +1,6 @@
-// Static equilibrium in relative coordinates: by the tangent of steps, which costs hardly more than
-// a step; by finite differences where that stalls, as it leaves out what gravity makes of turned
-// bodies; and a patient search downhill.
+// Static equilibrium in relative coordinates: Newton with the tangent of steps, which costs little
+// more than a step; with a tangent of finite differences where that stalls, since the tangent of
+// steps lacks the stiffness of gravity; then a downhill search.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -133,11 +133,13 @@ struct Best {
   bool accepted() const { return size < 1e-7 * weight; }
 };
 
-/// Beyond, finite differences take minutes: the tangent of steps searches as they would.
+/// Above, finite differences take minutes: the tangent of steps is used even where it converges
+/// slowly.
 constexpr long few_unknowns = 1000;
 
-/// By the tangent of steps, as long as each step halves what is out of balance: then it is the
-/// equilibrium that the next search would find, which is on its own otherwise.
+/// Newton with the tangent of steps. Up to `few_unknowns` only as long as each iteration halves the
+/// residual: this converges to the equilibrium that the next search would find, which takes over
+/// otherwise.
 void approach_by_tangent(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda,
                          int& iterations, Best& best) {
   double mu = 1.0, previous = std::numeric_limits<double>::infinity();  // as below
@@ -148,12 +150,12 @@ void approach_by_tangent(RelativeFormulation& f, Statics& statics, VecX q, VecX 
     const double size = statics.size();
     best.offer(q, lambda, statics);
     if (best.done()) return;
-    const bool falls = size < 0.5 * previous || size < 1e-9 * statics.weight;
-    if (!falls && !large) return;
-    mu = k == 0 || !large || size < previous ? (k == 0 ? 1.0 : std::max(0.1 * mu, 1e-2))
-                                             : std::min(10.0 * mu, 1e6);
-    // Without multipliers the first size says nothing.
-    previous = k == 0 ? std::numeric_limits<double>::infinity() : size;
+    const bool halved = size < 0.5 * previous || size < 1e-9 * statics.weight;
+    if (!halved && !large) return;
+    if (k > 0) {  // the first residual lacks the constraint forces
+      mu = !large || size < previous ? std::max(0.1 * mu, 1e-2) : std::min(10.0 * mu, 1e6);
+      previous = size;
+    }
     if (!statics.step_by_tangent(mu, dx, dlambda)) return;
     if (const double length = largest(dx); length > 0.2) {
       if (!large) return;

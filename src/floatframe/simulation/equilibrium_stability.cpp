@@ -5,10 +5,10 @@
 // differences, whose rounding is large beside small stiffnesses where other parts are stiff: what
 // is found counts only if the forces along that motion alone say the same.
 //
-// Most equilibria are stable by far: then the tangent T of steps, with a mass of 1/s2, has no
-// negative pivot, and on all its soft motions, found by subspace iteration, K, by finite
-// differences along these only, is positive. T does not know gravity on turned bodies, which can
-// only tip over what is soft.
+// Most equilibria are clearly stable, which is cheaper to see: the tangent T of steps, with 1/s2
+// times the mass added, has no negative pivot, and K is positive definite on all soft motions of T
+// (subspace iteration; finite differences along these only). T lacks the stiffness of gravity,
+// which can make only soft motions unstable.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -50,15 +50,14 @@ Divergence divergence_of(const MatX& K, const MatX& M) {
   return d;
 }
 
-/// x^T K x by forces along x alone, in steps that hold the digits.
-double stiffness_along(RelativeFormulation& f, const State& s, const VecX& x, double step) {
-  VecX q = s.q;
-  double g[2];
+/// K x by central differences of this step.
+VecX stiffness_times(RelativeFormulation& f, const State& s, const VecX& x, double step) {
+  VecX q = s.q, r[2];
   for (int k = 0; k < 2; ++k) {
     f.retract(s.q, VecX((k == 0 ? step : -step) * x), q);
-    g[k] = x.dot(residual_at(f, s.t, q, s.v, s.lambda));
+    r[k] = residual_at(f, s.t, q, s.v, s.lambda);
   }
-  return (g[0] - g[1]) / (2.0 * step);
+  return (r[0] - r[1]) / (2.0 * step);
 }
 
 /// Columns orthonormal with these masses.
@@ -71,8 +70,9 @@ void orthonormalise(MatX& X, const VecX& mass) {
   }
 }
 
-/// The softest motions of T, in slot `slot`; as many columns as X has. Returns the stiffness per
-/// mass from which on motions are missing, about, times `scale` that of T [1/s2].
+/// Subspace iteration for the softest motions of T, which is factorised in `slot` and holds `scale`
+/// times mass and stiffness. Returns about the stiffness per mass of the stiffest motion found
+/// [1/s2]: softer ones are not missing.
 double find_softest(RelativeFormulation& f, const VecX& mass, double scale, int slot, MatX& X) {
   constexpr int rounds = 3;
   for (Eigen::Index j = 0; j < X.cols(); ++j)
@@ -100,16 +100,8 @@ double find_softest(RelativeFormulation& f, const VecX& mass, double scale, int 
 /// X^T K X of the symmetric part of K, by finite differences along the columns of X.
 MatX stiffness_of(RelativeFormulation& f, const State& s, const MatX& X) {
   MatX KX(X.rows(), X.cols());
-  VecX q = s.q;
-  for (Eigen::Index j = 0; j < X.cols(); ++j) {
-    const double step = 1e-5 / largest(X.col(j));
-    VecX g[2];
-    for (int side = 0; side < 2; ++side) {
-      f.retract(s.q, VecX((side == 0 ? step : -step) * X.col(j)), q);
-      g[side] = residual_at(f, s.t, q, s.v, s.lambda);
-    }
-    KX.col(j) = (g[0] - g[1]) / (2.0 * step);
-  }
+  for (Eigen::Index j = 0; j < X.cols(); ++j)
+    KX.col(j) = stiffness_times(f, s, X.col(j), 1e-5 / largest(X.col(j)));
   const MatX K = X.transpose() * KX;
   return 0.5 * (K + K.transpose());
 }
@@ -117,7 +109,8 @@ MatX stiffness_of(RelativeFormulation& f, const State& s, const MatX& X) {
 /// The quick way above: true if nothing can be unstable.
 bool surely_stable(RelativeFormulation& f, const State& s, const VecX& possible) {
   constexpr double scale = 1e-4;  // [s2], of T
-  // Gravity on a body turns it over by g over its radius of gyration, 1e3 for a centimetre [1/s2].
+  // Well above the negative stiffness of gravity per mass, g over the radius of gyration of a body:
+  // 1e3 for a centimetre [1/s2].
   constexpr double stiff = 1e4;
   constexpr int slot = 1, most = 64;
   residual_at(f, s.t, s.q, s.v, s.lambda);
@@ -129,9 +122,9 @@ bool surely_stable(RelativeFormulation& f, const State& s, const VecX& possible)
   for (Eigen::Index k = std::min<Eigen::Index>(16, n); k <= most && (k <= 16 || 2 * k <= n);
        k *= 2) {
     MatX X(n, k);
-    const double missing = find_softest(f, mass, scale, slot, X);
+    const double stiffest = find_softest(f, mass, scale, slot, X);
     if (!X.allFinite()) return false;
-    if (k < n && missing < stiff) continue;
+    if (k < n && stiffest < stiff) continue;
     const SymmetricEigen e = symmetric_eigen(stiffness_of(f, s, X));
     return e.found && e.values[0] > -least_growth;
   }
@@ -169,7 +162,7 @@ std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const Ve
       x.dot(mass * x) + 1e-9 * x.dot(mass_scale(mass.diagonal(), possible).cwiseProduct(x));
   double growth = 0.0;  // [1/s2], the smaller one of two steps
   for (const double step : {1e-3, 1e-4}) {
-    const double found = -stiffness_along(f, s, x, step) / m;
+    const double found = -x.dot(stiffness_times(f, s, x, step)) / m;
     growth = growth == 0.0 ? found : std::min(growth, found);
   }
   if (!(growth > least_growth)) return "";

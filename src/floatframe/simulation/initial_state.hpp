@@ -1,6 +1,6 @@
 #pragma once
-// The state a run starts from, found once at load time in relative coordinates (dense linear
-// algebra, allocates, throws; theory section 12):
+// The state a run starts from, found once at load time in relative coordinates (allocates, throws;
+// theory section 12):
 //
 //   close_loops           least change x of the start values with
 //                           Phi(q (+) x) = 0,  Phi_q v + Phi_t = 0                         (1)
@@ -8,6 +8,7 @@
 //   find_equilibrium      r(q, lambda) = 0, Phi(q) = 0 at rest by Newton with pseudo-transient
 //                         regularisation mu [1/s2],
 //                           (mu M + K) x + J^T dlambda = -r,  J x = -Phi                   (2)
+//                         with the factorised tangent of steps, or K by finite differences
 //   start_accelerations   in any formulation
 //                           M a + Phi_q^T lambda = Q,  Phi_q a = gamma                     (3)
 //                         with gamma = -((Phi_q)dot v + Phi_tt): by the factorised tangent with a

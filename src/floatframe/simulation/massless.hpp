@@ -34,7 +34,7 @@ bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double pena
 template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
 
-/// In T: none.
+/// s of a T without stiffness.
 inline constexpr double no_stiffness = 1e-30;
 
 /// Passes that solve M a + Phi_q^T lambda = Q, Phi_q a = gamma with T, in slot 0. False if T has a
