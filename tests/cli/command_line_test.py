@@ -266,6 +266,8 @@ class Run(CommandLine):
         done = self.expect(0, "run", "pendulum.yaml")
         for name in ("results.csv", "report.html", "summary.json"):
             self.assertIn(f"out/pendulum/{name}", done.stdout)
+        self.assertRegex(done.stdout, r"times real time at steps of 10 ms\)\n")
+        self.assertRegex(done.stdout, r"  wall time \S+ s, \S+ s of it for results and report\n$")
         self.assertEqual(done.stderr, "")
         self.assertEqual(self.files("out"), ["report.html", "results.csv", "states.ffr", "summary.json"])
 

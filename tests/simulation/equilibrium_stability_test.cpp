@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -98,6 +99,32 @@ joints: {hinge: {type: revolute, child: column, at: o, axis: y}}
   ASSERT_EQ(notes.size(), 1u);
   // A rod: s^2 = (m g L/2) / (m L^2/3), its bending and section leave 1e-3.
   EXPECT_NEAR(growth_time(notes[0]), std::sqrt(2.0 / 3.0 / 9.81), 1e-3);
+}
+
+// A bar that is clamped at its foot buckles at pi^2 E I / (4 L^2), by the geometric stiffness of its
+// load, which the tangent of steps holds.
+TEST(Stability, EulersColumn) {
+  const double a = 0.02,
+               load = std::numbers::pi * std::numbers::pi * 2.1e11 * std::pow(a, 4) / 12.0 / 4.0;
+  const auto notes = [&](double part) {
+    return notes_of(R"(
+gravity: [0, 0, 0]
+points: {o: [0, 0, 0], e: [0, 0, 1]}
+bodies:
+  column:
+    flexible:
+      material: {young: 2.1e11, poisson: 0.3, density: 7850}
+      bars: {a: {from: o, to: e, elements: 10, section: {rectangle: [0.02, 0.02]}, reference: x}}
+      clamped: [o]
+      static_modes: [{point: e, dofs: [x, y, z]}]
+      normal_modes: 4
+      mass_model: hermite
+joints: {foot: {type: weld, child: column, at: o}}
+forces: {p: {type: force, body: column, node: e, direction: [0, 0, -1], magnitude: )" +
+                    std::to_string(part * load) + "}}\nsimulation: {geometric_stiffening: true}\n");
+  };
+  EXPECT_EQ(notes(0.99), Notes{});
+  EXPECT_EQ(notes(1.01).size(), 1u);
 }
 
 // Loops: the crank up or down, at every start angle.
