@@ -16,8 +16,10 @@ def digits(x):
     return f"{x:.3g}" if abs(x) < 100 else f"{x:,.0f}".replace(",", " ")
 
 
-def model(entry):
+def model(entry, date):
     checked = f"Converged answers {small(entry['apart_m'])} m apart (allowed: {small(entry['allowed_m'])} m)"
+    if entry.get("date", date) != date:
+        checked += f"; of {entry['date']}"
     if "apart_bar_m" in entry:
         checked += (f"; Exudyn with its load on the body (timed) {small(entry['apart_timed_m'])} m, beams and bricks of "
                     f"Floatframe {small(entry['apart_bar_m'])} m")
@@ -36,7 +38,7 @@ def text(record):
     head = (f"{record['cpu']}; {record['build']}; Python {record['python']}, {versions}; one thread, least of "
             f"{record['rounds']} rounds in turn after one of warm-up; {record['date'][:10]}.")
     return "\n\n".join([head + (" " + record["note"] if record.get("note") else "")]
-                       + [model(entry) for entry in record["models"]])
+                       + [model(entry, record["date"][:10]) for entry in record["models"]])
 
 
 def block(_run=None):

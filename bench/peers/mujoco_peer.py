@@ -7,8 +7,8 @@ import numpy as np
 import models
 
 VERSION = mujoco.__version__
-INTEGRATORS = {"Euler": mujoco.mjtIntegrator.mjINT_EULER, "RK4": mujoco.mjtIntegrator.mjINT_RK4,
-               "implicit": mujoco.mjtIntegrator.mjINT_IMPLICITFAST}
+INTEGRATORS = {"Euler": mujoco.mjtIntegrator.mjINT_EULER, "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+               "RK4": mujoco.mjtIntegrator.mjINT_RK4}  # the most exact one last
 
 
 class Rigid:
