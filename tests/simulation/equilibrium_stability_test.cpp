@@ -101,8 +101,8 @@ joints: {hinge: {type: revolute, child: column, at: o, axis: y}}
   EXPECT_NEAR(growth_time(notes[0]), std::sqrt(2.0 / 3.0 / 9.81), 1e-3);
 }
 
-// A bar that is clamped at its foot buckles at pi^2 E I / (4 L^2), by the geometric stiffness of its
-// load, which the tangent of steps holds.
+// A bar that is clamped at its foot buckles at pi^2 E I / (4 L^2), by the geometric stiffness of
+// its load, which the tangent of steps holds.
 TEST(Stability, EulersColumn) {
   const double a = 0.02,
                load = std::numbers::pi * std::numbers::pi * 2.1e11 * std::pow(a, 4) / 12.0 / 4.0;
