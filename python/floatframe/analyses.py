@@ -46,9 +46,11 @@ def linear_system(model: Model, **options: Unpack[Options]) -> _core.LinearSyste
     return _core.linear_system(built(model), as_dict(options))
 
 
-def modes(model: Model, **options: Unpack[Options]) -> list[_core.Mode]:
-    """Vibrations near the start, ascending by |eigenvalue|, pairs once."""
-    return _core.modes(built(model), as_dict(options))
+def modes(model: Model, *, number: int | None = None, **options: Unpack[Options]) -> list[_core.Mode]:
+    """Vibrations near the start, ascending by |eigenvalue|, pairs once: all, or so many. Some of a model of more than
+    400 degrees of freedom take seconds, all of them minutes; `z` of these has no meaning of its own."""
+    count = 0 if number is None else whole("number", number, 1, 1000)
+    return _core.modes(built(model), count, as_dict(options))
 
 
 def linear_inputs(model: Model) -> list[str]:

@@ -60,15 +60,16 @@ Numbers shares(const std::vector<std::string>& names, const std::vector<double>&
   return d;
 }
 
-std::vector<Mode> modes_of(const Model& model, const Keywords& given) {
+std::vector<Mode> modes_of(const Model& model, int number, const Keywords& given) {
   const SimulationOptions options = options_of(given);
   Unlocked released;
-  const LinearSystem system = linear_system(model, options);
+  const LinearSystem system = linear_system(model, options, number);
   std::vector<std::string> bodies, forces;
   for (const Body& b : model.bodies) bodies.push_back(b.name);
   for (const Force& f : model.forces) forces.push_back(f.name);
   std::vector<Mode> modes;
   for (LinearMode& mode : linear_modes(system)) {
+    if (number > 0 && std::ssize(modes) == number) break;
     ModeParts parts = mode_parts(model, system, mode);
     modes.push_back({std::move(mode), std::move(parts), bodies, forces});
   }

@@ -116,6 +116,7 @@ def test_advice():
     lambda m: ff.model_order(m, float("nan")), lambda m: ff.model_order(m, -1), lambda m: ff.advise(m, tolerance=-1),
     lambda m: ff.mass_properties(m, start="x"), lambda m: ff.check(None), lambda m: ff.statics(m.core), lambda m: ff.modes("iltis"),
     lambda m: ff.linearize(m, step=-1), lambda m: ff.modes(m, start="given", coordinates="absolut"), lambda m: ff.advise(m, step="x"),
+    lambda m: ff.modes(m, number=0), lambda m: ff.modes(m, number=2.5), lambda m: ff.modes(m, number="x"),
 ])
 def test_what_is_not_valid(iltis, call):
     with pytest.raises((ff.Error, TypeError, ValueError)):

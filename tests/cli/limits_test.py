@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Little memory and a small stack: every command ends, with its result or with one sentence."""
+"""Little memory, a small stack, large models: every command ends, with its result or with one sentence."""
+import json
+import math
 import os
 import pathlib
 import resource
@@ -39,8 +41,8 @@ class Limits(RunCase):
                     self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertEqual(codes[-1], 0)
 
-    def test_statics_of_many_bodies(self):
-        """Two thousand hinged links with stiff springs: dense linear algebra took minutes."""
+    def write_many_links(self):
+        """Two thousand hinged links with stiff springs."""
         bodies, joints, forces = ["bodies:"], ["joints:"], ["forces:"]
         for k in range(2000):
             parent = f"parent: b{k - 1}, " if k else ""
@@ -48,9 +50,25 @@ class Limits(RunCase):
             joints.append(f"  j{k}: {{type: revolute, {parent}child: b{k}, at: [{k}, 0, 0], axis: y}}")
             forces.append(f"  s{k}: {{type: joint_spring, joint: j{k}, spring: 1e9}}")
         (self.folder / "many.yaml").write_text("\n".join(["floatframe: 1", "name: many", *bodies, *joints, *forces, ""]))
+
+    def test_statics_of_many_bodies(self):
+        """Dense linear algebra took minutes."""
+        self.write_many_links()
         done = self.limited(resource.RLIMIT_CPU, 60, "statics", "many.yaml")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, "many: static equilibrium after")
+
+    def test_modes_of_many_bodies(self):
+        """All eigenvalues took an hour. The links are a beam: clamped at one end, its EI the spring times the length of a link."""
+        self.write_many_links()
+        done = self.limited(resource.RLIMIT_CPU, 60, "modes", "many.yaml", "--json", "--number", "5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)
+        self.assertEqual((found["degrees_of_freedom"], found["without_mass"], found["rigid_motions"]), (2000, 0, 0))
+        frequencies = [mode["frequency_Hz"] for mode in found["modes"]]
+        beam = [k ** 2 * math.sqrt(1e9) / 2000 ** 2 / (2 * math.pi) for k in (1.8751041, 4.6940911, 7.8547574, 10.9955407, 14.1371684)]
+        for f, exact in zip(frequencies, beam, strict=True):
+            self.assertLess(abs(f / exact - 1), 2e-3)
 
     def test_stack(self):
         for kilobytes in (64, 256):

@@ -12,6 +12,7 @@
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/lowest_motions.hpp"
 #include "floatframe/report/check_page.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/modes_page.hpp"
@@ -23,8 +24,12 @@
 namespace floatframe {
 namespace {
 
-/// Below this part of the largest |lambda| a frequency is zero.
-constexpr double zero_part = 1e-7;
+struct ModesOptions {
+  std::string at;
+  int number = 0;  ///< of motions, the slowest; 0: all, or `default_number` of a large model
+};
+constexpr int default_number = 40;
+constexpr std::size_t few_bodies = 100;  ///< for absolute coordinates
 
 /// The largest shares, at least 5 %, three at most.
 std::string shares_text(std::vector<EnergyShare> shares) {
@@ -128,13 +133,22 @@ std::vector<std::vector<std::string>> vibration_rows(const std::vector<ShownMoti
   return rows;
 }
 
+/// Empty where all motions are listed.
+std::string slowest_text(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
+  if (system.fastest == 0.0) return "";
+  return fmt::format("the {} slowest motions; --number N lists others", modes.size());
+}
+
 std::string vibrations_text(const Model& model, const LinearSystem& system,
                             const std::vector<ShownMotion>& modes, Eigen::Index rigid) {
   TextTable table(vibration_columns, {4, 5, 6});
   for (const std::vector<std::string>& row : vibration_rows(modes)) table.add(row);
   std::string text = system.stiffening.empty() ? "" : system.stiffening + ".\n\n";
-  text += fmt::format("{}: {} of freedom{}\n\n", model.name, plural(system.degrees, "degree"),
+  text += fmt::format("{}: {} of freedom{}\n", model.name, plural(system.degrees, "degree"),
                       system.massless > 0 ? fmt::format(", {} without mass", system.massless) : "");
+  if (const std::string slowest = slowest_text(system, modes); !slowest.empty())
+    text += "Listed are " + slowest + ".\n";
+  text += '\n';
   text += rigid_text(model, rigid, modes);
   text += table.text();
   text +=
@@ -178,6 +192,7 @@ std::string vibrations_json(const Model& model, const LinearSystem& system,
                         {"degrees_of_freedom", system.degrees},
                         {"without_mass", system.massless},
                         {"rigid_motions", rigid},
+                        {"all_motions", system.fastest == 0.0},
                         {"largest_speed", system.speed},
                         {"largest_acceleration", system.acceleration},
                         {"stiffening_counted_in", system.stiffened},
@@ -186,10 +201,12 @@ std::string vibrations_json(const Model& model, const LinearSystem& system,
                         {"body_damping", body_damping_json(model)}});
 }
 
-std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& system) {
-  const std::vector<LinearMode> found = linear_modes(system);
-  double largest = 0.0;
+std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& system, int most) {
+  std::vector<LinearMode> found = linear_modes(system);
+  double largest = system.fastest;
   for (const LinearMode& m : found) largest = std::max(largest, std::abs(m.lambda));
+  if (most > 0 && found.size() > static_cast<std::size_t>(most))
+    found.resize(static_cast<std::size_t>(most));
   std::vector<ShownMotion> modes;
   int number = 0;
   for (const LinearMode& m : found) {
@@ -251,6 +268,8 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
   if (system.speed > 1e-6)
     page.sentences.push_back(
         "The model moves there: drawn is the motion about that state, which is held still.");
+  if (const std::string slowest = slowest_text(system, modes); !slowest.empty())
+    page.sentences.push_back("Shown are " + slowest + ".");
   for (const std::string& note : system.notes) {
     page.warnings.push_back(note + ".");
     char& first = page.warnings.back().front();
@@ -281,12 +300,20 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
   return modes_page(model, system, motions_to_draw(model, system, modes, rigid), page);
 }
 
-AnalysisReport report_modes(const Model& given, const std::string& at) {
+/// In relative coordinates where natural ones, 12 and more a body, would be too many.
+Model in_few_coordinates(Model model) {
+  if (model.bodies.size() > few_bodies) model.simulation.coordinates = Coordinates::relative;
+  return model;
+}
+
+AnalysisReport report_modes(const Model& given, const ModesOptions& options) {
+  const std::string& at = options.at;
   // The page moves the model that the system is of.
   const auto model = std::make_shared<const Model>(
-      counted_stiffening(counted_at_operating_point(given, at).model).model);
-  const auto system = std::make_shared<const LinearSystem>(linear_system(*model));
-  const std::vector<ShownMotion> modes = motions_of(*model, *system);
+      in_few_coordinates(counted_stiffening(counted_at_operating_point(given, at).model).model));
+  const auto system = std::make_shared<const LinearSystem>(
+      linear_system(*model, {}, options.number > 0 ? options.number : default_number));
+  const std::vector<ShownMotion> modes = motions_of(*model, *system, options.number);
   const MatX rigid = rigid_motions(*system, modes);
   return {.text = vibrations_text(*model, *system, modes, rigid.cols()),
           .json = vibrations_json(*model, *system, modes, rigid.cols()),
@@ -296,20 +323,23 @@ AnalysisReport report_modes(const Model& given, const std::string& at) {
 }  // namespace
 
 Analysis modes_analysis() {
-  const auto at = std::make_shared<std::string>();
+  const auto options = std::make_shared<ModesOptions>();
   return {
       .name = "modes",
       .help =
           "Natural vibrations of the whole model: frequencies [Hz], damping ratios, who takes "
           "part",
-      .options = {operating_point_option(*at)},
+      .options = {operating_point_option(options->at),
+                  whole_option("--number", options->number, 1, 1000,
+                               "List the N slowest motions (default: all, or 40 of a model of more "
+                               "than 400 degrees of freedom)")},
       .json_help = "JSON on standard output (Hz, 1/s)",
       .files = {{"--report",
                  "Write a page that shows the model and moves it in each of its shapes (HTML)"}},
       .footer =
           "States in motion need relative coordinates.\n"
           "Exit codes: 0 done, 1 the start or the eigenvalues cannot be found, 2 bad input.",
-      .run = [at](const Model& model) { return report_modes(model, *at); }};
+      .run = [options](const Model& model) { return report_modes(model, *options); }};
 }
 
 }  // namespace floatframe

@@ -6,11 +6,17 @@
 #include <cmath>
 
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/lowest_motions.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
 
 namespace {
+
+constexpr const char* held_by_nothing =
+    "a motion has neither mass nor damping nor stiffness where the system was linearised; give "
+    "mass "
+    "or inertia, or remove the freedom";
 
 /// Which coordinates are free, and what follows from them (linear_system.hpp).
 struct FreeCoordinates {
@@ -153,10 +159,7 @@ void follow_statics(SecondOrderSystem& s, Eigen::Index without) {
   const MatX K_uu = s.K.bottomRightCorner(without, without);
   const Singular values = singular_values(K_uu);
   const double stiffest = s.K.cwiseAbs().maxCoeff();
-  if (!(values.values[without - 1] > 1e-12 * stiffest))
-    throw RunError(
-        "a motion has neither mass nor damping nor stiffness where the system was linearised; give "
-        "mass or inertia, or remove the freedom");
+  if (!(values.values[without - 1] > 1e-12 * stiffest)) throw RunError(held_by_nothing);
   MatX Y = MatX::Zero(n + without, s.turned.cols());
   if (Y.cols() > 0) Y.bottomRows(without) = -lu_solve(K_uu, s.F[0].bottomRows(without));
   take_out(s, Y);
@@ -240,8 +243,12 @@ InputMotions no_inputs(Eigen::Index nv, Eigen::Index nc) {
 SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
                                const FreeCoordinates& c) {
   const auto n = static_cast<Eigen::Index>(c.free.size());
-  const MatX Nt = c.N.transpose();
   const LinearInputs& h = c.held;
+  if (m.J.rows() == 0)
+    return {m.M,           m.C, m.K, m.Gamma, c.N,
+            c.P,           c.N, c.R, c.T,     {u.residual[0], u.residual[1], u.residual[2]},
+            m.Gamma * h.x, h};
+  const MatX Nt = c.N.transpose();
   SecondOrderSystem s{
       Nt * m.M * c.N,
       Nt * (m.M * c.T + m.C * c.N),
@@ -264,16 +271,49 @@ SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
   return s;
 }
 
+/// Only the slowest motions: with w = y' - Gamma y,
+///   M y'' + (C - M Gamma) y' + (K - C Gamma) y = 0.
+LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int count) {
+  const MatX damping = s.C - s.M * s.Gamma, stiffness = s.K - s.C * s.Gamma;
+  const LowestMotions low = lowest_motions(s.M, damping, stiffness, count);
+  if (low.singular) throw RunError(held_by_nothing);
+  if (!low.converged)
+    throw RunError(fmt::format("the {} slowest of {} motions do not converge; ask for fewer", count,
+                               s.M.rows()));
+  LinearSystem out;
+  const MatX w = low.rate - s.Gamma * low.X;
+  out.A = low.A;
+  out.x_of = s.X * low.X;
+  out.v_of = s.V * low.X + s.W * w;
+  out.a_of = s.W * (w * low.A) + s.R * low.X + s.T * w;
+  out.fastest = low.fastest;
+  out.degrees = static_cast<int>(s.M.rows());
+  for (Eigen::Index k = 0; k < low.A.rows(); ++k)
+    out.states.push_back(fmt::format("slow motion {}", k + 1));
+  const VecX scale =
+      (s.W.cwiseAbs2().transpose() * possible).cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const MatX mass = scale.asDiagonal() * s.M * scale.asDiagonal();
+  constexpr double rounding = 1e-13;  // long chains fold up with little of their mass
+  if (!is_positive_definite(mass - rounding * MatX::Identity(mass.rows(), mass.rows())))
+    out.massless = static_cast<int>((symmetric_eigenvalues(mass).array() < rounding).count());
+  return out;
+}
+
 }  // namespace
 
 LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
-                            const InputMotions* inputs, LinearInputs* response) {
+                            const InputMotions* inputs, LinearInputs* response, int slowest) {
   const std::vector<std::string> coordinates = told_apart(owners);
   const InputMotions none = no_inputs(m.M.rows(), m.J.rows());
   const InputMotions& u = inputs ? *inputs : none;
   const FreeCoordinates c = free_coordinates(m, u);
   const auto n = static_cast<Eigen::Index>(c.free.size());
   SecondOrderSystem s = second_order(m, u, c);
+  if (slowest > 0 && n > few_degrees) {
+    LinearSystem out = slowest_of(s, m.scale, slowest);
+    out.xdot_of = out.v_of + m.Gamma * out.x_of;
+    return out;
+  }
   const Masslessness kinds = order_by_mass(s, m.scale);
   follow_statics(s, kinds.without);
   LinearSystem out = first_order(s, kinds.heavy);

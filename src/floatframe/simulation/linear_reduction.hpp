@@ -36,14 +36,16 @@ struct LinearInputs {
 };
 
 /// For coordinates with these owners. Throws RunError where a direction has neither mass nor
-/// stiffness nor damping. `response` is filled if there are inputs.
+/// stiffness nor damping. `response` is filled if there are inputs. `slowest`: as linear_system(),
+/// without inputs.
 LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
-                            const InputMotions* inputs = nullptr, LinearInputs* response = nullptr);
+                            const InputMotions* inputs = nullptr, LinearInputs* response = nullptr,
+                            int slowest = 0);
 
 /// Where `f` is started; `linear_system` of a model for formulations and states at hand.
 template <class F>
 LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs = nullptr,
-                              LinearInputs* response = nullptr);
+                              LinearInputs* response = nullptr, int slowest = 0);
 
 /// The model with these options and the stiffening that counts there, and what is said of it in its
 /// linear system.

@@ -81,16 +81,16 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
 }
 
 template <class F>
-LinearSystem system_of(const Model& model, const SimulationDescription& options) {
+LinearSystem system_of(const Model& model, const SimulationDescription& options, int slowest) {
   StartedModel<F> started(model, options);
-  return linear_system_at(started.formulation(), started.state());
+  return linear_system_at(started.formulation(), started.state(), nullptr, nullptr, slowest);
 }
 
 }  // namespace
 
 template <class F>
 LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs,
-                              LinearInputs* response) {
+                              LinearInputs* response, int slowest) {
   const double speed = largest(state.v);
   constexpr bool relative = std::is_same_v<F, RelativeFormulation>;
   if (!relative && speed > 1e-6)
@@ -98,7 +98,7 @@ LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inpu
         "the state moves: its linear system needs relative coordinates, since those of the "
         "absolute formulation turn with the bodies");
   const SmallMotions m = small_motions(f, state);
-  LinearSystem system = reduced_system(m, coordinate_owners(f), inputs, response);
+  LinearSystem system = reduced_system(m, coordinate_owners(f), inputs, response, slowest);
   describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);
@@ -119,9 +119,9 @@ LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inpu
 }
 
 template LinearSystem linear_system_at(RelativeFormulation&, const State&, const InputMotions*,
-                                       LinearInputs*);
+                                       LinearInputs*, int);
 template LinearSystem linear_system_at(AbsoluteFormulation&, const State&, const InputMotions*,
-                                       LinearInputs*);
+                                       LinearInputs*, int);
 
 double LinearMode::frequency() const noexcept {
   return std::abs(lambda) / (2.0 * std::numbers::pi);
@@ -196,12 +196,12 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
   return parts;
 }
 
-LinearSystem linear_system(const Model& model, const SimulationOptions& options) {
+LinearSystem linear_system(const Model& model, const SimulationOptions& options, int slowest) {
   const CountedStiffening counted = counted_at(model, options);
   const SimulationDescription& d = counted.model.simulation;
   LinearSystem system = d.coordinates == Coordinates::relative
-                            ? system_of<RelativeFormulation>(counted.model, d)
-                            : system_of<AbsoluteFormulation>(counted.model, d);
+                            ? system_of<RelativeFormulation>(counted.model, d, slowest)
+                            : system_of<AbsoluteFormulation>(counted.model, d, slowest);
   say_counted(counted, system);
   return system;
 }

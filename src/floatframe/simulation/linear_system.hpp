@@ -30,8 +30,10 @@ struct LinearSystem {
   /// Rows of each body: velocity, angular velocity in body axes, amplitude rates; then of each body
   /// the amplitudes; of each force six measures times the root of their stiffness (or of none).
   MatX rates_of, bends_of, springs_of;
-  MatX places_of;                  ///< 6 a body: displacement of its origin, rotation; world axes
-  std::vector<VecX> amplitudes;    ///< of each body, where it was linearised
+  MatX places_of;                ///< 6 a body: displacement of its origin, rotation; world axes
+  std::vector<VecX> amplitudes;  ///< of each body, where it was linearised
+  /// About the fastest frequency [1/s] where A holds the slowest motions only; 0: A holds all.
+  double fastest = 0.0;
   int degrees = 0;                 ///< of freedom
   int massless = 0;                ///< of these
   double acceleration = 0.0;       ///< largest of a coordinate where it was linearised [../s2]
@@ -68,6 +70,12 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
 /// bodies that spin or carry load there and for which the model does not say. Moving states need
 /// relative coordinates: coordinates of the absolute formulation turn with the bodies, and its
 /// frozen eigenvalues mean nothing; RunError for them.
-LinearSystem linear_system(const Model& model, const SimulationOptions& options = {});
+/// `slowest`, if not 0: of a model of more than `few_degrees` only so many motions, for z without a
+/// meaning of their own; RunError if they are not found.
+LinearSystem linear_system(const Model& model, const SimulationOptions& options = {},
+                           int slowest = 0);
+
+/// Degrees of freedom up to which all eigenvalues take a few seconds.
+inline constexpr int few_degrees = 400;
 
 }  // namespace floatframe

@@ -1,0 +1,281 @@
+#include "floatframe/math/lowest_motions.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "floatframe/math/dense.hpp"
+#include "floatframe/math/second_order_subspace.hpp"
+
+namespace floatframe {
+namespace {
+
+using Index = Eigen::Index;
+using Complex = std::complex<double>;
+using Subspace = SecondOrderSubspace;
+
+/// Ritz pairs by falling |nu|, the nearest to the shift first.
+struct RitzPairs {
+  MatX H;
+  Eigen::VectorXcd lambda;
+  VecX distance, error;      ///< |lambda - sigma|, of (x, w) over its size
+  Eigen::MatrixXcd vectors;  ///< of x in the basis U
+  double reach = std::numeric_limits<double>::infinity();  ///< distance of the first left out
+  bool found = false;
+
+  /// To the last digits that rounding leaves: the error is small, or falls no more.
+  bool has_converged(Index k, const RitzPairs& before) const {
+    constexpr double accuracy = 1e-9, noise = 1e-6;
+    if (error[k] <= accuracy) return true;
+    if (!(error[k] <= noise)) return false;
+    for (Index j = 0; j < before.lambda.size(); ++j)
+      if (std::abs(before.lambda[j] - lambda[k]) <= noise * distance[k])
+        return error[k] > 0.5 * before.error[j];
+    return false;
+  }
+};
+
+/// As many of them as hold the `count` slowest.
+RitzPairs ritz_pairs(const Subspace& space, double sigma, Index count) {
+  RitzPairs pairs;
+  pairs.H = space.projected();
+  const GeneralEigen e = general_eigen(pairs.H);
+  if (!e.found) return pairs;
+  const Index m = space.size();
+  std::vector<Index> order;
+  std::vector<double> sizes;  // |lambda|, a pair once
+  for (Index k = 0; k < 2 * m; ++k) {
+    if (!(std::abs(e.values[k]) > 1e-14)) continue;
+    order.push_back(k);
+    if (e.values[k].imag() >= 0.0) sizes.push_back(std::abs(sigma * (1.0 + 1.0 / e.values[k])));
+  }
+  const auto nu_of = [&](Index k) { return std::abs(e.values[k]); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return nu_of(a) > nu_of(b); });
+  if (std::ssize(sizes) > count) {
+    std::nth_element(sizes.begin(), sizes.begin() + count, sizes.end());
+    const double least = sigma / (1.001 * *(sizes.begin() + count) + sigma);
+    const auto end =
+        std::find_if(order.begin(), order.end(), [&](Index k) { return nu_of(k) < least; });
+    if (end != order.end()) pairs.reach = sigma / nu_of(*end);
+    order.erase(end, order.end());
+  }
+  pairs.lambda = sigma * (1.0 + e.values(order).array().inverse());
+  pairs.distance = sigma * e.values(order).cwiseAbs().cwiseInverse();
+  pairs.vectors.resize(m, pairs.lambda.size());
+  for (Index at = 0; const Index k : order) {
+    // x and w are parallel: the larger one has more digits.
+    const auto x = e.vectors.col(k).head(m), w = e.vectors.col(k).tail(m);
+    pairs.vectors.col(at++) = (x.squaredNorm() >= w.squaredNorm() ? x : w).normalized();
+  }
+  const Eigen::MatrixXcd off = space.corrections(pairs.vectors, pairs.lambda);
+  pairs.error = off.colwise().norm().transpose().cwiseQuotient(
+      (1.0 + (pairs.lambda / sigma).cwiseAbs2().array()).sqrt().matrix());
+  pairs.found = true;
+  return pairs;
+}
+
+/// What is looked for, and where.
+struct Search {
+  Index count = 0;
+  double sigma = 0.0, still = 0.0, fastest = 0.0;
+};
+
+/// The leading pairs that converged and are slower than all that did not; a pair once (Im >= 0),
+/// ascending by |lambda|.
+std::vector<Index> slow_pairs(const RitzPairs& pairs, const RitzPairs& before, bool complete,
+                              const Search& search) {
+  Index end = 0;
+  while (end < pairs.lambda.size() && (complete || pairs.has_converged(end, before))) ++end;
+  const double reach = end < pairs.lambda.size() ? pairs.distance[end] : pairs.reach;
+  std::vector<Index> slow;
+  for (Index k = 0; k < end; ++k)
+    if (std::abs(pairs.lambda[k]) <= std::max(reach - search.sigma, search.still) &&
+        pairs.lambda[k].imag() >= 0.0)
+      slow.push_back(k);
+  std::stable_sort(slow.begin(), slow.end(), [&](Index a, Index b) {
+    return std::abs(pairs.lambda[a]) < std::abs(pairs.lambda[b]);
+  });
+  return slow;
+}
+
+/// Half the size of the middle one of the slowest motions, as far as they are known.
+double better_shift(const RitzPairs& pairs, const Search& search) {
+  std::vector<double> sizes;
+  for (Index k = 0; k < pairs.lambda.size(); ++k)
+    if (pairs.lambda[k].imag() >= 0.0)
+      sizes.push_back(
+          std::max(std::abs(pairs.lambda[k]), std::min(pairs.error[k], 1.0) * pairs.distance[k]));
+  std::sort(sizes.begin(), sizes.end());
+  if (std::ssize(sizes) > search.count) sizes.erase(sizes.begin() + search.count, sizes.end());
+  std::erase_if(sizes, [&](double size) { return size <= search.still; });
+  return sizes.empty() ? search.sigma : std::max(0.5 * sizes[sizes.size() / 2], 2.0 * search.still);
+}
+
+/// The directions of H whose nu is -1 (lambda zero), with all vectors of their Jordan blocks:
+/// subspace iteration with the inverse close to -1.
+MatX still_directions(const MatX& H, Index count) {
+  const Index m = H.rows();
+  const Eigen::PartialPivLU<MatX> near(H + (1.0 + 1e-6) * MatX::Identity(m, m));
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  MatX N(m, count);
+  for (double& x : N.reshaped()) x = uniform(generator);
+  for (int k = 0; k < 8; ++k)
+    N = Eigen::HouseholderQR<MatX>(near.solve(N)).householderQ() * MatX::Identity(m, count);
+  return N;
+}
+
+/// In coordinates x = d * scaled ones. `slow`: at least as many as asked for, or all.
+LowestMotions collected(const Subspace& space, const RitzPairs& pairs,
+                        const std::vector<Index>& slow, const Search& search, const VecX& d) {
+  const auto is_still = [&](Complex lambda) { return std::abs(lambda) <= search.still; };
+  Index at = 0;  // columns of those that nothing holds, both of a pair
+  for (const Complex lambda : pairs.lambda) at += is_still(lambda) ? 1 : 0;
+  std::vector<Index> chosen;
+  Index columns = at;
+  LowestMotions out;
+  out.fastest = search.fastest;
+  for (const Index k : slow) {
+    const Complex lambda = pairs.lambda[k];
+    if (!is_still(lambda) && out.found >= search.count) break;
+    ++out.found;
+    if (is_still(lambda)) continue;
+    chosen.push_back(k);
+    columns += lambda.imag() > 0.0 ? 2 : 1;
+  }
+  const Index n = d.size(), m = space.size();
+  out.A = MatX::Zero(columns, columns);
+  out.X.resize(n, columns);
+  out.rate.resize(n, columns);
+  if (at > 0) {
+    const MatX N = still_directions(pairs.H, at);
+    const MatX T = N.transpose() * pairs.H * N;
+    out.A.topLeftCorner(at, at) = MatX::Identity(at, at) + lu_solve(T, MatX::Identity(at, at));
+    out.A *= search.sigma;
+    out.X.leftCols(at) = space.U() * N.topRows(m);
+    out.rate.leftCols(at) = search.sigma * (space.U() * N.bottomRows(m));
+  }
+  for (const Index k : chosen) {
+    const Complex lambda = pairs.lambda[k];
+    const Eigen::VectorXcd x = (space.U() * pairs.vectors.col(k)).normalized(), rate = lambda * x;
+    out.A(at, at) = lambda.real();
+    out.X.col(at) = x.real();
+    out.rate.col(at++) = rate.real();
+    if (!(lambda.imag() > 0.0)) continue;
+    out.A(at - 1, at) = lambda.imag();
+    out.A(at, at - 1) = -lambda.imag();
+    out.A(at, at) = lambda.real();
+    out.X.col(at) = x.imag();
+    out.rate.col(at++) = rate.imag();
+  }
+  out.X = d.asDiagonal() * out.X;
+  out.rate = d.asDiagonal() * out.rate;
+  out.converged = true;
+  return out;
+}
+
+/// The largest frequency without damping, about, by power iteration; where some direction has no
+/// mass, of the coordinates that have.
+double largest_rate(const MatX& M, const MatX& K) {
+  const Eigen::LLT<MatX> mass(M);
+  if (mass.info() != Eigen::Success) {
+    double most = 0.0;
+    for (Index i = 0; i < M.rows(); ++i)
+      if (M(i, i) > 1e-10 * M.diagonal().maxCoeff())
+        most = std::max(most, std::sqrt(std::abs(K(i, i)) / M(i, i)));
+    return most;
+  }
+  VecX x = VecX::Ones(M.rows());
+  for (Index i = 1; i < x.size(); i += 2) x[i] = -1.0;
+  double size = 0.0;
+  for (int pass = 0; pass < 30; ++pass) {
+    x = mass.solve(K * x).eval();
+    size = x.norm();
+    if (!(size > 0.0)) return 0.0;
+    x /= size;
+  }
+  return std::sqrt(size);
+}
+
+/// Scales of coordinates of like size: the stiffness of each, and its mass at a speed in between.
+VecX like_sizes(const MatX& M, const MatX& K) {
+  const VecX mass = M.diagonal().cwiseAbs(), stiffness = K.diagonal().cwiseAbs();
+  const double speed2 = std::max(1e-300, stiffness.sum()) / std::max(1e-300, mass.sum());
+  VecX d = stiffness + speed2 * mass;
+  for (double& size : d) size = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;
+  return d;
+}
+
+/// With one shift; a better one in `search` and nothing found if the first pairs tell of it.
+LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, const VecX& d) {
+  LowestMotions none;
+  const Index n = d.size(), start = std::min(n, search.count + 4 * Subspace::block),
+              most = std::min(n, 6 * search.count + 300);
+  Subspace space(map);
+  RitzPairs before;
+  double slowest = -1.0;  // |lambda| of the last one asked for, once there are so many
+  std::ptrdiff_t verified = 0;
+  for (Index next = start;; next = std::min(most, space.size() + space.size() / 5)) {
+    while (space.size() < next)
+      if (!space.grow()) return none;
+    RitzPairs pairs = ritz_pairs(space, search.sigma, search.count);
+    if (!pairs.found) return none;
+    if (may_shift && slowest < 0.0 && next < 2 * start && !space.complete()) {
+      const double better = better_shift(pairs, search);
+      if (better > 4.0 * search.sigma || better < 0.6 * search.sigma)
+        return search.sigma = better, none;
+    }
+    const std::vector<Index> slow = slow_pairs(pairs, before, space.complete(), search);
+    const auto slower_than = [&](double size) {
+      return std::count_if(slow.begin(), slow.end(),
+                           [&](Index k) { return std::abs(pairs.lambda[k]) <= size; });
+    };
+    const bool enough = std::ssize(slow) >= search.count;
+    if (space.complete() || (enough && slowest >= 0.0 && slower_than(slowest) == verified))
+      return collected(space, pairs, slow, search, d);
+    if (!enough && space.size() >= most) return none;
+    if (enough) {
+      // Once more with random directions: a lambda may have more motions than a block found.
+      const Complex last = pairs.lambda[*(slow.begin() + search.count - 1)];
+      slowest = (1.0 + 1e-6) * std::max(std::abs(last), search.still);
+      verified = slower_than(slowest);
+      space.append_random();
+    }
+    before = std::move(pairs);
+  }
+}
+
+}  // namespace
+
+LowestMotions lowest_motions(const MatX& M, const MatX& C, const MatX& K, int count) {
+  LowestMotions none;
+  if (M.rows() == 0) return none;
+  const VecX d = like_sizes(M, K);
+  const auto scaled = [&](const MatX& A) { return MatX(d.asDiagonal() * A * d.asDiagonal()); };
+  ShiftedMap map(scaled(M), scaled(C), scaled(K));
+  Search search;
+  search.count = count;
+  search.fastest = largest_rate(map.M, map.K);
+  search.still = std::max(zero_part * search.fastest, 1e-100);
+  search.sigma = 1e3 * search.still;
+  for (int shifts = 0, tries = 0;;) {
+    if (!map.factorise(search.sigma)) {
+      // By chance an eigenvalue, or no shift helps.
+      none.singular = ++tries == 3;
+      if (none.singular) return none;
+      search.sigma *= 1.3;
+      continue;
+    }
+    LowestMotions found = found_near(map, search, ++shifts < 12, d);
+    if (found.converged || search.sigma == map.sigma) return found;
+  }
+}
+
+}  // namespace floatframe
