@@ -41,10 +41,10 @@ class Limits(RunCase):
                     self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertEqual(codes[-1], 0)
 
-    def write_many_links(self):
-        """Two thousand hinged links with stiff springs."""
+    def write_many_links(self, count=2000):
+        """So many hinged links with stiff springs."""
         bodies, joints, forces = ["bodies:"], ["joints:"], ["forces:"]
-        for k in range(2000):
+        for k in range(count):
             parent = f"parent: b{k - 1}, " if k else ""
             bodies.append(f"  b{k}: {{rigid: {{mass: 1, centre_of_mass: [{k}.5, 0, 0], inertia: [0.01, 0.1, 0.1]}}}}")
             joints.append(f"  j{k}: {{type: revolute, {parent}child: b{k}, at: [{k}, 0, 0], axis: y}}")
@@ -69,6 +69,13 @@ class Limits(RunCase):
         beam = [k ** 2 * math.sqrt(1e9) / 2000 ** 2 / (2 * math.pi) for k in (1.8751041, 4.6940911, 7.8547574, 10.9955407, 14.1371684)]
         for f, exact in zip(frequencies, beam, strict=True):
             self.assertLess(abs(f / exact - 1), 2e-3)
+
+    def test_linear_system_of_many_bodies(self):
+        """All have mass, although each can fold up with 1e-10 of what the chain could have, and no eigenvalues are looked for."""
+        self.write_many_links(1200)
+        done = self.limited(resource.RLIMIT_CPU, 60, "linearize", "many.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, "many: 2400 states, 0 inputs, 3600 outputs")
 
     def test_stack(self):
         for kilobytes in (64, 256):

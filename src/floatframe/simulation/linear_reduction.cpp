@@ -76,6 +76,11 @@ FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
   return c;
 }
 
+/// W B, where W is often the identity: of a model without constraints.
+MatX times(const MatX& W, const MatX& B) {
+  return W.rows() == W.cols() && W.isIdentity(0.0) ? B : MatX(W * B);
+}
+
 /// M wdot + C w + K y + sum F_k u^(k) = 0, ydot = w + Gamma y + turned u; x = X y, v = V y + W w,
 /// a = W wdot + R y + T w, each with what inputs add.
 struct SecondOrderSystem {
@@ -106,16 +111,22 @@ struct Masslessness {
   Eigen::Index heavy = 0, damped = 0, without = 0;
 };
 
+/// Below this part of what is possible a direction has no mass. Long chains fold up with a 1e-10 of
+/// theirs.
+double least_mass(Eigen::Index degrees) { return degrees > few_degrees ? 1e-13 : no_mass; }
+
 /// The system in directions ordered by what holds them: with mass, damped without mass, neither.
 Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
   const Eigen::Index n = s.M.rows();
   Masslessness kinds{n, 0, 0};
   if (n == 0) return kinds;
-  const MatX scale = s.W.transpose() * possible.asDiagonal() * s.W;
-  const SymmetricEigen mass = generalised_eigen(0.5 * (s.M + s.M.transpose()), scale);
+  const MatX scale = times(MatX(s.W.transpose()), possible.asDiagonal() * s.W);
+  const MatX M = 0.5 * (s.M + s.M.transpose());
+  if (is_positive_definite(M - least_mass(n) * scale)) return kinds;
+  const SymmetricEigen mass = generalised_eigen(M, scale);
   if (!mass.found) return kinds;
   Eigen::Index light = 0;
-  while (light < n && !(mass.values[light] > no_mass)) ++light;
+  while (light < n && !(mass.values[light] > least_mass(n))) ++light;
   if (light == 0) return kinds;
   MatX B(n, n);
   B << mass.vectors.rightCols(n - light), mass.vectors.leftCols(light);
@@ -176,7 +187,7 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
   LinearSystem out;
   // w of what has no mass: C_ll w_l = -(C_lh w_h + K_l y + F0_l u + F1_l u').
   MatX w = MatX::Zero(n, nz), w_u[2] = {MatX::Zero(n, nu), MatX::Zero(n, nu)};
-  w.block(0, n, heavy, heavy).setIdentity();
+  w.topRightCorner(heavy, heavy).setIdentity();
   if (light > 0) {
     MatX rows(light, nz + 2 * nu);
     rows << s.K.bottomRows(light), s.C.bottomLeftCorner(light, heavy), s.F[0].bottomRows(light),
@@ -185,18 +196,28 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
     w.bottomRows(light) = rows.leftCols(nz);
     for (int k = 0; k < 2; ++k) w_u[k].bottomRows(light) = rows.middleCols(nz + k * nu, nu);
   }
-  MatX y = MatX::Zero(n, nz);
-  y.leftCols(n).setIdentity();
+  // What is by_y y + by_w w: y is the first part of z, and w the second if all has mass.
+  const auto of_z = [&](const auto& by_y, const auto& by_w) {
+    MatX columns = MatX::Zero(by_y.rows(), nz);
+    columns.leftCols(n) = by_y;
+    if (light == 0)
+      columns.rightCols(n) += by_w;
+    else
+      columns += by_w * w;
+    return columns;
+  };
   const auto rates_of_heavy = [&](const MatX& force) {
     return MatX(-lu_solve(s.M.topLeftCorner(heavy, heavy), force));
   };
   out.A.resize(nz, nz);
-  out.A.topRows(n) = w + s.Gamma * y;
+  out.A.topRows(n) = w;
+  out.A.topLeftCorner(n, n) += s.Gamma;
   if (heavy > 0)
-    out.A.bottomRows(heavy) = rates_of_heavy(s.C.topRows(heavy) * w + s.K.topRows(heavy) * y);
-  out.x_of = s.X * y;
-  out.v_of = s.V * y + s.W * w;
-  out.a_of = s.W * (w * out.A) + s.R * y + s.T * w;
+    out.A.bottomRows(heavy) = rates_of_heavy(of_z(s.K.topRows(heavy), s.C.topRows(heavy)));
+  out.x_of = of_z(s.X, MatX::Zero(s.X.rows(), n));
+  out.v_of = of_z(s.V, s.W);
+  out.a_of =
+      times(s.W, light == 0 ? MatX(out.A.bottomRows(heavy)) : MatX(w * out.A)) + of_z(s.R, s.T);
   for (MatX& B : s.u.B) B = MatX::Zero(nz, nu);
   if (nu == 0) return out;
 
@@ -293,9 +314,9 @@ LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int co
   const VecX scale =
       (s.W.cwiseAbs2().transpose() * possible).cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   const MatX mass = scale.asDiagonal() * s.M * scale.asDiagonal();
-  constexpr double rounding = 1e-13;  // long chains fold up with little of their mass
-  if (!is_positive_definite(mass - rounding * MatX::Identity(mass.rows(), mass.rows())))
-    out.massless = static_cast<int>((symmetric_eigenvalues(mass).array() < rounding).count());
+  const double least = least_mass(mass.rows());
+  if (!is_positive_definite(mass - least * MatX::Identity(mass.rows(), mass.rows())))
+    out.massless = static_cast<int>((symmetric_eigenvalues(mass).array() < least).count());
   return out;
 }
 

@@ -99,7 +99,7 @@ LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inpu
         "absolute formulation turn with the bodies");
   const SmallMotions m = small_motions(f, state);
   LinearSystem system = reduced_system(m, coordinate_owners(f), inputs, response, slowest);
-  describe_motions(f, state, system);
+  if (!inputs) describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);
   if (system.acceleration > 1e-3)

@@ -29,6 +29,7 @@ struct LinearSystem {
   std::vector<std::string> states;  ///< nz: "joint 'crank'", "rate of joint 'crank'", ...
   /// Rows of each body: velocity, angular velocity in body axes, amplitude rates; then of each body
   /// the amplitudes; of each force six measures times the root of their stiffness (or of none).
+  /// These and the places are empty in a LinearModel.
   MatX rates_of, bends_of, springs_of;
   MatX places_of;                ///< 6 a body: displacement of its origin, rotation; world axes
   std::vector<VecX> amplitudes;  ///< of each body, where it was linearised
