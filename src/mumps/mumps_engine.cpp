@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -110,15 +111,13 @@ class MumpsEngine final : public SparseEngine {
   void check(const char* stage) const {
     const int error = mumps_.infog[0], detail = mumps_.infog[1];
     if (error >= 0) return;
-    std::string why;
     if (error == -5 || error == -7 || error == -8 || error == -9 || error == -11 || error == -13 ||
-        error == -14 || error == -15 || error == -19 || error == -22) {
-      why = "there is not enough memory";
-    } else if (error == -10 || error == -6) {
-      why = "the matrix is singular";
-    } else {
-      why = "MUMPS reports error " + std::to_string(error) + " (" + std::to_string(detail) + ")";
-    }
+        error == -14 || error == -15 || error == -19 || error == -22)
+      throw std::bad_alloc();
+    const std::string why =
+        error == -10 || error == -6
+            ? "the matrix is singular"
+            : "MUMPS reports error " + std::to_string(error) + " (" + std::to_string(detail) + ")";
     throw std::runtime_error("sparse " + std::string(stage) + " of " + std::to_string(mumps_.n) +
                              " equations: " + why);
   }

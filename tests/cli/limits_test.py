@@ -4,15 +4,28 @@ import json
 import math
 import os
 import pathlib
+import pty
 import resource
 import shutil
+import subprocess
 import unittest
 
-from run_case import RunCase
+from run_case import BINARY, RunCase
 
 DATA = pathlib.Path(os.environ.get("FLOATFRAME_TEST_DATA") or pathlib.Path(__file__).resolve().parents[1] / "data")
 REDUCE = ("reduce", "aarm_coarse_free.inp", "--units", "mm-t-s", "--interface", "A=set:BUSH_F", "--interface", "B=set:BALL",
           "--modes", "5", "--quiet", "--overwrite", "-o", "arm.ffb")
+BAR = """floatframe: 1
+name: bar
+points: {a: [0, 0, 0], b: [1, 0, 0]}
+bodies:
+  b:
+    flexible:
+      material: {young: 2.1e11, poisson: 0.3, density: 7850}
+      bars: {rod: {from: a, to: b, section: {round: 0.02}, elements: 1000}}
+      clamped: [a]
+      normal_modes: 200
+"""
 PROCESSOR_SECONDS = 120  # what spins takes them all; the reduction needs three
 
 
@@ -76,6 +89,38 @@ class Limits(RunCase):
         done = self.limited(resource.RLIMIT_CPU, 60, "linearize", "many.yaml")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, "many: 2400 states, 0 inputs, 3600 outputs")
+
+    def test_memory_is_compared_before_it_is_taken(self):
+        self.write_many_links()
+        text = (self.folder / "many.yaml").read_text()
+        (self.folder / "absolute.yaml").write_text(text + "simulation: {coordinates: absolute}\n")
+        done = self.limited(resource.RLIMIT_AS, 4 << 30, "linearize", "absolute.yaml")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, r"the linear system of 24000 coordinates and 22000 constraints takes about \d+ GB of memory, "
+                                      r"of which [\d.]+ GB are free; relative coordinates are fewer")
+        (self.folder / "bar.yaml").write_text(BAR)
+        done = self.limited(resource.RLIMIT_AS, 500 << 20, "check", "bar.yaml")
+        self.assertIn(done.returncode, (1, 2), done.stderr)
+        self.assertRegex(done.stderr, r"^(bar.yaml:7:7: bodies.b: the reduction of 1001 nodes to 200 modes takes about 0.58 GB of memory, of "
+                                      r"which 0.\d+ GB are free; fewer modes or elements|floatframe: there is not enough memory)")
+
+    def test_progress_on_a_terminal(self):
+        self.write_many_links(900)
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([BINARY, "modes", "many.yaml", "--number", "3"], cwd=self.folder, stdout=subprocess.PIPE, stderr=theirs) as program:
+            os.close(theirs)
+            shown = b""
+            try:
+                while part := os.read(ours, 4096):
+                    shown += part
+            except OSError:  # closed by its end
+                pass
+            out = program.stdout.read().decode()
+        os.close(ours)
+        self.assertEqual(program.returncode, 0)
+        self.assertRegex(shown.decode(), r"\[#*\.*\] (stiffness|damping|slowest motions)")
+        self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-40:])
+        self.assertIn("900 degrees of freedom", out)
 
     def test_stack(self):
         for kilobytes in (64, 256):

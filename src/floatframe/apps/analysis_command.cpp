@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
@@ -41,9 +45,22 @@ std::vector<OutputFile> output_files(const Analysis& analysis, const AnalysisArg
 }
 
 /// Where it fails, files that say so take the place of older ones.
+/// On a terminal, of what takes longer than a second or two.
+ProgressListener progress_on_terminal() {
+  using Clock = std::chrono::steady_clock;
+  const auto bar = std::make_shared<ProgressBar>(true, 1.0, "");
+  return
+      [bar, next = Clock::now() + std::chrono::seconds(1)](const char* work, double done) mutable {
+        if (Clock::now() < next) return;
+        next = Clock::now() + std::chrono::milliseconds(100);
+        bar->show(done, work, done);
+      };
+}
+
 AnalysisReport run_with_files(const Analysis& analysis, const Model& model,
                               const AnalysisArguments& a) {
   try {
+    const ListenToProgress listen(progress_on_terminal());
     return analysis.run(model);
   } catch (const RunError& error) {
     for (std::size_t k = 0; analysis.file_of_failure && k < a.files.size(); ++k)

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/second_order_subspace.hpp"
 
@@ -223,8 +224,10 @@ LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, 
   double slowest = -1.0;  // |lambda| of the last one asked for, once there are so many
   std::ptrdiff_t verified = 0;
   for (Index next = start;; next = std::min(most, space.size() + space.size() / 5)) {
-    while (space.size() < next)
+    while (space.size() < next) {
+      tell_progress("slowest motions", space.size() / (3.0 * start));
       if (!space.grow()) return none;
+    }
     RitzPairs pairs = ritz_pairs(space, search.sigma, search.count);
     if (!pairs.found) return none;
     if (may_shift && slowest < 0.0 && next < 2 * start && !space.complete()) {

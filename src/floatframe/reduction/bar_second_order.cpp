@@ -1,8 +1,12 @@
 #include "floatframe/reduction/bar_second_order.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/memory_room.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/quadrature.hpp"
 #include "floatframe/math/so3.hpp"
@@ -137,9 +141,26 @@ void add_pairs(const MatX& integrals, const std::vector<ModePair>& pairs, Second
   }
 }
 
+bool keeps_all(const FeModel& model, Eigen::Index nm, bool all_nodes) {
+  return model.nodes() <= many_nodes && (all_nodes || 6 * nm * nm * model.nodes() <= few_numbers);
+}
+
+/// Of each mode what each element is bent to, of each two modes what nodes follow by.
+void require_memory(const FeModel& model, Eigen::Index nm, bool all_nodes, bool projection) {
+  constexpr double of_mode = 360.0;  // numbers of an element
+  const double of_pairs = (keeps_all(model, nm, all_nodes) ? 6.0 : 0.0) + (projection ? 3.0 : 0.0);
+  const auto modes = static_cast<double>(nm);
+  const std::string complaint =
+      memory_complaint(8.0 * model.nodes() * modes * (of_mode + of_pairs * modes));
+  if (!complaint.empty())
+    throw InputError(
+        fmt::format("the reduction of {} nodes to {} modes {}; fewer modes or elements "
+                    "are enough for nearly every body",
+                    model.nodes(), nm, complaint));
+}
+
 std::vector<SecondOrderNode> kept_nodes(const FeModel& model, Eigen::Index nm, bool all_nodes) {
-  const bool all =
-      model.nodes() <= many_nodes && (all_nodes || 6 * nm * nm * model.nodes() <= few_numbers);
+  const bool all = keeps_all(model, nm, all_nodes);
   std::vector<SecondOrderNode> nodes;
   for (int k = 0; k < model.nodes(); ++k) {
     if (!all && (model.node_names.empty() || model.node_names[k].empty())) continue;
@@ -184,6 +205,7 @@ BarSecondOrder bar_second_order(const FeModel& model, const MatX& X,
   out.turning = turning;
   const std::vector<int> held = held_dofs(model, X, options);
   if (held.size() < 6) return out;
+  require_memory(model, nm, all_nodes, all_nodes && options.mass_model != MassModel::hermite);
   const FollowingFrame frame(model, X, held);
   if (!frame.known()) return out;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/linearization.hpp"
@@ -146,6 +147,7 @@ void approach_by_tangent(RelativeFormulation& f, Statics& statics, VecX q, VecX 
   VecX dx, dlambda, q1 = q;
   const bool large = q.size() + lambda.size() > few_unknowns;
   for (int k = 0; k < (large ? 1000 : 60); ++k, ++iterations) {
+    tell_progress("equilibrium", large ? k / 1000.0 : k / 60.0);
     statics.look(q, lambda);
     const double size = statics.size();
     best.offer(q, lambda, statics);
@@ -175,6 +177,7 @@ void approach(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int
   double previous = std::numeric_limits<double>::infinity();
   VecX dx, dlambda, q1 = q;
   for (int k = 0; k < 200; ++k, ++iterations) {
+    tell_progress("equilibrium", k / 200.0);
     statics.linearise(q, lambda, k == 0);
     const double size = statics.size();
     best.offer(q, lambda, statics);
@@ -200,6 +203,7 @@ void descend(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int&
   bool first = true, moved = true;
   double size = 0.0;
   for (int k = 0; k < 500; ++k, ++iterations) {
+    tell_progress("equilibrium, downhill", k / 500.0);
     if (moved) {
       statics.linearise(q, lambda, first);
       first = false;

@@ -64,6 +64,7 @@ void find_output_columns(ShakenSystem<F>& shaken, const std::vector<double>& inp
   const VecX steps = motion_steps(f.model(), possible_masses(f, shaken.state()));
   linear.C.resize(ny, nz);
   for (Eigen::Index z = 0; z < nz; ++z) {
+    tell_progress("outputs", 1.0 * z / nz);
     const VecX x = system.x_of.col(z), v = system.v_of.col(z);
     const double h = std::min({step_along(x, steps), step_along(v, 10.0 * steps), 1e3});
     linear.C.col(z) = output_column(shaken, h, x, v, VecX(system.a_of.col(z)));

@@ -11,14 +11,20 @@
 // Differences over steps h and h/2 on both sides, extrapolated: the error falls with h^4. A force
 // whose slope jumps within the steps shows in second differences that fall with h instead of h^2.
 // Dense, allocates: load time only.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "floatframe/core/memory_room.hpp"
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
+#include "floatframe/simulation/run_error.hpp"
 
 namespace floatframe {
 
@@ -31,14 +37,16 @@ struct SmallMotions {
   std::vector<int> kinks;  ///< coordinates along which a force has no one slope
 };
 
-/// Columns dg/dx_j at 0, of a g that gives a vector; steps: one for each x_j.
+/// Columns dg/dx_j at 0, of a g that gives a vector; steps: one for each x_j. `work`: what it is,
+/// for who shows progress.
 struct PreciseDifferences {
   MatX columns;
   std::vector<int> kinks;  ///< columns whose first `watched` rows have no one slope
 };
 
 template <class Function>
-PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, const Function& g) {
+PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, const Function& g,
+                                       const char* work = "") {
   const Eigen::Index n = steps.size();
   VecX x = VecX::Zero(n);
   const VecX middle = g(x);
@@ -46,6 +54,7 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
   std::vector<double> bends;  // of the kinks
   d.columns.resize(middle.size(), n);
   for (Eigen::Index j = 0; j < n; ++j) {
+    if (*work) tell_progress(work, 1.0 * j / n);
     VecX slope[2];
     double bend[2];
     for (int k = 0; k < 2; ++k) {
@@ -124,6 +133,12 @@ template <EquationsOfMotion F>
 SmallMotions small_motions(F& f, const State& s) {
   const Eigen::Index nv = f.velocities(), nc = f.constraints();
   const VecX a = s.a.size() == nv ? s.a : VecX::Zero(nv);
+  // These matrices, their columns before they are taken apart, and what is made of them.
+  const double numbers = nv * (14.0 * nv + 6.0 * nc);
+  if (const std::string complaint = memory_complaint(8.0 * numbers); !complaint.empty())
+    throw RunError(fmt::format("the linear system of {} coordinates and {} constraints {}{}", nv,
+                               nc, complaint,
+                               nc > nv / 2 ? "; relative coordinates are fewer" : ""));
   SmallMotions m;
   m.scale = possible_masses(f, s);
 
@@ -142,12 +157,15 @@ SmallMotions small_motions(F& f, const State& s) {
     return all;
   };
   VecX q = s.q;
-  const PreciseDifferences along = precise_differences(steps, nv, [&](const VecX& x) {
-    f.retract(s.q, x, q);
-    return terms(q, s.v);
-  });
+  const PreciseDifferences along = precise_differences(
+      steps, nv,
+      [&](const VecX& x) {
+        f.retract(s.q, x, q);
+        return terms(q, s.v);
+      },
+      "stiffness");
   const PreciseDifferences rates = precise_differences(
-      10.0 * steps, nv, [&](const VecX& x) { return terms(s.q, VecX(s.v + x)); });
+      10.0 * steps, nv, [&](const VecX& x) { return terms(s.q, VecX(s.v + x)); }, "damping");
   m.K = along.columns.topRows(nv);
   m.G = along.columns.middleRows(nv, nc);
   m.H = along.columns.bottomRows(nc);
