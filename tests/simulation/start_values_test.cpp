@@ -64,6 +64,26 @@ TEST(StartValues, GivenOnesThatDoNotFitAreReported) {
   EXPECT_EQ(check(model).start.changes.size(), 4u);
 }
 
+TEST(StartValues, ThatBringTheEndsOfASpringTogetherAreNoted) {
+  const auto model_at = [](double position) {
+    return model_of(R"(
+bodies: {a: {position: [0, 0, 0], rigid: {mass: 1}}}
+joints: {s: {type: prismatic, child: a, at: [0, 0, 0], axis: x, position: )" +
+                    std::to_string(position) + R"(}}
+forces:
+  k: {type: spring_damper, from: {body: ground, at: [1, 0, 0]}, to: {body: a, at: [0, 0, 0]},
+      spring: 100}
+simulation: {step: 0.001, duration: 0.01}
+)");
+  };
+  for (const Combination& c : combinations) {
+    const std::vector<std::string> notes = run_of(model_at(1.0), c).summary.start.notes;
+    ASSERT_EQ(notes.size(), 1u) << c.name();
+    expect_in(notes[0], "the ends of force 'k' coincide at the start");
+    EXPECT_TRUE(run_of(model_at(0.999), c).summary.start.notes.empty());
+  }
+}
+
 TEST(StartValues, OnesThatFitAreNot) {
   const Model model = model_of(four_bar(", position: 0.3, velocity: 1", ""));
   const RunResult r = run_of(model, combinations[0]);

@@ -100,6 +100,7 @@ struct ForceKind {
   void (*mirror)(ForceDescription& force, const Placement& x) = nullptr;
   /// If it may measure a rotation vector, which ends at half a turn: whether this one does.
   bool (*ends_at_half_turn)(const Force& force) noexcept = nullptr;
+  bool along_line = false;  ///< acts along the line between its ends: none where they coincide
   /// If its law has branches. Called between steps.
   ForceSide (*side)(const ForceInput& in) noexcept = nullptr;
   std::span<const ForceRegime> regimes;

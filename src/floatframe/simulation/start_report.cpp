@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -73,6 +74,17 @@ class Changes {
   StartReport& report_;
 };
 
+/// Springs whose ends (within 1e-9 m) start values have brought together.
+void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
+  for (const Force& force : f.model().forces)
+    if (force_kind(force.type).along_line &&
+        (f.marker(force.b).r - f.marker(force.a).r).norm() < 1e-9)
+      report.notes.push_back(fmt::format(
+          "the ends of force '{}' coincide at the start: it has no direction there, and acts along "
+          "x until they part",
+          force.name));
+}
+
 }  // namespace
 
 std::vector<double> joint_coordinates_in_range(const Joint& joint,
@@ -115,6 +127,7 @@ void report_changes(const RelativeFormulation& f, const State& state, Start star
                  balanced && k < positions
                      ? "keep: true holds no position where the start is an equilibrium, which"
                      : "closing the loops"));
+  report_coinciding_ends(f, report);
 }
 
 }  // namespace floatframe

@@ -161,6 +161,7 @@ constinit const ForceKind spring_damper_element = {
     .free_value = distance_in_design,
     .validate = spring_damper_validate,
     .build = spring_damper_build,
+    .along_line = true,
     .side = spring_damper_side,
     .regimes = spring_damper_regimes,
     .example = spring_damper_example};
