@@ -41,9 +41,12 @@ struct CutValue {
 
 std::vector<CutValue> cut_values(const RelativeFormulation& f, bool rates) {
   std::vector<CutValue> values;
+  std::vector<bool> in_tree(f.model().joints.size() + 1);
+  for (std::size_t i = 0; i < f.model().bodies.size(); ++i)
+    in_tree[f.tree().body(static_cast<int>(i)).joint + 1] = true;  // -1: of no joint
   for (std::size_t j = 0; j < f.model().joints.size(); ++j) {
     const Joint& joint = f.model().joints[j];
-    if (f.tree().body_of_joint(static_cast<int>(j)) >= 0) continue;
+    if (in_tree[j + 1]) continue;
     const std::vector<double> given =
         rates ? joint.velocity : joint_coordinates_in_range(joint, joint.position);
     for (std::size_t k = 0; k < given.size(); ++k)
