@@ -153,6 +153,16 @@ TEST(LowestMotions, WhatHasNoMassFollows) {
   EXPECT_LT(equation_error(s, damped), 1e-8);
 }
 
+TEST(LowestMotions, NothingHoldsAnyOfThem) {
+  const int n = 120;
+  const MatX none = MatX::Zero(n, n);
+  const LowestMotions m = lowest_motions(MatX::Identity(n, n), none, none, 20);
+  ASSERT_TRUE(m.converged);
+  EXPECT_GE(m.found, 20);
+  for (const auto& lambda : sorted_values(m.A))
+    EXPECT_LT(std::abs(lambda), zero_part * m.fastest) << lambda;
+}
+
 TEST(LowestMotions, NothingToFind) {
   System s = random_chain(150, true);
   s.M.row(7).setZero(), s.M.col(7).setZero(), s.K.row(7).setZero(), s.K.col(7).setZero();

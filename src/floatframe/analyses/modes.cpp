@@ -104,7 +104,13 @@ MatX rigid_motions(const LinearSystem& system, const std::vector<ShownMotion>& m
   return chosen * lu_solve(square, MatX::Identity(count, count));
 }
 
-std::string rigid_text(const Model& model, Eigen::Index count,
+bool lists_all(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
+  Eigen::Index states = 0;
+  for (const ShownMotion& m : modes) states += m.mode.lambda.imag() > 0.0 ? 2 : 1;
+  return system.fastest == 0.0 && states == system.A.rows();
+}
+
+std::string rigid_text(const Model& model, const LinearSystem& system, Eigen::Index count,
                        const std::vector<ShownMotion>& modes) {
   if (count == 0) return "";
   std::string names;
@@ -113,8 +119,9 @@ std::string rigid_text(const Model& model, Eigen::Index count,
           return m.kind == "rigid" && m.moves[i].part >= 0.05;
         }))
       names += (names.empty() ? ": moves " : ", ") + model.bodies[i].name;
-  return fmt::format("{} that nothing holds (frequency 0){}\n\n", plural(count, "rigid motion"),
-                     names);
+  const bool more = modes.back().kind == "rigid" && !lists_all(system, modes);
+  return fmt::format("{}{} that nothing holds (frequency 0){}\n\n", more ? "at least " : "",
+                     plural(count, "rigid motion"), names);
 }
 
 const std::vector<std::string> vibration_columns{"mode", "f [Hz]", "undamped [Hz]", "damping",
@@ -135,8 +142,10 @@ std::vector<std::vector<std::string>> vibration_rows(const std::vector<ShownMoti
 
 /// Empty where all motions are listed.
 std::string slowest_text(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
-  if (system.fastest == 0.0) return "";
-  return fmt::format("the {} slowest motions; --number N lists others", modes.size());
+  if (lists_all(system, modes)) return "";
+  return fmt::format("{}; --number N lists others",
+                     modes.size() == 1 ? "the slowest motion"
+                                       : fmt::format("the {} slowest motions", modes.size()));
 }
 
 std::string vibrations_text(const Model& model, const LinearSystem& system,
@@ -147,9 +156,9 @@ std::string vibrations_text(const Model& model, const LinearSystem& system,
   text += fmt::format("{}: {} of freedom{}\n", model.name, plural(system.degrees, "degree"),
                       system.massless > 0 ? fmt::format(", {} without mass", system.massless) : "");
   if (const std::string slowest = slowest_text(system, modes); !slowest.empty())
-    text += "Listed are " + slowest + ".\n";
+    text += "Listed: " + slowest + ".\n";
   text += '\n';
-  text += rigid_text(model, rigid, modes);
+  text += rigid_text(model, system, rigid, modes);
   text += table.text();
   text +=
       "\nvibration: decays while it swings, or not; unstable: grows while it swings; decay, "
@@ -192,7 +201,7 @@ std::string vibrations_json(const Model& model, const LinearSystem& system,
                         {"degrees_of_freedom", system.degrees},
                         {"without_mass", system.massless},
                         {"rigid_motions", rigid},
-                        {"all_motions", system.fastest == 0.0},
+                        {"all_motions", lists_all(system, modes)},
                         {"largest_speed", system.speed},
                         {"largest_acceleration", system.acceleration},
                         {"stiffening_counted_in", system.stiffened},
@@ -269,7 +278,7 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
     page.sentences.push_back(
         "The model moves there: drawn is the motion about that state, which is held still.");
   if (const std::string slowest = slowest_text(system, modes); !slowest.empty())
-    page.sentences.push_back("Shown are " + slowest + ".");
+    page.sentences.push_back("Shown: " + slowest + ".");
   for (const std::string& note : system.notes) {
     page.warnings.push_back(note + ".");
     char& first = page.warnings.back().front();

@@ -183,7 +183,7 @@ LowestMotions collected(const Subspace& space, const RitzPairs& pairs,
 }
 
 /// The largest frequency without damping, about, by power iteration; where some direction has no
-/// mass, of the coordinates that have.
+/// mass, of the coordinates that have. 0: no stiffness.
 double largest_rate(const MatX& M, const MatX& K) {
   const Eigen::LLT<MatX> mass(M);
   if (mass.info() != Eigen::Success) {
@@ -266,7 +266,8 @@ LowestMotions lowest_motions(const MatX& M, const MatX& C, const MatX& K, int co
   Search search;
   search.count = count;
   search.fastest = largest_rate(map.M, map.K);
-  search.still = std::max(zero_part * search.fastest, 1e-100);
+  if (!(search.fastest > 0.0)) search.fastest = 1.0;  // nothing else tells what is slow
+  search.still = zero_part * search.fastest;
   search.sigma = 1e3 * search.still;
   for (int shifts = 0, tries = 0;;) {
     if (!map.factorise(search.sigma)) {

@@ -23,10 +23,11 @@ inline constexpr double zero_part = 1e-7;
 /// with all vectors of their Jordan blocks; then blocks [a b; -b a] of the pairs lambda = a + i b
 /// and real ones, ascending by |lambda|.
 struct LowestMotions {
-  MatX A;                  ///< nz x nz [1/s]
-  MatX X, rate;            ///< n x nz
-  int found = 0;           ///< motions, a pair once
-  double fastest = 0.0;    ///< the largest frequency without damping, about [1/s]
+  MatX A;         ///< nz x nz [1/s]
+  MatX X, rate;   ///< n x nz
+  int found = 0;  ///< motions, a pair once
+  double fastest =
+      0.0;  ///< the largest frequency without damping, about [1/s]; 1 without stiffness
   bool converged = false;  ///< false: fewer than asked for, or none
   bool singular = false;   ///< a direction without mass, damping and stiffness
 };

@@ -330,7 +330,7 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
   const FreeCoordinates c = free_coordinates(m, u);
   const auto n = static_cast<Eigen::Index>(c.free.size());
   SecondOrderSystem s = second_order(m, u, c);
-  if (slowest > 0 && n > few_degrees) {
+  if (slowest > 0 && 2 * slowest < n && n > few_degrees) {
     LinearSystem out = slowest_of(s, m.scale, slowest);
     out.xdot_of = out.v_of + m.Gamma * out.x_of;
     return out;

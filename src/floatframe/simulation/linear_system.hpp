@@ -71,8 +71,8 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
 /// bodies that spin or carry load there and for which the model does not say. Moving states need
 /// relative coordinates: coordinates of the absolute formulation turn with the bodies, and its
 /// frozen eigenvalues mean nothing; RunError for them.
-/// `slowest`, if not 0: of a model of more than `few_degrees` only so many motions, for z without a
-/// meaning of their own; RunError if they are not found.
+/// `slowest`, if not 0: of a model of more than `few_degrees`, and of twice as many, only so many
+/// motions, for z without a meaning of their own; RunError if they are not found.
 LinearSystem linear_system(const Model& model, const SimulationOptions& options = {},
                            int slowest = 0);
 
