@@ -21,63 +21,51 @@ using Index = Eigen::Index;
 using Complex = std::complex<double>;
 using Subspace = SecondOrderSubspace;
 
-/// Ritz pairs by falling |nu|, the nearest to the shift first.
+/// Ritz pairs, the slowest first.
 struct RitzPairs {
   MatX H;
   Eigen::VectorXcd lambda;
-  VecX distance, error;      ///< |lambda - sigma|, of (x, w) over its size
+  VecX error;                ///< of x over its size, and about that of lambda
   Eigen::MatrixXcd vectors;  ///< of x in the basis U
-  double reach = std::numeric_limits<double>::infinity();  ///< distance of the first left out
   bool found = false;
 
   /// To the last digits that rounding leaves: the error is small, or falls no more.
   bool has_converged(Index k, const RitzPairs& before) const {
-    constexpr double accuracy = 1e-9, noise = 1e-6;
+    constexpr double accuracy = 1e-9, noise = 1e-5;
     if (error[k] <= accuracy) return true;
     if (!(error[k] <= noise)) return false;
     for (Index j = 0; j < before.lambda.size(); ++j)
-      if (std::abs(before.lambda[j] - lambda[k]) <= noise * distance[k])
+      if (std::abs(before.lambda[j] - lambda[k]) <= noise * std::abs(lambda[k]))
         return error[k] > 0.5 * before.error[j];
     return false;
   }
 };
 
-/// As many of them as hold the `count` slowest.
+/// As many of them as the `count` slowest are, of a pair both.
 RitzPairs ritz_pairs(const Subspace& space, double sigma, Index count) {
   RitzPairs pairs;
   pairs.H = space.projected();
   const GeneralEigen e = general_eigen(pairs.H);
   if (!e.found) return pairs;
+  const Eigen::VectorXcd lambda = sigma * (1.0 + e.values.array().inverse());
   const Index m = space.size();
   std::vector<Index> order;
-  std::vector<double> sizes;  // |lambda|, a pair once
-  for (Index k = 0; k < 2 * m; ++k) {
-    if (!(std::abs(e.values[k]) > 1e-14)) continue;
-    order.push_back(k);
-    if (e.values[k].imag() >= 0.0) sizes.push_back(std::abs(sigma * (1.0 + 1.0 / e.values[k])));
-  }
-  const auto nu_of = [&](Index k) { return std::abs(e.values[k]); };
+  for (Index k = 0; k < 2 * m; ++k)
+    if (std::abs(e.values[k]) > 1e-14) order.push_back(k);
   std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return nu_of(a) > nu_of(b); });
-  if (std::ssize(sizes) > count) {
-    std::nth_element(sizes.begin(), sizes.begin() + count, sizes.end());
-    const double least = sigma / (1.001 * *(sizes.begin() + count) + sigma);
-    const auto end =
-        std::find_if(order.begin(), order.end(), [&](Index k) { return nu_of(k) < least; });
-    if (end != order.end()) pairs.reach = sigma / nu_of(*end);
-    order.erase(end, order.end());
-  }
-  pairs.lambda = sigma * (1.0 + e.values(order).array().inverse());
-  pairs.distance = sigma * e.values(order).cwiseAbs().cwiseInverse();
+                   [&](Index a, Index b) { return std::abs(lambda[a]) < std::abs(lambda[b]); });
+  Index once = 0;  // a pair once
+  const auto end = std::find_if(order.begin(), order.end(),
+                                [&](Index k) { return lambda[k].imag() >= 0.0 && ++once > count; });
+  order.erase(end, order.end());
+  pairs.lambda = lambda(order);
   pairs.vectors.resize(m, pairs.lambda.size());
   for (Index at = 0; const Index k : order) {
     // x and w are parallel: the larger one has more digits.
     const auto x = e.vectors.col(k).head(m), w = e.vectors.col(k).tail(m);
     pairs.vectors.col(at++) = (x.squaredNorm() >= w.squaredNorm() ? x : w).normalized();
   }
-  const Eigen::MatrixXcd off = space.corrections(pairs.vectors, pairs.lambda);
-  pairs.error = off.colwise().norm().transpose().cwiseQuotient(
-      (1.0 + (pairs.lambda / sigma).cwiseAbs2().array()).sqrt().matrix());
+  pairs.error = space.corrections(pairs.vectors, pairs.lambda).colwise().norm();
   pairs.found = true;
   return pairs;
 }
@@ -88,35 +76,28 @@ struct Search {
   double sigma = 0.0, still = 0.0, fastest = 0.0;
 };
 
-/// The leading pairs that converged and are slower than all that did not; a pair once (Im >= 0),
-/// ascending by |lambda|.
-std::vector<Index> slow_pairs(const RitzPairs& pairs, const RitzPairs& before, bool complete,
-                              const Search& search) {
-  Index end = 0;
-  while (end < pairs.lambda.size() && (complete || pairs.has_converged(end, before))) ++end;
-  const double reach = end < pairs.lambda.size() ? pairs.distance[end] : pairs.reach;
+/// Those that converged, up to the first that did not; a pair once (Im >= 0).
+std::vector<Index> slow_pairs(const RitzPairs& pairs, const RitzPairs& before, bool complete) {
   std::vector<Index> slow;
-  for (Index k = 0; k < end; ++k)
-    if (std::abs(pairs.lambda[k]) <= std::max(reach - search.sigma, search.still) &&
-        pairs.lambda[k].imag() >= 0.0)
-      slow.push_back(k);
-  std::stable_sort(slow.begin(), slow.end(), [&](Index a, Index b) {
-    return std::abs(pairs.lambda[a]) < std::abs(pairs.lambda[b]);
-  });
+  for (Index k = 0; k < pairs.lambda.size(); ++k) {
+    if (!complete && !pairs.has_converged(k, before)) break;
+    if (pairs.lambda[k].imag() >= 0.0) slow.push_back(k);
+  }
   return slow;
 }
 
-/// Half the size of the middle one of the slowest motions, as far as they are known.
+/// A part of the size of the middle one of the slowest motions, as far as they are known: near to
+/// zero the slowest ones are the nearest, and farther off rounding leaves more digits.
 double better_shift(const RitzPairs& pairs, const Search& search) {
   std::vector<double> sizes;
   for (Index k = 0; k < pairs.lambda.size(); ++k)
     if (pairs.lambda[k].imag() >= 0.0)
       sizes.push_back(
-          std::max(std::abs(pairs.lambda[k]), std::min(pairs.error[k], 1.0) * pairs.distance[k]));
+          std::max(std::abs(pairs.lambda[k]), std::min(pairs.error[k], 1.0) * search.sigma));
   std::sort(sizes.begin(), sizes.end());
   if (std::ssize(sizes) > search.count) sizes.erase(sizes.begin() + search.count, sizes.end());
   std::erase_if(sizes, [&](double size) { return size <= search.still; });
-  return sizes.empty() ? search.sigma : std::max(0.5 * sizes[sizes.size() / 2], 2.0 * search.still);
+  return sizes.empty() ? search.sigma : std::max(0.1 * sizes[sizes.size() / 2], 2.0 * search.still);
 }
 
 /// The directions of H whose nu is -1 (lambda zero), with all vectors of their Jordan blocks:
@@ -218,7 +199,7 @@ VecX like_sizes(const MatX& M, const MatX& K) {
 LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, const VecX& d) {
   LowestMotions none;
   const Index n = d.size(), start = std::min(n, search.count + 4 * Subspace::block),
-              most = std::min(n, 6 * search.count + 300);
+              most = std::min(n, 8 * search.count + 500);
   Subspace space(map);
   RitzPairs before;
   double slowest = -1.0;  // |lambda| of the last one asked for, once there are so many
@@ -235,7 +216,7 @@ LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, 
       if (better > 4.0 * search.sigma || better < 0.6 * search.sigma)
         return search.sigma = better, none;
     }
-    const std::vector<Index> slow = slow_pairs(pairs, before, space.complete(), search);
+    const std::vector<Index> slow = slow_pairs(pairs, before, space.complete());
     const auto slower_than = [&](double size) {
       return std::count_if(slow.begin(), slow.end(),
                            [&](Index k) { return std::abs(pairs.lambda[k]) <= size; });

@@ -292,15 +292,21 @@ SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
   return s;
 }
 
-/// Only the slowest motions: with w = y' - Gamma y,
+/// Degrees of freedom up to which all eigenvalues take at most a few minutes.
+constexpr Eigen::Index all_in_minutes = 1000;
+
+/// Only the slowest motions, or nothing where all are found sooner: with w = y' - Gamma y,
 ///   M y'' + (C - M Gamma) y' + (K - C Gamma) y = 0.
 LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int count) {
   const MatX damping = s.C - s.M * s.Gamma, stiffness = s.K - s.C * s.Gamma;
   const LowestMotions low = lowest_motions(s.M, damping, stiffness, count);
   if (low.singular) throw RunError(held_by_nothing);
+  if (!low.converged && s.M.rows() <= all_in_minutes) return {};
   if (!low.converged)
-    throw RunError(fmt::format("the {} slowest of {} motions do not converge; ask for fewer", count,
-                               s.M.rows()));
+    throw RunError(
+        fmt::format("the {} slowest of {} motions do not converge: too many frequencies lie close "
+                    "together for the search among so many",
+                    count, s.M.rows()));
   LinearSystem out;
   const MatX w = low.rate - s.Gamma * low.X;
   out.A = low.A;
@@ -332,8 +338,10 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
   SecondOrderSystem s = second_order(m, u, c);
   if (slowest > 0 && 2 * slowest < n && n > few_degrees) {
     LinearSystem out = slowest_of(s, m.scale, slowest);
-    out.xdot_of = out.v_of + m.Gamma * out.x_of;
-    return out;
+    if (out.fastest > 0.0) {
+      out.xdot_of = out.v_of + m.Gamma * out.x_of;
+      return out;
+    }
   }
   const Masslessness kinds = order_by_mass(s, m.scale);
   follow_statics(s, kinds.without);
