@@ -72,7 +72,7 @@ class Limits(RunCase):
         self.assertRegex(done.stdout, "many: static equilibrium after")
 
     def test_modes_of_many_bodies(self):
-        """All eigenvalues took an hour. The links are a beam: clamped at one end, its EI the spring times the length of a link."""
+        """All eigenvalues took two and a half minutes. The links are a beam: clamped at one end, its EI the spring times the length of a link."""
         self.write_many_links()
         done = self.limited(resource.RLIMIT_CPU, 60, "modes", "many.yaml", "--json", "--number", "5")
         self.assertEqual(done.returncode, 0, done.stderr)
