@@ -81,6 +81,14 @@ Eigen::Index pivoted_rank(const MatX& A, std::optional<double> threshold) {
   return decomposed<ColPivQr>(A, threshold).rank();
 }
 
+Orthonormal orthonormal_columns(const MatX& A) {
+  const Eigen::Index n = A.cols();
+  const Eigen::HouseholderQR<MatX> qr(A);
+  const MatX R = qr.matrixQR().topRows(n);
+  return {qr.householderQ() * MatX::Identity(A.rows(), n),
+          R.triangularView<Eigen::Upper>().solve(MatX::Identity(n, n))};
+}
+
 Singular singular_values(const MatX& A) {
   const Eigen::JacobiSVD<MatX> svd(A, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};

@@ -55,6 +55,12 @@ struct PivotedQr {
 PivotedQr pivoted_qr(const MatX& A, std::optional<double> threshold = {});
 Eigen::Index pivoted_rank(const MatX& A, std::optional<double> threshold = {});
 
+/// Q = A W with orthonormal columns, as many as A has, which must be independent.
+struct Orthonormal {
+  MatX Q, W;
+};
+Orthonormal orthonormal_columns(const MatX& A);
+
 /// Singular values in descending order and the right vectors, all columns of V.
 struct Singular {
   VecX values;

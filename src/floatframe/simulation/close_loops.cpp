@@ -1,15 +1,15 @@
-// Closing loops: the least change of the start values that satisfies the constraints. The unknowns
-// are the coordinates of the tree and, for each start value given for a joint outside of the tree,
-// the change of that value: a value counts the same wherever the loop happens to be cut.
+// Closing loops: from the drawn configuration along a path to the start values; what is nearly
+// closed by the least change of the coordinates.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/linearization.hpp"
+#include "floatframe/simulation/loop_path.hpp"
 #include "floatframe/simulation/open_loops.hpp"
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -32,184 +32,116 @@ VecX least_change(const SparseRowMatrix& J, const VecX& w, const VecX& b) {
   return roots.cwiseProduct(LeastNorm(MatX(Jw), 1e-11).solve(b));
 }
 
-/// A start value given for a joint outside of the tree.
-struct CutValue {
-  int joint, component;
-  double value;
-  bool kept;
-};
-
-std::vector<CutValue> cut_values(const RelativeFormulation& f, bool rates) {
-  std::vector<CutValue> values;
-  std::vector<bool> in_tree(f.model().joints.size() + 1);
-  for (std::size_t i = 0; i < f.model().bodies.size(); ++i)
-    in_tree[f.tree().body(static_cast<int>(i)).joint + 1] = true;  // -1: of no joint
-  for (std::size_t j = 0; j < f.model().joints.size(); ++j) {
-    const Joint& joint = f.model().joints[j];
-    if (in_tree[j + 1]) continue;
-    const std::vector<double> given =
-        rates ? joint.velocity : joint_coordinates_in_range(joint, joint.position);
-    for (std::size_t k = 0; k < given.size(); ++k)
-      values.push_back({static_cast<int>(j), static_cast<int>(k), given[k], joint.keep});
+/// Which coordinates may move at a stage: 0 rigid coordinates without a start value, 1 modal
+/// amplitudes too, 2 all.
+VecX mobility(const RelativeFormulation& f, int stage) {
+  VecX w = VecX::Ones(f.velocities());
+  const std::vector<bool> elastic = f.tree().elastic_coordinates();
+  const std::vector<Given> given = f.tree().given_coordinates(false);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    double& weight = w[static_cast<Eigen::Index>(i)];
+    if (elastic[i]) weight = stage >= 1 ? 1e-4 : 0.0;
+    if (given[i] != Given::no) weight = stage >= 2 ? 1e-4 : 0.0;
   }
-  return values;
+  return w;
 }
 
-/// The equations of one level, positions or rates, in the unknowns [coordinates; changes of the
-/// values of cut joints].
-class Loops {
- public:
-  Loops(RelativeFormulation& f, bool rates, bool keeps, double t, bool as_given)
-      : f_(f),
-        rates_(rates),
-        keeps_(keeps),
-        t_(t),
-        given_(f.tree().given_coordinates(rates)),
-        cut_(as_given ? cut_values(f, rates) : std::vector<CutValue>()),
-        changes_(VecX::Zero(static_cast<Eigen::Index>(cut_.size()))) {}
-
-  Eigen::Index rows() const { return f_.constraints() + changes_.size(); }
-  void restart() { changes_.setZero(); }
-  void change(const VecX& x) { changes_ += x.tail(changes_.size()); }
-
-  /// Which unknowns may move at a stage: 0 rigid coordinates without a start value, 1 modal
-  /// amplitudes too, 2 all but what is kept.
-  VecX mobility(int stage) const {
-    const Eigen::Index nv = f_.velocities();
-    VecX w = VecX::Ones(nv + changes_.size());
-    const std::vector<bool> elastic = f_.tree().elastic_coordinates();
-    for (int i = 0; i < nv; ++i) {
-      const Given given = given_[i];
-      if (elastic[i]) w[i] = stage >= 1 ? 1e-4 : 0.0;
-      if (given != Given::no) w[i] = stage >= 2 ? 1e-4 : 0.0;
-      if (given == Given::kept && keeps_) w[i] = 0.0;
-    }
-    for (std::size_t k = 0; k < cut_.size(); ++k)
-      w[nv + static_cast<Eigen::Index>(k)] = stage >= 2 && !(cut_[k].kept && keeps_) ? 1e-4 : 0.0;
-    return w;
-  }
-
-  /// Residual at the present positions and velocities of the formulation.
-  VecX residual() {
-    VecX r(rows());
-    if (rates_) {
-      rate_.resize(f_.constraints());
-      f_.constraint_rates(rate_);
-      r.head(f_.constraints()) = rate_;
-    } else {
-      r.head(f_.constraints()) = f_.constraint_values();
-    }
-    r.tail(changes_.size()) = measured() - changes_;
-    return r;
-  }
-
-  SparseRowMatrix jacobian(const VecX& q, const VecX& v) {
-    const Eigen::Index nv = f_.velocities(), nc = f_.constraints(), n = changes_.size();
-    if (n == 0) return f_.constraint_rows();
-    MatX J = MatX::Zero(nc + n, nv + n);
-    J.topLeftCorner(nc, nv) = f_.constraint_jacobian();
-    J.bottomRightCorner(n, n).diagonal().setConstant(-1.0);
-    VecX q1 = q;
-    J.bottomLeftCorner(n, nv) = central_differences(nv, rates_ ? 1.0 : 1e-6, [&](const VecX& x) {
-      if (!rates_) f_.retract(q, x, q1);
-      f_.positions(t_, q1);
-      f_.velocities(rates_ ? VecX(v + x) : v);
-      return measured();
-    });
-    f_.positions(t_, q);
-    f_.velocities(v);
-    return J.sparseView();
-  }
-
- private:
-  /// Coordinates of the cut joints less their start values.
-  VecX measured() const {
-    VecX m(static_cast<Eigen::Index>(cut_.size()));
-    for (std::size_t k = 0; k < cut_.size(); ++k) {
-      const CutValue& c = cut_[k];
-      const Joint& joint = f_.model().joints[c.joint];
-      const MarkerState& F = f_.marker(joint.frame_F);
-      const MarkerState& M = f_.marker(joint.frame_M);
-      const double x = rates_ ? joint_velocity(joint, F, M, c.component)
-                              : joint_position(joint, F, M, c.component, c.value);
-      m[static_cast<Eigen::Index>(k)] = x - c.value;
-    }
-    return m;
-  }
-
-  RelativeFormulation& f_;
-  bool rates_, keeps_;
-  double t_;
-  std::vector<Given> given_;
-  std::vector<CutValue> cut_;
-  VecX changes_, rate_;
-};
-
-/// Closes the positions; returns the largest violation left.
-double close_positions(RelativeFormulation& f, VecX& q, const VecX& v, bool keeps, double t,
-                       bool as_given) {
-  Loops loops(f, false, keeps, t, as_given);
-  if (loops.rows() == 0) return 0.0;
+/// Closes positions that are nearly closed; returns the largest violation left.
+double close_from(RelativeFormulation& f, VecX& q, const VecX& v, double t) {
+  if (f.constraints() == 0) return 0.0;
   const VecX q_start = q;
   VecX q1 = q;
   double violation = 0.0;
   for (int stage = 0; stage < 3; ++stage) {
-    const VecX w = loops.mobility(stage);
+    const VecX w = mobility(f, stage);
     q = q_start;
-    loops.restart();
     double before = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < 100; ++pass) {
       f.positions(t, q);
       f.velocities(v);
-      const VecX r = loops.residual();
+      const VecX r = f.constraint_values();
       violation = largest(r);
       // Where places are far from the origin rounding leaves more than the first limit.
       if (violation < 1e-14 || (violation < 1e-12 && violation > 0.5 * before)) break;
       before = violation;
-      VecX x = least_change(loops.jacobian(q, v), w, -r);
-      const double size = largest(x.head(f.velocities()));
+      VecX x = least_change(f.constraint_rows(), w, -r);
+      const double size = largest(x);
       if (!std::isfinite(size)) break;
       if (size > 0.2) x *= 0.2 / size;
-      f.retract(q, x.head(f.velocities()), q1);
+      f.retract(q, x, q1);
       q = q1;
-      loops.change(x);
       if (size < 1e-15) break;
     }
     if (violation < 1e-11) break;
   }
   f.positions(t, q);
   f.velocities(v);
-  return largest(loops.residual());
+  return largest(f.constraint_values());
+}
+
+/// Closes the positions with the start values of the model. False with q where it ends if they
+/// cannot be reached.
+bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool keeps) {
+  const VecX drawn = path.drawn(), given = q;
+  const bool all_given = path.all_given();
+  const std::vector<bool> elastic = f.tree().elastic_coordinates();
+  const bool has_modes = std::find(elastic.begin(), elastic.end(), true) != elastic.end();
+  if ((all_given || q == drawn) && path.closed(q) && path.upright(q)) return true;
+  if (all_given && path.correct(q, LoopMoves::values, keeps) && path.near(given, q) &&
+      path.upright(q))
+    return true;
+  for (const LoopMoves moves : {LoopMoves::joints, LoopMoves::modes, LoopMoves::values}) {
+    if (moves == LoopMoves::modes && !has_modes) continue;
+    if (moves == LoopMoves::values && !path.contradictory(drawn)) break;
+    q = drawn;
+    if (path.follow(q, moves, keeps)) return true;
+  }
+  return false;
 }
 
 /// Closes the velocities; returns the largest violation left.
 double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, double t) {
-  Loops loops(f, true, keeps, t, true);
-  if (loops.rows() == 0) return 0.0;
-  const VecX v_start = v;
-  double violation = 0.0;
-  const auto residual = [&] {
-    f.positions(t, q);
-    f.velocities(v);
-    const VecX r = loops.residual();
-    violation = largest(r);
+  f.positions(t, q);
+  LoopMembers members = loop_members(f);
+  for (const ConstraintPart& p : f.constraint_set().parts()) {
+    if (p.motion == nullptr) continue;
+    members.joint[p.owner.index] = 1;
+    members.body[f.model().joints[p.owner.index].child] = 1;
+  }
+  const std::vector<LoopValue> values = loop_values(f, members, true);
+  VecX rates(f.constraints());
+  const std::vector<char> counts(static_cast<std::size_t>(f.constraints()), 1);
+  const auto off = [&] {
+    VecX r(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const Joint& joint = f.model().joints[values[k].joint];
+      r[static_cast<Eigen::Index>(k)] =
+          joint_velocity(joint, f.marker(joint.frame_F), f.marker(joint.frame_M),
+                         values[k].component) -
+          values[k].given[0];
+    }
     return r;
   };
-  for (int stage = 0; stage < 3; ++stage) {
-    const VecX w = loops.mobility(stage);
+  const VecX v_start = v;
+  double violation = 0.0;
+  for (const LoopMoves moves : {LoopMoves::joints, LoopMoves::modes, LoopMoves::values}) {
     v = v_start;
-    loops.restart();
-    for (int pass = 0; pass < 5; ++pass) {
-      const VecX r = residual();
+    f.velocities(v);
+    LoopEquations equations(f, members, values, moves, keeps);
+    for (int pass = 0; pass < 3; ++pass) {
+      f.constraint_rates(rates);
+      violation = std::max(largest(rates), moves == LoopMoves::values ? 0.0 : largest(off()));
       if (violation < 1e-13) break;
-      const VecX x = least_change(loops.jacobian(q, v), w, -r);
-      v += x.head(f.velocities());
-      loops.change(x);
+      equations.evaluate(rates, counts, off(), v);
+      const VecX d = equations.moved(v);
+      v += equations.step(VecX::Zero(f.velocities()), &d).x;
+      f.velocities(v);
     }
-    residual();
+    f.constraint_rates(rates);
+    violation = std::max(largest(rates), moves == LoopMoves::values ? 0.0 : largest(off()));
     if (violation < 1e-10 * (1.0 + largest(v))) break;
   }
-  return violation;
+  return largest(rates);
 }
 
 /// "joint 'a' keeps its start values (keep: true)" of all joints that keep values of this level.
@@ -232,21 +164,25 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
   const VecX q_start = q, v_start = v;
   if (correct_positions) {
     constexpr double closed = 1e-10;
-    double violation = close_positions(f, q, v, as_given, t, as_given);
-    if (!(violation < closed) && as_given && !kept_positions.empty()) {
-      q = q_start;
-      if (close_positions(f, q, v, false, t, as_given) < closed)
+    LoopPath path(f, t);
+    if (as_given && path.any_loops() && !close_to_values(f, path, q, true)) {
+      const std::string way =
+          fmt::format("from the drawn configuration the start values are reached to {:.3g} %",
+                      100.0 * path.reached());
+      const VecX open = path.gap(q);
+      const std::string gap = open.size() > 0 ? open_loops_text(f, open, false)
+                                              : "start values contradict each other";
+      if (!kept_positions.empty() && close_to_values(f, path, q = q_start, false))
         throw RunError(fmt::format(
-            "the model cannot be assembled while {}: the loops stay open by {:.3g} m or rad at the "
-            "start; they close if these values may move",
-            kept_positions, violation));
+            "the model cannot be assembled while {}: {} at the start ({}); the loops close if "
+            "these values may move",
+            kept_positions, gap, way));
+      throw RunError(fmt::format("the model cannot be assembled: {} at the start ({})", gap, way));
     }
-    if (!(violation < closed)) {
+    const double violation = close_from(f, q, v, t);
+    if (!(violation < closed))
       throw RunError(fmt::format("the model cannot be assembled: {} at the start",
-                                 f.constraints() > 0
-                                     ? open_loops_text(f, f.constraint_values(), false)
-                                     : fmt::format("a joint stays open by {:.3g} m", violation)));
-    }
+                                 open_loops_text(f, f.constraint_values(), false)));
   }
   const auto closed = [&](double violation) { return violation < 1e-8 * (1.0 + largest(v)); };
   double violation = close_rates(f, q, v, true, t);
@@ -263,10 +199,8 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
   }
   VecX rate(f.constraints());
   f.constraint_rates(rate);
-  throw RunError(fmt::format("the start velocities do not fit: {}",
-                             f.constraints() > 0
-                                 ? open_loops_text(f, rate, true)
-                                 : fmt::format("a joint opens at {:.3g} m/s", violation)));
+  throw RunError(
+      fmt::format("the start velocities do not fit: {}", open_loops_text(f, rate, true)));
 }
 
 }  // namespace floatframe

@@ -1,0 +1,102 @@
+#pragma once
+// The equations of closed loops in the coordinates of the joints that lie in them. Their solutions
+// depend neither on the tree nor on the order of joints nor on which joint is cut: start values are
+// measured at all joints alike, and what they leave free moves the bodies of the loops as little as
+// possible, in the metric of their masses,
+//   D = 1/2 |d|^2 = 1/2 sum over the bodies of  int |x - x_0|^2 dm                            (1)
+// from a configuration 0. A body is its mass at the centre and three vectors from there,
+// int rho rho^T dm = sum lambda_k u_k u_k^T. With A = dd/dx, A^T A is the mass matrix, and a step of
+// Newton is
+//   x = argmin |A x + d|^2   with   J x = -r                                                  (2)
+// of the constraints and the start values that hold. Load time.
+#include <vector>
+
+#include "floatframe/formulation/relative.hpp"
+#include "floatframe/math/dense.hpp"
+
+namespace floatframe {
+
+/// The joints and bodies on closed paths of joints and rods.
+struct LoopMembers {
+  std::vector<char> joint, body;
+  bool any = false;
+};
+LoopMembers loop_members(const RelativeFormulation& f);
+
+/// What may move to close loops.
+enum class LoopMoves {
+  joints,  ///< coordinates of joints in loops; start values hold
+  modes,   ///< amplitudes of the bodies in loops, too
+  values   ///< start values, too, as little as possible, but for those that are kept
+};
+
+/// A start value of a joint in a loop: one coordinate, or the three of a rotation vector.
+struct LoopValue {
+  int joint = -1, component = 0, count = 1;
+  Vec3 given = Vec3::Zero();
+  bool kept = false;
+  bool angle = false;
+};
+
+/// Start values of positions or (`rates`) of rates.
+std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembers& members,
+                                   bool rates);
+
+class LoopEquations {
+ public:
+  /// Without `keeps` values that are kept are as others. Counts (1) from where `f` is.
+  LoopEquations(RelativeFormulation& f, const LoopMembers& members, std::vector<LoopValue> values,
+                LoopMoves moves, bool keeps);
+
+  const std::vector<LoopValue>& values() const noexcept { return values_; }
+  Eigen::Index unknowns() const noexcept { return static_cast<Eigen::Index>(mobile_.size()); }
+  /// Counts (1) from the present positions.
+  void begin_here();
+  /// Of the present positions.
+  VecX displacement() const;
+  /// (2) at the present positions. `open`: residual of the constraints, those with `counts` zero
+  /// are left out; `off`: that of the values, entry by entry. The velocities are v then.
+  void evaluate(const VecX& open, const std::vector<char>& counts, const VecX& off, const VecX& v);
+  /// Largest residual of what holds.
+  double violation() const noexcept { return largest(r_); }
+  /// Of d, where all bodies move by their own length.
+  double scale() const noexcept { return scale_; }
+  /// d of a change of all coordinates.
+  VecX moved(const VecX& x) const;
+
+  struct Step {
+    VecX x;                 ///< of all coordinates
+    Eigen::Index rank = 0;  ///< of J
+    Eigen::Index free = 0;  ///< motions that J x = -r leaves
+  };
+  /// The x nearest to `along` in the metric; with `d`, that of (2).
+  Step step(const VecX& along, const VecX* d) const;
+  /// The x that comes nearest to (2), where the values are met rather than the constraints.
+  VecX nearest() const;
+
+ private:
+  struct BodyShape {
+    int body;
+    Eigen::Index row;  ///< in d
+    double root_mass;
+    Vec3 c_B;
+    Mat3 U_B;  ///< columns sqrt(lambda_k) u_k
+    VecX mode_costs;
+  };
+  void add_body(int body, double least_mass, double least_inertia);
+  void fill_column(Eigen::Index column, int coordinate);
+  VecX shape() const;
+
+  RelativeFormulation& f_;
+  std::vector<LoopValue> values_;
+  std::vector<char> value_holds_;    ///< entry by entry
+  std::vector<double> value_scale_;  ///< to lengths [m]
+  std::vector<int> mobile_;
+  std::vector<BodyShape> bodies_;
+  Eigen::Index rows_ = 0;
+  double scale_ = 1.0;
+  MatX A_, J_, G_, wishes_;
+  VecX r_, missed_, shape_0_;
+};
+
+}  // namespace floatframe

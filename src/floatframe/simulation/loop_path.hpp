@@ -1,0 +1,52 @@
+#pragma once
+// From the drawn configuration, in which all joints are closed, to the start values of joints in
+// loops: in increments of at most 0.05 rad or 1 % of the size of the loops, so that loops close as
+// they are drawn. First rods that have other lengths than drawn, then values and prescribed motions
+// together, all in proportion. Each increment is predicted along the tangent, the last one where
+// the tangent is not unique (a change point, a dead centre), and corrected by `LoopEquations`;
+// where the correction is more than half of it, a smaller one is tried. Load time.
+#include "floatframe/simulation/loop_equations.hpp"
+
+namespace floatframe {
+
+class LoopPath {
+ public:
+  LoopPath(RelativeFormulation& f, double t);
+
+  bool any_loops() const noexcept { return members_.any; }
+  /// The values given leave no other joint in loops free.
+  bool all_given() const;
+  /// The configuration as drawn, but with the start values of joints outside of loops.
+  VecX drawn() const;
+  /// Moves `q`, as drawn, to the start values; false where it cannot go on.
+  bool follow(VecX& q, LoopMoves moves, bool keeps);
+  /// The same from where all values are given: closes what is open, and goes to what is not met.
+  bool correct(VecX& q, LoopMoves moves, bool keeps);
+  /// Share of the way to the start values that the last of these went.
+  double reached() const noexcept { return reached_; }
+  /// At `q` there are more start values than motions: they can only be met by chance.
+  bool contradictory(const VecX& q);
+  /// Constraints and start values are met at `q`.
+  bool closed(const VecX& q);
+  /// What stays open of the constraints where the start values are met all the same; from `q`.
+  VecX gap(VecX& q);
+  /// `to` is no farther from `from` than one increment.
+  bool near(const VecX& from, const VecX& to);
+  /// Axes of joints outside of the tree point to where those of the drawn configuration do, at `q`.
+  bool upright(const VecX& q);
+
+ private:
+  struct Stage;
+  Stage begin(const VecX& q, std::vector<LoopValue> values, bool motions, LoopMoves moves,
+              bool keeps);
+  bool lead(Stage& stage, VecX& q);
+  bool increment(Stage& stage, const VecX& q, double from, double to, VecX& q_new);
+
+  RelativeFormulation& f_;
+  double t_;
+  LoopMembers members_;
+  double size_ = 1.0;  ///< of the loops [m]
+  double reached_ = 0.0;
+};
+
+}  // namespace floatframe
