@@ -105,12 +105,12 @@ TEST(RandomMechanisms, OtherForces) {
 // The motion of a hinge is a table with points at 0.02, 0.08 and 0.14 s. With 238 steps they lie at
 // other places of their steps after each halving.
 TEST(RandomMechanisms, PointsOfTablesLieBetweenSteps) {
-  const Mechanism m = random_mechanism(518);
+  const Mechanism m = random_mechanism(18);
   EXPECT_EQ(steps_on_kinks(build_model(m.description), 238.0), 240.0);
   const Judgement judged = judge(m);
   EXPECT_STREQ(word(judged.verdict), "second order");
   for (std::size_t k = 0; k < judged.differences.size(); ++k)
-    std::printf("[ figure ] seed 518, steps %g: difference of the formulations [m] %.3g\n",
+    std::printf("[ figure ] seed 18, steps %g: difference of the formulations [m] %.3g\n",
                 std::ldexp(240.0, static_cast<int>(k)), judged.differences[k]);
 }
 

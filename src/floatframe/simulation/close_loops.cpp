@@ -38,8 +38,8 @@ VecX mobility(const RelativeFormulation& f, int stage) {
   VecX w = VecX::Ones(f.velocities());
   const std::vector<bool> elastic = f.tree().elastic_coordinates();
   const std::vector<Given> given = f.tree().given_coordinates(false);
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    double& weight = w[static_cast<Eigen::Index>(i)];
+  for (int i = 0; i < f.velocities(); ++i) {
+    double& weight = w[i];
     if (elastic[i]) weight = stage >= 1 ? 1e-4 : 0.0;
     if (given[i] != Given::no) weight = stage >= 2 ? 1e-4 : 0.0;
   }
@@ -95,6 +95,10 @@ bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool
     if (moves == LoopMoves::values && !path.contradictory(drawn)) break;
     q = drawn;
     if (path.follow(q, moves, keeps)) return true;
+    // What cannot be closed as drawn may close with the values given.
+    if (path.drawn_closes()) continue;
+    q = given;
+    if (path.correct(q, moves, keeps) && path.upright(q)) return true;
   }
   return false;
 }
@@ -105,21 +109,18 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
   LoopMembers members = loop_members(f);
   for (const ConstraintPart& p : f.constraint_set().parts()) {
     if (p.motion == nullptr) continue;
+    const Joint& joint = f.model().joints[p.owner.index];
     members.joint[p.owner.index] = 1;
-    members.body[f.model().joints[p.owner.index].child] = 1;
+    for (const int body : {joint.parent, joint.child})
+      if (body >= 0) members.body[body] = 1;
   }
   const std::vector<LoopValue> values = loop_values(f, members, true);
   VecX rates(f.constraints());
-  const std::vector<char> counts(static_cast<std::size_t>(f.constraints()), 1);
+  const std::vector<char> counts(rates.size(), 1);
   const auto off = [&] {
-    VecX r(static_cast<Eigen::Index>(values.size()));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const Joint& joint = f.model().joints[values[k].joint];
-      r[static_cast<Eigen::Index>(k)] =
-          joint_velocity(joint, f.marker(joint.frame_F), f.marker(joint.frame_M),
-                         values[k].component) -
-          values[k].given[0];
-    }
+    VecX r(std::ssize(values));
+    Eigen::Index row = 0;
+    for (const LoopValue& value : values) r[row++] = measured_rate(f, value) - value.given[0];
     return r;
   };
   const VecX v_start = v;
@@ -131,7 +132,7 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
     for (int pass = 0; pass < 3; ++pass) {
       f.constraint_rates(rates);
       violation = std::max(largest(rates), moves == LoopMoves::values ? 0.0 : largest(off()));
-      if (violation < 1e-13) break;
+      if (violation < 1e-13 && (pass > 0 || moves != LoopMoves::values)) break;
       equations.evaluate(rates, counts, off(), v);
       const VecX d = equations.moved(v);
       v += equations.step(VecX::Zero(f.velocities()), &d).x;
@@ -170,8 +171,8 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
           fmt::format("from the drawn configuration the start values are reached to {:.3g} %",
                       100.0 * path.reached());
       const VecX open = path.gap(q);
-      const std::string gap = open.size() > 0 ? open_loops_text(f, open, false)
-                                              : "start values contradict each other";
+      const std::string gap =
+          open.size() > 0 ? open_loops_text(f, open, false) : "start values contradict each other";
       if (!kept_positions.empty() && close_to_values(f, path, q = q_start, false))
         throw RunError(fmt::format(
             "the model cannot be assembled while {}: {} at the start ({}); the loops close if "

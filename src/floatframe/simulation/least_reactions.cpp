@@ -1,9 +1,11 @@
 #include "floatframe/simulation/least_reactions.hpp"
 
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "floatframe/formulation/relative.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 
@@ -11,6 +13,12 @@ namespace {
 
 /// Columns of J that are shorter than this, relative to the longest, are zero.
 constexpr double no_column = 1e-7;
+
+/// e of the factors, of the diagonal and of 1.
+constexpr double held_softly = 1e-11;
+/// What is left of the wrenches, against lambda, before the one correction: below the first it is
+/// not made, above the second, where more than 1e-8 would be left after it, the basis is.
+constexpr double negligible = 3e-11, correctable = 1e-5;
 
 std::vector<int> every_joint(const Model& model) {
   std::vector<int> joints(model.joints.size());
@@ -47,12 +55,12 @@ void solve_small(Mat6& A, int n, Vec6& x) noexcept {
 
 template <class F>
 LeastReactions<F>::LeastReactions(const Model& model)
-    : model_(model), all_(model, every_joint(model)) {
+    : model_(model), all_(model, every_joint(model)), motion_(model.joints.size(), -1) {
   all_.number_rows(0);
-  int columns = 0;
+  std::vector<int> sizes;
   for (const Body& b : model.bodies) {
-    column_.push_back(columns);
-    columns += 6 + b.modes();
+    column_.push_back(std::accumulate(sizes.begin(), sizes.end(), 0));
+    sizes.push_back(6 + b.modes());
     VecX scale = VecX::Ones(b.modes());
     for (Eigen::Index k = 0; k < scale.size(); ++k) {
       double most = 0.0;
@@ -61,50 +69,210 @@ LeastReactions<F>::LeastReactions(const Model& model)
     }
     mode_scale_.push_back(scale);
   }
+  std::vector<std::pair<int, int>> edges;
+  int numbers = 0, k = 0;
+  const auto body_of = [&](int marker) { return model.markers[marker].body; };
+  for (const ConstraintPart& p : all_.parts()) {
+    const bool goes_on = !groups_.empty() && groups_.back().a.body == body_of(p.a) &&
+                         groups_.back().b.body == body_of(p.b);
+    if (!goes_on) groups_.push_back({{body_of(p.a)}, {body_of(p.b)}, k, 0, all_.offset(k), 0});
+    ++groups_.back().parts;
+    groups_.back().rows += p.rows();
+    if (is_motion(p)) motion_[p.owner.index] = k;
+    ++k;
+  }
+  for (Group& g : groups_) {
+    for (Side* s : {&g.a, &g.b}) {
+      if (s->body < 0) continue;
+      s->size = sizes[s->body];
+      s->at = numbers;
+      s->column = column_[s->body];
+      numbers += s->size * g.rows;
+    }
+    if (g.a.body >= 0 && g.b.body >= 0 && g.a.body != g.b.body)
+      edges.emplace_back(g.a.body, g.b.body);
+  }
+  rows_of_J_.assign(numbers, 0.0);
+  normal_ = BlockLdlt(sizes, edges);
+  const int columns = normal_.unknowns();
   U_ = MatX::Zero(rows(), columns);
-  lengths_ = VecX::Zero(columns);
-  projected_ = VecX::Zero(columns);
+  lengths_ = projected_ = load_ = left_ = x_ = VecX::Zero(columns);
+  least_ = VecX::Zero(rows());
 }
 
 template <class F>
-void LeastReactions<F>::add_column_block(int row, const F& f, int marker, const Vec3& force,
-                                         const Vec3& torque) noexcept {
-  const LocalMarker& m = f.local_marker(marker);
-  if (m.body < 0) return;
-  const int c = column_[m.body];
+void LeastReactions<F>::fill(const F& f, const Side& side, const Group& group, int part,
+                             bool of_b) noexcept {
+  if (side.body < 0) return;
+  const ConstraintPart& p = all_.parts()[part];
+  const LocalMarker& m = f.local_marker(of_b ? p.b : p.a);
   const Vec3 arm = f.body_rotation(m.body) * m.p_B;
-  const Vec3 moment = (arm.cross(force) + torque) / model_.bodies[m.body].length;
-  for (int k = 0; k < 3; ++k) {
-    U_(row, c + k) += force[k];
-    U_(row, c + 3 + k) += moment[k];
+  const double per_length = 1.0 / model_.bodies[m.body].length;
+  double* out = rows_of_J_.data() + side.at + (all_.offset(part) - group.row) * side.size;
+  for (int r = 0; r < p.rows(); ++r, out += side.size) {
+    const WrenchRow& g = all_.row(all_.offset(part) + r).gradient;
+    const Vec3 &force = of_b ? g.Fb : g.Fa, &torque = of_b ? g.Tb : g.Ta;
+    Eigen::Map<Vec3> frame(out), turning(out + 3);
+    frame = force;
+    turning = per_length * (arm.cross(force) + torque);
+    if (!m.local) continue;
+    const VecX& scale = mode_scale_[m.body];
+    for (int k = 0; k < scale.size(); ++k) {
+      double x = m.Jr.col(k).dot(force);
+      if (m.rotates) x += m.Jw.col(k).dot(torque);
+      out[6 + k] = scale[k] * x;
+    }
   }
-  if (!m.local) return;
-  const VecX& scale = mode_scale_[m.body];
-  for (int k = 0; k < static_cast<int>(scale.size()); ++k) {
-    double x = m.Jr.col(k).dot(force);
-    if (m.rotates) x += m.Jw.col(k).dot(torque);
-    U_(row, c + 6 + k) += scale[k] * x;
+}
+
+template <class F>
+void LeastReactions<F>::add_normal_equations(const Side& s, const Side& t, int rows) noexcept {
+  int os = 0, ot = 0;
+  MatX& front = normal_.front(s.body, t.body, os, ot);
+  // The lower triangle is read.
+  const Side &low = os >= ot ? s : t, &high = os >= ot ? t : s;
+  double* corner = &front(std::max(os, ot), std::min(os, ot));
+  const double* u = rows_of_J_.data() + low.at;
+  const double* v = rows_of_J_.data() + high.at;
+  if (low.size == 6 && high.size == 6) {
+    Mat6 sum = Mat6::Zero();
+    for (int r = 0; r < rows; ++r) {
+      const Vec6 row = Eigen::Map<const Vec6>(u + 6 * r);
+      for (int j = 0; j < 6; ++j) sum.col(j) += v[6 * r + j] * row;
+    }
+    for (int j = 0; j < 6; ++j) Eigen::Map<Vec6>(corner + j * front.rows()) += sum.col(j);
+    return;
   }
+  for (int r = 0; r < rows; ++r)
+    for (int j = 0; j < high.size; ++j)
+      for (int i = 0; i < low.size; ++i)
+        corner[j * front.rows() + i] += u[r * low.size + i] * v[r * high.size + j];
 }
 
 template <class F>
 void LeastReactions<F>::place(const F& f, double t) noexcept {
   all_.evaluate(t, [&](int marker) -> const MarkerState& { return f.marker(marker); });
-  U_.setZero();
-  for (std::size_t k = 0; k < all_.parts().size(); ++k) {
-    const ConstraintPart& p = all_.parts()[k];
-    for (int r = 0; r < p.rows(); ++r) {
-      const int row = all_.offset(k) + r;
-      const WrenchRow& g = all_.row(row).gradient;
-      add_column_block(row, f, p.a, g.Fa, g.Ta);
-      add_column_block(row, f, p.b, g.Fb, g.Tb);
+  normal_.set_zero();
+  for (const Group& group : groups_) {
+    for (int k = group.first; k < group.first + group.parts; ++k) {
+      fill(f, group.a, group, k, false);
+      fill(f, group.b, group, k, true);
     }
+    if (group.a.body >= 0) add_normal_equations(group.a, group.a, group.rows);
+    if (group.b.body >= 0) add_normal_equations(group.b, group.b, group.rows);
+    if (group.a.body >= 0 && group.b.body >= 0 && group.a.body != group.b.body)
+      add_normal_equations(group.a, group.b, group.rows);
   }
-  orthonormalise();
+  for (int i = 0; i < std::ssize(model_.bodies); ++i) {
+    MatX& front = normal_.front(i);
+    for (int k = 0; k < 6 + model_.bodies[i].modes(); ++k)
+      front(k, k) += held_softly * (1.0 + front(k, k));
+  }
+  factorised_ = normal_.factorize() < 0;
+  dense_ = false;
+}
+
+template <class F>
+void LeastReactions<F>::times_transpose(const VecX& lambda, VecX& out) const noexcept {
+  out.setZero();
+  for (const Group& g : groups_)
+    for (const Side* s : {&g.a, &g.b})
+      with_rows(*s, g.rows, [&](const auto& J) {
+        out.segment(s->column, s->size) += J.lazyProduct(lambda.segment(g.row, g.rows));
+      });
+}
+
+template <class F>
+void LeastReactions<F>::add_times(const VecX& x, VecX& lambda) const noexcept {
+  for (const Group& g : groups_)
+    for (const Side* s : {&g.a, &g.b})
+      with_rows(*s, g.rows, [&](const auto& J) {
+        lambda.segment(g.row, g.rows) += J.transpose().lazyProduct(x.segment(s->column, s->size));
+      });
+}
+
+template <class F>
+void LeastReactions<F>::add_load(const F& f, int marker, const Vec3& force,
+                                 const Vec3& torque) noexcept {
+  const LocalMarker& m = f.local_marker(marker);
+  if (m.body < 0) return;
+  const Vec3 arm = f.body_rotation(m.body) * m.p_B;
+  double* out = load_.data() + column_[m.body];
+  Eigen::Map<Vec3> frame(out), turning(out + 3);
+  frame += force;
+  turning += (arm.cross(force) + torque) / model_.bodies[m.body].length;
+  if (!m.local) return;
+  const VecX& scale = mode_scale_[m.body];
+  for (int k = 0; k < scale.size(); ++k) {
+    double x = m.Jr.col(k).dot(force);
+    if (m.rotates) x += m.Jw.col(k).dot(torque);
+    out[6 + k] += scale[k] * x;
+  }
+}
+
+template <class F>
+void LeastReactions<F>::find_load(const F& f, const Reactions& reactions) noexcept {
+  load_.setZero();
+  // What acts on b acts back on a, where the points are apart with a moment.
+  const auto add = [&](int a, int b, const Reactions::Wrench& w) {
+    const Vec3 d = f.marker(b).r - f.marker(a).r;
+    add_load(f, b, -w.force, -w.torque);
+    add_load(f, a, w.force, w.torque + d.cross(w.force));
+  };
+  for (std::size_t j = 0; j < model_.joints.size(); ++j)
+    add(model_.joints[j].frame_F, model_.joints[j].frame_M, reactions.joints[j]);
+  for (std::size_t k = 0; k < model_.rods.size(); ++k)
+    add(model_.rods[k].a, model_.rods[k].b, reactions.rods[k]);
+}
+
+template <class F>
+bool LeastReactions<F>::solve_sparse() noexcept {
+  if (!factorised_) return false;
+  const double size = largest(load_);
+  x_ = load_;
+  normal_.solve(x_);
+  least_.setZero();
+  add_times(x_, least_);
+  times_transpose(least_, left_);
+  left_ = load_ - left_;
+  // The correction leaves of this what this is of the load.
+  const double error = largest(left_);
+  if (!(error <= correctable * size)) return false;
+  if (error > negligible * size) {
+    normal_.solve(left_);
+    add_times(left_, least_);
+  }
+  return true;
+}
+
+template <class F>
+void LeastReactions<F>::shorten(VecX& lambda) noexcept {
+  times_transpose(lambda, load_);
+  if (solve_sparse())
+    lambda = least_;
+  else
+    shorten_dense(lambda);
+}
+
+template <class F>
+void LeastReactions<F>::shorten(const F& f, Reactions& reactions) noexcept {
+  find_load(f, reactions);
+  if (!solve_sparse()) {
+    multipliers(reactions, least_);
+    shorten_dense(least_);
+  }
+  wrenches(least_, reactions);
 }
 
 template <class F>
 void LeastReactions<F>::orthonormalise() noexcept {
+  U_.setZero();
+  for (const Group& g : groups_)
+    for (const Side* s : {&g.a, &g.b})
+      with_rows(*s, g.rows, [&](const auto& J) {
+        U_.block(g.row, s->column, g.rows, s->size) += J.transpose();
+      });
+  dense_ = true;
   const Eigen::Index n = U_.cols(), most = std::min(U_.rows(), n);
   for (Eigen::Index j = 0; j < n; ++j) lengths_[j] = U_.col(j).norm();
   const double longest = n > 0 ? lengths_.maxCoeff() : 0.0;
@@ -157,11 +325,11 @@ void LeastReactions<F>::multipliers(const Reactions& reactions, VecX& lambda) no
       n += all_.parts()[k++].rows();
     const double length = model_.bodies[model_.joints[joint].child].length;
     Reactions::Wrench wrench = reactions.joints[joint];
-    for (std::size_t m = 0; m < parts; ++m)
-      if (const ConstraintPart& p = all_.parts()[m]; is_motion(p) && p.owner.index == joint) {
-        wrench.force += lambda[all_.offset(m)] * all_.row(all_.offset(m)).gradient.Fb;
-        wrench.torque += lambda[all_.offset(m)] * all_.row(all_.offset(m)).gradient.Tb;
-      }
+    if (const int m = motion_[joint]; m >= 0) {
+      const int at = all_.offset(m);
+      wrench.force += lambda[at] * all_.row(at).gradient.Fb;
+      wrench.torque += lambda[at] * all_.row(at).gradient.Tb;
+    }
     Mat6 A = Mat6::Zero();
     Vec6 x = Vec6::Zero();
     for (int i = 0; i < n; ++i) {
@@ -178,7 +346,8 @@ void LeastReactions<F>::multipliers(const Reactions& reactions, VecX& lambda) no
 }
 
 template <class F>
-void LeastReactions<F>::shorten(VecX& lambda) noexcept {
+void LeastReactions<F>::shorten_dense(VecX& lambda) noexcept {
+  if (!dense_) orthonormalise();
   for (Eigen::Index j = 0; j < rank_; ++j) projected_[j] = U_.col(j).dot(lambda);
   lambda.setZero();
   for (Eigen::Index j = 0; j < rank_; ++j) lambda += projected_[j] * U_.col(j);

@@ -2,17 +2,21 @@
 // The reactions of least norm among those that move the bodies alike. With the rows of all joints,
 // rods and motions in J (each scaled to lengths), on what each body can do by itself - its frame
 // moves and turns, its amplitudes change - the wrenches J^T lambda do not change if a lambda with
-// J^T lambda = 0 is added. With an orthonormal basis U of the columns of J,
-//   lambda_least = U U^T lambda,                                                             (1)
-// and a quantity c . lambda is unique if (I - U U^T) c = 0. Tree joints of relative coordinates
-// have no multipliers; their lambda is what their wrench needs: J_k^T lambda_k = wrench. So the
-// numbers are the same in both formulations, and those of `ConstraintAnalysis` at rest.
+// J^T lambda = 0 is added. The one of least norm is
+//   lambda_least = J x,   J^T J x = J^T lambda,                                              (1)
+// and a quantity c . lambda is unique if this leaves c as it is. J^T lambda is what the wrenches of
+// the joints do to the bodies, so the numbers are the same in both formulations, and those of
+// `ConstraintAnalysis` at rest.
 //
-// U by Gram-Schmidt with pivoting, each column twice; columns that are shorter than 1e-7 of the
-// longest are what closed loops are off by. Step time: no heap, noexcept.
+// J^T J couples bodies with common joints: sparse factors of J^T J + e, with a small e for motions
+// that the constraints leave free, corrected once. Where more than 1e-8 of J^T lambda would be
+// left, next to singular positions, an orthonormal basis U of the columns of J: lambda_least = U U^T
+// lambda, by Gram-Schmidt with pivoting, each column twice; columns that are shorter than 1e-7 of
+// the longest are what closed loops are off by. Step time: no heap, noexcept.
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/block_ldlt.hpp"
 #include "floatframe/model/reactions.hpp"
 
 namespace floatframe {
@@ -28,27 +32,63 @@ class LeastReactions {
   explicit LeastReactions(const Model& model);
 
   int rows() const noexcept { return all_.count(); }
-  /// U at the present positions of f.
+  /// J at the present positions of f.
   void place(const F& f, double t) noexcept;
-  /// lambda of these wrenches, after `place`.
-  void multipliers(const Reactions& reactions, VecX& lambda) noexcept;
-  /// (1), in place.
+  /// The reactions of least norm with the same effect as these, in place, after `place`.
+  void shorten(const F& f, Reactions& reactions) noexcept;
+  /// (1) of multipliers, in place.
   void shorten(VecX& lambda) noexcept;
   /// The wrenches of lambda.
   void wrenches(const VecX& lambda, Reactions& reactions) const noexcept;
 
  private:
-  void add_column_block(int row, const F& f, int marker, const Vec3& force,
-                        const Vec3& torque) noexcept;
+  /// Rows on one body, as columns one after the other.
+  struct Side {
+    int body = -1;   ///< -1: the ground
+    int size = 0;    ///< columns
+    int at = 0;      ///< of the first row in `rows_of_J_`
+    int column = 0;  ///< of J
+  };
+  /// Parts between the same two bodies that follow each other: a joint with its motion.
+  struct Group {
+    Side a, b;
+    int first = 0, parts = 0;  ///< parts
+    int row = 0, rows = 0;
+  };
+  void fill(const F& f, const Side& side, const Group& group, int part, bool of_b) noexcept;
+  void add_normal_equations(const Side& s, const Side& t, int rows) noexcept;
+  /// Calls f with the rows of a side as columns: of a rigid body at most six of six numbers.
+  template <class Call>
+  void with_rows(const Side& s, int rows, const Call& f) const noexcept {
+    const double* data = rows_of_J_.data() + s.at;
+    if (s.size == 6 && rows <= 6)
+      f(Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>>(data, 6, rows));
+    else if (s.size > 0)
+      f(Eigen::Map<const MatX>(data, s.size, rows));
+  }
+  void times_transpose(const VecX& lambda, VecX& out) const noexcept;
+  void add_times(const VecX& x, VecX& lambda) const noexcept;
+  /// load_ = J^T lambda of these reactions.
+  void find_load(const F& f, const Reactions& reactions) noexcept;
+  void add_load(const F& f, int marker, const Vec3& force, const Vec3& torque) noexcept;
+  void multipliers(const Reactions& reactions, VecX& lambda) noexcept;
+  /// least_ of load_; false where it is not good enough.
+  bool solve_sparse() noexcept;
+  void shorten_dense(VecX& lambda) noexcept;
   void orthonormalise() noexcept;
 
   const Model& model_;
   ConstraintSet all_;
-  std::vector<int> column_;       ///< of each body: 3 of its frame, 3 of its turning, its modes
   std::vector<VecX> mode_scale_;  ///< of each body: 1 / its largest displacement, mode by mode
-  MatX U_;                        ///< J, then its basis in the leading columns
+  std::vector<Group> groups_;
+  std::vector<int> motion_;  ///< part that prescribes the motion of a joint, or -1
+  std::vector<double> rows_of_J_;
+  std::vector<int> column_;  ///< of each body
+  BlockLdlt normal_;
+  bool factorised_ = false, dense_ = false;
+  MatX U_;  ///< J, then its basis in the leading columns
   Eigen::Index rank_ = 0;
-  VecX lengths_, projected_;
+  VecX lengths_, projected_, load_, left_, x_, least_;
 };
 
 extern template class LeastReactions<RelativeFormulation>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_kind.hpp"
@@ -23,11 +24,10 @@ std::vector<std::array<int, 3>> closing_edges(const RelativeFormulation& f) {
   std::vector<char> in_tree(model.joints.size(), 0);
   for (const TreeBody& b : f.tree().bodies()) in_tree[b.joint] = 1;
   std::vector<std::array<int, 3>> edges;  // joint or -1, bodies
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const Joint& joint = model.joints[j];
-    if (!in_tree[j] && (!joint_is_free(joint.type) || !joint.position.empty()))
-      edges.push_back({static_cast<int>(j), joint.parent, joint.child});
-  }
+  int j = -1;
+  for (const Joint& joint : model.joints)
+    if (!in_tree[++j] && (!joint_is_free(joint.type) || !joint.position.empty()))
+      edges.push_back({j, joint.parent, joint.child});
   for (const Rod& r : model.rods)
     edges.push_back({-1, model.markers[r.a].body, model.markers[r.b].body});
   return edges;
@@ -62,14 +62,15 @@ LoopMembers loop_members(const RelativeFormulation& f) {
 std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembers& members,
                                    bool rates) {
   std::vector<LoopValue> values;
-  for (std::size_t j = 0; j < f.model().joints.size(); ++j) {
-    const Joint& joint = f.model().joints[j];
+  int j = -1;
+  for (const Joint& joint : f.model().joints) {
+    ++j;
     // Where a motion is prescribed it holds.
     if (!members.joint[j] || joint.motion) continue;
     const JointKind& kind = joint_kind(joint.type);
     const std::vector<double>& given = rates ? joint.velocity : joint.position;
-    for (int k = 0; k < static_cast<int>(given.size()); ++k) {
-      LoopValue v{static_cast<int>(j), k, 1, Vec3(given[k], 0.0, 0.0), joint.keep};
+    for (int k = 0; k < std::ssize(given); ++k) {
+      LoopValue v{j, -1, k, 1, Vec3(given[k], 0.0, 0.0), joint.keep};
       v.angle = kind.coordinates.all()[k].unit == JointUnit::rad;
       if (rates && joint_is_free(joint.type) && joint.parent < 0 && k < 3)
         v.given[0] += f.model().simulation.velocity[k];
@@ -81,7 +82,24 @@ std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembe
       values.push_back(v);
     }
   }
+  const std::vector<VecX>& amplitudes = rates ? f.model().amplitude_rates : f.model().amplitudes;
+  for (int i = 0; i < std::ssize(amplitudes); ++i)
+    for (int k = 0; k < amplitudes[i].size() && members.body[i]; ++k)
+      values.push_back({-1, i, k, 1, Vec3(amplitudes[i][k], 0.0, 0.0)});
   return values;
+}
+
+double measured(const RelativeFormulation& f, const LoopValue& v, double reference) {
+  if (v.joint < 0) return f.tree().body(v.body).y[v.component];
+  const Joint& joint = f.model().joints[v.joint];
+  return joint_position(joint, f.marker(joint.frame_F), f.marker(joint.frame_M), v.component,
+                        reference);
+}
+
+double measured_rate(const RelativeFormulation& f, const LoopValue& v, int k) {
+  if (v.joint < 0) return f.tree().body(v.body).yd[v.component];
+  const Joint& joint = f.model().joints[v.joint];
+  return joint_velocity(joint, f.marker(joint.frame_F), f.marker(joint.frame_M), v.component + k);
 }
 
 LoopEquations::LoopEquations(RelativeFormulation& f, const LoopMembers& members,
@@ -101,12 +119,14 @@ LoopEquations::LoopEquations(RelativeFormulation& f, const LoopMembers& members,
       value_holds_.push_back(moves != LoopMoves::values || (v.kept && keeps));
       value_scale_.push_back(v.angle ? length : 1.0);
     }
-  for (std::size_t i = 0; i < members.body.size(); ++i) {
-    const TreeBody& b = f.tree().body(static_cast<int>(i));
-    if (members.body[i]) add_body(static_cast<int>(i), least_mass, least_mass * length * length);
+  for (int i = 0; i < f.tree().body_count(); ++i) {
+    const TreeBody& b = f.tree().body(i);
+    if (members.body[i]) add_body(i, least_mass, least_mass * length * length);
     if (members.joint[b.joint])
       for (int k = 0; k < b.nj; ++k) mobile_.push_back(b.iv + k);
-    if (members.body[i] && moves != LoopMoves::joints)
+    const bool given = std::any_of(values_.begin(), values_.end(),
+                                   [&](const LoopValue& v) { return v.body == i; });
+    if (members.body[i] && (given || moves != LoopMoves::joints))
       for (int k = 0; k < b.nm; ++k) mobile_.push_back(b.iy + k);
   }
   begin_here();
@@ -165,10 +185,7 @@ void LoopEquations::fill_column(Eigen::Index column, int coordinate) {
   }
   Eigen::Index row = 0;
   for (const LoopValue& v : values_) {
-    const Joint& joint = f_.model().joints[v.joint];
-    for (int k = 0; k < v.count; ++k)
-      G_(row++, column) = joint_velocity(joint, f_.marker(joint.frame_F), f_.marker(joint.frame_M),
-                                         v.component + k);
+    for (int k = 0; k < v.count; ++k) G_(row++, column) = measured_rate(f_, v, k);
   }
 }
 
@@ -245,7 +262,8 @@ LoopEquations::Step LoopEquations::step(const VecX& along, const VecX* d) const 
 
 VecX LoopEquations::nearest() const {
   constexpr double firm = 1e4, slow = 1e-3;
-  const Eigen::Index n = unknowns(), values = static_cast<Eigen::Index>(value_holds_.size());
+  const Eigen::Index n = unknowns(), values = std::ssize(value_holds_);
+  if (n == 0) return VecX::Zero(f_.velocities());
   MatX H(J_.rows() + n, n);
   H << J_, slow * MatX::Identity(n, n);
   VecX b = VecX::Zero(H.rows());

@@ -5,10 +5,11 @@
 // possible, in the metric of their masses,
 //   D = 1/2 |d|^2 = 1/2 sum over the bodies of  int |x - x_0|^2 dm                            (1)
 // from a configuration 0. A body is its mass at the centre and three vectors from there,
-// int rho rho^T dm = sum lambda_k u_k u_k^T. With A = dd/dx, A^T A is the mass matrix, and a step of
-// Newton is
+// int rho rho^T dm = sum lambda_k u_k u_k^T. With A = dd/dx, A^T A is the mass matrix, and a step
+// of Newton is
 //   x = argmin |A x + d|^2   with   J x = -r                                                  (2)
 // of the constraints and the start values that hold. Load time.
+#include <iterator>
 #include <vector>
 
 #include "floatframe/formulation/relative.hpp"
@@ -30,9 +31,11 @@ enum class LoopMoves {
   values   ///< start values, too, as little as possible, but for those that are kept
 };
 
-/// A start value of a joint in a loop: one coordinate, or the three of a rotation vector.
+/// A start value of a joint in a loop, one coordinate or the three of a rotation vector, or an
+/// amplitude of a body in a loop.
 struct LoopValue {
-  int joint = -1, component = 0, count = 1;
+  int joint = -1, body = -1;  ///< one of them
+  int component = 0, count = 1;
   Vec3 given = Vec3::Zero();
   bool kept = false;
   bool angle = false;
@@ -42,6 +45,11 @@ struct LoopValue {
 std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembers& members,
                                    bool rates);
 
+/// Where a value that has one number is at the present positions, angles within half a turn of
+/// `reference`, and its rate.
+double measured(const RelativeFormulation& f, const LoopValue& v, double reference);
+double measured_rate(const RelativeFormulation& f, const LoopValue& v, int k = 0);
+
 class LoopEquations {
  public:
   /// Without `keeps` values that are kept are as others. Counts (1) from where `f` is.
@@ -49,7 +57,7 @@ class LoopEquations {
                 LoopMoves moves, bool keeps);
 
   const std::vector<LoopValue>& values() const noexcept { return values_; }
-  Eigen::Index unknowns() const noexcept { return static_cast<Eigen::Index>(mobile_.size()); }
+  Eigen::Index unknowns() const noexcept { return std::ssize(mobile_); }
   /// Counts (1) from the present positions.
   void begin_here();
   /// Of the present positions.

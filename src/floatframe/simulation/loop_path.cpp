@@ -30,7 +30,8 @@ struct LoopPath::Stage {
   int increments = 1;
   VecX x_before = {};  ///< last increment, for s_before
   double s_before = 0.0;
-  Eigen::Index rank = 0;  ///< the largest so far
+  bool leaves_motions = false;  ///< constraints and values do not determine all
+  Eigen::Index rank = 0;        ///< the largest so far
 
   VecX residual(const RelativeFormulation& f, double s) const {
     VecX r = f.constraint_values() - (1.0 - s) * open;
@@ -51,13 +52,10 @@ Vec3 rotation_log(const Mat3& R) { return quaternion_log(Eigen::Quaterniond(R));
 
 /// Where a value begins.
 Vec3 present(const RelativeFormulation& f, const LoopValue& v) {
-  const Joint& joint = f.model().joints[v.joint];
   if (v.count == 3)
-    return rotation_log(relative_rotation(f, joint) * rotation_exp(v.given).transpose());
-  const double reference = v.angle ? whole_turns(v.given[0]) : 0.0;
-  return {joint_position(joint, f.marker(joint.frame_F), f.marker(joint.frame_M), v.component,
-                         reference),
-          0.0, 0.0};
+    return rotation_log(relative_rotation(f, f.model().joints[v.joint]) *
+                        rotation_exp(v.given).transpose());
+  return {measured(f, v, v.angle ? whole_turns(v.given[0]) : 0.0), 0.0, 0.0};
 }
 
 }  // namespace
@@ -68,15 +66,13 @@ VecX LoopPath::Stage::off(const RelativeFormulation& f, double s) const {
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < equations.values().size(); ++i) {
     const LoopValue& v = equations.values()[i];
-    const Joint& joint = f.model().joints[v.joint];
     if (v.count == 3) {
+      const Joint& joint = f.model().joints[v.joint];
       const Mat3 wanted = rotation_exp((1.0 - s) * from[i]) * rotation_exp(v.given);
       off.segment<3>(row) = rotation_log(relative_rotation(f, joint) * wanted.transpose());
     } else {
       const double wanted = from[i][0] + s * (v.given[0] - from[i][0]);
-      off[row] = joint_position(joint, f.marker(joint.frame_F), f.marker(joint.frame_M),
-                                v.component, wanted) -
-                 wanted;
+      off[row] = measured(f, v, wanted) - wanted;
     }
     row += v.count;
   }
@@ -90,7 +86,9 @@ LoopPath::LoopPath(RelativeFormulation& f, double t) : f_(f), t_(t), members_(lo
   for (std::size_t j = 0; j < f.model().joints.size(); ++j)
     if (members_.joint[j]) box.extend(f.marker(f.model().joints[j].frame_M).r);
   for (const Rod& r : f.model().rods) box.extend(f.marker(r.a).r).extend(f.marker(r.b).r);
-  if (!box.isEmpty() && box.diagonal().norm() > 0.0) size_ = box.diagonal().norm();
+  size_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  for (std::size_t i = 0; i < members_.body.size(); ++i)
+    if (members_.body[i]) size_ = std::max(size_, f.model().bodies[i].length);
 }
 
 bool LoopPath::all_given() const {
@@ -120,13 +118,15 @@ VecX LoopPath::drawn() const {
     if (joint.motion) joint.position.assign(1, evaluate(*joint.motion, t_).f);
     joint.motion.reset();
     const JointKind& kind = joint_kind(joint.type);
-    for (int k = 0; k < static_cast<int>(joint.position.size()); ++k) {
+    for (int k = 0; k < std::ssize(joint.position); ++k) {
       const bool turns =
           kind.rotation_vector < 0 && kind.coordinates.all()[k].unit == JointUnit::rad;
       joint.position[k] = turns ? whole_turns(joint.position[k]) : 0.0;
     }
   }
   VecX q, v;
+  for (std::size_t i = 0; i < members_.body.size(); ++i)
+    if (members_.body[i]) model.amplitudes[i].setZero();
   f_.tree().start(model, t_, q, v);
   return q;
 }
@@ -156,6 +156,7 @@ LoopPath::Stage LoopPath::begin(const VecX& q, std::vector<LoopValue> values, bo
   for (const LoopValue& v : s.equations.values()) {
     const Vec3 here = present(f_, v);
     s.from.push_back(here);
+    if (v.joint < 0) continue;
     const double way = v.count == 3 ? here.norm() : std::abs(here[0] - v.given[0]);
     parts = std::max(parts, v.angle ? way / largest_turn : way / size_ / largest_move);
   }
@@ -166,8 +167,8 @@ LoopPath::Stage LoopPath::begin(const VecX& q, std::vector<LoopValue> values, bo
 bool LoopPath::follow(VecX& q, LoopMoves moves, bool keeps) {
   reached_ = 0.0;
   Stage lengths = begin(q, {}, false, moves, keeps);
-  if (largest(lengths.open) > 1e-13 * size_ && !lead(lengths, q)) return false;
-  return correct(q, moves, keeps);
+  drawn_closes_ = !(largest(lengths.open) > 1e-13 * size_) || lead(lengths, q);
+  return drawn_closes_ && correct(q, moves, keeps);
 }
 
 bool LoopPath::correct(VecX& q, LoopMoves moves, bool keeps) {
@@ -177,6 +178,19 @@ bool LoopPath::correct(VecX& q, LoopMoves moves, bool keeps) {
 }
 
 bool LoopPath::lead(Stage& stage, VecX& q) {
+  // Seen from far away the nearest configuration may be somewhere else: then all increments are
+  // smaller.
+  const VecX q_start = q;
+  for (int attempt = 0; attempt < 3; ++attempt, stage.increments *= 4) {
+    q = q_start;
+    stage.s_before = 0.0;
+    if (lead_in_increments(stage, q)) return true;
+    if (!stage.leaves_motions) break;
+  }
+  return false;
+}
+
+bool LoopPath::lead_in_increments(Stage& stage, VecX& q) {
   VecX q_new = q;
   for (int k = 0; k < stage.increments; ++k) {
     f_.positions(t_, q);
@@ -194,7 +208,7 @@ bool LoopPath::lead(Stage& stage, VecX& q) {
         part = std::min(2.0 * part, 1.0);
       } else {
         part *= 0.5;
-        if (part < 1.0 / 4096.0) return false;
+        if (part < 1.0 / 256.0) return false;
       }
     }
   }
@@ -226,6 +240,7 @@ bool LoopPath::increment(Stage& stage, const VecX& q, double from, double to, Ve
     // In singular positions the motions that are free for a moment go on as they were.
     step = equations.step(rest, 0);
     if (step.rank >= rank && step.free > 0) step = equations.step(rest, &d);
+    stage.leaves_motions = step.free > 0;
     if (!(largest(step.x) < 1.0)) return false;
     const double size = equations.moved(step.x).norm() / equations.scale();
     idle = size < 0.9 * least ? 0 : idle + 1;
@@ -235,6 +250,7 @@ bool LoopPath::increment(Stage& stage, const VecX& q, double from, double to, Ve
     closed = equations.violation() < 1e-12 * size_ &&
              (size < 1e-13 || (size < 1e-8 && idle > 5) ||
               (step.free == 0 && equations.violation() < 1e-14 * size_));
+    if (!closed && idle > 10) return false;
     f_.retract(q_new, step.x, q_next);
     f_.tree().advance(x, step.x);
     q_new = q_next;
@@ -287,21 +303,18 @@ bool LoopPath::closed(const VecX& q) {
 }
 
 bool LoopPath::near(const VecX& from, const VecX& to) {
-  const Model& model = f_.model();
   std::vector<Mat3> R;
   std::vector<Vec3> p;
   f_.positions(t_, from);
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    R.push_back(f_.body_rotation(static_cast<int>(i)));
-    p.push_back(f_.body_position(static_cast<int>(i)));
+  for (int i = 0; i < f_.tree().body_count(); ++i) {
+    R.push_back(f_.body_rotation(i));
+    p.push_back(f_.body_position(i));
   }
   f_.positions(t_, to);
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const int k = static_cast<int>(i);
-    if (rotation_log(R[i].transpose() * f_.body_rotation(k)).norm() > largest_turn ||
-        (f_.body_position(k) - p[i]).norm() > largest_move * size_)
+  for (int i = 0; i < f_.tree().body_count(); ++i)
+    if (rotation_log(R[i].transpose() * f_.body_rotation(i)).norm() > largest_turn ||
+        (f_.body_position(i) - p[i]).norm() > largest_move * size_)
       return false;
-  }
   return true;
 }
 

@@ -26,6 +26,8 @@ class LoopPath {
   double reached() const noexcept { return reached_; }
   /// At `q` there are more start values than motions: they can only be met by chance.
   bool contradictory(const VecX& q);
+  /// The last `follow` could close the drawn configuration.
+  bool drawn_closes() const noexcept { return drawn_closes_; }
   /// Constraints and start values are met at `q`.
   bool closed(const VecX& q);
   /// What stays open of the constraints where the start values are met all the same; from `q`.
@@ -40,6 +42,7 @@ class LoopPath {
   Stage begin(const VecX& q, std::vector<LoopValue> values, bool motions, LoopMoves moves,
               bool keeps);
   bool lead(Stage& stage, VecX& q);
+  bool lead_in_increments(Stage& stage, VecX& q);
   bool increment(Stage& stage, const VecX& q, double from, double to, VecX& q_new);
 
   RelativeFormulation& f_;
@@ -47,6 +50,7 @@ class LoopPath {
   LoopMembers members_;
   double size_ = 1.0;  ///< of the loops [m]
   double reached_ = 0.0;
+  bool drawn_closes_ = true;
 };
 
 }  // namespace floatframe

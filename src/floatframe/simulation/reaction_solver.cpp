@@ -13,6 +13,10 @@ namespace {
 constexpr int reaction_slot = 0;
 /// Passes of (2): it ends before when the last ones have not come nearer.
 constexpr int most_passes = 60, idle_passes = 3;
+/// Changes that count no more, of accelerations and of multipliers.
+constexpr double enough = 1e-11;
+/// Fewer passes where redundant constraints cost more per row.
+constexpr double stiffer = 30.0;
 /// A part of what redundant constraints leave open that counts, of the whole.
 constexpr double left_open = 1e-6;
 
@@ -38,8 +42,8 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
   reactions_.joint_impulses.assign(model.joints.size(), Vec3::Zero());
   reactions_.rod_impulses.assign(model.rods.size(), Vec3::Zero());
   if (options.redundant) {
+    options_.penalty_mass *= stiffer;
     least_.emplace(model);
-    least_lambda_ = VecX::Zero(least_->rows());
   }
   const VecX possible = possible_masses(f_, start);
   f_.positions(start.t, start.q);
@@ -68,7 +72,11 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   f_.velocities(state.v);
   f_.dynamics();
   a_ = state.a;
-  lambda_.setZero();
+  // Of redundant constraints any will do: those of the step are near.
+  if (least_)
+    lambda_ = state.lambda;
+  else
+    lambda_.setZero();
   f_.residual(a_, lambda_, 0.0, residual_);  // multipliers of the tangent
   if (factorize() < 0) iterate();
   f_.constraint_accelerations(a_, gamma_);
@@ -79,18 +87,18 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   collect_wrenches();
   if (!least_) return;
   least_->place(f_, state.t);
-  least_->multipliers(reactions_, least_lambda_);
-  least_->shorten(least_lambda_);
-  least_->wrenches(least_lambda_, reactions_);
+  least_->shorten(f_, reactions_);
 }
 
-/// (2). The best of the passes is kept: round-off may make the last ones worse.
+/// (2), with the residual at hand. The best of the passes is kept: round-off may make the last ones
+/// worse.
 template <class F>
 void ReactionSolver<F>::iterate() noexcept {
   const double p = options_.penalty_mass;
-  double best = std::numeric_limits<double>::infinity();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double best = infinite, last = infinite;
   for (int pass = 0, idle = 0; pass < most_passes && idle < idle_passes; ++pass) {
-    f_.residual(a_, lambda_, 0.0, residual_);
+    if (pass > 0) f_.residual(a_, lambda_, 0.0, residual_);
     f_.balance(lambda_, residual_);
     f_.constraint_accelerations(a_, gamma_);
     delta_ = -residual_;
@@ -106,7 +114,12 @@ void ReactionSolver<F>::iterate() noexcept {
       best_a_ = a_;
       best_lambda_ = lambda_;
     }
-    if (size == 0.0) break;
+    // What the next pass would change is less than rounding shows.
+    const double rate = size / last, step = p * largest_entry(work_);
+    if (size == 0.0 || (pass > 0 && rate * size < enough * largest_entry(a_) &&
+                        rate * step < enough * largest_entry(lambda_)))
+      break;
+    last = size;
   }
   if (std::isfinite(best)) {
     a_ = best_a_;

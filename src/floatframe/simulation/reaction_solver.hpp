@@ -10,10 +10,11 @@
 //   a += da,   lambda += p (Phi_q a - gamma)                                                 (2)
 // The errors shrink with each pass by 1 / (1 + p e), e the eigenvalues of Phi_q M^-1 Phi_q^T. All
 // of lambda comes from Phi_q times something: where (1) leaves it open it is that of least norm, of
-// the formulation's own multipliers. Where the start shows redundant constraints, `LeastReactions`
-// makes it that of least norm of the multipliers of all joints, which are the same in both
-// formulations. A freedom without mass makes W singular; then W = M + h^2 K + p Phi_q^T Phi_q with
-// the step h: accelerations along such a freedom mean nothing, and no reaction depends on them.
+// the formulation's own multipliers. Where the start shows redundant constraints, the passes begin
+// with the multipliers of the step, and `LeastReactions` makes of their wrenches those of least
+// norm of the multipliers of all joints, which are the same in both formulations. A freedom without
+// mass makes W singular; then W = M + h^2 K + p Phi_q^T Phi_q with the step h: accelerations along
+// such a freedom mean nothing, and no reaction depends on them.
 //
 // Wrenches. In absolute coordinates all joints have multipliers; in relative coordinates those of
 // the tree are what balances each body, from the leaves to the root
@@ -84,7 +85,6 @@ class ReactionSolver {
   bool lacks_mass_ = false;
   std::optional<LeastReactions<F>> least_;
   VecX a_, lambda_, residual_, gamma_, delta_, work_, best_a_, best_lambda_;
-  VecX least_lambda_;  ///< of all joints, rods and motions
   double force_error_ = 0.0, acceleration_error_ = 0.0;
   Reactions reactions_;
   std::vector<std::string> open_;
