@@ -10,9 +10,9 @@
 //
 // J^T J couples bodies with common joints: sparse factors of J^T J + e, with a small e for motions
 // that the constraints leave free, corrected once. Where more than 1e-8 of J^T lambda would be
-// left, next to singular positions, an orthonormal basis U of the columns of J: lambda_least = U U^T
-// lambda, by Gram-Schmidt with pivoting, each column twice; columns that are shorter than 1e-7 of
-// the longest are what closed loops are off by. Step time: no heap, noexcept.
+// left, next to singular positions, an orthonormal basis U of the columns of J instead,
+// lambda_least = U U^T lambda, by Gram-Schmidt with pivoting, each column twice; columns that are
+// shorter than 1e-7 of the longest are what closed loops are off by. Step time: no heap, noexcept.
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
