@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
@@ -82,11 +83,12 @@ double close_from(RelativeFormulation& f, VecX& q, const VecX& v, double t) {
 /// Closes the positions with the start values of the model. False with q where it ends if they
 /// cannot be reached.
 bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool keeps) {
+  if (path.starts_as_drawn() && path.closes(q)) return true;
   const VecX drawn = path.drawn(), given = q;
   const bool all_given = path.all_given();
   const std::vector<bool> elastic = f.tree().elastic_coordinates();
   const bool has_modes = std::find(elastic.begin(), elastic.end(), true) != elastic.end();
-  if ((all_given || q == drawn) && path.closed(q) && path.upright(q)) return true;
+  if (all_given && path.closed(q) && path.upright(q)) return true;
   if (all_given && path.correct(q, LoopMoves::values, keeps) && path.near(given, q) &&
       path.upright(q))
     return true;
@@ -128,14 +130,15 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
   for (const LoopMoves moves : {LoopMoves::joints, LoopMoves::modes, LoopMoves::values}) {
     v = v_start;
     f.velocities(v);
-    LoopEquations equations(f, members, values, moves, keeps);
+    std::optional<LoopEquations> equations;  // seldom needed
     for (int pass = 0; pass < 3; ++pass) {
       f.constraint_rates(rates);
       violation = std::max(largest(rates), moves == LoopMoves::values ? 0.0 : largest(off()));
       if (violation < 1e-13 && (pass > 0 || moves != LoopMoves::values)) break;
-      equations.evaluate(rates, counts, off(), v);
-      const VecX d = equations.moved(v);
-      v += equations.step(VecX::Zero(f.velocities()), &d).x;
+      if (!equations) equations.emplace(f, members, values, moves, keeps);
+      equations->evaluate(rates, counts, off(), v);
+      const VecX d = equations->moved(v);
+      v += equations->step(VecX::Zero(f.velocities()), &d).x;
       f.velocities(v);
     }
     f.constraint_rates(rates);

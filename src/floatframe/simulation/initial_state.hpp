@@ -2,9 +2,10 @@
 // The state a run starts from, found once at load time in relative coordinates (allocates, throws;
 // theory section 12):
 //
-//   close_loops           least change x of the start values with
-//                           Phi(q (+) x) = 0,  Phi_q v + Phi_t = 0                         (1)
-//                         what the user gave a value for moves last, what he keeps never
+//   close_loops           q and v with
+//                           Phi(q) = 0,  Phi_q v + Phi_t = 0                               (1)
+//                         and the start values, along a path from the drawn configuration; where
+//                         they contradict, those that are kept never change
 //   find_equilibrium      r(q, lambda) = 0, Phi(q) = 0 at rest by Newton with pseudo-transient
 //                         regularisation mu [1/s2],
 //                           (mu M + K) x + J^T dlambda = -r,  J x = -Phi                   (2)

@@ -79,16 +79,36 @@ VecX LoopPath::Stage::off(const RelativeFormulation& f, double s) const {
   return off;
 }
 
-LoopPath::LoopPath(RelativeFormulation& f, double t) : f_(f), t_(t), members_(loop_members(f)) {
-  if (!members_.any) return;
+LoopPath::LoopPath(RelativeFormulation& f, double t) : f_(f), t_(t), members_(loop_members(f)) {}
+
+void LoopPath::measure_size() {
   f_.positions(t_, drawn());
   Eigen::AlignedBox3d box;
-  for (std::size_t j = 0; j < f.model().joints.size(); ++j)
-    if (members_.joint[j]) box.extend(f.marker(f.model().joints[j].frame_M).r);
-  for (const Rod& r : f.model().rods) box.extend(f.marker(r.a).r).extend(f.marker(r.b).r);
+  for (std::size_t j = 0; j < f_.model().joints.size(); ++j)
+    if (members_.joint[j]) box.extend(f_.marker(f_.model().joints[j].frame_M).r);
+  for (const Rod& r : f_.model().rods) box.extend(f_.marker(r.a).r).extend(f_.marker(r.b).r);
   size_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
   for (std::size_t i = 0; i < members_.body.size(); ++i)
-    if (members_.body[i]) size_ = std::max(size_, f.model().bodies[i].length);
+    if (members_.body[i]) size_ = std::max(size_, f_.model().bodies[i].length);
+}
+
+bool LoopPath::starts_as_drawn() const {
+  const Model& model = f_.model();
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const Joint& joint = model.joints[j];
+    if (!members_.joint[j]) continue;
+    if (joint.motion && evaluate(*joint.motion, t_).f != 0.0) return false;
+    for (const double x : joint.position)
+      if (x != 0.0) return false;
+  }
+  for (std::size_t i = 0; i < members_.body.size(); ++i)
+    if (members_.body[i] && !model.amplitudes[i].isZero(0.0)) return false;
+  return true;
+}
+
+bool LoopPath::closes(const VecX& q) {
+  f_.positions(t_, q);
+  return largest(f_.constraint_values()) < 1e-10;
 }
 
 bool LoopPath::all_given() const {
@@ -133,6 +153,7 @@ VecX LoopPath::drawn() const {
 
 LoopPath::Stage LoopPath::begin(const VecX& q, std::vector<LoopValue> values, bool motions,
                                 LoopMoves moves, bool keeps) {
+  if (size_ == 0.0) measure_size();
   const ConstraintSet& set = f_.constraint_set();
   const VecX rest = VecX::Zero(f_.velocities());
   f_.positions(t_, q);
@@ -238,7 +259,7 @@ bool LoopPath::increment(Stage& stage, const VecX& q, double from, double to, Ve
     evaluate_at(q_new);
     const VecX d = equations.displacement();
     // In singular positions the motions that are free for a moment go on as they were.
-    step = equations.step(rest, 0);
+    step = equations.step(rest, nullptr);
     if (step.rank >= rank && step.free > 0) step = equations.step(rest, &d);
     stage.leaves_motions = step.free > 0;
     if (!(largest(step.x) < 1.0)) return false;

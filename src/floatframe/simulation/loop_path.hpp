@@ -14,6 +14,10 @@ class LoopPath {
   LoopPath(RelativeFormulation& f, double t);
 
   bool any_loops() const noexcept { return members_.any; }
+  /// The start values in loops are those of the drawn configuration.
+  bool starts_as_drawn() const;
+  /// Constraints are met at `q`.
+  bool closes(const VecX& q);
   /// The values given leave no other joint in loops free.
   bool all_given() const;
   /// The configuration as drawn, but with the start values of joints outside of loops.
@@ -30,7 +34,7 @@ class LoopPath {
   bool drawn_closes() const noexcept { return drawn_closes_; }
   /// Constraints and start values are met at `q`.
   bool closed(const VecX& q);
-  /// What stays open of the constraints where the start values are met all the same; from `q`.
+  /// Residual of the constraints where the start values are met all the same; from `q`.
   VecX gap(VecX& q);
   /// `to` is no farther from `from` than one increment.
   bool near(const VecX& from, const VecX& to);
@@ -41,6 +45,7 @@ class LoopPath {
   struct Stage;
   Stage begin(const VecX& q, std::vector<LoopValue> values, bool motions, LoopMoves moves,
               bool keeps);
+  void measure_size();
   bool lead(Stage& stage, VecX& q);
   bool lead_in_increments(Stage& stage, VecX& q);
   bool increment(Stage& stage, const VecX& q, double from, double to, VecX& q_new);
@@ -48,7 +53,7 @@ class LoopPath {
   RelativeFormulation& f_;
   double t_;
   LoopMembers members_;
-  double size_ = 1.0;  ///< of the loops [m]
+  double size_ = 0.0;  ///< of the loops [m], once it is needed
   double reached_ = 0.0;
   bool drawn_closes_ = true;
 };

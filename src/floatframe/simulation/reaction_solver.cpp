@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -42,7 +43,8 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
   reactions_.joint_impulses.assign(model.joints.size(), Vec3::Zero());
   reactions_.rod_impulses.assign(model.rods.size(), Vec3::Zero());
   if (options.redundant) {
-    options_.penalty_mass *= stiffer;
+    // That of absolute coordinates is as stiff as digits allow.
+    if (std::is_same_v<F, RelativeFormulation>) options_.penalty_mass *= stiffer;
     least_.emplace(model);
   }
   const VecX possible = possible_masses(f_, start);
