@@ -116,6 +116,39 @@ def collected(program, arguments, counted=COUNTED):
         return total / each, words
 
 
+def row_of_parallelograms(cells, outputs):
+    """Planar, each field repeats three constraints."""
+    bar = "{{rigid: {{mass: 1, centre_of_mass: [{}, 0, {}], inertia: [.1, .1, .1]}}}}\n".format
+    hinge = "{{type: revolute, parent: {}, child: {}, at: [{}, 0, {}], axis: y{}}}\n".format
+    bodies, joints = ["  c0: " + bar(0, 0.5)], ["  a0: " + hinge("ground", "c0", 0, 0, ", velocity: 3")]
+    for k in range(1, cells + 1):
+        bodies += [f"  c{k}: " + bar(k, 0.5), f"  r{k}: " + bar(k - 0.5, 1)]
+        joints += [f"  a{k}: " + hinge("ground", f"c{k}", k, 0, ""), f"  b{k}: " + hinge(f"c{k - 1}", f"r{k}", k - 1, 1, ""),
+                   f"  d{k}: " + hinge(f"c{k}", f"r{k}", k, 1, "")]
+    return ("floatframe: 1\nbodies:\n" + "".join(bodies) + "joints:\n" + "".join(joints) + "outputs:\n" + outputs +
+            "simulation: {step: 0.002, duration: 1}\n")
+
+
+def cost_of_reactions(program):
+    """Of the steps of a redundant mechanism with a reaction in every row, by those without: a run less a shorter one."""
+    steps = {}
+    with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
+        model = pathlib.Path(folder) / "row.yaml"
+        for name, outputs in (("without", "  c0: {position: c0}\n"), ("with", "  a0: {joint_force: a0}\n")):
+            model.write_text(row_of_parallelograms(18, outputs), encoding="utf-8")
+            counts = []
+            for duration in ("0.1", "0.3"):
+                command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", str(program), "run", str(model),
+                           "--duration", duration, "--out", f"{folder}/run", "--overwrite", "--quiet", "--no-report",
+                           "--record", "none"]
+                done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+                if done.returncode:
+                    sys.exit(f"held_figures: `{' '.join(command)}` failed:\n{done.stderr[-2000:]}")
+                counts.append(int(re.search(r"Collected : (\d+)", done.stderr)[1]))
+            steps[name] = counts[1] - counts[0]
+    return steps["with"] / steps["without"]
+
+
 def instruction_figures(program):
     if not shutil.which("valgrind"):
         sys.exit("held_figures: valgrind not found; Debian package: valgrind")
@@ -129,6 +162,7 @@ def instruction_figures(program):
         figures[f"instructions per {kind}: {name}"] = round(count)
     for name, arguments in STARTS.items():
         figures[f"instructions of the start: {name}"] = round(collected(program, arguments, COUNTED_START)[0])
+    figures["steps with reactions of 18 parallelograms, of those without"] = cost_of_reactions(program)
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")
