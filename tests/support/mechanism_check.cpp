@@ -143,7 +143,8 @@ bool falls(double before, double now) {
 }
 
 /// Whether the differences fall as they must until the first run says that it has left what it can
-/// be judged by (at least the first ten instants, of which a step has all).
+/// be judged by (at least the first ten instants, of which a step has all). What is bent too far at
+/// the start, by the closing of its loops, cannot be judged at all.
 bool falls_before(const Model& model, const std::vector<Level>& levels, double step) {
   double until = std::numeric_limits<double>::infinity();
   for (const Level& l : levels)
@@ -152,6 +153,7 @@ bool falls_before(const Model& model, const std::vector<Level>& levels, double s
       if (!t) return false;
       until = std::min(until, *t);
     }
+  if (until <= 0.0) return true;
   until = std::max(until, 10.5 * step);
   double before = 0.0;
   for (std::size_t k = 0; k < levels.size(); ++k) {

@@ -89,8 +89,7 @@ class AugmentedLagrangian {
   using Clock = std::chrono::steady_clock;
   using Scheme = StepScheme;
   static constexpr int newton_slot = 0, projection_slot = 1;
-  /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes. But next
-  /// to a singular position it makes more of round-off.
+  /// The projections are linear: a stiffer penalty saves passes, but makes more of round-off.
   static constexpr double metric_penalty = 30.0;
   /// What holds a freedom without mass is its stiffness times s, which next to the penalty may be
   /// less than round-off. A matrix with a vanishing pivot is made again with so much of the
@@ -101,9 +100,8 @@ class AugmentedLagrangian {
   /// An acceleration that moves a rigid coordinate further than this in a step [m, rad] may not be
   /// that of the whole step: a second try leaves it out of its first guess.
   static constexpr double farthest = 0.1;
-  /// Passes of the projections end with one that leaves more than this: next to a singular position
-  /// more of them would turn what a nearly dependent constraint is off by, most of it round-off,
-  /// into velocities.
+  /// Passes of the projections end with one that leaves more than this: next to singular positions
+  /// more of them would turn round-off of nearly dependent constraints into velocities.
   static constexpr double slow = 0.5;
 
   StepAttempt advance(State& state, double h) noexcept {
@@ -123,6 +121,7 @@ class AugmentedLagrangian {
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
+    if (options_.follows_massless && k.trapezoidal) follow_massless(state, k);
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
     experience_.continues_at = state.t;
@@ -342,6 +341,7 @@ class AugmentedLagrangian {
     return true;
   }
 
+  void follow_massless(const State& state, const Scheme& k) noexcept;
   bool solve_accelerations(const State&, const Scheme&, double penalty, double enough) noexcept;
   bool settle_accelerations(double s, double penalty, double enough) noexcept;
 
@@ -390,11 +390,11 @@ class AugmentedLagrangian {
   const double spectral_radius_;  ///< that was asked for
   IntegratorExperience experience_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
-  VecX lambda_, reactions_, rate_, work_, increments_;
-  VecX impulses_;
+  VecX lambda_, reactions_, rate_, work_, increments_, impulses_;
   bool keeps_impulses_ = false;
 };
 
 }  // namespace floatframe
 
-#include "floatframe/integrator/restart.hpp"  // the members that are not defined here
+#include "floatframe/integrator/massless_motion.hpp"  // the members that are not
+#include "floatframe/integrator/restart.hpp"          // defined here

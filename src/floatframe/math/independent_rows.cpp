@@ -1,5 +1,6 @@
 #include "floatframe/math/independent_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -16,13 +17,19 @@ class IndependentRows::Elimination {
         pivot_of_(A.cols(), -1),
         last_row_(A.cols(), -1),
         reached_by_(A.cols()) {
-    for (int i = 0; i < A.rows(); ++i)
-      for (SparseRowMatrix::InnerIterator it(A, i); it; ++it) last_row_[it.col()] = i;
+    for (int i = 0; i < A.rows(); ++i) {
+      double square = 0.0;
+      for (SparseRowMatrix::InnerIterator it(A, i); it; ++it) {
+        last_row_[it.col()] = i;
+        square += it.value() * it.value();
+      }
+      longest_ = std::max(longest_, std::sqrt(square));
+    }
   }
 
   void take(int row, double threshold) {
     const double length = A_.row(row).norm();
-    if (!(length > 0.0)) {
+    if (!(length > nothing * longest_)) {
       done_.dependent_.push_back(row);
       return;
     }
@@ -54,6 +61,8 @@ class IndependentRows::Elimination {
  private:
   /// Of a row of length 1 it is as good as none.
   static constexpr double rounding = 1e-17;
+  /// What rounding leaves of a row of zeros, of rows of length 1 or longer.
+  static constexpr double nothing = 1e-14;
 
   /// An entry that was zero until reflection k: all later ones that reach it are to be applied.
   void meet(int i, int k) {
@@ -110,6 +119,7 @@ class IndependentRows::Elimination {
   std::vector<std::vector<int>> reached_by_;  ///< for each unknown the reflections, ascending
   std::priority_queue<int, std::vector<int>, std::greater<>> waiting_;
   int applied_ = -1;
+  double longest_ = 1.0;  ///< length of a row
 };
 
 IndependentRows::IndependentRows(const SparseRowMatrix& A, double threshold) : unknowns_(A.cols()) {

@@ -15,7 +15,8 @@ using SparseRowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 class IndependentRows {
  public:
-  /// A row is dependent if less than `threshold` of its length is left beside the rows before it.
+  /// A row is dependent if less than `threshold` of its length is left beside the rows before it,
+  /// or if it is nothing but rounding.
   IndependentRows(const SparseRowMatrix& A, double threshold);
 
   Eigen::Index rank() const noexcept { return columns_.size(); }

@@ -3,6 +3,7 @@
 #include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/sentences.hpp"
+#include "floatframe/model/snap.hpp"
 #include "floatframe/model/validate.hpp"
 
 namespace floatframe {
@@ -61,6 +62,8 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.inputs();
   b.joints();
   b.rods();
+  ModelHints found;
+  if (b.errors.empty()) found.notes = snap_joints(b.model, description.snap, found.locked);
   b.forces();
   b.outputs();
   b.errors.throw_if_any();
@@ -68,7 +71,10 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.modal_masses();
   b.finish();
   b.errors.throw_if_any();
-  b.model.hints = model_hints(description, b.model);
+  ModelHints hints = model_hints(description, b.model);
+  found.notes.insert(found.notes.end(), hints.notes.begin(), hints.notes.end());
+  found.bending = std::move(hints.bending);
+  b.model.hints = std::move(found);
   return std::move(b.model);
 }
 

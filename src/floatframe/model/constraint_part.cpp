@@ -21,6 +21,14 @@ PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept {
   return v;
 }
 
+bool changes(const TimeFunction& f, double duration) noexcept {
+  constexpr int samples = 23;
+  const double first = evaluate(f, 0.0).f;
+  for (int k = 1; k <= samples; ++k)
+    if (evaluate(f, duration * k / samples).f != first) return true;
+  return false;
+}
+
 namespace {
 
 /// Calls f with the type as a constant: comparisons and direct calls.

@@ -94,6 +94,8 @@ inline int ConstraintPart::rows() const noexcept { return constraint_kind(type).
 
 /// Value of a function of time with its first two derivatives.
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;
+/// Its value is not the same at all times up to `duration`.
+bool changes(const TimeFunction& f, double duration) noexcept;
 
 /// Fills `rows[0 .. part.rows())`.
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,

@@ -374,9 +374,17 @@ struct SimulationDescription {
   void given_by(const char* option, const char* key) { origin.keys[key] = SourceMark{option}; }
 };
 
+/// How far axes and points of joints in loops may miss what would let the loop move.
+struct SnapDescription {
+  bool on = true;
+  double angle = 3e-3;     ///< [rad]
+  double distance = 1e-3;  ///< as a part of the size of the loops
+};
+
 struct ModelDescription {
   std::string name = "model";
   Vec3 gravity{0.0, 0.0, -9.81};  ///< [m/s2]
+  SnapDescription snap;
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<RodDescription> rods;

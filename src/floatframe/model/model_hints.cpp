@@ -267,7 +267,7 @@ ModelHints model_hints(const ModelDescription& description, const Model& model) 
   hint_at_angles(description, model, hints);
   hint_at_inertia(description, model, hints);
   hint_at_clamps(description, model, hints);
-  return {hints.texts(), bar_bending(description, model)};
+  return {hints.texts(), {}, bar_bending(description, model)};
 }
 
 }  // namespace floatframe

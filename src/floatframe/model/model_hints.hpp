@@ -22,8 +22,15 @@ struct BarBending {
   bool alike() const noexcept { return stiffness[0] - stiffness[1] <= 1e-9 * stiffness[0]; }
 };
 
+/// Loops that cannot move because an axis or a point of a joint misses what would let them.
+struct LockedLoops {
+  std::string sentence;
+  bool driven = false;  ///< a prescribed motion moves a joint of theirs
+};
+
 struct ModelHints {
-  std::vector<std::string> notes;  ///< a sentence each
+  std::vector<std::string> notes;   ///< a sentence each
+  std::vector<LockedLoops> locked;  ///< runs and statics say it, too
   std::vector<BarBending> bending;
 };
 

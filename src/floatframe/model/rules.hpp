@@ -36,6 +36,11 @@ inline constexpr WholeNumberRule analytic_shapes{"a number of shapes", 0, 50};
 /// A point of a flexible body that is this near to a node is the node [m].
 inline constexpr double node_tolerance = 1e-6;
 
+// Axes and points of joints that are made exact.
+inline constexpr NumberRule snap_angle{"an angle from 0 to 0.1", "rad", 0.0, 0.1};
+inline constexpr NumberRule snap_distance{"a part of the size of the loops from 0 to 0.1", "", 0.0,
+                                          0.1};
+
 // Forces and roads.
 inline constexpr NumberRule sine_frequency = positive_number("Hz");
 inline constexpr NumberRule rod_length = positive_number("m");

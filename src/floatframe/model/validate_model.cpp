@@ -11,6 +11,8 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   if (const auto complaint = sentences::model_name(d.name))
     model.error("name", "found '" + d.name + "', " + *complaint);
   model.vector("gravity", d.gravity, "m/s2");
+  model.number("snap.angle", d.snap.angle, rules::snap_angle);
+  model.number("snap.distance", d.snap.distance, rules::snap_distance);
   const validation::Names names{NameIndex(d.bodies), NameIndex(d.joints), NameIndex(d.forces),
                                 NameIndex(d.roads),  NameIndex(d.inputs), NameIndex(d.rods)};
   validation::bodies(d, errors);

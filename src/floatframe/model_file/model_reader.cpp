@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/load_instances.hpp"
 #include "floatframe/model_file/read_parts.hpp"
@@ -18,6 +19,23 @@ namespace {
 const char* const top_keys[] = {"floatframe", "parameters", "points",  "bodies", "joints",
                                 "rods",       "forces",     "roads",   "inputs", "outputs",
                                 "initial",    "subsystems", "external"};
+
+/// Keys of the model file alone.
+constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};
+
+/// snap: false, or {angle: 3e-3, distance: 1e-3}
+void read_snap(const YamlValue& value, SnapDescription& snap) {
+  if (!value.is_map()) {
+    if (const auto on = value.boolean()) snap.on = *on;
+    return;
+  }
+  auto s = value.section();
+  if (const auto v = s->get("angle"))
+    if (const auto x = v->number(rules::snap_angle)) snap.angle = *x;
+  if (const auto v = s->get("distance"))
+    if (const auto x = v->number(rules::snap_distance)) snap.distance = *x;
+  s->finish();
+}
 
 /// All instances, outer ones first.
 void every(const ModelInstance& self, const std::function<void(const ModelInstance&)>& action) {
@@ -31,10 +49,9 @@ void check_keys(const ModelInstance& self) {
   for (const char* key : top_keys) root.get(key);
   root.get("name");
   if (!self.outer) {
-    root.get("gravity");
-    root.get("simulation");
+    for (const char* key : whole_keys) root.get(key);
   } else {
-    for (const char* key : {"gravity", "simulation"})
+    for (const char* key : whole_keys)
       if (const auto v = root.get(key))
         self.context.errors->add(
             v->entity_mark(),
@@ -57,6 +74,7 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
     }
   if (const auto v = root.get("gravity"))
     if (const auto g = v->vector("m/s2")) model.description.gravity = *g;
+  if (const auto v = root.get("snap")) read_snap(*v, model.description.snap);
   if (!root.has("bodies") && self.children.empty() && !root.has("subsystems"))
     root.error("missing key 'bodies'");
 }

@@ -33,7 +33,7 @@ std::string branch_owners(const ConstraintSet& constraints, const std::vector<in
 
 BranchWatch::BranchWatch(double step, int configurations)
     : step_(step), highest_(std::numeric_limits<double>::lowest()) {
-  first_.q = deepest_.q = VecX::Zero(configurations);
+  first_.q = deepest_.q = start_.q = best_.q = VecX::Zero(configurations);
 }
 
 void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
@@ -41,6 +41,8 @@ void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
   if (!std::isfinite(last.log_pivots) || std::abs(last.size - step_) > 1e-6 * step_) return;
   const double x = last.log_pivots;
   highest_ = std::max(highest_, x);
+  start_.offer_first(x, s);
+  if (best_.found == 0.0 || x > best_.value + rise) best_.keep(x, s);
   if (x > highest_ - depth) {
     first_ended_ = first_.found;
     return;
@@ -49,9 +51,9 @@ void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
   deepest_.offer(x, s);
 }
 
-std::optional<RangeWarning> BranchWatch::judged(const MatX& J, const ConstraintSet& constraints,
-                                                double t) {
-  if (!nearly_dependent(J)) return {};
+std::optional<RangeWarning> BranchWatch::judged(const MatX& J, double usual,
+                                                const ConstraintSet& constraints, double t) {
+  if (!nearly_dependent(J) || !(independence(J) < part_of_usual * usual)) return {};
   return RangeWarning{
       RangeLimit::branch,
       fmt::format("the mechanism passes a singular position at t = {:.4g} s: constraints{} nearly "

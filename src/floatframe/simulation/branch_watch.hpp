@@ -8,13 +8,16 @@
 // falls far below what it was are kept: the first such dip and the deepest. At the end of the run
 // the constraints there are looked at closely, with dense linear algebra, and only what they say
 // counts: constraints that are redundant everywhere make no dip, and other dips (long levers that
-// become short) are none of singular positions.
+// become short) are none of singular positions. What is a small angle depends on lengths, so the
+// constraints are compared with themselves at the start and at the highest position.
+#include <algorithm>
 #include <optional>
 #include <span>
 
 #include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/integrator/step.hpp"
 #include "floatframe/simulation/range_warning.hpp"
+#include "floatframe/simulation/redundancy.hpp"
 
 namespace floatframe {
 
@@ -31,7 +34,7 @@ class BranchWatch {
   void walk(Stream& s) {
     s(highest_);
     s(first_ended_);
-    for (Dip* d : {&first_, &deepest_}) d->walk(s);
+    for (Dip* d : {&first_, &deepest_, &start_, &best_}) d->walk(s);
   }
 
   /// The sentence about the first singular position, if there was one. Moves the formulation.
@@ -40,9 +43,14 @@ class BranchWatch {
     for (const Dip* d : {&first_, &deepest_}) {
       if (d->found == 0.0 || d->q.size() != f.configurations() || f.velocities() > most_coordinates)
         continue;
-      f.positions(d->t, d->q);
-      f.velocities(VecX::Zero(f.velocities()));
-      if (auto found = judged(f.constraint_jacobian(), f.constraint_set(), d->t)) return found;
+      const auto constraints_at = [&](const Dip& dip) {
+        f.positions(dip.t, dip.q);
+        f.velocities(VecX::Zero(f.velocities()));
+        return f.constraint_jacobian();
+      };
+      const double usual =
+          std::max(independence(constraints_at(start_)), independence(constraints_at(best_)));
+      if (auto found = judged(constraints_at(*d), usual, f.constraint_set(), d->t)) return found;
     }
     return {};
   }
@@ -50,6 +58,10 @@ class BranchWatch {
  private:
   /// Fall of the sum of logarithms that is looked at: twentyfold.
   static constexpr double depth = 3.0;
+  /// Of the sum of logarithms, before another position counts as the highest.
+  static constexpr double rise = 0.1;
+  /// What is left of the independence of constraints in a singular position, at most.
+  static constexpr double part_of_usual = 0.1;
   static constexpr int most_coordinates = 1000;  ///< dense linear algebra
 
   struct Dip {
@@ -57,6 +69,12 @@ class BranchWatch {
     VecX q;
     void offer(double x, const State& s) noexcept {
       if (found != 0.0 && x >= value) return;
+      keep(x, s);
+    }
+    void offer_first(double x, const State& s) noexcept {
+      if (found == 0.0) keep(x, s);
+    }
+    void keep(double x, const State& s) noexcept {
       found = 1.0;
       value = x;
       t = s.t;
@@ -69,13 +87,14 @@ class BranchWatch {
     }
   };
 
-  static std::optional<RangeWarning> judged(const MatX& J, const ConstraintSet& constraints,
-                                            double t);
+  static std::optional<RangeWarning> judged(const MatX& J, double usual,
+                                            const ConstraintSet& constraints, double t);
 
   double step_;
   double highest_;
   double first_ended_ = 0.0;  ///< 1: the first dip is over
   Dip first_, deepest_;
+  Dip start_, best_;  ///< the first and the highest position
 };
 
 }  // namespace floatframe

@@ -159,6 +159,13 @@ std::string keepers(const Model& model, bool rates) {
          " (keep: true)";
 }
 
+/// " (0 degrees of freedom: ...)" of loops that are locked.
+std::string locked_text(const Model& model) {
+  std::string text;
+  for (const LockedLoops& locked : model.hints.locked) text += " (" + locked.sentence + ")";
+  return text;
+}
+
 }  // namespace
 
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions, double t,
@@ -181,7 +188,8 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
             "the model cannot be assembled while {}: {} at the start ({}); the loops close if "
             "these values may move",
             kept_positions, gap, way));
-      throw RunError(fmt::format("the model cannot be assembled: {} at the start ({})", gap, way));
+      throw RunError(fmt::format("the model cannot be assembled: {} at the start ({}){}", gap, way,
+                                 locked_text(f.model())));
     }
     const double violation = close_from(f, q, v, t);
     if (!(violation < closed))
@@ -203,8 +211,8 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
   }
   VecX rate(f.constraints());
   f.constraint_rates(rate);
-  throw RunError(
-      fmt::format("the start velocities do not fit: {}", open_loops_text(f, rate, true)));
+  throw RunError(fmt::format("the start velocities do not fit: {}{}",
+                             open_loops_text(f, rate, true), locked_text(f.model())));
 }
 
 }  // namespace floatframe

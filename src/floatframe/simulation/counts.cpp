@@ -8,6 +8,7 @@
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/singular_position.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
@@ -53,6 +54,33 @@ void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
   }
 }
 
+/// Bars that have no inertia about their axis where nothing but torsion holds that spin.
+void note_massless(RelativeFormulation& f, const State& start, double penalty_mass,
+                   std::vector<std::string>& notes) {
+  for (const std::size_t i : bodies_without_inertia(f, start, penalty_mass)) {
+    const Body& body = f.model().bodies[i];
+    if (body.modes() == 0 || body.data->mass_model == MassModel::hermite) continue;
+    notes.push_back(fmt::format(
+        "body '{}' has a motion without mass that stiffness holds (the spin of a bar about its "
+        "axis): it follows the others by statics; mass_model: hermite with section_inertia: true "
+        "gives it inertia",
+        body.name));
+  }
+}
+
+/// A toggle that is so near to straight has forces a hundred thousand times its loads.
+constexpr double nearly_singular = 1e-5;
+
+/// Reactions that no load explains.
+bool out_of_proportion(const Model& model, const StaticsResult& s) {
+  constexpr double most = 1e4;
+  double load = 0.0, reaction = 0.0;
+  for (const Body& b : model.bodies) load += b.data->invariants.m * model.gravity.norm();
+  for (const StaticsForce& f : s.forces) (f.type == "rod" ? reaction : load) += std::abs(f.force);
+  for (const StaticsJoint& j : s.joints) reaction = std::max(reaction, j.force.norm());
+  return reaction > most * load;
+}
+
 }  // namespace
 
 ModelCounts check(const Model& model) {
@@ -71,7 +99,9 @@ ModelCounts check(const Model& model) {
   // Rank at the assembled start, with position constraints only.
   State start = relative_start(relative, Start::given, &c.start);
   // A singular mass matrix shows here.
-  start_accelerations(relative, start, default_penalty_mass(model, Coordinates::relative));
+  const double penalty_mass = default_penalty_mass(model, Coordinates::relative);
+  if (start_accelerations(relative, start, penalty_mass))
+    note_massless(relative, start, penalty_mass, c.start.notes);
   relative.positions(0.0, start.q);
   relative.velocities(start.v);
   const int rank = rank_of(relative.constraint_rows());
@@ -99,6 +129,9 @@ StaticsResult statics(const Model& model) {
   f.residual(zero, e.lambda, 0.0, r);
 
   StaticsResult s;
+  for (const LockedLoops& locked : model.hints.locked) s.notes.push_back(locked.sentence);
+  const std::string singular = singular_position(f, nearly_singular).sentence;
+  if (!singular.empty()) s.notes.push_back(singular);
   if (!unstable.empty()) s.notes.push_back(unstable);
   s.iterations = e.iterations;
   s.residual = e.residual;
@@ -145,6 +178,8 @@ StaticsResult statics(const Model& model) {
     analysis.set_reactions(s);
     s.redundant = analysis.redundant();
   }
+  if (!singular.empty() && out_of_proportion(model, s))
+    throw RunError("no equilibrium: " + singular);
   state.v = zero;
   JointFollower joints(model);
   s.state = std::make_shared<SystemState>(system_state(f, state, joints));

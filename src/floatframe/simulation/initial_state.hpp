@@ -182,9 +182,10 @@ void start_accelerations_dense(F& f, State& state) {
       state.a, state.lambda);
 }
 
-/// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t.
+/// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t. True if some direction
+/// may have no mass.
 template <class F>
-void start_accelerations(F& f, State& state, double penalty_mass) {
+bool start_accelerations(F& f, State& state, double penalty_mass) {
   state.a = VecX::Zero(f.velocities());
   state.lambda = VecX::Zero(f.constraints());
   check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);
@@ -206,6 +207,7 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
+  return lacks_mass;
 }
 
 }  // namespace floatframe

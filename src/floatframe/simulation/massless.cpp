@@ -4,6 +4,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 
 namespace floatframe {
@@ -38,6 +39,12 @@ double penalty_of_passes(const F& f, double penalty_mass) {
   return penalty_mass * loops * loops;
 }
 
+/// From 0.5 to 1.5, of either sign: of a vector that no direction is orthogonal to but by chance.
+double varied(Eigen::Index i) {
+  const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
+  return (0.5 + golden - std::floor(golden)) * (i % 2 == 0 ? 1.0 : -1.0);
+}
+
 /// x without what of it has no mass, by T of slot 0: T^-1 M x with the same Phi_q x.
 template <class F>
 VecX with_mass(F& f, const VecX& x, const VecX& r0, const VecX& lambda, double penalty_mass) {
@@ -66,10 +73,7 @@ double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass)
   // Round-off of the full penalty would look like mass.
   if (f.factorize(1.0, 0.0, s, 1e-5 * penalty_mass / s, slot) >= 0) return infinite;
   VecX x(scale.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
-    x[i] = (0.5 + golden - std::floor(golden)) * (i % 2 == 0 ? 1.0 : -1.0) / std::sqrt(scale[i]);
-  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = varied(i) / std::sqrt(scale[i]);
   double growth = 0.0;
   for (int pass = 0; pass < 2; ++pass) {
     x /= std::sqrt(x.dot(scale.cwiseProduct(x)));
@@ -146,6 +150,28 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
   return nothing < 1e12 && start_by_passes(f, state, no_stiffness, penalty_mass, false, true);
 }
 
+template <class F>
+std::vector<std::size_t> bodies_without_inertia(F& f, const State& state, double penalty_mass) {
+  const int nv = f.velocities();
+  const double s = little_stiffness(f), penalty = penalty_of_passes(f, penalty_mass);
+  const VecX no_lambda = VecX::Zero(f.constraints());
+  VecX r0(nv);
+  f.residual(VecX::Zero(nv), no_lambda, 0.0, r0);
+  if (nv == 0 || f.factorize(1.0, 0.0, s, penalty / s) >= 0) return {};
+  VecX x(nv);
+  for (Eigen::Index i = 0; i < nv; ++i) x[i] = varied(i);
+  VecX with = x;
+  for (int pass = 0; pass < 2; ++pass) with = with_mass(f, with, r0, no_lambda, penalty);
+  constexpr double noticeable = 1e-3;
+  const VecX without = x - with;
+  if (!without.allFinite() || !(largest(without) > noticeable)) return {};
+  const std::vector<std::size_t> bodies = bodies_moved(f, state, without);
+  f.positions(state.t, state.q);
+  f.velocities(state.v);
+  f.dynamics();
+  return bodies;
+}
+
 template VecX mass_diagonal(RelativeFormulation&, const State&);
 template VecX mass_diagonal(AbsoluteFormulation&, const State&);
 template double growth_of_motions(RelativeFormulation&, const VecX&, double, double);
@@ -154,6 +180,10 @@ template bool may_lack_mass(RelativeFormulation&, const VecX&, const VecX&, doub
 template bool may_lack_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
 template bool start_by_passes(RelativeFormulation&, State&, double, double, bool, bool);
 template bool start_by_passes(AbsoluteFormulation&, State&, double, double, bool, bool);
+template std::vector<std::size_t> bodies_without_inertia(RelativeFormulation&, const State&,
+                                                         double);
+template std::vector<std::size_t> bodies_without_inertia(AbsoluteFormulation&, const State&,
+                                                         double);
 template bool start_held_by_stiffness(RelativeFormulation&, State&, const VecX&, double);
 template bool start_held_by_stiffness(AbsoluteFormulation&, State&, const VecX&, double);
 

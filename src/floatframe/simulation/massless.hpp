@@ -34,6 +34,11 @@ bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double pena
 template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
 
+/// Bodies, by their indices, with a motion that has no mass and that stiffness holds, at the state
+/// where `f` is. None if a pivot vanishes.
+template <class F>
+std::vector<std::size_t> bodies_without_inertia(F& f, const State& state, double penalty_mass);
+
 /// s of a T without stiffness.
 inline constexpr double no_stiffness = 1e-30;
 

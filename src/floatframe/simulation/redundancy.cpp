@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/singular_position.hpp"
 
 namespace floatframe {
 
@@ -50,6 +52,11 @@ MatX balanced_multipliers(const MatX& J) {
 bool nearly_dependent(const MatX& J) {
   constexpr double nearly = 1e-2;
   return pivoted_rank(J.transpose(), nearly) < pivoted_rank(J.transpose(), dependent);
+}
+
+double independence(const MatX& J) {
+  const PivotedQr qr = pivoted_qr(J.transpose(), dependent);
+  return qr.rank > 0 ? std::abs(qr.diagonal[qr.rank - 1] / qr.diagonal[0]) : 1.0;
 }
 
 std::vector<int> dependent_rows(const MatX& J) {
@@ -130,9 +137,31 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
   auto next = independent.dependent().begin();
   for (std::size_t k = 0; k < parts().size(); ++k)
     for (; next != independent.dependent().end() && *next < row_of(k) + parts()[k].rows(); ++next)
-      found.push_back(
-          {owner_name(model_, parts()[k].owner), direction_text(parts()[k], rows_[*next])});
+      if (!holds_motion(k))
+        found.push_back(
+            {owner_name(model_, parts()[k].owner), direction_text(parts()[k], rows_[*next])});
   return found;
+}
+
+/// A motion that is not constant, whose row depends on those of joints and rods. They come first.
+bool ConstraintAnalysis::holds_motion(std::size_t part) const {
+  const ConstraintPart& p = parts()[part];
+  if (p.motion == nullptr || !changes(*p.motion, model_.simulation.duration)) return false;
+  Eigen::Index others = 0;
+  for (std::size_t k = 0; k < parts().size(); ++k)
+    if (parts()[k].motion == nullptr) others = std::max(others, row_of(k) + parts()[k].rows());
+  SparseRowMatrix J(others + 1, J_.cols());
+  J.topRows(others) = J_.topRows(others);
+  J.bottomRows(1) = J_.middleRows(row_of(part), 1);
+  const IndependentRows independent(J, dependent);
+  return !independent.dependent().empty() && independent.dependent().back() == others;
+}
+
+std::vector<std::string> ConstraintAnalysis::held_motions() const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < parts().size(); ++k)
+    if (holds_motion(k)) names.push_back(model_.joints[parts()[k].owner.index].name);
+  return names;
 }
 
 bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
@@ -207,15 +236,33 @@ std::string redundancy_text(const std::vector<RedundantDirection>& redundant) {
 void report_redundancy(RelativeFormulation& f, const State& state, StartReport& report) {
   const int nc = f.constraints();
   if (nc == 0 || rank_of(f.constraint_rows()) == nc) return;
-  report.redundant = ConstraintAnalysis(f, state.q).redundant();
+  const ConstraintAnalysis analysis(f, state.q);
+  report.redundant = analysis.redundant();
   f.positions(state.t, state.q);
   f.velocities(state.v);
-  if (report.redundant.empty()) return;
-  const std::size_t n = report.redundant.size();
+  for (const std::string& joint : analysis.held_motions())
+    report.notes.push_back(fmt::format(
+        "the prescribed motion of joint '{}' moves what other constraints hold still at the start: "
+        "they contradict each other as soon as it moves",
+        joint));
+  SingularPosition singular = singular_position(f);
+  const std::string& text = singular.sentence;
+  if (!text.empty()) report.notes.push_back("at the start " + text);
+  const int n = std::ssize(report.redundant);
+  if (n == 0) return;
+  const int only_there = std::min(n, singular.only_there);
+  if (only_there == n) {
+    report.notes.push_back(
+        fmt::format("{} on others in this position only ({})",
+                    n == 1 ? "1 constraint depends" : fmt::format("{} constraints depend", n),
+                    redundancy_text(report.redundant)));
+    return;
+  }
   report.notes.push_back(fmt::format(
-      "{} redundant ({}): the motion does not depend on {}, but reactions in these loops are not "
+      "{} redundant{} ({}): the motion does not depend on {}, but reactions in these loops are not "
       "unique",
       n == 1 ? "1 constraint is" : fmt::format("{} constraints are", n),
+      only_there > 0 ? fmt::format(", {} of them in this position only", only_there) : "",
       redundancy_text(report.redundant), n == 1 ? "it" : "them"));
 }
 

@@ -18,14 +18,17 @@ class ConstraintAnalysis {
   /// Of the model as `tree` has it at the configuration q, at rest.
   ConstraintAnalysis(RelativeFormulation& tree, const VecX& q);
 
-  /// Rows that repeat earlier ones.
+  /// Rows that repeat earlier ones, but for those of `held_motions`.
   std::vector<RedundantDirection> redundant() const;
+  /// Joints that prescribed motions move and that other constraints hold still.
+  std::vector<std::string> held_motions() const;
 
   /// Sets the reactions of joints and the forces of rods to those of least norm that hold the
   /// model, and marks those that are not unique. False (nothing is changed) if none holds it.
   bool set_reactions(StaticsResult& statics);
 
  private:
+  bool holds_motion(std::size_t part) const;
   const std::vector<ConstraintPart>& parts() const { return f_.constraint_set().parts(); }
   Eigen::Index row_of(std::size_t part) const { return f_.constraint_set().offset(part) - first_; }
 
@@ -48,5 +51,8 @@ int rank_of(const SparseRowMatrix& J);
 std::vector<int> dependent_rows(const MatX& J);
 /// Some rows of J that are independent are so to a hundredth only.
 bool nearly_dependent(const MatX& J);
+/// How much of its length a row of J has at least that the rows before it lack, of those rows that
+/// are not redundant; a part of the longest row.
+double independence(const MatX& J);
 
 }  // namespace floatframe

@@ -5,6 +5,7 @@
 
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -85,6 +86,21 @@ void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
           force.name));
 }
 
+/// Joints that slide along a line at one node of a body that bends.
+void report_rigid_tangents(const Model& model, StartReport& report) {
+  for (const Joint& j : model.joints) {
+    bool slides = false;
+    for (const JointCoordinate& c : joint_kind(j.type).coordinates.all())
+      slides = slides || c.unit == JointUnit::m;
+    const Marker& F = model.markers[j.frame_F];
+    if (!slides || joint_is_free(j.type) || F.body < 0 || F.node < 0 || !F.rotates) continue;
+    report.notes.push_back(fmt::format(
+        "joint '{}' slides along the straight tangent of body '{}' at one of its nodes, not along "
+        "the bent body: away from there it carries the child with the motion of that node",
+        j.name, model.bodies[F.body].name));
+  }
+}
+
 }  // namespace
 
 std::vector<double> joint_coordinates_in_range(const Joint& joint,
@@ -128,6 +144,7 @@ void report_changes(const RelativeFormulation& f, const State& state, Start star
                      ? "keep: true holds no position where the start is an equilibrium, which"
                      : "closing the loops"));
   report_coinciding_ends(f, report);
+  report_rigid_tangents(model, report);
 }
 
 }  // namespace floatframe

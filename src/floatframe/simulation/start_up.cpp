@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
@@ -35,11 +36,29 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
+/// Some body with mass has a motion without, which stiffness holds. Bodies without any mass are
+/// other things: dampers decide where they go, and forces may jump on them.
+template <class F>
+bool bends_without_inertia(F& f, const State& state, double penalty_mass) {
+  for (const std::size_t i : bodies_without_inertia(f, state, penalty_mass))
+    if (f.model().bodies[i].modes() > 0 && f.model().bodies[i].data->invariants.m > 0.0)
+      return true;
+  return false;
+}
+
+/// A model that can move as its motions ask.
+const Model& movable(const Model& model) {
+  for (const LockedLoops& locked : model.hints.locked)
+    if (locked.driven)
+      throw RunError("the prescribed motion contradicts the constraints: " + locked.sentence);
+  return model;
+}
+
 }  // namespace
 
 template <class F>
 StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o)
-    : given_(built(given)),
+    : given_(movable(built(given))),
       changed_(started_model(given, o)),
       inertia_(o.inertia),
       f_(model(), inertia_),
@@ -53,7 +72,8 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
     state_.t = start.t;
     f_.start_from(tree, start.q, start.v, state_.q, state_.v);
   }
-  start_accelerations(f_, state_, step_options_.penalty_mass);
+  if (start_accelerations(f_, state_, step_options_.penalty_mass))
+    step_options_.follows_massless = bends_without_inertia(f_, state_, step_options_.penalty_mass);
   note_linear_markers(model(), report_);
   for (std::string& note : doubtful_gauges(model())) add_note(std::move(note));
   spring_angles_.assign(f_.spring_angles().begin(), f_.spring_angles().end());

@@ -1,0 +1,72 @@
+#pragma once
+// How many freedoms the loops of a model have, as drawn and on a way from there. Bodies are rigid
+// but, where asked, for the modes of flexible ones, with which they take what does not fit. Load
+// time only: dense linear algebra with six columns per body.
+#include <vector>
+
+#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+/// Bodies, joints and rods of which each pair is in a loop together: a block of the graph whose
+/// vertices are bodies and the ground.
+struct LoopBlock {
+  std::vector<int> bodies;  ///< without the ground
+  std::vector<int> joints, rods;
+  bool grounded = false;  ///< the ground is in it
+};
+
+/// The blocks of the model that have loops, in the order of their first joint.
+std::vector<LoopBlock> loop_blocks(const Model& model);
+
+/// Where the frames of a joint are in the design configuration, both of them, in world axes.
+struct JointPlace {
+  Vec3 p = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+  Vec3 axis_2 = Vec3::UnitX();  ///< in the joint frame
+};
+
+class LoopMobility {
+ public:
+  /// `places`: of the joints of the block, in its order. `size`: of the block [m]. Without ground
+  /// its first body is held.
+  LoopMobility(const Model& model, const LoopBlock& block, const std::vector<JointPlace>& places,
+               double size, bool bends);
+
+  /// Velocities that the joints and rods allow as drawn, orthonormal columns.
+  MatX motions() const { return motions(1e-11); }
+  /// The bodies of the block, in its order, are there and not as drawn.
+  void start_at(std::vector<Pose> poses);
+  int columns() const noexcept { return columns_; }
+  /// What joints and rods miss, at most, as a part of the size.
+  double misfit();
+  /// Motions that are free but for a part `nearly`.
+  int free(double nearly) const;
+  /// The most freedoms that are left all along a way of 0.1 rad (or a tenth of the size), on any of
+  /// the ways that begin with motions other than `others`.
+  int lasting(const MatX& others, double nearly = 1e-8);
+
+ private:
+  struct Socket {
+    int place = -1;  ///< in the block, -1: held
+    Pose X_BM;
+    Eigen::Matrix<double, 3, Eigen::Dynamic> X, X_theta;  ///< of the modes, in the body
+  };
+  void evaluate();
+  MatX motions(double threshold) const;
+  void move(const VecX& x);
+  bool close();
+
+  double size_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<int> first_;  ///< column of each body of the block; -1: held
+  std::vector<Pose> start_, pose_;
+  std::vector<Socket> sockets_;
+  std::vector<ConstraintPart> parts_;
+  std::vector<MarkerState> states_;
+  MatX J_;
+  VecX phi_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,243 @@
+#include "floatframe/model/snap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "floatframe/model/alignment.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Relations that miss by more are meant so [rad; of the size].
+constexpr double widest_angle = 0.1, widest_distance = 0.03;
+/// Beyond, dense linear algebra takes minutes: such loops stay as they are.
+constexpr std::size_t most_bodies = 300;
+
+/// "'a', 'b' and 'c'", "'a', 'b', 'c', 'd' and 3 more"
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;
+  const std::size_t shown = names.size() > most ? most - 1 : names.size();
+  std::string text;
+  for (std::size_t k = 0; k < shown; ++k)
+    text += (k == 0 ? "'" : k + 1 == names.size() ? " and '" : ", '") + names[k] + "'";
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+/// One block of loops with what nearly holds in it.
+class Snapping {
+ public:
+  Snapping(const Model& model, const LoopBlock& block)
+      : model_(model), block_(block), alignment_(model, block) {
+    for (const int b : block.bodies) bends_ = bends_ || model.bodies[b].modes() > 0;
+  }
+
+  /// The relations that hold within tolerance and together give the loops freedoms which last;
+  /// none that they move without. Empty: there are none.
+  std::vector<Relation> freeing(double angle, double distance) const {
+    std::vector<Relation> relations = alignment_.relations(angle, distance * alignment_.size());
+    if (relations.empty() || !fits()) return {};
+    const int gained = freedoms(alignment_.aligned(relations));
+    if (gained == 0) return {};
+    for (int k = std::ssize(relations); k-- > 0 && relations.size() > 1;) {
+      std::vector<Relation> others = relations;
+      others.erase(std::next(others.begin(), k));
+      if (freedoms(alignment_.aligned(others)) >= gained) relations = std::move(others);
+    }
+    return relations;
+  }
+
+  /// The loops cannot have freedoms beyond those that counting gives: nothing is locked.
+  bool counted() const {
+    int rows = 0;
+    for (const int j : block_.joints) rows += 6 - joint_velocities(model_.joints[j].type);
+    return 6 * std::ssize(block_.bodies) - (block_.grounded ? 0 : 6) - rows -
+               std::ssize(block_.rods) >
+           0;
+  }
+
+  std::vector<JointPlace> aligned(const std::vector<Relation>& relations) const {
+    return alignment_.aligned(relations);
+  }
+
+  std::string snapped(const Relation& r, const std::vector<JointPlace>& places) const {
+    const bool distance = by_distance(r);
+    const int worst = *std::max_element(r.axes.begin(), r.axes.end(), [&](int a, int b) {
+      return alignment_.moved(places, a, distance) < alignment_.moved(places, b, distance);
+    });
+    const double most = alignment_.moved(places, worst, distance);
+    const std::vector<std::string> names = names_of(r.axes);
+    return fmt::format(
+        "the {} of joint{} {} {} made exactly {}: by up to {:.3g} {}{}, because as "
+        "drawn the loop is locked (snap: false keeps it so)",
+        names.size() == 1 ? "axis" : "axes", names.size() == 1 ? "" : "s", listed(names),
+        names.size() == 1 ? "is" : "are", what(r), most, distance ? "m" : "rad",
+        names.size() == 1 ? "" : fmt::format(" (joint '{}')", name_of(worst)));
+  }
+
+  LockedLoops locked(const std::vector<Relation>& relations) const {
+    std::string text;
+    for (const Relation& r : relations) text += (text.empty() ? "" : "; ") + missed(r);
+    LockedLoops found;
+    const Eigen::Index free = rigid_motions().cols();
+    found.sentence = free == 0
+                         ? fmt::format("0 degrees of freedom: {}, so that the loop is locked", text)
+                         : fmt::format(
+                               "{}: the loops of joints {} have {} degree{} of freedom, and more "
+                               "without that",
+                               text, listed(all_names()), free, free == 1 ? "" : "s");
+    for (const int j : block_.joints) {
+      const std::optional<TimeFunction>& motion = model_.joints[j].motion;
+      found.driven =
+          found.driven || (free == 0 && motion && changes(*motion, model_.simulation.duration));
+    }
+    return found;
+  }
+
+  const Alignment& alignment() const noexcept { return alignment_; }
+
+ private:
+  static bool by_distance(const Relation& r) {
+    return r.kind == Relation::Kind::one_line || r.kind == Relation::Kind::one_point;
+  }
+  static const char* what(const Relation& r) {
+    switch (r.kind) {
+      case Relation::Kind::parallel:
+        return "parallel";
+      case Relation::Kind::perpendicular:
+        return "perpendicular to other axes of the loop";
+      case Relation::Kind::coplanar:
+        return "coplanar";
+      case Relation::Kind::one_line:
+        return "those of one line";
+      case Relation::Kind::one_point:
+        return "such that they meet in one point";
+    }
+    return "";
+  }
+  std::string name_of(int axis) const {
+    return model_.joints[block_.joints[alignment_.axes()[axis].joint]].name;
+  }
+  std::vector<std::string> names_of(const std::vector<int>& axes) const {
+    std::vector<std::string> names;
+    for (const int k : axes)
+      if (names.empty() || names.back() != name_of(k)) names.push_back(name_of(k));
+    return names;
+  }
+  std::vector<std::string> all_names() const {
+    std::vector<std::string> names;
+    for (const int j : block_.joints) names.push_back(model_.joints[j].name);
+    return names;
+  }
+
+  /// "joint 'd' is 1 degree out of line with 'a', 'b' and 'c'": the one without which the others
+  /// agree best.
+  std::string missed(const Relation& r) const {
+    const bool distance = by_distance(r);
+    const auto of_others = [&](int axis) {
+      std::vector<int> others = r.axes;
+      std::erase(others, axis);
+      return others;
+    };
+    int worst = r.axes.back();
+    double least = std::numeric_limits<double>::infinity();
+    for (const int k : r.axes) {
+      Relation rest = r;
+      rest.axes = of_others(k);
+      if (rest.axes.size() < 2) break;
+      const std::vector<JointPlace> places = alignment_.aligned({rest});
+      double off = 0.0;
+      for (const int m : rest.axes) off = std::max(off, alignment_.moved(places, m, distance));
+      if (off < least) {
+        least = off;
+        worst = k;
+      }
+    }
+    const bool alone = r.kind == Relation::Kind::perpendicular;
+    const double off = alone ? alignment_.moved(alignment_.aligned({r}), worst, false)
+                             : alignment_.miss(r, worst, of_others(worst));
+    const std::string degrees = fmt::format("{:.3g}", off * 180.0 / std::numbers::pi);
+    const std::string by = distance         ? fmt::format("{:.3g} m", off)
+                           : degrees == "1" ? "1 degree"
+                                            : degrees + " degrees";
+    return fmt::format("joint '{}' is {} out of line with {}", name_of(worst), by,
+                       alone ? "the other axes" : listed(names_of(of_others(worst))));
+  }
+
+  MatX rigid_motions() const {
+    return LoopMobility(model_, block_, alignment_.drawn(), alignment_.size(), false).motions();
+  }
+
+  /// As drawn everything is in place.
+  bool fits() const {
+    const auto& [places, size] = std::pair(alignment_.drawn(), alignment_.size());
+    return LoopMobility(model_, block_, places, size, false).misfit() < 1e-9;
+  }
+
+  /// Freedoms that last which the loops have with these places and not as drawn.
+  int freedoms(const std::vector<JointPlace>& places) const {
+    if (bends_) {
+      const LoopMobility drawn(model_, block_, alignment_.drawn(), alignment_.size(), true);
+      const LoopMobility moved(model_, block_, places, alignment_.size(), true);
+      if (moved.motions().cols() <= drawn.motions().cols()) return 0;
+    }
+    const MatX drawn = rigid_motions();
+    LoopMobility moved(model_, block_, places, alignment_.size(), false);
+    if (moved.motions().cols() <= drawn.cols()) return 0;
+    const int before = drawn.cols();
+    return std::max(0, moved.lasting(drawn) - before);
+  }
+
+  const Model& model_;
+  const LoopBlock& block_;
+  Alignment alignment_;
+  bool bends_ = false;
+};
+
+/// A marker of its own for each frame that moves: forces and other joints keep theirs.
+void move_frames(Model& model, int index, const JointPlace& from, const JointPlace& to) {
+  Joint& joint = model.joints[index];
+  for (int* frame : {&joint.frame_F, &joint.frame_M}) {
+    Marker m = model.markers[*frame];
+    const Mat3 R_WB = m.body < 0 ? Mat3::Identity().eval() : model.bodies[m.body].X_WB.R;
+    m.X_NM.p += R_WB.transpose() * (to.p - from.p);
+    m.X_NM.R = R_WB.transpose() * to.R;
+    *frame = std::ssize(model.markers);
+    model.markers.push_back(m);
+  }
+  joint.axis_2 = to.axis_2;
+}
+
+}  // namespace
+
+std::vector<std::string> snap_joints(Model& model, const SnapDescription& snap,
+                                     std::vector<LockedLoops>& locked) {
+  std::vector<std::string> notes;
+  for (const LoopBlock& block : loop_blocks(model)) {
+    if (block.bodies.size() > most_bodies || block.joints.empty()) continue;
+    Snapping loops(model, block);
+    const std::vector<Relation> relations =
+        snap.on ? loops.freeing(snap.angle, snap.distance) : std::vector<Relation>{};
+    if (relations.empty()) {
+      if (loops.counted()) continue;
+      const std::vector<Relation> missed = loops.freeing(std::max(snap.angle, widest_angle),
+                                                         std::max(snap.distance, widest_distance));
+      if (!missed.empty()) locked.push_back(loops.locked(missed));
+      continue;
+    }
+    const std::vector<JointPlace> places = loops.aligned(relations);
+    for (const Relation& r : relations) notes.push_back(loops.snapped(r, places));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const JointPlace& from = loops.alignment().drawn()[k];
+      const JointPlace& to = places[k];
+      if (from.p != to.p || from.R != to.R || from.axis_2 != to.axis_2)
+        move_frames(model, block.joints[k], from, to);
+    }
+  }
+  return notes;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,51 @@
+#include "floatframe/simulation/singular_position.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "floatframe/model/alignment.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+
+namespace floatframe {
+
+SingularPosition singular_position(const RelativeFormulation& f, double nearly) {
+  constexpr std::size_t most_bodies = 60;  // dense linear algebra
+  const Model& model = f.model();
+  SingularPosition found;
+  std::string& text = found.sentence;
+  for (const LoopBlock& block : loop_blocks(model)) {
+    if (block.bodies.size() > most_bodies) continue;
+    bool bends = false;
+    std::vector<Pose> poses;
+    for (const int b : block.bodies) {
+      bends = bends || model.bodies[b].modes() > 0;
+      poses.push_back({f.body_position(b), f.body_rotation(b)});
+    }
+    if (bends) continue;
+    const Alignment drawn(model, block);
+    LoopMobility mobility(model, block, drawn.drawn(), drawn.size(), false);
+    mobility.start_at(std::move(poses));
+    const int free = mobility.free(nearly);
+    if (free == 0) continue;
+    const int lasting = mobility.lasting(MatX::Zero(mobility.columns(), 0), nearly);
+    if (lasting >= free) continue;
+    found.only_there += free - lasting;
+    std::vector<std::string> names;
+    for (const int j : block.joints) names.push_back(model.joints[j].name);
+    for (const int k : block.rods) names.push_back(model.rods[k].name);
+    constexpr std::size_t most = 6;
+    const std::size_t more = names.size() > most ? names.size() - most : 0;
+    names.resize(names.size() - more);
+    const std::string listed =
+        more == 0 ? named_text("joint", "joints", names)
+                  : fmt::format("joints '{}' and {} more", fmt::join(names, "', '"), more);
+    text += fmt::format(
+        "{}the loop of {} is in a singular position: {} degree{} of freedom there, "
+        "{} anywhere near, so that forces in it may be without bound and it may go "
+        "on in more than one way",
+        text.empty() ? "" : "; ", listed, free, free == 1 ? "" : "s", lasting);
+  }
+  return found;
+}
+
+}  // namespace floatframe

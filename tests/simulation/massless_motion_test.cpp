@@ -1,0 +1,84 @@
+// Motions without mass that stiffness holds: a straight bar without inertia about its axis on a
+// ball joint, with a body at its other end. They follow by statics, and the energy of the rest is
+// kept.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "floatframe/model_file/load_model.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe::test {
+namespace {
+
+Model bar_on_ball_joint() {
+  return load_model(std::string(FLOATFRAME_TEST_DATA) + "/loops/bar_on_ball_joint.yaml");
+}
+
+/// The largest change of the energy [J].
+double energy_error(const Model& model, Coordinates coordinates, double step, double duration) {
+  SimulationDescription o = model.simulation;
+  o.coordinates = coordinates;
+  o.step = o.output_interval = step;
+  o.duration = duration;
+  const RunResult r = run(model, o);
+  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  const auto energy = [&](std::size_t row) {
+    double sum = 0.0;
+    for (const char* part : {"T1", "T2", "V1", "V2", "U"})
+      sum += r.table.at(row, r.table.column(part));
+    return sum;
+  };
+  double most = 0.0;
+  for (std::size_t row = 0; row < r.table.rows(); ++row)
+    most = std::max(most, std::abs(energy(row) - energy(0)));
+  std::printf(
+      "[ figure ] bar on a ball joint, step %g, %g s: largest error of the energy [J] %.3g\n", step,
+      duration, most);
+  return most;
+}
+
+TEST(MasslessMotion, EnergyOfABarOnABallJointIsOfSecondOrder) {
+  const Model model = bar_on_ball_joint();
+  const double at_1 = energy_error(model, Coordinates::relative, 1e-3, 10.0);
+  const double at_02 = energy_error(model, Coordinates::relative, 2e-4, 10.0);
+  const double at_01 = energy_error(model, Coordinates::relative, 1e-4, 10.0);  // 6e3 J before
+  EXPECT_GT(at_1 / at_02, 15.0);
+  EXPECT_GT(at_02 / at_01, 3.0);
+  EXPECT_LT(at_01, 1e-5);
+  const double absolute_02 = energy_error(model, Coordinates::absolute, 2e-4, 10.0);
+  const double absolute_01 = energy_error(model, Coordinates::absolute, 1e-4, 10.0);
+  EXPECT_GT(absolute_02 / absolute_01, 3.0);
+  EXPECT_LT(absolute_01, 1e-5);
+}
+
+TEST(MasslessMotion, FormulationsAgree) {
+  Model model = bar_on_ball_joint();
+  model.simulation.duration = 2.0;
+  model.simulation.step = 2e-4;
+  model.simulation.output_interval = 0.01;
+  SimulationDescription o = model.simulation;
+  o.coordinates = Coordinates::relative;
+  const RunResult a = run(model, o);
+  o.coordinates = Coordinates::absolute;
+  const RunResult b = run(model, o);
+  double most = 0.0;
+  for (const char* name : {"p.x", "p.y", "p.z"})
+    for (std::size_t row = 0; row < a.table.rows(); ++row)
+      most = std::max(most, std::abs(a.table.at(row, a.table.column(name)) -
+                                     b.table.at(row, b.table.column(name))));
+  EXPECT_LT(most, 1e-5);
+}
+
+TEST(MasslessMotion, CheckSaysHowToGiveItInertia) {
+  const std::vector<std::string> notes = check(bar_on_ball_joint()).start.notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("body 'beam' has a motion without mass") != std::string::npos &&
+           note.find("section_inertia: true") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace floatframe::test
