@@ -36,14 +36,13 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
-/// Some body with mass has a motion without, which stiffness holds. Bodies without any mass are
-/// other things: dampers decide where they go, and forces may jump on them.
+/// Bodies with mass have motions without, which stiffness holds. Bodies without any mass are other
+/// things: dampers decide where they go, which the rule of the steps follows better.
 template <class F>
 bool bends_without_inertia(F& f, const State& state, double penalty_mass) {
-  for (const std::size_t i : bodies_without_inertia(f, state, penalty_mass))
-    if (f.model().bodies[i].modes() > 0 && f.model().bodies[i].data->invariants.m > 0.0)
-      return true;
-  return false;
+  const std::vector<std::size_t> bodies = bodies_without_inertia(f, state, penalty_mass);
+  const auto has_mass = [&](std::size_t i) { return f.model().bodies[i].data->invariants.m > 0.0; };
+  return !bodies.empty() && std::all_of(bodies.begin(), bodies.end(), has_mass);
 }
 
 /// A model that can move as its motions ask.
