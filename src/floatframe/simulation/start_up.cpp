@@ -36,13 +36,16 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
-/// Bodies with mass have motions without, which stiffness holds. Bodies without any mass are other
-/// things: dampers decide where they go, which the rule of the steps follows better.
+/// Flexible bodies have motions without mass, which their stiffness holds. Rigid bodies without
+/// inertia and bodies without any mass are other things: joints and dampers decide where they go.
 template <class F>
 bool bends_without_inertia(F& f, const State& state, double penalty_mass) {
   const std::vector<std::size_t> bodies = bodies_without_inertia(f, state, penalty_mass);
-  const auto has_mass = [&](std::size_t i) { return f.model().bodies[i].data->invariants.m > 0.0; };
-  return !bodies.empty() && std::all_of(bodies.begin(), bodies.end(), has_mass);
+  const auto flexible = [&](std::size_t i) {
+    const Body& body = f.model().bodies[i];
+    return body.modes() > 0 && body.data->invariants.m > 0.0;
+  };
+  return !bodies.empty() && std::all_of(bodies.begin(), bodies.end(), flexible);
 }
 
 /// A model that can move as its motions ask.
