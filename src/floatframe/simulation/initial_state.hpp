@@ -183,7 +183,7 @@ void start_accelerations_dense(F& f, State& state) {
 }
 
 /// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t. True if some direction
-/// may have no mass.
+/// has no mass.
 template <class F>
 bool start_accelerations(F& f, State& state, double penalty_mass) {
   state.a = VecX::Zero(f.velocities());
@@ -195,10 +195,10 @@ bool start_accelerations(F& f, State& state, double penalty_mass) {
   f.dynamics();
   const VecX diagonal = mass_diagonal(f, state);
   // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
-  const bool lacks_mass = may_lack_mass(f, diagonal, possible, penalty_mass);
+  const double growth = growth_by_mass(f, diagonal, possible, penalty_mass);
   // Dense linear algebra also tells what springs under load do not hold, and is as fast below.
   const bool small = diagonal.size() <= few_dense;
-  const bool good = lacks_mass
+  const bool good = may_lack_mass(growth)
                         ? !small && start_held_by_stiffness(
                                         f, state, mass_scale(diagonal, possible), penalty_mass)
                         : start_by_passes(f, state, no_stiffness, penalty_mass, false, false);
@@ -207,7 +207,7 @@ bool start_accelerations(F& f, State& state, double penalty_mass) {
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
-  return lacks_mass;
+  return lacks_mass(growth);
 }
 
 }  // namespace floatframe

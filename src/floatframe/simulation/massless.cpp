@@ -87,13 +87,21 @@ double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass)
 }
 
 template <class F>
-bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
-  if (diagonal.size() == 0) return false;
-  if (!(diagonal.maxCoeff() > 0.0)) return true;
+double growth_by_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
+  if (diagonal.size() == 0) return 0.0;
+  if (!(diagonal.maxCoeff() > 0.0)) return std::numeric_limits<double>::infinity();
   constexpr double s = 1e-30;
-  const VecX scale = mass_scale(diagonal, possible);
-  return !(growth_of_motions(f, scale, s, penalty_mass) < 0.1 / no_mass);
+  return growth_of_motions(f, mass_scale(diagonal, possible), s, penalty_mass);
 }
+
+template <class F>
+bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
+  return may_lack_mass(growth_by_mass(f, diagonal, possible, penalty_mass));
+}
+
+bool may_lack_mass(double growth) { return !(growth < 0.1 / no_mass); }
+
+bool lacks_mass(double growth) { return !(growth < 1e12); }
 
 template <class F>
 bool start_by_passes(F& f, State& state, double s, double least_penalty, bool lacks_mass,
@@ -147,7 +155,7 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
     if (start_by_passes(f, state, s, penalty_mass, true, !large || attempt == 0)) return true;
   }
   // Or there is mass, little but more than rounding: long chains fold up with a 1e-10 of theirs.
-  return nothing < 1e12 && start_by_passes(f, state, no_stiffness, penalty_mass, false, true);
+  return !lacks_mass(nothing) && start_by_passes(f, state, no_stiffness, penalty_mass, false, true);
 }
 
 template <class F>
@@ -176,6 +184,8 @@ template VecX mass_diagonal(RelativeFormulation&, const State&);
 template VecX mass_diagonal(AbsoluteFormulation&, const State&);
 template double growth_of_motions(RelativeFormulation&, const VecX&, double, double);
 template double growth_of_motions(AbsoluteFormulation&, const VecX&, double, double);
+template double growth_by_mass(RelativeFormulation&, const VecX&, const VecX&, double);
+template double growth_by_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
 template bool may_lack_mass(RelativeFormulation&, const VecX&, const VecX&, double);
 template bool may_lack_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
 template bool start_by_passes(RelativeFormulation&, State&, double, double, bool, bool);

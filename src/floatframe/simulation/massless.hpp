@@ -21,11 +21,20 @@ VecX mass_diagonal(F& f, const State& state);
 template <class F>
 double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass);
 
+/// The same without stiffness, at the diagonal of the mass matrix and `possible_masses`.
+template <class F>
+double growth_by_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass);
+
 /// True if some direction that the constraints leave free may have no mass. A coordinate without
 /// mass alone says nothing: most of natural coordinates are held by constraints. Says yes too often
 /// rather than too seldom.
 template <class F>
 bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass);
+
+/// The same of a growth.
+bool may_lack_mass(double growth);
+/// Nothing but rounding is left of the mass: long chains fold up with a 1e-10 of theirs.
+bool lacks_mass(double growth);
 
 /// Start accelerations and multipliers of a system that lacks mass somewhere: none along directions
 /// without mass, by passes with T. False, with nothing of use in the state, if stiffness does not

@@ -40,9 +40,12 @@ void note_linear_markers(const Model& model, StartReport& report) {
 /// inertia and bodies without any mass are other things: joints and dampers decide where they go.
 template <class F>
 bool bends_without_inertia(F& f, const State& state, double penalty_mass) {
+  const std::vector<Body>& all = f.model().bodies;
+  if (std::none_of(all.begin(), all.end(), [](const Body& b) { return b.modes() > 0; }))
+    return false;
   const std::vector<std::size_t> bodies = bodies_without_inertia(f, state, penalty_mass);
   const auto flexible = [&](std::size_t i) {
-    const Body& body = f.model().bodies[i];
+    const Body& body = all[i];
     return body.modes() > 0 && body.data->invariants.m > 0.0;
   };
   return !bodies.empty() && std::all_of(bodies.begin(), bodies.end(), flexible);
