@@ -36,19 +36,20 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
-/// Flexible bodies have motions without mass, which their stiffness holds. Rigid bodies without
-/// inertia and bodies without any mass are other things: joints and dampers decide where they go.
+/// A flexible body has a motion without mass, which its stiffness holds, and no body without any
+/// mass has one: where these go is decided by dampers. Rigid bodies without inertia alone are led
+/// by their joints.
 template <class F>
 bool bends_without_inertia(F& f, const State& state, double penalty_mass) {
   const std::vector<Body>& all = f.model().bodies;
-  if (std::none_of(all.begin(), all.end(), [](const Body& b) { return b.modes() > 0; }))
-    return false;
-  const std::vector<std::size_t> bodies = bodies_without_inertia(f, state, penalty_mass);
-  const auto flexible = [&](std::size_t i) {
-    const Body& body = all[i];
-    return body.modes() > 0 && body.data->invariants.m > 0.0;
-  };
-  return !bodies.empty() && std::all_of(bodies.begin(), bodies.end(), flexible);
+  const auto bends = [](const Body& b) { return b.modes() > 0; };
+  if (std::none_of(all.begin(), all.end(), bends)) return false;
+  bool found = false;
+  for (const std::size_t i : bodies_without_inertia(f, state, penalty_mass)) {
+    if (!(all[i].data->invariants.m > 0.0)) return false;
+    found = found || bends(all[i]);
+  }
+  return found;
 }
 
 /// A model that can move as its motions ask.
