@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 
@@ -28,7 +27,10 @@ std::vector<int> rigid_groups(const Model& model) {
   const int ground = std::ssize(model.bodies);
   std::vector<int> root(model.bodies.size() + 1);
   std::iota(root.begin(), root.end(), 0);
-  const std::function<int(int)> top = [&](int i) { return root[i] == i ? i : top(root[i]); };
+  const auto top = [&](int i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
   for (const Joint& j : model.joints)
     if (joint_velocities(j.type) == 0) root[top(j.child)] = top(j.parent < 0 ? ground : j.parent);
   for (int i = 0; i <= ground; ++i) root[i] = top(i);
@@ -96,8 +98,12 @@ Alignment::Alignment(const Model& model, const LoopBlock& block) {
     axis.e = at.R * at.axis_2;
     axes_.push_back(axis);
   }
-  for (const JointPlace& a : drawn_)
-    for (const JointPlace& b : drawn_) size_ = std::max(size_, (a.p - b.p).norm());
+  Vec3 low = drawn_.empty() ? Vec3::Zero().eval() : drawn_[0].p, high = low;
+  for (const JointPlace& a : drawn_) {
+    low = low.cwiseMin(a.p);
+    high = high.cwiseMax(a.p);
+  }
+  size_ = (high - low).norm();
   if (!(size_ > 0.0)) size_ = 1.0;
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 /// Relations that miss by more are meant so [rad; of the size].
 constexpr double widest_angle = 0.1, widest_distance = 0.03;
-/// Beyond, dense linear algebra takes minutes: such loops stay as they are.
-constexpr std::size_t most_bodies = 300;
+/// Beyond, dense linear algebra takes too long: such loops stay as they are.
+constexpr std::size_t most_bodies = 100;
 
 /// "'a', 'b' and 'c'", "'a', 'b', 'c', 'd' and 3 more"
 std::string listed(const std::vector<std::string>& names) {
@@ -48,6 +48,11 @@ class Snapping {
       if (freedoms(alignment_.aligned(others)) >= gained) relations = std::move(others);
     }
     return relations;
+  }
+
+  /// Some relation holds within tolerance and not exactly.
+  bool any(double angle, double distance) const {
+    return !alignment_.relations(angle, distance * alignment_.size()).empty();
   }
 
   /// The loops cannot have freedoms beyond those that counting gives: nothing is locked.
@@ -217,8 +222,16 @@ std::vector<std::string> snap_joints(Model& model, const SnapDescription& snap,
                                      std::vector<LockedLoops>& locked) {
   std::vector<std::string> notes;
   for (const LoopBlock& block : loop_blocks(model)) {
-    if (block.bodies.size() > most_bodies || block.joints.empty()) continue;
-    Snapping loops(model, block);
+    if (block.joints.empty()) continue;
+    const Snapping loops(model, block);
+    if (block.bodies.size() > most_bodies) {
+      if (snap.on && loops.any(snap.angle, snap.distance))
+        notes.push_back(fmt::format(
+            "axes of the loop of joint '{}' are nearly parallel or meet nearly, and stay as they "
+            "are: loops of more than {} bodies are not looked at",
+            model.joints[block.joints[0]].name, most_bodies));
+      continue;
+    }
     const std::vector<Relation> relations =
         snap.on ? loops.freeing(snap.angle, snap.distance) : std::vector<Relation>{};
     if (relations.empty()) {
