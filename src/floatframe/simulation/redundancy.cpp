@@ -238,6 +238,7 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
   if (nc == 0 || rank_of(f.constraint_rows()) == nc) return;
   const ConstraintAnalysis analysis(f, state.q);
   report.redundant = analysis.redundant();
+  const bool may_be = may_be_singular(f, state.t, state.q);
   f.positions(state.t, state.q);
   f.velocities(state.v);
   for (const std::string& joint : analysis.held_motions())
@@ -245,7 +246,7 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
         "the prescribed motion of joint '{}' moves what other constraints hold still at the start: "
         "they contradict each other as soon as it moves",
         joint));
-  SingularPosition singular = singular_position(f);
+  const SingularPosition singular = may_be ? singular_position(f) : SingularPosition{};
   const std::string& text = singular.sentence;
   if (!text.empty()) report.notes.push_back("at the start " + text);
   const int n = std::ssize(report.redundant);

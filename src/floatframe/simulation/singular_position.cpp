@@ -3,10 +3,51 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/model/alignment.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 
 namespace floatframe {
+
+namespace {
+
+/// What rows count: not those of prescribed motions.
+MatX without_motions(const RelativeFormulation& f, const MatX& all) {
+  std::vector<int> rows;
+  const ConstraintSet& set = f.constraint_set();
+  for (std::size_t k = 0; k < set.parts().size(); ++k)
+    for (int r = 0; r < set.parts()[k].rows() && set.parts()[k].motion == nullptr; ++r)
+      rows.push_back(set.offset(k) + r);
+  return all(rows, Eigen::all);
+}
+
+}  // namespace
+
+bool may_be_singular(RelativeFormulation& f, double t, const VecX& q) {
+  constexpr double nearly = 1e-8, step = 0.01;
+  constexpr int most_coordinates = 300, passes = 8;
+  const VecX at_rest = VecX::Zero(f.velocities());
+  if (f.velocities() > most_coordinates) return false;
+  VecX there = q, from = q;
+  const auto rows = [&] {
+    f.positions(t, there);
+    f.velocities(at_rest);
+    return without_motions(f, f.constraint_jacobian());
+  };
+  const PivotedQr here = pivoted_qr(rows().transpose(), nearly);
+  const Eigen::Index free = f.velocities() - here.rank;
+  if (free == 0) return false;
+  VecX x = here.Q.rightCols(free) * VecX::LinSpaced(free, 1.0, 1.5);
+  f.retract(from, VecX(x * (step / largest(x))), there);
+  for (int pass = 0; pass < passes; ++pass) {
+    const MatX J = rows();
+    const VecX gap = without_motions(f, f.constraint_values());
+    if (largest(gap) < 1e-11) return pivoted_rank(J.transpose(), nearly) > here.rank;
+    from = there;
+    f.retract(from, VecX(-LeastNorm(J, nearly).solve(gap)), there);
+  }
+  return true;
+}
 
 SingularPosition singular_position(const RelativeFormulation& f, double nearly) {
   constexpr std::size_t most_bodies = 60;  // dense linear algebra
