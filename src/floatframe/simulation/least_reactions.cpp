@@ -138,7 +138,9 @@ void LeastReactions<F>::add_normal_equations(const Side& s, const Side& t, int r
     Mat6 sum = Mat6::Zero();
     for (int r = 0; r < rows; ++r) {
       const Vec6 row = Eigen::Map<const Vec6>(u + 6 * r);
-      for (int j = 0; j < 6; ++j) sum.col(j) += v[6 * r + j] * row;
+      // Half of the entries are zero: a row is the force of a point or a moment.
+      for (int j = 0; j < 6; ++j)
+        if (const double x = v[6 * r + j]; x != 0.0) sum.col(j) += x * row;
     }
     for (int j = 0; j < 6; ++j) Eigen::Map<Vec6>(corner + j * front.rows()) += sum.col(j);
     return;
