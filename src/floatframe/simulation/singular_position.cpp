@@ -25,7 +25,7 @@ MatX without_motions(const RelativeFormulation& f, const MatX& all) {
 
 bool may_be_singular(RelativeFormulation& f, double t, const VecX& q) {
   constexpr double nearly = 1e-8, step = 0.01;
-  constexpr int most_coordinates = 300, passes = 8;
+  constexpr int most_coordinates = 100, passes = 8;  // dense linear algebra
   const VecX at_rest = VecX::Zero(f.velocities());
   if (f.velocities() > most_coordinates) return false;
   VecX there = q, from = q;

@@ -18,7 +18,8 @@ struct SingularPosition {
 SingularPosition singular_position(const RelativeFormulation& f, double nearly = 1e-8);
 
 /// True if constraints that depend on each other at `q` may not do so nearby: a quick look in
-/// relative coordinates, along one motion that they leave free there. Moves `f`.
+/// relative coordinates, along one motion that they leave free there. False above 100 coordinates.
+/// Moves `f`.
 bool may_be_singular(RelativeFormulation& f, double t, const VecX& q);
 
 }  // namespace floatframe
