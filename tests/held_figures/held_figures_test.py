@@ -129,13 +129,18 @@ def row_of_parallelograms(cells, outputs):
             "simulation: {step: 0.002, duration: 1}\n")
 
 
-def cost_of_reactions(program):
+def six_legs(outputs):
+    text = (ROOT / "tests/data/loops/six_legs.yaml").read_text(encoding="utf-8")
+    return text[:text.index("outputs:")] + "outputs:\n" + outputs + text[text.index("simulation:"):]
+
+
+def cost_of_reactions(program, with_outputs, kinds):
     """Of the steps of a redundant mechanism with a reaction in every row, by those without: a run less a shorter one."""
     steps = {}
     with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
         model = pathlib.Path(folder) / "row.yaml"
-        for name, outputs in (("without", "  c0: {position: c0}\n"), ("with", "  a0: {joint_force: a0}\n")):
-            model.write_text(row_of_parallelograms(18, outputs), encoding="utf-8")
+        for name, outputs in zip(("without", "with"), kinds):
+            model.write_text(with_outputs(outputs), encoding="utf-8")
             counts = []
             for duration in ("0.1", "0.3"):
                 command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", str(program), "run", str(model),
@@ -162,7 +167,10 @@ def instruction_figures(program):
         figures[f"instructions per {kind}: {name}"] = round(count)
     for name, arguments in STARTS.items():
         figures[f"instructions of the start: {name}"] = round(collected(program, arguments, COUNTED_START)[0])
-    figures["steps with reactions of 18 parallelograms, of those without"] = cost_of_reactions(program)
+    figures["steps with reactions of 18 parallelograms, of those without"] = cost_of_reactions(
+        program, lambda outputs: row_of_parallelograms(18, outputs), ("  c0: {position: c0}\n", "  a0: {joint_force: a0}\n"))
+    figures["steps with reactions of six legs, of those without"] = cost_of_reactions(
+        program, six_legs, ("  c: {position: crank}\n", "  c: {joint_force: crank}\n"))
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")

@@ -9,6 +9,8 @@
 
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/stepping.hpp"
+#include "support/allocation_counter.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -70,6 +72,17 @@ TEST(MasslessMotion, FormulationsAgree) {
       most = std::max(most, std::abs(a.table.at(row, a.table.column(name)) -
                                      b.table.at(row, b.table.column(name))));
   EXPECT_LT(most, 1e-5);
+}
+
+TEST(MasslessMotion, StepsDoNotAllocate) {
+  if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
+  const Model model = bar_on_ball_joint();
+  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    Simulation s(model, {.step = 2e-4, .coordinates = coordinates});
+    const AllocationScope scope;
+    for (int k = 0; k < 50; ++k) EXPECT_TRUE(s.step());
+    EXPECT_EQ(scope.count(), 0u);
+  }
 }
 
 TEST(MasslessMotion, CheckSaysHowToGiveItInertia) {

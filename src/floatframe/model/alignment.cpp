@@ -66,17 +66,8 @@ Alignment::Alignment(const Model& model, const LoopBlock& block) {
   for (const int index : block.joints) {
     const Joint& joint = model.joints[index];
     const JointKind& kind = joint_kind(joint.type);
-    JointPlace at;
-    const Marker& F = model.markers[joint.frame_F];
-    Pose X = F.X_NM;
-    if (F.body >= 0) {
-      const Body& body = model.bodies[F.body];
-      if (F.node >= 0) X.p += body.data->nodes[F.node].p;
-      X = body.X_WB * X;
-    }
-    at.p = X.p;
-    at.R = X.R;
-    at.axis_2 = joint.axis_2;
+    const Pose X_WF = design_pose(model, joint.frame_F);
+    const JointPlace at{X_WF.p, X_WF.R, joint.axis_2};
     const int a = group[joint.parent < 0 ? ground : joint.parent], b = group[joint.child];
     between_.emplace_back(std::min(a, b), std::max(a, b));
     std::vector<ConstraintPart> parts;

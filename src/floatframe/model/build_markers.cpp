@@ -4,6 +4,7 @@
 
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -91,12 +92,6 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
   return it->second;
 }
 
-Vec3 ModelBuilder::design_point(int marker) const {
-  const Marker& m = this->marker(marker);
-  if (m.body < 0) return m.X_NM.p;
-  const Body& b = model.bodies[m.body];
-  const Vec3 node = m.node < 0 ? Vec3::Zero().eval() : b.data->nodes[m.node].p;
-  return b.X_WB * Vec3(node + m.X_NM.p);
-}
+Vec3 ModelBuilder::design_point(int marker) const { return design_pose(model, marker).p; }
 
 }  // namespace floatframe

@@ -105,6 +105,15 @@ std::vector<LoopBlock> loop_blocks(const Model& model) {
   return blocks;
 }
 
+Pose design_pose(const Model& model, int marker) {
+  const Marker& m = model.markers[marker];
+  if (m.body < 0) return m.X_NM;
+  const Body& body = model.bodies[m.body];
+  Pose X_BM = m.X_NM;
+  if (m.node >= 0) X_BM.p += body.data->nodes[m.node].p;
+  return body.X_WB * X_BM;
+}
+
 LoopMobility::LoopMobility(const Model& model, const LoopBlock& block,
                            const std::vector<JointPlace>& places, double size, bool bends)
     : size_(size) {
@@ -153,16 +162,8 @@ LoopMobility::LoopMobility(const Model& model, const LoopBlock& block,
   for (const int k : block.rods) {
     std::vector<ConstraintPart> parts;
     append_rod_parts(model, k, parts);
-    for (const int marker : {model.rods[k].a, model.rods[k].b}) {
-      const Marker& m = model.markers[marker];
-      Pose X = m.X_NM;
-      if (m.body >= 0) {
-        const Body& body = model.bodies[m.body];
-        if (m.node >= 0) X.p += body.data->nodes[m.node].p;
-        X = body.X_WB * X;
-      }
-      socket(marker, X);
-    }
+    for (const int marker : {model.rods[k].a, model.rods[k].b})
+      socket(marker, design_pose(model, marker));
     renumbered(parts);
   }
   pose_ = start_;

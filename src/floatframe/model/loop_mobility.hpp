@@ -20,6 +20,9 @@ struct LoopBlock {
 /// The blocks of the model that have loops, in the order of their first joint.
 std::vector<LoopBlock> loop_blocks(const Model& model);
 
+/// Where a marker is in the design configuration.
+Pose design_pose(const Model& model, int marker);
+
 /// Where the frames of a joint are in the design configuration, both of them, in world axes.
 struct JointPlace {
   Vec3 p = Vec3::Zero();

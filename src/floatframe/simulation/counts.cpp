@@ -78,7 +78,7 @@ bool out_of_proportion(const Model& model, const StaticsResult& s) {
   for (const Body& b : model.bodies) load += b.data->invariants.m * model.gravity.norm();
   for (const StaticsForce& f : s.forces) (f.type == "rod" ? reaction : load) += std::abs(f.force);
   for (const StaticsJoint& j : s.joints) reaction = std::max(reaction, j.force.norm());
-  return reaction > most * load;
+  return load > 0.0 && reaction > most * load;
 }
 
 }  // namespace
