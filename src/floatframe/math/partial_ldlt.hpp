@@ -53,6 +53,22 @@ inline int factorise_panel(double* c0, int j0, int ld, const double* original, d
   return -1;
 }
 
+/// Trailing update of the columns from j1 on by the W of a panel.
+template <int W>
+inline void take_panel(double* f, const double* c0, int j1, int n, int ld,
+                       const double* d) noexcept {
+  for (int k = j1; k < n; ++k) {
+    double* a = f + k * ld;
+    double w[W];
+    for (int p = 0; p < W; ++p) w[p] = c0[p * ld + k] * d[p];
+    for (int i = k & ~3; i < ld; i += 4) {
+      Lanes x = lanes(a + i);
+      for (int p = 0; p < W; ++p) x -= w[p] * lanes(c0 + p * ld + i);
+      lanes(a + i) = x;
+    }
+  }
+}
+
 /// Returns -1, or the first column whose pivot is no more than `tolerance` of `original` (size ne):
 /// what its diagonal was before anything was taken from it, also by fronts eliminated earlier. The
 /// leading dimension is `front_stride(n)`; rows n and beyond must be zero, and entries above the
@@ -97,15 +113,12 @@ inline int partial_ldlt(double* f, int n, int ne, const double* original,
           lanes(a + i) -=
               (a0 * lanes(c0 + i) + a1 * lanes(c1 + i)) + (a2 * lanes(c2 + i) + a3 * lanes(c3 + i));
       }
+    } else if (j1 - j0 == 3) {
+      take_panel<3>(f, c0, j1, n, ld, d);
+    } else if (j1 - j0 == 2) {
+      take_panel<2>(f, c0, j1, n, ld, d);
     } else {
-      for (int p = j0; p < j1; ++p) {
-        const double* cp = f + p * ld;
-        for (int k = j1; k < n; ++k) {
-          double* a = f + k * ld;
-          const double w = cp[k] * d[p - j0];
-          for (int i = k & ~3; i < ld; i += 4) lanes(a + i) -= w * lanes(cp + i);
-        }
-      }
+      take_panel<1>(f, c0, j1, n, ld, d);
     }
     for (int j = j0; j < j1; ++j) f[j * ld + j] = inverse[j - j0];
   }

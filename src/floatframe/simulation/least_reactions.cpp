@@ -33,6 +33,30 @@ double motion_scale(const ConstraintPart& part) noexcept {
   return constraint_kind(part.type).angle ? -part.scale : -1.0;
 }
 
+/// out += U V^T of rigid bodies, six numbers per row; four and two of a column at a time.
+void add_product(const double* u, const double* v, int rows, double* out,
+                 Eigen::Index stride) noexcept {
+  using Eigen::Array2d, Eigen::Array4d;
+  Array4d upper[6];
+  Array2d lower[6];
+  for (int j = 0; j < 6; ++j) {
+    upper[j].setZero();
+    lower[j].setZero();
+  }
+  for (int r = 0; r < rows; ++r, u += 6, v += 6) {
+    const Array4d row = Eigen::Map<const Array4d>(u);
+    const Array2d end = Eigen::Map<const Array2d>(u + 4);
+    for (int j = 0; j < 6; ++j) {
+      upper[j] += v[j] * row;
+      lower[j] += v[j] * end;
+    }
+  }
+  for (int j = 0; j < 6; ++j, out += stride) {
+    Eigen::Map<Array4d>(out) += upper[j];
+    Eigen::Map<Array2d>(out + 4) += lower[j];
+  }
+}
+
 /// x := A^-1 x for the leading n x n of a positive definite A, by Cholesky.
 void solve_small(Mat6& A, int n, Vec6& x) noexcept {
   for (int j = 0; j < n; ++j) {
@@ -134,17 +158,8 @@ void LeastReactions<F>::add_normal_equations(const Side& s, const Side& t, int r
   double* corner = &front(std::max(os, ot), std::min(os, ot));
   const double* u = rows_of_J_.data() + low.at;
   const double* v = rows_of_J_.data() + high.at;
-  if (low.size == 6 && high.size == 6) {
-    Mat6 sum = Mat6::Zero();
-    for (int r = 0; r < rows; ++r) {
-      const Vec6 row = Eigen::Map<const Vec6>(u + 6 * r);
-      // Half of the entries are zero: a row is the force of a point or a moment.
-      for (int j = 0; j < 6; ++j)
-        if (const double x = v[6 * r + j]; x != 0.0) sum.col(j) += x * row;
-    }
-    for (int j = 0; j < 6; ++j) Eigen::Map<Vec6>(corner + j * front.rows()) += sum.col(j);
-    return;
-  }
+  if (low.size == 6 && high.size == 6)
+    return add_product(u, v, rows, corner, front.rows());
   for (int r = 0; r < rows; ++r)
     for (int j = 0; j < high.size; ++j)
       for (int i = 0; i < low.size; ++i)

@@ -81,11 +81,9 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
     lambda_.setZero();
   f_.residual(a_, lambda_, 0.0, residual_);  // multipliers of the tangent
   if (factorize() < 0) iterate();
-  f_.constraint_accelerations(a_, gamma_);
   f_.residual(a_, lambda_, 0.0, residual_);
   f_.balance(lambda_, residual_);
   force_error_ = largest_entry(residual_);
-  acceleration_error_ = largest_entry(gamma_);
   collect_wrenches();
   if (!least_) return;
   least_->place(f_, state.t);
@@ -98,7 +96,7 @@ template <class F>
 void ReactionSolver<F>::iterate() noexcept {
   const double p = options_.penalty_mass;
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  double best = infinite, last = infinite;
+  double best = infinite, last = infinite, last_step = infinite;
   for (int pass = 0, idle = 0; pass < most_passes && idle < idle_passes; ++pass) {
     if (pass > 0) f_.residual(a_, lambda_, 0.0, residual_);
     f_.balance(lambda_, residual_);
@@ -117,11 +115,15 @@ void ReactionSolver<F>::iterate() noexcept {
       best_lambda_ = lambda_;
     }
     // What the next pass would change is less than rounding shows.
-    const double rate = size / last, step = p * largest_entry(work_);
+    const double step = p * largest_entry(work_);
+    // Errors of accelerations come from those of the multipliers, which shrink by (2) from the
+    // first pass on.
+    const double rate = step > 0.0 ? step / last_step : size / last;
     if (size == 0.0 || (pass > 0 && rate * size < enough * largest_entry(a_) &&
                         rate * step < enough * largest_entry(lambda_)))
       break;
     last = size;
+    last_step = step;
   }
   if (std::isfinite(best)) {
     a_ = best_a_;

@@ -51,8 +51,7 @@ class ReactionSolver {
   ReactionSolver& operator=(const ReactionSolver&) = delete;
 
   /// At t, q, v of the state, with the inputs, angles of springs and branches of forces (those that
-  /// are held) of the formulation that made
-  /// it; `a` of the state is where the iteration begins.
+  /// are held) of the formulation that made it; `a` of the state is where the iteration begins.
   void solve(const State& state, std::span<const double> inputs,
              std::span<const double> spring_angles,
              std::span<const std::int64_t> force_branches = {}) noexcept;
@@ -63,9 +62,8 @@ class ReactionSolver {
   const VecX& accelerations() const noexcept { return a_; }
   const VecX& multipliers() const noexcept { return lambda_; }
   const Reactions& reactions() const noexcept { return reactions_; }
-  /// What is left of (1), by the generalised force and by the acceleration of a constraint.
+  /// What is left of (1), the largest generalised force.
   double force_error() const noexcept { return force_error_; }
-  double acceleration_error() const noexcept { return acceleration_error_; }
   /// A freedom has no mass at the start.
   bool lacks_mass() const noexcept { return lacks_mass_; }
   /// At the last state, with its accelerations.
@@ -85,7 +83,7 @@ class ReactionSolver {
   bool lacks_mass_ = false;
   std::optional<LeastReactions<F>> least_;
   VecX a_, lambda_, residual_, gamma_, delta_, work_, best_a_, best_lambda_;
-  double force_error_ = 0.0, acceleration_error_ = 0.0;
+  double force_error_ = 0.0;
   Reactions reactions_;
   std::vector<std::string> open_;
 };
