@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""What outputs of reactions cost: the flexible Iltis with the forces and torques of its 24 joints in every row, and without.
+"""What outputs of reactions cost: the flexible Iltis with the forces and torques of its 24 joints in every row, and without; then
+six legs of Jansen on one crank, whose constraints are redundant, with the force of the crank's joint.
 
     bench/reactions.py [--program build/floatframe] [--repeat 5]
 
-Every step of 10 ms is a row. Printed is what a row of reactions takes beyond one without, as a part of a step: processor times
+Every step is a row. Printed is what a row of reactions takes beyond one without, as a part of a step: processor times
 of the steps, least of the repeated runs, taken in turns."""
 import argparse
 import json
@@ -18,9 +19,20 @@ JOINTS = ("arm_hinge", "arm_ball", "link_hinge", "link_ball", "rod_inner", "rod_
 
 
 def seconds(program, model, coordinates, out):
-    subprocess.run([program, "run", str(model), "--coordinates", coordinates, "--out", str(out), "--no-report", "--quiet"],
-                   check=True)
+    subprocess.run([program, "run", str(model), "--coordinates", coordinates, "--out", str(out), "--overwrite", "--no-report",
+                    "--quiet"], check=True)
     return json.loads((out / "summary.json").read_text())["cpu_s"]
+
+
+def compare(name, plain, asked, out, options):
+    for coordinates in ("relative", "absolute"):
+        without, with_them = [], []
+        for _ in range(options.repeat):
+            without.append(seconds(options.program, plain, coordinates, out))
+            with_them.append(seconds(options.program, asked, coordinates, out))
+        share = (min(with_them) - min(without)) / min(without)
+        print(f"{name}, {coordinates}: {min(without):.4f} s without, {min(with_them):.4f} s with reactions; "
+              f"a row of them costs {share:.2f} steps")
 
 
 def main():
@@ -36,14 +48,13 @@ def main():
                           for s in SUBSYSTEMS for j in JOINTS for kind in ("joint_force", "joint_torque"))
         asked = folder / "iltis" / "reactions.yaml"
         asked.write_text(plain.read_text().replace("\noutputs:\n", "\noutputs:\n" + outputs, 1))
-        for coordinates in ("relative", "absolute"):
-            without, with_them = [], []
-            for _ in range(options.repeat):
-                without.append(seconds(options.program, plain, coordinates, folder / "out"))
-                with_them.append(seconds(options.program, asked, coordinates, folder / "out"))
-            share = (min(with_them) - min(without)) / min(without)
-            print(f"{coordinates}: {min(without):.4f} s without, {min(with_them):.4f} s with reactions; "
-                  f"a row of them costs {share:.2f} steps")
+        compare("Iltis", plain, asked, folder / "out", options)
+        text = (TREE / "tests" / "data" / "loops" / "six_legs.yaml").read_text()
+        before, after = text[:text.index("outputs:")], "simulation: {step: 0.002, duration: 20}\n"
+        plain, asked = folder / "plain.yaml", folder / "asked.yaml"
+        plain.write_text(before + "outputs:\n  c: {position: crank}\n" + after)
+        asked.write_text(before + "outputs:\n  c: {joint_force: crank}\n" + after)
+        compare("six legs", plain, asked, folder / "out", options)
 
 
 if __name__ == "__main__":

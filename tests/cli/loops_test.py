@@ -143,6 +143,17 @@ class Loops(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stderr)
 
+    def test_a_bar_that_comes_to_spin_without_inertia(self):
+        """Absolute coordinates pass the position; joint coordinates name the bodies."""
+        done, x, _ = self.run_model("near_spin", "--coordinates", "absolute")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        _, fine, _ = self.run_model("near_spin", "--coordinates", "absolute", "--step", "0.00002")
+        for axis in "xyz":
+            self.assertAlmostEqual(x[f"b3.{axis}"][-1], fine[f"b3.{axis}"][-1], delta=0.02)
+        done, _, _ = self.run_model("near_spin", "--coordinates", "relative")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("bodies 'b1' and 'b3' can move there almost without mass", done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

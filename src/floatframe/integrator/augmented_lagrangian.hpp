@@ -24,8 +24,8 @@
 // geometric stiffness; derivatives of M and Q_v are left out of T, which costs iterations, not
 // accuracy. Multipliers act with -Phi_q^T lambda.
 // Projections, (2), with a metric of their own, factorised once per step with the Jacobian frozen:
-//   W = M + 0.01 s K,  T_p = W + 300 s Phi_q^T alpha Phi_q                                      (i)
-//   v -= T_p^-1 300 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 300 s Phi_q^T alpha Phi_ddot(a),   (j)
+//   W = M + 0.01 s K,  T_p = W + 30 s Phi_q^T alpha Phi_q                                       (i)
+//   v -= T_p^-1 30 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 30 s Phi_q^T alpha Phi_ddot(a),     (j)
 // repeated until the tolerance.
 //
 // Nothing here allocates after construction, throws or prints. The state is untouched unless the

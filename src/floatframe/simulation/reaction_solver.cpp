@@ -18,6 +18,8 @@ constexpr int most_passes = 60, idle_passes = 3;
 constexpr double enough = 1e-11;
 /// Fewer passes where redundant constraints cost more per row.
 constexpr double stiffer = 30.0;
+/// A pass that leaves more than this of the multipliers' errors does not make them smaller.
+constexpr double slow = 0.5;
 /// A part of what redundant constraints leave open that counts, of the whole.
 constexpr double left_open = 1e-6;
 
@@ -114,13 +116,15 @@ void ReactionSolver<F>::iterate() noexcept {
       best_a_ = a_;
       best_lambda_ = lambda_;
     }
-    // What the next pass would change is less than rounding shows.
     const double step = p * largest_entry(work_);
     // Errors of accelerations come from those of the multipliers, which shrink by (2) from the
     // first pass on.
     const double rate = step > 0.0 ? step / last_step : size / last;
-    if (size == 0.0 || (pass > 0 && rate * size < enough * largest_entry(a_) &&
-                        rate * step < enough * largest_entry(lambda_)))
+    const double rest_a = enough * largest_entry(a_), rest_lambda = enough * largest_entry(lambda_);
+    // What the next pass would change is less than rounding shows, or a multiple of forces that
+    // balance each other: what redundant constraints disagree by does not shrink.
+    if (size == 0.0 || (pass > 0 && rate * size < rest_a && rate * step < rest_lambda) ||
+        (least_ && size < rest_a && rate > slow))
       break;
     last = size;
     last_step = step;
