@@ -1,5 +1,6 @@
 #include "floatframe/simulation/reaction_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -60,8 +61,8 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
 template <class F>
 int ReactionSolver<F>::factorize() noexcept {
   constexpr double s = 1e-30;  // no stiffness
-  if (!lacks_mass_ && f_.factorize(1.0, 0.0, s, options_.penalty_mass / s, reaction_slot) < 0)
-    return -1;
+  has_W_ = !lacks_mass_ && f_.factorize(1.0, 0.0, s, options_.penalty_mass / s, reaction_slot) < 0;
+  if (has_W_) return -1;
   return f_.factorize_metric(options_.step * options_.step, options_.penalty_mass, reaction_slot);
 }
 
@@ -82,28 +83,44 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   else
     lambda_.setZero();
   f_.residual(a_, lambda_, 0.0, residual_);  // multipliers of the tangent
-  if (factorize() < 0) iterate();
-  f_.residual(a_, lambda_, 0.0, residual_);
-  f_.balance(lambda_, residual_);
-  force_error_ = largest_entry(residual_);
+  if (factorize() < 0) iterate(!has_W_);
+  find_force_error();
+  // Round-off of W^-1.
+  if (has_W_ && force_error_ > enough * largest_entry(lambda_)) {
+    iterate(true);
+    find_force_error();
+  }
   collect_wrenches();
   if (!least_) return;
   least_->place(f_, state.t);
   least_->shorten(f_, reactions_);
 }
 
-/// (2), with the residual at hand. The best of the passes is kept: round-off may make the last ones
-/// worse.
 template <class F>
-void ReactionSolver<F>::iterate() noexcept {
+void ReactionSolver<F>::find_force_error() noexcept {
+  f_.residual(a_, lambda_, 0.0, residual_);
+  f_.balance(lambda_, residual_);
+  force_error_ = largest_entry(residual_);
+}
+
+/// (2), with the residual at hand. With W itself a pass leaves nothing of the forces in (1), and
+/// Phi_q a - gamma is known from the solution; `refines`: they are found anew. The best of the
+/// passes is kept: round-off may make the last ones worse.
+template <class F>
+void ReactionSolver<F>::iterate(bool refines) noexcept {
   const double p = options_.penalty_mass;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double best = infinite, last = infinite, last_step = infinite;
   for (int pass = 0, idle = 0; pass < most_passes && idle < idle_passes; ++pass) {
-    if (pass > 0) f_.residual(a_, lambda_, 0.0, residual_);
-    f_.balance(lambda_, residual_);
-    f_.constraint_accelerations(a_, gamma_);
-    delta_ = -residual_;
+    if (pass == 0 || refines) {
+      if (pass > 0) f_.residual(a_, lambda_, 0.0, residual_);
+      f_.balance(lambda_, residual_);
+      f_.constraint_accelerations(a_, gamma_);
+      delta_ = -residual_;
+    } else {
+      gamma_ = work_;
+      delta_.setZero();
+    }
     f_.solve(delta_, gamma_, p, work_, reaction_slot);
     a_ += delta_;
     lambda_ += p * work_;
@@ -117,14 +134,12 @@ void ReactionSolver<F>::iterate() noexcept {
       best_lambda_ = lambda_;
     }
     const double step = p * largest_entry(work_);
-    // Errors of accelerations come from those of the multipliers, which shrink by (2) from the
-    // first pass on.
-    const double rate = step > 0.0 ? step / last_step : size / last;
+    const double slower = step > 0.0 ? step / last_step : 0.0, rate = std::max(slower, size / last);
     const double rest_a = enough * largest_entry(a_), rest_lambda = enough * largest_entry(lambda_);
     // What the next pass would change is less than rounding shows, or a multiple of forces that
     // balance each other: what redundant constraints disagree by does not shrink.
     if (size == 0.0 || (pass > 0 && rate * size < rest_a && rate * step < rest_lambda) ||
-        (least_ && size < rest_a && rate > slow))
+        (least_ && size < rest_a && slower > slow))
       break;
     last = size;
     last_step = step;

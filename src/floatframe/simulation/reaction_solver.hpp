@@ -74,13 +74,15 @@ class ReactionSolver {
 
  private:
   int factorize() noexcept;
-  void iterate() noexcept;
+  void iterate(bool refines) noexcept;
+  void find_force_error() noexcept;
   void collect_wrenches() noexcept;
   void find_open_outputs(const State& start);
 
   F f_;
   ReactionOptions options_;
   bool lacks_mass_ = false;
+  bool has_W_ = false;  ///< factorised
   std::optional<LeastReactions<F>> least_;
   VecX a_, lambda_, residual_, gamma_, delta_, work_, best_a_, best_lambda_;
   double force_error_ = 0.0;
