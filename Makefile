@@ -1,8 +1,9 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+VERSION := $(shell sed -n "s/^project(Floatframe VERSION \([0-9.]*\).*/\1/p" CMakeLists.txt)
 DEMO_MODEL := examples/iltis/iltis.yaml
 DEMO_OUTPUT := out/iltis
 CTEST := ctest --output-on-failure --no-tests=error -j2
@@ -16,6 +17,7 @@ help:
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make test-python-asan  its tests with address and undefined-behaviour sanitizers"
 	@echo "make wheel         the Python package with all that it needs, in dist; make test-wheel tries it in a fresh environment"
+	@echo "make archive       the committed sources with the built page, in dist"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
@@ -93,6 +95,13 @@ test-python-asan: install-packages
 # result.
 wheel: python
 	python=$$(scripts/python_environment.sh) && $$python -B scripts/make_wheel.py
+
+# A release archive in dist: the sources that are committed, and the built page for machines without Node.
+archive: build
+	@test -s build/viewer/template.html || { echo "make archive needs the page: Node 18 or later with npm"; exit 1; }
+	mkdir -p dist && cp build/viewer/template.html build/viewer/page.html
+	git archive --format=tar.gz -o dist/floatframe-$(VERSION).tar.gz --prefix=floatframe-$(VERSION)/viewer/ \
+	  --add-file=build/viewer/page.html --prefix=floatframe-$(VERSION)/ HEAD
 
 # The wheel in a fresh environment.
 test-wheel: wheel

@@ -1,4 +1,5 @@
-# Builds the viewer in a folder of the build; what goes wrong is a note, and the template is then empty.
+# Builds the viewer in a folder of the build; what goes wrong is a note, and the template is then that of the release archive
+# (viewer/page.html) or empty.
 #   cmake -DSOURCE=viewer -DFOLDER=build/viewer -DNPM=npm -P BuildViewer.cmake
 file(MAKE_DIRECTORY ${FOLDER})
 file(GLOB files ${SOURCE}/*.json ${SOURCE}/*.ts ${SOURCE}/*.html ${SOURCE}/.npmrc)
@@ -10,8 +11,13 @@ foreach(command "ci;--no-audit;--no-fund;--fetch-retries=1;--fetch-timeout=60000
     string(STRIP "${said}" said)
     string(SUBSTRING "${said}" 0 1000 said)
     list(JOIN command " " words)
-    message("note: `npm ${words}` failed, so reports will have static curves, without the 3-D view; `make build` tries again.\n${said}")
-    file(WRITE ${FOLDER}/template.html "")
+    if(EXISTS ${SOURCE}/page.html)
+      file(COPY_FILE ${SOURCE}/page.html ${FOLDER}/template.html)
+      message("note: `npm ${words}` failed, so the page is that of the release archive.\n${said}")
+    else()
+      message("note: `npm ${words}` failed, so there will be no pages of runs; `make build` tries again.\n${said}")
+      file(WRITE ${FOLDER}/template.html "")
+    endif()
     return()
   endif()
 endforeach()

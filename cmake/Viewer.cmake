@@ -1,5 +1,6 @@
-# The page that shows runs (viewer/) is built by Node into one HTML template, which the library holds. Without Node, or
-# where its packages cannot be fetched, the program writes static reports.
+# The page that shows runs (viewer/) is built by Node into one HTML template, which the library holds. Without Node it is the
+# one that a release archive brings, viewer/page.html (`make archive`); where there is neither, or its packages cannot be
+# fetched, the program says that it writes no pages.
 option(FLOATFRAME_VIEWER "Build the page that shows runs, if there is Node 18 or later with npm" ON)
 
 set(viewer_source ${PROJECT_SOURCE_DIR}/viewer)
@@ -17,7 +18,11 @@ if(FLOATFRAME_VIEWER AND EXISTS ${viewer_source}/package-lock.json)
     endif()
   endif()
   if(NOT viewer_found)
-    message(STATUS "Node 18 or later with npm was not found: reports will have static curves, without the 3-D view")
+    if(EXISTS ${viewer_source}/page.html)
+      message(STATUS "Node 18 or later with npm was not found: the page is that of the release archive")
+    else()
+      message(STATUS "Node 18 or later with npm was not found: there will be no pages of runs")
+    endif()
   endif()
 endif()
 
@@ -37,6 +42,8 @@ if(viewer_found)
             -DNPM=${FLOATFRAME_NPM} -P ${PROJECT_SOURCE_DIR}/cmake/BuildViewer.cmake
     DEPENDS ${viewer_files} ${PROJECT_SOURCE_DIR}/cmake/BuildViewer.cmake
     COMMENT "Building the page that shows runs" VERBATIM)
+elseif(FLOATFRAME_VIEWER AND EXISTS ${viewer_source}/page.html)
+  set(FLOATFRAME_VIEWER_TEMPLATE ${viewer_source}/page.html)
 else()
   file(WRITE ${PROJECT_BINARY_DIR}/viewer/none.html "")
   set(FLOATFRAME_VIEWER_TEMPLATE ${PROJECT_BINARY_DIR}/viewer/none.html)

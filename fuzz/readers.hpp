@@ -98,12 +98,6 @@ inline void matrix_market(std::string_view bytes) {
   });
 }
 
-inline void harwell_boeing(std::string_view bytes) {
-  matrices(bytes, [](TextSource& K, TextSource& M, TextSource& dofs, FeModel nodes) {
-    return read_harwell_boeing(K, M, dofs, std::move(nodes));
-  });
-}
-
 /// Surfaces of meshes without sections as shells.
 inline FeReadOptions with_thickness() {
   FeReadOptions options;
@@ -223,7 +217,6 @@ inline constexpr Reader readers[] = {
     {"calculix_matrices", calculix_matrices},
     {"abaqus_matrices", abaqus_matrices},
     {"matrix_market", matrix_market},
-    {"harwell_boeing", harwell_boeing},
     {"gmsh", gmsh},
     {"nastran", nastran},
     {"unv", unv},

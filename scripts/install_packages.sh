@@ -77,7 +77,7 @@ install_node() {
   }
   if ! node_packages install -y --no-install-recommends nodejs npm &&
     ! { node_packages update && node_packages install -y --no-install-recommends nodejs npm; }; then
-    echo "Note: nodejs and npm could not be installed, so reports will have static curves, without the 3-D view."
+    echo "Note: nodejs and npm could not be installed, so runs will have no report.html."
     echo "With Node 18 or later and npm (from anywhere) the next build has it."
   fi
 }

@@ -107,7 +107,10 @@ class Result(Mapping[str, Array]):
 
         with tempfile.TemporaryDirectory() as folder:
             self.save(folder)
-            return Page(Path(folder, "report.html").read_text(encoding="utf-8"), height)
+            page = Path(folder, "report.html")
+            if not page.exists():
+                raise OutputError("there is no page to view: this library was built without it (Node 18 or later with npm)")
+            return Page(page.read_text(encoding="utf-8"), height)
 
     def to_pyvista(self, time: float | None = None) -> pyvista.UnstructuredGrid:
         """The bodies at the recorded instant that is nearest to `time` [s] (None: the last), where they are and as they are

@@ -166,78 +166,6 @@ TEST(Matrices, MatrixMarketSymmetricAndGeneral) {
   }
 }
 
-/// As HBMAT of ANSYS writes them, one number a line, and with several numbers a line that touch.
-std::string harwell_boeing(const SparseMatrix& A, bool symmetric, bool narrow) {
-  std::string begins, rows, values;
-  int count = 0, place = 0;
-  const auto end_of_line = [&](int k) { return narrow || k % 5 == 0 ? "\n" : ""; };
-  for (Eigen::Index j = 0; j < A.outerSize(); ++j) {
-    begins += fmt::format("{:14}{}", count + 1, end_of_line(++place));
-    for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
-      if (symmetric && it.row() < j) continue;
-      ++count;
-      rows += fmt::format("{:14}{}", it.row() + 1, end_of_line(count));
-      std::string value = fmt::format("{:24.16E}", it.value());
-      value[value.find('E')] = 'D';
-      values += value + end_of_line(count);
-    }
-  }
-  begins += fmt::format("{:14}\n", count + 1);
-  const std::string formats = narrow ? "(1I14)          (1I14)          (1D24.16)           "
-                                     : "(5I14)          (5I14)          (1P,5D24.16)        ";
-  const auto lines = [&](std::string& text) {
-    if (text.back() != '\n') text += "\n";
-    return text;
-  };
-  return fmt::format("{:<72}{:8}\n{:14}{:14}{:14}{:14}{:14}\n{:<14}{:14}{:14}{:14}{:14}\n{}\n",
-                     "arm K", "KEY", 1, 1, 1, 1, 0, symmetric ? "RSA" : "RUA", A.rows(), A.cols(),
-                     count, 0, formats) +
-         lines(begins) + lines(rows) + lines(values);
-}
-
-TEST(Matrices, HarwellBoeingWithTheMappingOfAnsys) {
-  const FeModel model = two_bricks();
-  std::string mapping = "      Matrix Eqn          Node      DOF\n";
-  int row = 0;
-  for (const Dof& d : model.matrices->dofs)
-    mapping += fmt::format("{:12}{:12}      {}\n", ++row, model.node_ids[d.node],
-                           std::array{"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"}.at(d.axis));
-  for (const bool symmetric : {true, false})
-    for (const bool narrow : {true, false}) {
-      TextSource K(harwell_boeing(model.matrices->K, symmetric, narrow), "arm_K.matrix"),
-          M(harwell_boeing(model.matrices->M, symmetric, narrow), "arm_M.matrix"),
-          dofs(mapping, "arm_K.mapping");
-      expect_same(model, read_harwell_boeing(K, M, dofs, node_table(model)));
-    }
-}
-
-/// From files, found beside the stiffness, with the nodes of an ANSYS deck.
-TEST(Matrices, HarwellBoeingFilesBesideAnAnsysDeck) {
-  const FeModel model = two_bricks();
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / "floatframe_hb_test";
-  std::filesystem::create_directories(folder);
-  const auto write = [&](const char* name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-  };
-  write("arm_K.matrix", harwell_boeing(model.matrices->K, true, true));
-  write("arm_M.matrix", harwell_boeing(model.matrices->M, true, true));
-  std::string deck = "/PREP7\nET,1,185\n", mapping;
-  for (int k = 0; k < model.nodes(); ++k)
-    deck += fmt::format("N,{},{},{},{}\n", model.node_ids[k], model.positions[k].x(),
-                        model.positions[k].y(), model.positions[k].z());
-  write("arm.cdb", deck + fmt::format("CMBLOCK,END,NODE,1\n(8i10)\n{:10}\n", model.node_ids[0]));
-  int row = 0;
-  for (const Dof& d : model.matrices->dofs)
-    mapping += fmt::format("{} {} {}\n", ++row, model.node_ids[d.node],
-                           std::array{"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"}.at(d.axis));
-  write("arm_K.mapping", mapping);
-  const FeModel read = read_fe_file(folder / "arm_K.matrix");
-  expect_same(model, read);
-  EXPECT_EQ(read.node_sets.at("END"), std::vector<int>{0});
-  std::filesystem::remove_all(folder);
-}
-
 // arm_C.mtx beside arm_K.mtx, job_DMPV1.mtx beside job_STIF1.mtx, or a file that is named; a row
 // that the stiffness does not have is an error.
 TEST(Matrices, ViscousDampingBesideTheStiffness) {
@@ -287,44 +215,6 @@ TEST(Matrices, ViscousDampingBesideTheStiffness) {
             "dashpots.mtx:2: degree of freedom 999.6 is not in the stiffness");
 }
 
-TEST(Matrices, FaultyHarwellBoeing) {
-  const std::string head = "title\n 1 1 1 1 0\n";
-  const std::string size = "RSA 2 2 3 0\n(3I4) (3I4) (3E8.1)\n";
-  for (const auto& [text, expected] :
-       {std::pair<std::string, const char*>{"title\n",
-                                            "1: the file ends where the numbers of lines are "
-                                            "expected"},
-        {head + "PSA 2 2 3 0\n",
-         "3: the matrix is of type PSA, expected RSA (real, symmetric, assembled) or RUA"},
-        {head + "hello\n", "3: expected a type like RSA, rows, columns and entries, found 'hello'"},
-        {head + "RSA 2 x 3 0\n",
-         "3: rows, columns and entries are expected behind RSA, found 'RSA 2 x 3 0'"},
-        {head + "RSA 3 3 3 0\n", "3: the stiffness is 3 x 3, but dofs has 2 degrees of freedom"},
-        {head + "RSA 2 2 3 0\n(3I4) (3I4)\n",
-         "4: expected three formats like (10I8) (10I8) (3D25.16)"},
-        {head + size, "4: the file ends with 0 of 3 numbers of where a column begins"},
-        {head + size + "   1   x   4\n", "5: where a column begins: 'x' is not a whole number"},
-        {head + size + "   1   3   9\n",
-         "5: column 2 has the entries from 3 to 8, expected ascending numbers from 1 to 3"},
-        {head + size + "   1   3   3\n", "5: the columns have 2 entries, the header says 3"},
-        {head + size + "   1   3   4\n   1   7   2\n 1.0    -1.0    1.0\n",
-         "7: row 7 of column 1 is outside: the matrix is 2 x 2"},
-        {head + size + "   1   3   4\n   1   2   2\n     1.0   a\n",
-         "7: value: 'a' is not a number"},
-        {head + size + "   1   3   4   5\n", "5: the line is longer than its format"},
-        {head + size + "   1   3   4\n   1   2   2\n",
-         "6: the file ends with 0 of 3 numbers of the "
-         "values"}}) {
-    TextSource K(text, "K"), M("", "M"), dofs("1,1\n1,2\n", "dofs"), nodes("1,0,0,0\n", "nodes");
-    try {
-      static_cast<void>(read_harwell_boeing(K, M, dofs, read_node_table(nodes)));
-      ADD_FAILURE() << text;
-    } catch (const InputError& e) {
-      EXPECT_EQ(std::string(e.what()), std::string("K:") + expected) << text;
-    }
-  }
-}
-
 TEST(Matrices, AbaqusLabelsInOneTriangleOrBoth) {
   const FeModel model = two_bricks();
   const FeModel nodes = node_table(model);
@@ -363,7 +253,6 @@ TEST(Matrices, FormatsAreKnownByEndingAndContent) {
             "calculix_matrices ");
   EXPECT_EQ(format_of("1,1, 1,1,  2.93e+06\n"), "abaqus_matrices ");
   EXPECT_EQ(format_of("%%MatrixMarket matrix coordinate real symmetric\n"), "matrix_market ");
-  EXPECT_EQ(format_of("title\n 3 1 1 1 0\nRSA            3 3 5 0\n(1I8)\n"), "harwell_boeing ");
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(Temperature, TablesOfDecks) {
   EXPECT_NEAR(m.materials[0].young, 2.05e5, 1e-9);
   EXPECT_NEAR(m.materials[0].poisson, 0.305, 1e-15);
   EXPECT_NEAR(m.materials[0].density, 7.75e-9, 1e-23);
-  ASSERT_EQ(m.notes.size(), 2u);
+  ASSERT_EQ(m.notes.size(), 3u);  // and that of the mass
   EXPECT_EQ(m.notes[0],
             "a.inp:9: *ELASTIC of material 'STEEL' is taken at the temperature 70 (its table goes "
             "from 20 to 220)");
@@ -76,7 +76,7 @@ TEST(Temperature, InitialTemperaturesOfTheDeck) {
       "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 70.\n2, 70., 0.\n");
   EXPECT_NEAR(m.materials[0].young, 2.05e5, 1e-9);
   EXPECT_NEAR(m.materials[0].density, 7.75e-9, 1e-23);
-  ASSERT_EQ(m.notes.size(), 3u);
+  ASSERT_EQ(m.notes.size(), 4u);  // and that of the mass
   EXPECT_EQ(m.notes[0],
             "a.inp:18: materials are taken at 70, the initial temperature of the deck "
             "(--temperature, key `temperature`, is another one)");
@@ -86,7 +86,8 @@ TEST(Temperature, InitialTemperaturesOfTheDeck) {
   // What the user says counts.
   const FeModel hot = initially("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 70.\n", 220.0);
   EXPECT_EQ(hot.materials[0].young, 1.9e5);
-  EXPECT_EQ(hot.notes.back(), "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
+  EXPECT_EQ(hot.notes.at(hot.notes.size() - 2),
+            "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
   // Constants that do not depend on it need none.
   EXPECT_EQ(warm("*ELASTIC\n2.1e5, .3\n*DENSITY\n8e-9\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
                  "1, 70.\n2, 80.\n",

@@ -12,7 +12,7 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/log_plot.hpp"
-#include "floatframe/report/svg_plot.hpp"
+#include "floatframe/report/plot_ticks.hpp"
 
 namespace floatframe {
 namespace {

@@ -8,6 +8,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/report/check_page.hpp"
 #include "floatframe/report/comparison_page.hpp"
 #include "floatframe/report/comparison_report.hpp"
 
@@ -34,14 +35,12 @@ std::optional<ComparisonTolerance> tolerance_of(const CompareArguments& a) {
 std::string report_of(const ComparedResults& results, const ResultsReader& a,
                       const ResultsReader& b) {
   ResultsReader first(a.file()), second(b.file());
-  if (page_template().empty())
-    return comparison_html(results, report_curves(first, a.rows()), report_curves(second, b.rows()),
-                           build_description());
   return comparison_page(results, page_curves(first, a.rows()), page_curves(second, b.rows()),
                          build_description());
 }
 
 int compare(const CompareArguments& a) {
+  if (!a.report.empty() && page_template().empty()) throw InputError(page_is_missing("--report"));
   ComparedResults results;
   results.file_a = results_file(a.a);
   results.file_b = results_file(a.b);

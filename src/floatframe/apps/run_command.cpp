@@ -19,6 +19,7 @@
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/notes_text.hpp"
+#include "floatframe/report/page_writer.hpp"
 #include "floatframe/report/run_facts.hpp"
 #include "floatframe/report/run_page.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
@@ -83,11 +84,13 @@ std::string summary_text(const RunSummary& s) {
       edges_text(s), s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
 }
 
-std::string files_text(const RunPaths& paths, bool has_table) {
+std::string files_text(const RunPaths& paths, bool has_table, bool no_report) {
   std::string text;
   if (has_table) text += fmt::format("  results  {}\n", paths.results);
   if (std::filesystem::exists(paths.states)) text += fmt::format("  states   {}\n", paths.states);
   if (std::filesystem::exists(paths.report)) text += fmt::format("  report   {}\n", paths.report);
+  if (page_template().empty() && !no_report)
+    text += "  report   none: this program was built without the page\n";
   return text + fmt::format("  summary  {}\n", paths.summary);
 }
 
@@ -254,7 +257,8 @@ int run_model(const RunArguments& arguments) {
     }
   }
   if (!arguments.quiet && !files.untouched())
-    print((has_table ? summary_text(summary) : "") + files_text(paths, has_table) +
+    print((has_table ? summary_text(summary) : "") +
+          files_text(paths, has_table, arguments.no_report) +
           (state ? fmt::format("  state    {}\n", arguments.write_state) : "") +
           wall_text(begin, computed));
   return end_of(paths, summary, has_table, unwritten, files);

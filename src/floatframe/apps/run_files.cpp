@@ -180,12 +180,8 @@ void RunFiles::keep(const RunCheckpoint& checkpoint) {
 }
 
 void RunFiles::write_report(Report& report) const {
+  if (page_template().empty()) return;
   const ResultTable& table = report.result.table;
-  if (page_template().empty()) {
-    if (results_) report.curves = report_curves(paths_.results, table.columns, results_->rows());
-    write_file(paths_.report, report_html(report));
-    return;
-  }
   PageCurves curves;
   if (results_) {
     ResultsReader rows(paths_.results);

@@ -14,7 +14,6 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_list.hpp"
-#include "floatframe/fe/home_program.hpp"
 #include "floatframe/fe/mass_form.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -248,10 +247,9 @@ struct FeModel {
   std::vector<LinearEquation> equations;
   std::vector<Support> supports;
   std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
-  HomeProgram home = HomeProgram::unknown;
-  std::string units;               ///< that its numbers were in, by `to_si`; empty: not known
-  std::vector<std::string> files;  ///< paths as the user would write them
-  std::vector<std::string> notes;  ///< one sentence each, with file:line: what was passed over
+  std::string units;                   ///< that its numbers were in, by `to_si`; empty: not known
+  std::vector<std::string> files;      ///< paths as the user would write them
+  std::vector<std::string> notes;      ///< one sentence each, with file:line: what was passed over
 
   int nodes() const noexcept { return static_cast<int>(positions.size()); }
   bool has_beams() const noexcept;

@@ -12,7 +12,6 @@
 #include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/equation_checks.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
-#include "floatframe/formats/home_notes.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
@@ -53,11 +52,6 @@ const std::vector<FeFormat>& formats() {
        {".mtx", ".mm"},
        looks_like_matrix_market,
        read_matrix_market},
-      {"harwell_boeing",
-       "Harwell-Boeing matrices (.matrix)",
-       {".matrix", ".hb", ".rsa", ".rua"},
-       looks_like_harwell_boeing,
-       read_harwell_boeing},
   };
   return list;
 }
@@ -130,7 +124,6 @@ void choose(const FeReadOptions& options, FeModel& model) {
   if (options.grounded_springs == GroundedSprings::ignore)
     if (const int count = remove_grounded_springs(model); count > 0)
       model.notes.push_back(fmt::format("{} springs to the ground are left out", count));
-  if (std::string note = home_note(model); !note.empty()) model.notes.push_back(std::move(note));
 }
 
 template <class Map>

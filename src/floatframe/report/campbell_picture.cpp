@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "floatframe/report/html_text.hpp"
-#include "floatframe/report/svg_plot.hpp"
+#include "floatframe/report/plot_ticks.hpp"
 
 namespace floatframe {
 namespace {

@@ -51,8 +51,8 @@ Json force_table(const Model& model) {
 
 std::string page_is_missing(const std::string& option) {
   return option +
-         ": this program was built without the viewer, expected one that was built where there is "
-         "Node 18 or later with npm";
+         ": this program was built without the page, expected one that was built where there is "
+         "Node 18 or later with npm, or from a release archive, which holds the page";
 }
 
 std::string check_page(const Model& model, const CheckedStart& start) {

@@ -6,7 +6,7 @@
 
 #include "floatframe/model/model.hpp"
 #include "floatframe/model/system_state.hpp"
-#include "floatframe/report/report_html.hpp"
+#include "floatframe/report/run_report.hpp"
 
 namespace floatframe {
 

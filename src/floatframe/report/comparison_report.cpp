@@ -11,10 +11,7 @@
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/html_text.hpp"
 #include "floatframe/report/json_values.hpp"
-#include "floatframe/report/report_style.hpp"
-#include "floatframe/report/svg_plot.hpp"
 
 namespace floatframe {
 namespace {
@@ -27,38 +24,6 @@ std::string listed(const std::vector<std::string>& names) {
                 names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most)), ", "));
   if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
   return text;
-}
-
-/// The curves of both in one table, a name with "A" and one with "B" for each channel.
-ReportCurves overlaid(const ReportCurves& a, const ReportCurves& b, const ResultsComparison& c,
-                      std::vector<PlotGroup>& groups) {
-  ReportCurves both;
-  const auto add = [&](const ReportCurves& from, std::size_t column, const std::string& name) {
-    both.columns.push_back({name, from.columns[column].unit});
-    both.extremes.push_back(from.extremes[column]);
-    both.points.push_back(from.points[column]);
-    return both.columns.size() - 1;
-  };
-  add(a, 0, a.columns.front().name);
-  ColumnExtremes& time = both.extremes.front();
-  time.low = std::min(time.low, b.extremes.front().low);
-  time.high = std::max(time.high, b.extremes.front().high);
-  const auto column_of = [](const ReportCurves& curves, const std::string& name) {
-    std::size_t k = 1;
-    while (k < curves.columns.size() && curves.columns[k].name != name) ++k;
-    return k;
-  };
-  for (const ChannelDifference* d : worst_first(c)) {
-    const std::size_t in_a = add(a, column_of(a, d->name), "A");
-    const std::size_t in_b = add(b, column_of(b, d->name), "B");
-    groups.push_back({d->name, d->name, d->unit, {in_a, in_b}});
-  }
-  return both;
-}
-
-std::string difference_line(const ChannelDifference& d) {
-  return fmt::format("largest difference {:.3g}{} at {:g} s, RMS {:.3g}, {:.2g} of the size",
-                     d.largest, d.unit.empty() ? "" : " " + d.unit, d.at, d.rms, d.relative());
 }
 
 }  // namespace
@@ -201,46 +166,6 @@ std::string comparison_json(const ComparedResults& r) {
                         {"only_in_b", c.only_b},
                         {"other_units", c.other_units},
                         {"channels", channels}});
-}
-
-std::string comparison_html(const ComparedResults& r, const ReportCurves& a, const ReportCurves& b,
-                            const std::string& software) {
-  std::vector<PlotGroup> groups;
-  const ReportCurves both = overlaid(a, b, r.comparison, groups);
-  fmt::memory_buffer page;
-  auto out = std::back_inserter(page);
-  fmt::format_to(out,
-                 "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                 "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Comparison - "
-                 "Floatframe report</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n"
-                 "<header>\n<p class=\"kind\">Floatframe comparison</p>\n<h1>{}</h1>\n"
-                 "<p class=\"kind\">{}A: {}</p>\n<p class=\"kind\">{}B: {}</p>\n</header>\n",
-                 report_style, html_escape(comparison_verdict(r)), svg_legend_key(0),
-                 html_escape(r.file_a), svg_legend_key(1), html_escape(r.file_b));
-  if (const auto sentences = disagreements(r); !sentences.empty()) {
-    fmt::format_to(out, "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b><ul>");
-    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>", html_escape(s));
-    fmt::format_to(out, "</ul></div>\n");
-  }
-  if (const auto sentences = comparison_notes(r); !sentences.empty()) {
-    fmt::format_to(out, "<div class=\"warned\" role=\"note\"><ul>\n");
-    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>", html_escape(s));
-    fmt::format_to(out, "</ul></div>\n");
-  }
-  const auto order = worst_first(r.comparison);
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    fmt::format_to(out,
-                   "<figure>\n<figcaption><h3>{}</h3><span class=\"note\">{}{}</span>"
-                   "</figcaption>\n<div class=\"plot\">{}</div>\n</figure>\n",
-                   html_escape(groups[k].title), html_escape(difference_line(*order[k])),
-                   beyond(r, *order[k]) ? ", <b>beyond the tolerance</b>" : "",
-                   svg_plot(both, groups[k]));
-  fmt::format_to(out,
-                 "<footer>Floatframe {}<br>Channels with the largest difference for their size "
-                 "come first.</footer>\n</main>\n</body>\n</html>\n",
-                 html_escape(software));
-  return fmt::to_string(page);
 }
 
 }  // namespace floatframe

@@ -1,11 +1,9 @@
 #pragma once
-// A comparison of two results for the terminal, for other programs, and as one self-contained page
-// with the curves of both over each other.
+// A comparison of two results for the terminal and for other programs.
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "floatframe/report/report_curves.hpp"
 #include "floatframe/report/results_comparison.hpp"
 
 namespace floatframe {
@@ -32,9 +30,5 @@ std::vector<std::string> comparison_notes(const ComparedResults& results);
 
 std::string comparison_text(const ComparedResults& results);
 std::string comparison_json(const ComparedResults& results);
-
-/// `a` and `b`: curves of the two files, of which channels that were compared are drawn.
-std::string comparison_html(const ComparedResults& results, const ReportCurves& a,
-                            const ReportCurves& b, const std::string& software);
 
 }  // namespace floatframe

@@ -87,7 +87,6 @@ std::string kept_page(const Model& model, const KeptRun& run, const RunSummary& 
   report.software = build_description();
   report.processor = processor_name();
   report.spectral_radius = run.options.spectral_radius;
-  if (page_template().empty()) return report_html(report);
   PageBuffer buffer;
   auto page = run_page(report, page_curves(report.result.table), buffer);
   if (run.states) {
@@ -118,7 +117,8 @@ void save_run(const Model& model, const KeptRun& run, const std::string& folder)
   summary.files = run.source.files;
   write_file(path("results.csv"), results_csv(run.result.table));
   if (run.states) write_kept_states(folder, path("states.ffr"), model, run);
-  write_file(path("report.html"), kept_page(model, run, summary, path("states.ffr")));
+  if (!page_template().empty())
+    write_file(path("report.html"), kept_page(model, run, summary, path("states.ffr")));
   write_file(path("summary.json"), summary_json(summary));
 }
 

@@ -11,7 +11,7 @@
 
 #include "floatframe/model/system_state.hpp"
 #include "floatframe/report/page_writer.hpp"
-#include "floatframe/report/report_html.hpp"
+#include "floatframe/report/run_report.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 
 namespace floatframe {

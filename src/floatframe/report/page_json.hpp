@@ -2,7 +2,7 @@
 // Lists of names and values, and tables, as pages of the viewer take them.
 #include <nlohmann/json_fwd.hpp>
 
-#include "floatframe/report/report_html.hpp"
+#include "floatframe/report/run_report.hpp"
 
 namespace floatframe {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "floatframe/model/model.hpp"
-#include "floatframe/report/report_html.hpp"
+#include "floatframe/report/run_report.hpp"
 
 namespace floatframe {
 

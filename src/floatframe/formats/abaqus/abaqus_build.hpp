@@ -110,14 +110,12 @@ void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
-// abaqus_curved_offsets.cpp
-/// Before sections are copied.
-void note_abaqus_curved_offsets(AbaqusBuild& build);
 // abaqus_home.cpp
 /// Of a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;
 /// Mass and shear of the elements as the program of the deck has them.
 void as_in_home_program(AbaqusBuild& build);
+void note_mass_of_unclear_dialect(AbaqusBuild& build);
 // abaqus_nonstructural_mass.cpp
 /// Once all elements have their sections.
 void build_abaqus_nonstructural_mass(AbaqusBuild& build);

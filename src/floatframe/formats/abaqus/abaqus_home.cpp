@@ -2,8 +2,6 @@
 // frequencies (B31, S3, S4, C3D4, C3D6, C3D8 and their kin), all others consistent mass, as all
 // have in CalculiX; B31 shears, B33 does not; S4R5, S8R5 and STRI are for thin shells. Shear
 // factors of B31 by the section: those that Abaqus documents.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -18,13 +16,12 @@ namespace {
 /// The default of its slenderness compensation.
 constexpr double slenderness_of_abaqus = 0.25;
 
-HomeProgram home_of(const AbaqusBuild& build) {
+/// Of Abaqus, CalculiX, or nothing shows which.
+DeckDialect dialect_of(const AbaqusBuild& build) {
   const DialectClues& clues = build.clues;
-  if (build.content.dialect == DeckDialect::abaqus) return HomeProgram::abaqus;
-  if (build.content.dialect == DeckDialect::calculix) return HomeProgram::calculix;
-  if (clues.abaqus.has_value() == clues.calculix.has_value())
-    return HomeProgram::abaqus_or_calculix;
-  return clues.abaqus ? HomeProgram::abaqus : HomeProgram::calculix;
+  if (build.content.dialect != DeckDialect::by_content) return build.content.dialect;
+  if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
+  return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
 }
 
 /// B31, and the shells that are not for thin ones only.
@@ -51,18 +48,6 @@ int without_shear(std::vector<Section>& sections, int section, std::map<int, int
   return it->second;
 }
 
-void note_offsets_of_calculix(AbaqusBuild& build) {
-  for (const AbaqusSection& s : build.content.sections) {
-    const bool shell = s.family == AbaqusType::Family::shell && s.offset != 0.0;
-    if (!shell && (s.family != AbaqusType::Family::beam || s.arm.isZero(0.0))) continue;
-    return build.note(
-        s.at, fmt::format("{} has an offset: the nodes are rigidly beside the {} here; CalculiX "
-                          "lets masses, springs, equations and other elements at these nodes act "
-                          "on its middle",
-                          s.shown, shell ? "shell" : "beam"));
-  }
-}
-
 }  // namespace
 
 double abaqus_shear_factor(std::string_view shape) noexcept {
@@ -81,10 +66,8 @@ void as_in_home_program(AbaqusBuild& build) {
   FeModel& model = build.model;
   const AbaqusContent& c = build.content;
   if (c.sections.empty() || build.source.errors() > 0) return;
-  model.home = home_of(build);
-  if (model.home == HomeProgram::calculix) note_offsets_of_calculix(build);
-  if (model.home != HomeProgram::abaqus) note_abaqus_curved_offsets(build);
-  if (model.home == HomeProgram::abaqus)
+  const bool of_abaqus = dialect_of(build) == DeckDialect::abaqus;
+  if (of_abaqus)
     for (BeamSection& s : model.sections)
       if (s.has_shear()) s.slenderness = slenderness_of_abaqus;
   std::map<int, int> beams, shells;  // section: its copy without shear
@@ -94,14 +77,24 @@ void as_in_home_program(AbaqusBuild& build) {
     Element& element = model.elements[index];
     const AbaqusType& type = *c.elements[e].type;
     const bool cubic = element.type == ElementType::beam2 && !shears(type);
-    if (model.home == HomeProgram::abaqus && !quadratic(element.type) && !cubic)
-      element.mass_form = MassForm::lumped;
+    if (of_abaqus && !quadratic(element.type) && !cubic) element.mass_form = MassForm::lumped;
     if (shears(type)) continue;
     if (is_beam(element.type) && model.sections[element.section].has_shear())
       element.section = without_shear(model.sections, element.section, beams);
     if (is_shell(element.type) && model.shells[element.section].shear > 0.0)
       element.section = without_shear(model.shells, element.section, shells);
   }
+}
+
+void note_mass_of_unclear_dialect(AbaqusBuild& build) {
+  const std::vector<Element>& elements = build.model.elements;
+  if (build.content.sections.empty() || dialect_of(build) != DeckDialect::by_content ||
+      std::all_of(elements.begin(), elements.end(),
+                  [](const Element& e) { return quadratic(e.type); }))
+    return;
+  build.model.notes.push_back(
+      "the mass of all elements is consistent, as in CalculiX; Abaqus lumps that of elements of "
+      "first order: --dialect abaqus if the deck is one of Abaqus");
 }
 
 }  // namespace floatframe

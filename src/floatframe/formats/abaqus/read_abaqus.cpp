@@ -242,6 +242,8 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   build_abaqus_constraints(build, only_nodes);
   if (!only_nodes && source.errors() == 0) build_abaqus_springs(build);
   source.throw_if_any();
+  if (!only_nodes && options.mass_form == MassChoice::by_format)
+    note_mass_of_unclear_dialect(build);
   build.model.files = source.files();
   return std::move(build.model);
 }

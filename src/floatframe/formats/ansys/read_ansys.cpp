@@ -39,7 +39,6 @@ bool looks_like_ansys(std::string_view beginning) {
 FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
   AnsysContent content = read_ansys_content(source);
   AnsysBuild build{source, content, options, content.model};
-  content.model.home = HomeProgram::ansys;
   build_ansys_elements(build);
   build_ansys_springs(build);
   build_ansys_rigid(build);

@@ -54,12 +54,12 @@ Path before_word(const Path& file, std::string_view word) {
   return at == std::string::npos ? Path{} : file.parent_path() / name.substr(0, at);
 }
 
-/// arm_C.mtx beside arm_K.mtx, arm_DMPV1.mtx beside arm_STIF1.mtx; with .matrix as well.
+/// arm_C.mtx beside arm_K.mtx, arm_DMPV1.mtx beside arm_STIF1.mtx.
 Path damping_beside(const Path& stiffness) {
   Path plain = stiffness;
   if (same_word(plain.extension().string(), ".gz")) plain.replace_extension();
   const std::string ending = plain.extension().string();
-  if (!same_word(ending, ".mtx") && !same_word(ending, ".matrix")) return {};
+  if (!same_word(ending, ".mtx")) return {};
   const std::string stem = stem_of(stiffness).string();
   std::vector<Path> named;
   if (stem.ends_with("_K") || stem.ends_with("_k"))

@@ -6,8 +6,6 @@
 //                  job_DMPV1.mtx
 //   Matrix Market  arm_K.mtx, arm_M.mtx with arm_dofs.csv ("node,dir") and arm_nodes.csv
 //                  ("node,x,y,z"); viscous damping arm_C.mtx
-//   Harwell-Boeing arm_K.matrix, arm_M.matrix with arm_K.mapping (HBMAT of ANSYS) or arm_dofs.csv,
-//                  and arm_nodes.csv or arm.cdb; viscous damping arm_C.matrix
 // FeReadOptions names the files that do not lie beside the stiffness under these names. The nodes
 // may also come from any finite-element file.
 #include <string_view>
@@ -20,12 +18,10 @@ namespace floatframe {
 bool looks_like_calculix_matrix(std::string_view beginning);
 bool looks_like_abaqus_matrix(std::string_view beginning);
 bool looks_like_matrix_market(std::string_view beginning);
-bool looks_like_harwell_boeing(std::string_view beginning);
 
 FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOptions& options);
 FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOptions& options);
 FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options);
-FeModel read_harwell_boeing(const std::filesystem::path& file, const FeReadOptions& options);
 
 /// The same from texts. `dofs` may be null for Abaqus matrices with labels, `damping` always.
 FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSource& dofs,
@@ -34,7 +30,5 @@ FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource
                              FeModel nodes, TextSource* damping = nullptr);
 FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
                            TextSource* damping = nullptr);
-FeModel read_harwell_boeing(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                            FeModel nodes, TextSource* damping = nullptr);
 
 }  // namespace floatframe

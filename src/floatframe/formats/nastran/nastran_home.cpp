@@ -56,7 +56,6 @@ void note_shells(NastranBuild& build) {
 void nastran_mass_forms(NastranBuild& build) {
   if (build.content.properties.empty()) return;
   note_shells(build);
-  build.model.home = HomeProgram::nastran;
   if (build.content.coupled_mass) return;
   for (Element& e : build.model.elements) e.mass_form = MassForm::lumped_without_rotation;
 }
