@@ -143,6 +143,21 @@ class Loops(unittest.TestCase):
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stderr)
 
+    def test_all_axes_that_lock_later_are_made_exact(self):
+        """Misses of 1e-7 lock an Oldham coupling and a joint of Cardan whose cross has four hinges only after half a radian."""
+        for coordinates in ("relative", "absolute"):
+            done, x, _ = self.run_model("oldham", "--coordinates", coordinates)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertAlmostEqual(x["d"][-1], 6.5, 6)
+            done, x, _ = self.run_model("cross_of_four_hinges", "--coordinates", coordinates)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertAlmostEqual(x["d"][-1], math.atan(math.tan(6.5) * math.cos(0.3)) + 2 * math.pi, 5)
+
+    def test_three_ball_joints_on_a_line_turn(self):
+        shown = program("check", LOOPS / "three_balls.yaml").stdout
+        self.assertIn("degrees of freedom: 1", shown)
+        self.assertIn("'p1', 'p2' and 'p3' are made exactly those of one line: by up to 0.000451 m (joint 'p2')", shown)
+
     def test_a_bar_that_comes_to_spin_without_inertia(self):
         """Absolute coordinates pass the position; joint coordinates name the bodies."""
         done, x, _ = self.run_model("near_spin", "--coordinates", "absolute")

@@ -132,25 +132,47 @@ std::vector<std::vector<int>> Alignment::clusters(double angle) const {
   return found;
 }
 
-/// Hinges and ball joints between the same two bodies.
+/// The direction of a line: that of an axis on it, or else the one that fits its points best.
+Vec3 Alignment::line_direction(const std::vector<int>& line) const {
+  std::vector<int> hinges = line;
+  std::erase_if(hinges, [&](int k) { return axes_[k].e.isZero(0.0); });
+  if (!hinges.empty()) return mean_direction(hinges);
+  Vec3 mean = Vec3::Zero();
+  for (const int k : line) mean += place(k) / line.size();
+  Mat3 spread = Mat3::Zero();
+  for (const int k : line) spread += (place(k) - mean) * (place(k) - mean).transpose();
+  return symmetric_eigen(spread).vectors.col(2);
+}
+
+/// Hinges and ball joints between the same two bodies, or three ball joints and more.
 void Alignment::add_lines(const std::vector<std::vector<int>>& clusters, double distance,
                           std::vector<Relation>& found) const {
+  const auto add = [&](std::vector<int> line, const Vec3& e) {
+    Vec3 mean = Vec3::Zero();
+    for (const int k : line) mean += place(k) / line.size();
+    double off = 0.0;
+    for (const int k : line) off = std::max(off, across(e, place(k) - mean).norm());
+    if (line.size() > 1 && off > exact * size_ && off <= distance)
+      found.push_back({Relation::Kind::one_line, std::move(line), {}});
+  };
+  std::map<std::pair<int, int>, std::vector<int>> balls;
+  for (int k = 0; k < std::ssize(axes_); ++k)
+    if (axes_[k].e.isZero(0.0)) balls[between_[axes_[k].joint]].push_back(k);
   for (const std::vector<int>& cluster : clusters) {
     std::map<std::pair<int, int>, std::vector<int>> pairs;
     for (const int k : cluster)
       if (axes_[k].located) pairs[between_[axes_[k].joint]].push_back(k);
     for (auto& [bodies, line] : pairs) {
-      for (int k = 0; k < std::ssize(axes_); ++k)
-        if (axes_[k].e.isZero(0.0) && between_[axes_[k].joint] == bodies) line.push_back(k);
-      const Vec3 e = mean_direction(cluster);
-      Vec3 mean = Vec3::Zero();
-      for (const int k : line) mean += place(k) / line.size();
-      double off = 0.0;
-      for (const int k : line) off = std::max(off, across(e, place(k) - mean).norm());
-      if (line.size() > 1 && off > exact * size_ && off <= distance)
-        found.push_back({Relation::Kind::one_line, line, {}});
+      const auto of_pair = balls.find(bodies);
+      if (of_pair != balls.end()) {
+        line.insert(line.end(), of_pair->second.begin(), of_pair->second.end());
+        balls.erase(of_pair);
+      }
+      add(std::move(line), mean_direction(cluster));
     }
   }
+  for (auto& [bodies, line] : balls)
+    if (line.size() > 2) add(line, line_direction(line));
 }
 
 /// Three lines or more, not all of them parallel, that nearly meet.
@@ -257,7 +279,7 @@ std::vector<JointPlace> Alignment::aligned(const std::vector<Relation>& relation
       case Relation::Kind::one_line: {
         Vec3 mean = Vec3::Zero();
         for (const int k : r.axes) mean += point(k) / r.axes.size();
-        const Vec3 e = axes[r.axes[0]].e;
+        const Vec3 e = axes[r.axes[0]].e.isZero(0.0) ? line_direction(r.axes) : axes[r.axes[0]].e;
         for (const int k : r.axes) point(k) = mean + e * e.dot(point(k) - mean);
         break;
       }
@@ -303,7 +325,7 @@ double Alignment::miss(const Relation& relation, int axis, const std::vector<int
     case Relation::Kind::one_line: {
       Vec3 mean = Vec3::Zero();
       for (const Vec3& x : p) mean += x / p.size();
-      return across(mean_direction(relation.axes), place(axis) - mean).norm();
+      return across(line_direction(others), place(axis) - mean).norm();
     }
     case Relation::Kind::one_point:
       return across(a.e, nearest_point(p, e) - place(axis)).norm();

@@ -46,6 +46,7 @@ class Alignment {
                  std::vector<Relation>& found) const;
   void add_points(double distance, std::vector<Relation>& found) const;
   Vec3 mean_direction(const std::vector<int>& axes) const;
+  Vec3 line_direction(const std::vector<int>& line) const;
   const Vec3& place(int axis) const { return drawn_[axes_[axis].joint].p; }
 
   double size_ = 0.0;

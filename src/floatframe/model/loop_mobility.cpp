@@ -232,23 +232,34 @@ void LoopMobility::move(const VecX& x) {
   evaluate();
 }
 
-/// Newton's method with the least motion.
-bool LoopMobility::close() {
+/// Newton's method with the least motion, which is added to `way`.
+bool LoopMobility::close(VecX& way) {
   for (int pass = 0; pass < 8; ++pass) {
     if (largest(phi_) < 1e-12 * size_) return true;
-    move(-LeastNorm(J_, 1e-8).solve(phi_));
+    const VecX x = -LeastNorm(J_, 1e-8).solve(phi_);
+    way += x;
+    move(x);
   }
   return largest(phi_) < 1e-10 * size_;
 }
 
+/// Of the body that moves most.
+double LoopMobility::farthest(const VecX& x) const {
+  double most = 0.0;
+  for (std::size_t b = 0; b < pose_.size(); ++b)
+    if (first_[b] >= 0) most = std::max(most, x.segment<6>(first_[b]).norm());
+  return most;
+}
+
 int LoopMobility::free(double nearly) const { return motions(nearly).cols(); }
 
-int LoopMobility::lasting(const MatX& others, double nearly) {
+int LoopMobility::lasting(const MatX& others, double nearly, bool onward) {
   constexpr int steps = 5;
-  constexpr double step = 0.02, apart = 0.1;
+  constexpr double step = 0.02, apart = 0.1, returned = 0.2;
   pose_ = start_;
   evaluate();
   const MatX N = motions(nearly);
+  if (N.cols() == 0) return 0;
   const MatX more = N - others * (others.transpose() * N);
   const PivotedQr qr = pivoted_qr(more);
   int best = 0;
@@ -258,12 +269,11 @@ int LoopMobility::lasting(const MatX& others, double nearly) {
     VecX d = N * (N.transpose() * qr.Q.col(k));
     int least = N.cols();
     for (int i = 0; i < steps; ++i) {
-      double most = 0.0;
-      for (std::size_t b = 0; b < pose_.size(); ++b)
-        if (first_[b] >= 0) most = std::max(most, d.segment<6>(first_[b]).norm());
+      const double most = farthest(d);
       if (!(most > 0.0)) break;
-      move(d * (step * size_ / most));
-      if (!close()) {
+      VecX way = d * (step * size_ / most);
+      move(way);
+      if (!close(way) || (onward && farthest(way) < returned * step * size_)) {
         least = 0;
         break;
       }

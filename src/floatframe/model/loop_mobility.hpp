@@ -47,8 +47,9 @@ class LoopMobility {
   /// Motions that are free but for a part `nearly`.
   int free(double nearly) const;
   /// The most freedoms that are left all along a way of 0.1 rad (or a tenth of the size), on any of
-  /// the ways that begin with motions other than `others`.
-  int lasting(const MatX& others, double nearly = 1e-8);
+  /// the ways that begin with motions other than `others`. `onward`: a way that is closed by going
+  /// back leaves none.
+  int lasting(const MatX& others, double nearly = 1e-8, bool onward = false);
 
  private:
   struct Socket {
@@ -59,7 +60,8 @@ class LoopMobility {
   void evaluate();
   MatX motions(double threshold) const;
   void move(const VecX& x);
-  bool close();
+  bool close(VecX& way);
+  double farthest(const VecX& x) const;
 
   double size_;
   int columns_ = 0, rows_ = 0;

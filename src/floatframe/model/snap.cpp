@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "floatframe/math/so3.hpp"
 #include "floatframe/model/alignment.hpp"
 
 namespace floatframe {
@@ -13,8 +14,16 @@ namespace {
 
 /// Relations that miss by more are meant so [rad; of the size].
 constexpr double widest_angle = 0.1, widest_distance = 0.03;
+/// Whether a loop is locked by smaller misses, which its thresholds do not see for sure, is judged
+/// with this one.
+constexpr double smallest_judged = 1e-4, judged_as = 1e-3;
 /// Beyond, dense linear algebra takes too long: such loops stay as they are.
 constexpr std::size_t most_bodies = 100;
+
+/// The rotation vector from one frame to another, in its axes [rad].
+Vec3 turn_between(const Mat3& from, const Mat3& to) {
+  return quaternion_log(Eigen::Quaterniond(from.transpose() * to));
+}
 
 /// "'a', 'b' and 'c'", "'a', 'b', 'c', 'd' and 3 more"
 std::string listed(const std::vector<std::string>& names) {
@@ -40,12 +49,16 @@ class Snapping {
   std::vector<Relation> freeing(double angle, double distance) const {
     std::vector<Relation> relations = alignment_.relations(angle, distance * alignment_.size());
     if (relations.empty() || !fits()) return {};
-    const int gained = freedoms(alignment_.aligned(relations));
+    const std::vector<JointPlace> exact = alignment_.aligned(relations);
+    const double miss = farthest(exact);
+    const double scale = miss > 0.0 && miss < smallest_judged ? judged_as / miss : 1.0;
+    const int gained = freedoms(exact, exact, scale);
     if (gained == 0) return {};
     for (int k = std::ssize(relations); k-- > 0 && relations.size() > 1;) {
       std::vector<Relation> others = relations;
       others.erase(std::next(others.begin(), k));
-      if (freedoms(alignment_.aligned(others)) >= gained) relations = std::move(others);
+      if (freedoms(alignment_.aligned(others), exact, scale) >= gained)
+        relations = std::move(others);
     }
     return relations;
   }
@@ -182,15 +195,52 @@ class Snapping {
     return LoopMobility(model_, block_, places, size, false).misfit() < 1e-9;
   }
 
-  /// Freedoms that last which the loops have with these places and not as drawn.
-  int freedoms(const std::vector<JointPlace>& places) const {
+  /// How far a place is off at most [rad; of the size].
+  double farthest(const std::vector<JointPlace>& exact) const {
+    double most = 0.0;
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      const JointPlace& at = alignment_.drawn()[k];
+      most =
+          std::max({most, (at.p - exact[k].p).norm() / alignment_.size(),
+                    turn_between(exact[k].R, at.R).norm(), (at.axis_2 - exact[k].axis_2).norm()});
+    }
+    return most;
+  }
+
+  /// The places, farther from the exact ones by a factor.
+  static std::vector<JointPlace> exaggerated(std::vector<JointPlace> places,
+                                             const std::vector<JointPlace>& exact, double scale) {
+    if (scale == 1.0) return places;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      JointPlace& at = places[k];
+      const JointPlace& from = exact[k];
+      at.p = from.p + scale * (at.p - from.p);
+      at.R = from.R * rotation_exp(scale * turn_between(from.R, at.R));
+      at.axis_2 = (from.axis_2 + scale * (at.axis_2 - from.axis_2)).normalized();
+    }
+    return places;
+  }
+
+  /// Freedoms that last which the loops have with these places and not as drawn; `scale`: of what
+  /// either are off the exact ones.
+  int freedoms(const std::vector<JointPlace>& moved_places, const std::vector<JointPlace>& exact,
+               double scale) const {
+    const double size = alignment_.size();
+    const std::vector<JointPlace> places = exaggerated(moved_places, exact, scale);
+    const std::vector<JointPlace> as_drawn = exaggerated(alignment_.drawn(), exact, scale);
     if (bends_) {
-      const LoopMobility drawn(model_, block_, alignment_.drawn(), alignment_.size(), true);
-      const LoopMobility moved(model_, block_, places, alignment_.size(), true);
+      const LoopMobility drawn(model_, block_, as_drawn, size, true);
+      const LoopMobility moved(model_, block_, places, size, true);
       if (moved.motions().cols() <= drawn.motions().cols()) return 0;
     }
+    LoopMobility moved(model_, block_, places, size, false);
+    if (scale != 1.0) {
+      LoopMobility drawn_loops(model_, block_, as_drawn, size, false);
+      constexpr double fine = 1e-8;
+      const MatX none = MatX::Zero(moved.columns(), 0);
+      return std::max(0, moved.lasting(none, fine, true) - drawn_loops.lasting(none, fine, true));
+    }
     const MatX drawn = rigid_motions();
-    LoopMobility moved(model_, block_, places, alignment_.size(), false);
     if (moved.motions().cols() <= drawn.cols()) return 0;
     const int before = drawn.cols();
     return std::max(0, moved.lasting(drawn) - before);

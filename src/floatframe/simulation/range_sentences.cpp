@@ -2,6 +2,7 @@
 // furthest.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -186,7 +187,11 @@ class Writer {
                        "work of all forces and motions explains, {} of the {:.4g} J exchanged "
                        "(limit {}); {}",
                        e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less",
-                       percent(part), e.exchanged, percent(limits_.imbalance), remedy(e, ""))});
+                       percent(part), e.exchanged, percent(limits_.imbalance),
+                       remedy(e, gain_of_vibrations(e, spectral_radius)
+                                     ? ", or a spectral radius of 0.8: vibrations that steps do "
+                                       "not resolve may gain energy without bound"
+                                     : ""))});
   }
 
  private:
@@ -197,6 +202,13 @@ class Writer {
     if (cause.empty()) return fmt::format("take a smaller step than {:g} s{}", step_, or_else);
     return fmt::format("{:.4g} J of it appear between t = {:.4g} and {:.4g} s, where {}",
                        e.largest_growth, e.largest_growth_from, e.largest_growth_to, cause);
+  }
+
+  /// The trapezoidal rule does not damp what it does not resolve.
+  bool gain_of_vibrations(const EnergySummary& e, double spectral_radius) const {
+    return e.largest_remainder > 0.0 && spectral_radius == 1.0 &&
+           std::any_of(model_.bodies.begin(), model_.bodies.end(),
+                       [](const Body& b) { return b.modes() > 0; });
   }
 
   static constexpr long least_steps = 6;

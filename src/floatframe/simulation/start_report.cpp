@@ -1,6 +1,7 @@
 // What became of the start values of the user.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/math/so3.hpp"
@@ -86,18 +87,35 @@ void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
           force.name));
 }
 
-/// Joints that slide along a line at one node of a body that bends.
+/// The body goes on from the node of the marker in a direction in which the joint slides.
+bool slides_along(const Body& body, const Marker& marker, int slides) {
+  const Vec3 from = body.data->nodes[marker.node].p, axis = marker.X_NM.R.col(2);
+  return std::any_of(body.data->nodes.begin(), body.data->nodes.end(), [&](const ModalNode& n) {
+    const Vec3 d = n.p - from;
+    const double along = std::abs(d.dot(axis)), length = d.norm();
+    // Of two directions the axis is their normal.
+    return length > 0.0 && (slides == 1 ? along > 0.9 * length : along < 0.4 * length);
+  });
+}
+
+/// Joints that slide along a body that bends, at one of its nodes.
 void report_rigid_tangents(const Model& model, StartReport& report) {
   for (const Joint& j : model.joints) {
-    bool slides = false;
+    int slides = 0;
     for (const JointCoordinate& c : joint_kind(j.type).coordinates.all())
-      slides = slides || c.unit == JointUnit::m;
-    const Marker& F = model.markers[j.frame_F];
-    if (!slides || joint_is_free(j.type) || F.body < 0 || F.node < 0 || !F.rotates) continue;
-    report.notes.push_back(fmt::format(
-        "joint '{}' slides along the straight tangent of body '{}' at one of its nodes, not along "
-        "the bent body: away from there it carries the child with the motion of that node",
-        j.name, model.bodies[F.body].name));
+      slides += c.unit == JointUnit::m;
+    if (slides == 0 || slides > 2) continue;
+    for (const int frame : {j.frame_F, j.frame_M}) {
+      const Marker& marker = model.markers[frame];
+      if (marker.body < 0 || marker.node < 0 || !marker.rotates) continue;
+      const Body& body = model.bodies[marker.body];
+      if (!slides_along(body, marker, slides)) continue;
+      report.notes.push_back(fmt::format(
+          "joint '{}' slides along the straight tangent of body '{}' at one of its nodes, not "
+          "along the bent body: away from there it moves as that node does",
+          j.name, body.name));
+      break;
+    }
   }
 }
 
