@@ -76,14 +76,14 @@ class Documents(unittest.TestCase):
         for document in DOCUMENTS:
             for name in re.findall(r"\blib[a-z0-9-]+-dev\b", document.read_text()):
                 self.assertTrue(name in installed, f"{document.name}: {name}")
-        # What CMake looks for is named in the README.
-        readme = (ROOT / "README.md").read_text().lower().replace("-", "").replace(" ", "")
+        # What CMake looks for is named where the installation is described.
+        readme = (ROOT / "docs" / "install.md").read_text().lower().replace("-", "").replace(" ", "")
         names = {"Eigen3": "eigen", "GTest": "googletest", "benchmark": "googlebenchmark", "nlohmann_json": "nlohmannjson"}
         for path in (ROOT / "CMakeLists.txt", *ROOT.glob("*/CMakeLists.txt"), *ROOT.glob("cmake/*.cmake")):
             for package in re.findall(r"find_package\((\w[\w-]*)", path.read_text()):
                 name = names.get(package, package.lower().replace("-", "").replace("_", ""))
                 if name not in {"floatframe", "pkgconfig", "threads", "python3"}:
-                    self.assertTrue(name in readme, f"README.md does not name {package}")
+                    self.assertTrue(name in readme, f"docs/install.md does not name {package}")
 
 
 if __name__ == "__main__":
