@@ -16,7 +16,7 @@ LITERALS = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
 PART = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 PLACED = re.compile(r'^(?:[\w./-]+\.\w+:)?[1-9]\d*: (?=\S+ \S+ \S+ \S+)')
 
-NOTE = re.compile(r'passed over|left out|taken|of GENERATE')
+NOTE = re.compile(r'ignored|left out|taken|of GENERATE')
 
 
 def sentences(text):

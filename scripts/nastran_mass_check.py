@@ -85,7 +85,7 @@ def harvest(folder):
                 try:
                     suite.addTests(unittest.defaultTestLoader.loadTestsFromModule(importlib.import_module(f"{package}.{module.name}")))
                 except Exception as error:
-                    print(f"{module.name}: passed over: {error}")
+                    print(f"{module.name}: ignored: {error}")
     unittest.TextTestRunner(resultclass=Result, stream=io.StringIO()).run(suite)
     print(f"{len(seen)} models in {folder}")
 

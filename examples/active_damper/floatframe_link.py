@@ -54,7 +54,7 @@ class Link:
         self.socket.close()
 
     def receive(self, timeout=None):
-        """The next outputs; None if none came in time. Packets of another layout are passed over."""
+        """The next outputs; None if none came in time. Packets of another layout are ignored."""
         self.socket.settimeout(timeout)
         while True:
             try:

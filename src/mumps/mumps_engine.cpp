@@ -88,7 +88,7 @@ class MumpsEngine final : public SparseEngine {
     icntl(6) = 0;           // no permutation to large diagonals: it would break the symmetry
     icntl(12) = 1;          // ordering of the matrix as it is
     icntl(8) = 0;           // scaled already
-    icntl(24) = 1;          // vanishing pivots are found and passed over
+    icntl(24) = 1;          // vanishing pivots are found and ignored
     icntl(10) = 0;          // no iterative refinement
     mumps_.cntl[0] = 1e-6;  // relative pivot below which rows are exchanged
     mumps_.cntl[2] = -vanishing_pivot;  // minus: absolute

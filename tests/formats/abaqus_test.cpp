@@ -287,9 +287,9 @@ TEST(Abaqus, HarmlessKeywordsAreListedOnceEach) {
                              "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*AMPLITUDE, NAME=B\n0., 0.\n"
                              "*PLASTIC\n1., 0.\n*STEP\n*STATIC\n*CLOAD\n2, 1, 5.\n*END STEP\n");
   ASSERT_EQ(model.notes.size(), 4u);  // and that of the mass
-  EXPECT_EQ(model.notes[0], "deck.inp:17: *AMPLITUDE is passed over");
-  EXPECT_EQ(model.notes[1], "deck.inp:21: *PLASTIC is passed over");
-  EXPECT_EQ(model.notes[2], "deck.inp:23: *STEP and what follows up to *END STEP is passed over");
+  EXPECT_EQ(model.notes[0], "deck.inp:17: *AMPLITUDE is ignored");
+  EXPECT_EQ(model.notes[1], "deck.inp:21: *PLASTIC is ignored");
+  EXPECT_EQ(model.notes[2], "deck.inp:23: *STEP and what follows up to *END STEP is ignored");
 }
 
 TEST(Abaqus, SectionsOfBeamsAndShells) {

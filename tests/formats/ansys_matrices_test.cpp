@@ -122,7 +122,7 @@ TEST(AnsysMatrices, Errors) {
   const FeModel damper = ansys_of(matrix_deck(constants, "5"));
   EXPECT_TRUE(damper.springs.empty());
   EXPECT_EQ(damper.notes.at(0), "a.cdb:40: " + at +
-                                    "its damping is passed over, the part has modal damping "
+                                    "its damping is ignored, the part has modal damping "
                                     "(--damping)");
 }
 

@@ -228,7 +228,7 @@ TEST(Ansys, WhatUsersWrite) {
   ASSERT_EQ(m.supports.size(), 2u);
   EXPECT_EQ(m.supports[0].mask, 63u);
   EXPECT_EQ(m.supports[1].mask, 3u);
-  EXPECT_EQ(m.notes.back(), "a.cdb: passed over, of loads and analyses: ACEL, D of a selection, F");
+  EXPECT_EQ(m.notes.back(), "a.cdb: ignored, of loads and analyses: ACEL, D of a selection, F");
 }
 
 TEST(Ansys, ElementsOfLoadsAndMeshesAreLeftOut) {

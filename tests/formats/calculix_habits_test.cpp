@@ -37,11 +37,11 @@ TEST(CalculixHabits, FieldsBehindNodesAndElements) {
   EXPECT_EQ(model.positions[2], Vec3(0, 1, 0));
   ASSERT_EQ(model.elements.size(), 1u);
   EXPECT_EQ(model.elements[0].nodes[3], 3);
-  EXPECT_TRUE(habit_noted(
-      model, "deck.inp:3: what stands behind the coordinates of 2 nodes is passed over"));
+  EXPECT_TRUE(
+      habit_noted(model, "deck.inp:3: what stands behind the coordinates of 2 nodes is ignored"));
   EXPECT_TRUE(habit_noted(model,
                           "deck.inp:7: 1 element of type C3D4 with more than 4 nodes: the "
-                          "others are passed over, as CalculiX does"));
+                          "others are ignored, as CalculiX does"));
 }
 
 TEST(CalculixHabits, FurtherNodesOfShellsAreAnError) {

@@ -93,7 +93,7 @@ TEST(CutDecks, NastranSaysWhatIsMissingOrPassedOver) {
       has_note_of(m, "the file has no ENDDATA: if it is not cut short, nothing is missing"));
   EXPECT_TRUE(has_note_of(m, "PARAM WTMASS: the mass of the part is multiplied by 0.5"));
   EXPECT_TRUE(has_note_of(m,
-                          "a.bdf:3: STATSUB is passed over: the part is free of the stress of a "
+                          "a.bdf:3: STATSUB is ignored: the part is free of the stress of a "
                           "preload, the frequencies of Nastran are not"));
   EXPECT_EQ(m.materials[0].density, 3900.0);
 }
@@ -136,7 +136,7 @@ TEST(CutDecks, GeneralContactIsLeftOutOnRequest) {
   const std::string contact = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
   const FeModel m = blocks_with(contact, DeckContact::ignore);
   EXPECT_EQ(m.elements.size(), 3u);
-  EXPECT_TRUE(has_note_of(m, "*CONTACT is passed over, as the options say: its surfaces are free"));
+  EXPECT_TRUE(has_note_of(m, "*CONTACT is ignored, as the options say: its surfaces are free"));
   const auto refusal = [&](DeckContact how) {
     return error_of([&] { blocks_with(contact, how); });
   };

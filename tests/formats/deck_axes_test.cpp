@@ -94,8 +94,7 @@ TEST(DeckAxes, PointAndTurnThatCalculixPassesOver) {
       "the additional rotation of 30 degrees, whose axis is blank (1 in Abaqus), is ";
   const std::string ours =
       "taken as in Abaqus; " + which + "CalculiX, which passes it over, give --dialect calculix";
-  const std::string theirs =
-      "passed over, as CalculiX does; " + which + "Abaqus give --dialect abaqus";
+  const std::string theirs = "ignored, as CalculiX does; " + which + "Abaqus give --dialect abaqus";
   expect(deck(c, DeckDialect::abaqus), moved, "");
   expect(deck(c, DeckDialect::by_content), moved, point + ours);
   expect(deck(c, DeckDialect::calculix), plain, point + theirs);
@@ -131,7 +130,7 @@ TEST(DeckAxes, BlankAxisOfShells) {
                 "--dialect calculix\n");
   EXPECT_EQ(notes(", 0.\n", DeckDialect::calculix),
             blank +
-                "passed over, as CalculiX does; if the deck is one of Abaqus give --dialect "
+                "ignored, as CalculiX does; if the deck is one of Abaqus give --dialect "
                 "abaqus\n");
   EXPECT_EQ(notes("1, 0.\n", DeckDialect::by_content),
             "shell.inp:14: orientation 'O' of shells turns about axis 1, which is taken about the "

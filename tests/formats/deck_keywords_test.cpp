@@ -90,7 +90,7 @@ TEST(DeckKeywords, BoltsWithoutTheirPreload) {
              "*SURFACE, NAME=S\n1, S1\n*PRE-TENSION SECTION, SURFACE=S, NODE=4\n1., 0., 0.\n");
   ASSERT_EQ(model.notes.size(), 2u);  // and that of the mass
   EXPECT_EQ(model.notes[0],
-            "deck.inp:16: *PRE-TENSION SECTION is passed over: the bolt is whole and without its "
+            "deck.inp:16: *PRE-TENSION SECTION is ignored: the bolt is whole and without its "
             "preload");
 }
 
@@ -103,8 +103,7 @@ TEST(DeckKeywords, BoltsOfASurfaceThatIsNotThere) {
 TEST(DeckKeywords, SurfaceSectionWithoutMassIsNoted) {
   const FeModel model = parsed(tetrahedron + "*SURFACE SECTION, ELSET=SKIN\n");
   ASSERT_EQ(model.notes.size(), 2u);  // and that of the mass
-  EXPECT_EQ(model.notes[0],
-            "deck.inp:14: *SURFACE SECTION of 'SKIN' is passed over: it has no mass");
+  EXPECT_EQ(model.notes[0], "deck.inp:14: *SURFACE SECTION of 'SKIN' is ignored: it has no mass");
 }
 
 TEST(DeckKeywords, HarmlessOnesAreKnown) {
@@ -160,7 +159,7 @@ TEST(DeckKeywords, BesideMatricesOnlyNodesCount) {
       tetrahedron + "*SPECIAL LAYER\n1, 2\n*STEP\n*MODEL CHANGE, REMOVE, TYPE=ELEMENT\nBODY\n",
       DeckDialect::by_content, DeckPart::nodes);
   EXPECT_EQ(model.nodes(), 4);
-  EXPECT_EQ(model.notes.at(0), "deck.inp:14: *SPECIAL LAYER is not known and is passed over");
+  EXPECT_EQ(model.notes.at(0), "deck.inp:14: *SPECIAL LAYER is not known and is ignored");
 }
 
 TEST(DeckKeywords, StepsDoNotChangeThePart) {

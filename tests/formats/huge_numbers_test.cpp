@@ -26,7 +26,7 @@ std::string huge_stick(const std::string& section) {
 
 TEST(HugeNumbers, OffsetsOfBeams) {
   const std::string square = "*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT\n.1, .1\n";
-  const std::string numbers = " of the node, expected numbers whose squares can be reckoned with";
+  const std::string numbers = " of the node, expected numbers whose squares do not overflow";
   EXPECT_EQ(huge_error(huge_stick(square + "0., 1., 0.\n*BEAM SECTION OFFSET\n1e300, 0.\n")),
             "huge.inp:11: *BEAM SECTION: its centroid is at (1e+300, 0)" + numbers);
   EXPECT_EQ(huge_error(huge_stick("*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT, "
@@ -60,12 +60,12 @@ const std::string huge_things =
 TEST(HugeNumbers, LayersOfShells) {
   const auto error = [](const std::string& plate) { return huge_error(huge_things + plate); };
   EXPECT_EQ(error("*SHELL SECTION, ELSET=PLATE, COMPOSITE\n1e308, 3, M\n1e308, 3, M\n"),
-            "huge.inp:20: *SHELL SECTION: its thickness is inf, expected a number whose cube can "
-            "be reckoned with");
+            "huge.inp:20: *SHELL SECTION: its thickness is inf, expected a number whose cube "
+            "does not overflow");
   EXPECT_EQ(error("*SHELL SECTION, ELSET=PLATE, MATERIAL=M, NODAL THICKNESS\n*NODAL THICKNESS\n"
                   "1, 1e308\n2, 1e308\n3, 1e308\n4, 1e308\n"),
-            "huge.inp:20: *SHELL SECTION: its thickness is inf, expected a number whose cube can "
-            "be reckoned with");
+            "huge.inp:20: *SHELL SECTION: its thickness is inf, expected a number whose cube "
+            "does not overflow");
 }
 
 TEST(HugeNumbers, NonstructuralMass) {
@@ -97,12 +97,12 @@ TEST(HugeNumbers, LayersOfAnsys) {
             "1.57e+300, expected finite numbers");
   EXPECT_EQ(ansys_error("ET,1,181\n" + huge_block + layers + "E,1,2,3,4\n"),
             "a.cdb:20: element 1 (SHELL181): its thickness is inf, expected a number whose cube "
-            "can be reckoned with");
+            "does not overflow");
 }
 
 TEST(HugeNumbers, PlacesAndMaterials) {
-  const std::string cubes = ", expected numbers whose cubes can be reckoned with";
-  const std::string square = ", expected a number whose square can be reckoned with";
+  const std::string cubes = ", expected numbers whose cubes do not overflow";
+  const std::string square = ", expected a number whose square does not overflow";
   EXPECT_EQ(huge_error("*NODE\n1, 0., 0., 0.\n2, 1e308, 0., 0.\n*ELEMENT, TYPE=B31, ELSET=S\n1, 1, "
                        "2\n"),
             "huge.inp:3: node 2: it is at (1e+308, 0, 0)" + cubes);
@@ -123,7 +123,7 @@ TEST(HugeNumbers, PlacesAndMaterials) {
 }
 
 TEST(HugeNumbers, PointMasses) {
-  const std::string square = ", expected a number whose square can be reckoned with";
+  const std::string square = ", expected a number whose square does not overflow";
   EXPECT_EQ(
       huge_error(huge_stick("*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT\n.1, .1\n0., 1., "
                             "0.\n*ELEMENT, TYPE=MASS, ELSET=P\n2, 1\n*MASS, ELSET=P\n1e308\n")),
@@ -141,7 +141,7 @@ TEST(HugeNumbers, BeamsOfAnsys) {
             "centroid (0, 0) from the node, expected finite numbers");
   EXPECT_EQ(ansys_error(beam + "1,1\nSECOFFSET,USER,1e200\nE,1,2\n"),
             "a.cdb:23: the end of a beam is (0, -1e+200, 0) from node 1, expected numbers whose "
-            "squares can be reckoned with");
+            "squares do not overflow");
   EXPECT_EQ(ansys_error("ET,1,180\n" + huge_block + "R,1,1e-10,1e300\nE,1,2\n"),
             "a.cdb:21: element 1 (LINK180): the density of its material 1 and its added mass make "
             "inf, expected a finite number");
@@ -152,7 +152,7 @@ TEST(HugeNumbers, MatricesOfAnsys) {
     EXPECT_EQ(ansys_error(cdb_brick + cdb_steel + "ET,2,27\nKEYOPT,2,3," + kind +
                           "\nR,7,1e308\nTYPE,2\nREAL,7\nE,1,2\n"),
               "a.cdb:23: real constants 7: constant 1 is 1e+308, expected a number whose square "
-              "can be reckoned with");
+              "does not overflow");
   }
 }
 

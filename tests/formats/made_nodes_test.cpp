@@ -33,7 +33,7 @@ TEST(MadeNodes, EndsOfBars) {
       bar_cards);
   ASSERT_GT(model.nodes(), 3);
   for (int k = 0; k < model.nodes(); ++k)
-    EXPECT_EQ(std::count(model.made_nodes.begin(), model.made_nodes.end(), k), k >= 3);
+    EXPECT_EQ(std::count(model.generated_nodes.begin(), model.generated_nodes.end(), k), k >= 3);
   EXPECT_EQ(nodes_at(model, NodeChoice::By::nearest, Vec3(0.0, 0.0, 0.1)), std::vector<int>{0});
   EXPECT_EQ(nodes_at(model, NodeChoice::By::plane, Vec3::Zero()), std::vector<int>{0});
 }
@@ -42,7 +42,7 @@ TEST(MadeNodes, PlacesOfMasses) {
   const FeModel model = nastran_part(
       "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,7,5,1,2,0.,0.,1.\nCONM2,10,1,,2.,0.,.5,.5\n" +
       bar_cards);
-  EXPECT_EQ(model.made_nodes, std::vector<int>{2});
+  EXPECT_EQ(model.generated_nodes, std::vector<int>{2});
   EXPECT_EQ(nodes_at(model, NodeChoice::By::nearest, Vec3(0.0, 0.5, 0.5)), std::vector<int>{0});
 }
 
@@ -53,7 +53,7 @@ TEST(MadeNodes, NotThoseOnTheLineOfAnElement) {
       "SECDATA,.02,.03\nSECNUM,1\nN,2,1,0,0\nN,3,2,0,0\nE,2,3\nN,1,0,0,0 $ E,1,2\n",
       "a.cdb");
   const FeModel model = read_ansys(source, {});
-  EXPECT_TRUE(model.made_nodes.empty());
+  EXPECT_TRUE(model.generated_nodes.empty());
   const std::vector<int> found = nodes_at(model, NodeChoice::By::nearest, Vec3::Zero());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(model.node_label(found[0]), "node 1");

@@ -109,12 +109,12 @@ TEST(NastranNonstructural, Notes) {
   const FeModel model = heavy_deck(with_mass("NSM1,5,PROD,7.,3,33,1\n"));
   EXPECT_EQ(model.notes.at(model.notes.size() - 4),
             "arm.bdf:27: 2 numbers of nonstructural mass (NSM) are no elements or properties of "
-            "their type in the file: they are passed over, as in Nastran");
+            "their type in the file: they are ignored, as in Nastran");
   EXPECT_EQ(model.notes.at(model.notes.size() - 3),
             "arm.bdf:3: the nonstructural mass of set 5 (NSM) is added, 10.5 in all");
   // Without a selection they are not applied.
   const FeModel none = heavy_deck(with_mass("NSM1,5,PROD,7.,3\n", ""));
-  EXPECT_NE(none.notes.back().find("are passed over: NSM1"), std::string::npos);
+  EXPECT_NE(none.notes.back().find("are ignored: NSM1"), std::string::npos);
 }
 
 /// A material without density gets that of the options, and the nonstructural mass besides.

@@ -1,4 +1,4 @@
-// Cards and forms of cards that change nothing of a part are passed over, whatever program wrote
+// Cards and forms of cards that change nothing of a part are ignored, whatever program wrote
 // them; those that cannot be read say why.
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ TEST(NastranPassing, MissingIncludesOfTheExecutiveControl) {
   folder.write("arm.bdf", alter + "CEND\n" + control + "BEGIN BULK\n" + tetra + "ENDDATA\n");
   const FeModel m = read_fe_file(folder / "arm.bdf");
   const std::string note = (folder / "arm.bdf").string() +
-                           ": files that the executive control includes are missing and passed "
-                           "over: /dmap/alter.v9";
+                           ": files that the executive control includes are missing and "
+                           "ignored: /dmap/alter.v9";
   EXPECT_EQ(std::count(m.notes.begin(), m.notes.end(), note), 1);
   folder.write("arm.bdf", "SOL 103\nCEND\nINCLUDE 'alter.v9'\nBEGIN BULK\n" + tetra);
   EXPECT_NE(error_of([&] {
@@ -142,9 +142,9 @@ TEST(NastranPassing, NotesSayWhatIsPassedOver) {
                        [&](const std::string& n) { return n.find(note) != std::string::npos; });
   };
   EXPECT_TRUE(
-      has("tables of stiffness and damping over frequency or load are passed over, the part "
+      has("tables of stiffness and damping over frequency or load are ignored, the part "
           "has the constant ones: PBUSHT"));
-  EXPECT_TRUE(has("cards that the case control does not select are passed over: NSM1"));
+  EXPECT_TRUE(has("cards that the case control does not select are ignored: NSM1"));
   EXPECT_FALSE(has("change neither stiffness nor mass"));
 }
 

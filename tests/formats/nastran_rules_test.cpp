@@ -1,5 +1,5 @@
 // What of a Nastran file changes the part: parameters, case control, a shear modulus of its own,
-// superelements. Nothing of it is passed over.
+// superelements. Nothing of it is ignored.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -172,7 +172,7 @@ TEST(Nastran, SmallLargeAndFreeField) {
   EXPECT_EQ(first.elements[0].source.line, 11);
   ASSERT_EQ(first.notes.size(), 1u);
   EXPECT_EQ(first.notes[0],
-            "deck.bdf: cards that change neither stiffness nor mass are passed over: EIGRL, PARAM");
+            "deck.bdf: cards that change neither stiffness nor mass are ignored: EIGRL, PARAM");
 }
 
 TEST(Nastran, SetsOfPreprocessors) {
@@ -190,7 +190,7 @@ TEST(Nastran, SetsOfPreprocessors) {
   EXPECT_EQ(m.node_sets.count("SET 8"), 0u);  // 11 is no node
   EXPECT_EQ(m.node_sets.at("SET 9"), (std::vector<int>{1, 3}));
   EXPECT_EQ(m.notes[0],
-            "deck.bdf: cards that change neither stiffness nor mass are passed over: EIGRL, PARAM, "
+            "deck.bdf: cards that change neither stiffness nor mass are ignored: EIGRL, PARAM, "
             "SET of other things");
 }
 

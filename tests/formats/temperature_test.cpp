@@ -87,7 +87,7 @@ TEST(Temperature, InitialTemperaturesOfTheDeck) {
   const FeModel hot = initially("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 70.\n", 220.0);
   EXPECT_EQ(hot.materials[0].young, 1.9e5);
   EXPECT_EQ(hot.notes.at(hot.notes.size() - 2),
-            "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
+            "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is ignored");
   // Constants that do not depend on it need none.
   EXPECT_EQ(warm("*ELASTIC\n2.1e5, .3\n*DENSITY\n8e-9\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
                  "1, 70.\n2, 80.\n",

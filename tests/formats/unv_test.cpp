@@ -133,7 +133,7 @@ TEST(Unv, SkinsAndEdgesMakeNodeSets) {
   EXPECT_EQ(m.notes[3],
             "a.unv: 2 shells, beams and rods are taken as skins and edges: they make "
             "node sets and have no stiffness and no mass");
-  EXPECT_EQ(m.notes[4], "a.unv: dataset 2414 is passed over");
+  EXPECT_EQ(m.notes[4], "a.unv: dataset 2414 is ignored");
 }
 
 TEST(Unv, RigidElementsAndDampers) {
@@ -154,7 +154,7 @@ TEST(Unv, RigidElementsAndDampers) {
   EXPECT_EQ(m.spiders[1].nodes, std::vector<int>{7});
   EXPECT_EQ(m.node_sets.at("RIGID"), (std::vector<int>{1, 2, 4}));
   ASSERT_EQ(m.notes.size(), 2u);
-  EXPECT_EQ(m.notes[1], "a.unv: 1 dampers are passed over: the part has modal damping");
+  EXPECT_EQ(m.notes[1], "a.unv: 1 dampers are ignored: the part has modal damping");
 }
 
 TEST(Unv, FilledColumnsAreDivided) {

@@ -183,7 +183,7 @@ TEST(StateHistory, AByteThatWasChangedIsNoticed) {
       const StateHistory found = StateHistory::of_bytes(std::move(changed), "x");
       // In what fills a block up to eight bytes, or in the last block, which is left out.
       EXPECT_TRUE(bytes[n] == '\0' || !found.notes().empty()) << n;
-      // A length that is too large is the same as an end that is missing, and is spoken of.
+      // A length that is too large is the same as an end that is missing, and is reported.
       EXPECT_TRUE(found.instants() == 6u || !found.notes().empty()) << n;
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).substr(0, 3), "x: ") << n;

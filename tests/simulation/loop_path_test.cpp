@@ -229,7 +229,7 @@ TEST(LoopPath, OutOfReachSaysHowFarItCame) {
     closed_start_of(parallelogram(2.0, "0.5"));
     FAIL();
   } catch (const RunError& e) {
-    expect_in(e.what(), "the model cannot be assembled: joint 'C' stays open by 0.");
+    expect_in(e.what(), "the model cannot be assembled: joint 'C' has a gap of 0.");
     expect_in(e.what(), "from the drawn configuration the start values are reached to ");
   }
 }

@@ -34,7 +34,7 @@ Command info_command() {
                  a->options.table(true)),
       .footer =
           "Finite-element files: numbers in the units of the file; sets and spiders that could be\n"
-          "interfaces of `floatframe reduce`; what the reader passed over. Body files: SI units, "
+          "interfaces of `floatframe reduce`; what the reader ignored. Body files: SI units, "
           "where\n"
           "they came from, modes, markers and the health report.\n"
           "Exit codes: 0 done, 2 bad input.",

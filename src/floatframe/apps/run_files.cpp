@@ -207,7 +207,7 @@ void RunFiles::write_report(Report& report) const {
   write_file(paths_.report, page_html(page_template(), page, buffer));
 }
 
-/// A disk that was full before has been spoken of.
+/// That the disk was full before has been reported.
 void RunFiles::finish_states(const RunSummary& summary, std::vector<std::string>& failed) {
   try {
     const bool good = summary.status == "completed" || summary.strict;

@@ -237,7 +237,7 @@ struct FeModel {
   std::vector<FeSource> node_sources;  ///< same length as positions, or empty
   /// Of the nodes those that no line of the file gives, but its reader made: ends of bars beside
   /// their nodes or with hinges, places of masses, middles of edges. Ascending.
-  std::vector<int> made_nodes;
+  std::vector<int> generated_nodes;
   std::vector<std::string> material_names;
   std::map<int, MissingDensity> without_density;  ///< by the index of the material
   std::map<std::string, std::vector<int>> node_sets;
@@ -249,7 +249,7 @@ struct FeModel {
   std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
   std::string units;                   ///< that its numbers were in, by `to_si`; empty: not known
   std::vector<std::string> files;      ///< paths as the user would write them
-  std::vector<std::string> notes;      ///< one sentence each, with file:line: what was passed over
+  std::vector<std::string> notes;      ///< one sentence each, with file:line: what was ignored
 
   int nodes() const noexcept { return static_cast<int>(positions.size()); }
   bool has_beams() const noexcept;

@@ -137,7 +137,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   std::vector<char> used(model.positions.size(), 0);
   const DofTable table = dof_table(model);
   for (int k = 0; k < model.nodes(); ++k) used[k] = table.count(k) > 0;
-  for (const int made : model.made_nodes) used[made] = 0;
+  for (const int made : model.generated_nodes) used[made] = 0;
   const bool round = c.by == NodeChoice::By::cylinder || c.by == NodeChoice::By::sphere;
   if (round && !(c.radius > 0.0)) {
     throw InputError(fmt::format("the radius must be positive, not {:.6g}", c.radius));

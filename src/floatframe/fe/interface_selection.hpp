@@ -38,9 +38,9 @@ struct InterfaceDescription {
 };
 
 /// Nodes of a choice in a valid model, in ascending order (sets: their own order); those that a
-/// reader made (`FeModel::made_nodes`) have a number, but no place. Throws InputError if there are
-/// none, naming what was looked for and what there is (sets with did-you-mean; the distance of the
-/// nearest node).
+/// reader made (`FeModel::generated_nodes`) have a number, but no place. Throws InputError if there
+/// are none, naming what was looked for and what there is (sets with did-you-mean; the distance of
+/// the nearest node).
 std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice);
 
 /// Adds a reference node and a spider to the model and returns the index of the reference node,

@@ -6,7 +6,7 @@
 
 namespace floatframe {
 
-/// "its density is 1e+308, expected a number whose square can be reckoned with"; empty if modulus,
+/// "its density is 1e+308, expected a number whose square does not overflow"; empty if modulus,
 /// elasticity and density are smaller.
 std::string huge_constant(const Material& material);
 /// The same of thickness and offset of a section of shells and of the mass over area, with that of

@@ -41,7 +41,7 @@ int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSour
   model.positions.push_back(p);
   model.node_ids.push_back(++largest);
   model.node_sources.push_back(at);
-  model.made_nodes.push_back(model.nodes() - 1);
+  model.generated_nodes.push_back(model.nodes() - 1);
   if (!model.node_names.empty()) model.node_names.emplace_back();
   return model.nodes() - 1;
 }
@@ -50,7 +50,7 @@ int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm
                    const FeSource& at) {
   if (!std::isfinite(arm.squaredNorm()))  // stiffness about the node holds that square
     source.stop(at, fmt::format("the end of a beam is ({:g}, {:g}, {:g}) from {}, expected numbers "
-                                "whose squares can be reckoned with",
+                                "whose squares do not overflow",
                                 arm(0), arm(1), arm(2), model.node_label(node)));
   const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
   if (!fresh) return it->second;

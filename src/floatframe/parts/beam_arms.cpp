@@ -11,13 +11,13 @@ namespace floatframe {
 
 std::vector<char> beam_arms(const FeModel& model) {
   std::vector<char> out(model.spiders.size(), 0);
-  if (model.spiders.empty() || model.made_nodes.empty()) return out;
+  if (model.spiders.empty() || model.generated_nodes.empty()) return out;
   std::set<std::pair<int, int>> bars;  // file and line
   for (const Element& e : model.elements)
     if ((is_beam(e.type) || is_rod(e.type)) && e.source.line > 0)
       bars.emplace(e.source.file, e.source.line);
   std::set<int> ends;
-  for (const int node : model.made_nodes) {
+  for (const int node : model.generated_nodes) {
     const FeSource& at = model.node_sources[static_cast<std::size_t>(node)];
     if (bars.contains({at.file, at.line})) ends.insert(node);
   }

@@ -300,7 +300,7 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
     text += '\n' + table.text(2);
   }
   if (!model.notes.empty()) {
-    text += "\nPassed over in the file\n";
+    text += "\nIgnored in the file\n";
     for (const std::string& note : model.notes) text += "  - " + note + '\n';
   }
   text += f.bad_elements.empty() ? proposal_text(f.proposal) : invalid_text(f);

@@ -25,7 +25,7 @@ struct PartJob {
 /// Reads the file, converts it to SI units and reduces it. Throws InputError.
 BodyFile reduce_part_file(const PartJob& job);
 /// The same for a model that a program has made, in the units of the job, whose file is only the
-/// name that the body shows as its source; how to read is passed over.
+/// name that the body shows as its source; how to read is ignored.
 BodyFile reduce_part_model(FeModel model, const PartJob& job);
 
 /// Everything that decides the result except the contents of files, as (option, value) in the words

@@ -67,7 +67,8 @@ Pieces pieces_of(const FeModel& model) {
 /// The element that a reader made this node for (an end of a bar beside its node, or with a hinge);
 /// -1 if the file has the node.
 int element_of_made(const FeModel& model, int node) {
-  if (!std::binary_search(model.made_nodes.begin(), model.made_nodes.end(), node)) return -1;
+  if (!std::binary_search(model.generated_nodes.begin(), model.generated_nodes.end(), node))
+    return -1;
   const FeSource& at = model.node_sources[node];
   for (int i = 0; at.line > 0 && i < static_cast<int>(model.elements.size()); ++i) {
     const FeSource& of_element = model.elements[i].source;

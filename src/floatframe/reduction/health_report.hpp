@@ -61,7 +61,7 @@ struct HealthReport {
   std::string static_support;  ///< how the static check was held
   std::string solver;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each stage
-  std::vector<std::string> notes;                       ///< what was passed over in the file
+  std::vector<std::string> notes;                       ///< what was ignored in the file
   std::vector<std::string> warnings;                    ///< one sentence each: anything suspicious
 };
 

@@ -31,7 +31,7 @@
 
 namespace floatframe {
 
-/// At time t. Throws RunError naming the joint or rod that stays open, or the joints that keep
+/// At time t. Throws RunError naming the joint or rod that has a gap, or the joints that keep
 /// their values if that is the reason. Without `as_given` the positions are not those that the
 /// model gives, so nothing is held at what is given for joints.
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool positions, double t = 0.0,

@@ -70,7 +70,7 @@ std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool r
   const ConstraintSet& constraints = f.constraint_set();
   const ConstraintPart& part = constraints.parts()[worst_part(constraints, residual)];
   return fmt::format("{} {} {:.3g} {}", owner_name(f.model(), part.owner),
-                     rates ? "opens at" : "stays open by",
+                     rates ? "opens at" : "has a gap of",
                      in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(part, rates));
 }
 

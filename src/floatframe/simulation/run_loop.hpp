@@ -56,7 +56,7 @@ class Run {
     const long report_every = std::max(1L, planned_ / 100);
     bool good = options_.resume ? resume(*options_.resume) : begin();
     while (good && made_ < planned_) {
-      good = go_on() && step() && let_out();
+      good = go_on() && step() && flush_if_due();
       if (good && options_.progress && made_ % report_every == 0)
         options_.progress(static_cast<double>(made_) / static_cast<double>(planned_));
     }
@@ -95,7 +95,7 @@ class Run {
     if (joints_) joints_->follow(steps_.formulation(), steps_.state());
     if (watch_) watch_->start(steps_.state());
     sample_health();
-    return handed_over();
+    return flush();
   }
 
   void sample() noexcept {
@@ -159,15 +159,15 @@ class Run {
   }
 
   /// Between steps. False: it cannot be written.
-  bool let_out() {
+  bool flush_if_due() {
     if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
       return check_point();
     const bool rows = block_ && block_->due(), states = state_block_ && state_block_->due();
-    return (!rows && !states) || handed_over();
+    return (!rows && !states) || flush();
   }
 
   bool check_point() {
-    if (!handed_over()) return false;
+    if (!flush()) return false;
     RunMemory m;
     m.made = made_;
     m.steps = steps_.memory();
@@ -177,7 +177,7 @@ class Run {
     return written([&] { options_.checkpoint(to_checkpoint(identity(), m, watch_)); });
   }
 
-  bool handed_over() {
+  bool flush() {
     return written([&] {
       if (block_) block_->hand_over();
       if (state_block_) state_block_->hand_over();
@@ -212,11 +212,11 @@ class Run {
     result_.summary.cpu = m.cpu;
     step_times_ = m.step_times;
     if (joints_) joints_->restore(m.joints, m.steps.state.t);
-    return handed_over();
+    return flush();
   }
 
   void finish() {
-    if (block_ || state_block_) handed_over();
+    if (block_ || state_block_) flush();
     RunSummary& s = result_.summary;
     result_.table.data.resize(rows_ * result_.table.columns.size());
     const StepCounters& c = steps_.counters();

@@ -6,7 +6,7 @@
 // amplitudes D(theta) y, and the increments of all their rates. Along the steady motion
 //   mdot = (Tdot + T A) z = T B z,   B = T^+ (Tdot + T A)                                       (1)
 // with B constant if the rotor is symmetric about its axis, whatever holds it. Eigenvalues of B are
-// what one sees who stands beside the machine. Tdot T^+ + T A T^+ at another angle must be the
+// those in the inertial frame. Tdot T^+ + T A T^+ at another angle must be the
 // same operator: `dependence_on_angle` measures it.
 #include <complex>
 #include <memory>

@@ -94,7 +94,7 @@ void ProcessPool::give(int worker, const std::string& request) {
 std::vector<ProcessPool::Answer> ProcessPool::answers(std::chrono::milliseconds timeout) {
   std::vector<pollfd> ready;
   for (const Worker& w : workers_)
-    ready.push_back({w.request.empty() ? -1 : w.socket, POLLIN, 0});  // negative: passed over
+    ready.push_back({w.request.empty() ? -1 : w.socket, POLLIN, 0});  // negative: ignored
   std::vector<Answer> found;
   if (::poll(ready.data(), ready.size(), static_cast<int>(timeout.count())) <= 0) return found;
   const auto now = std::chrono::steady_clock::now();

@@ -60,7 +60,7 @@ class ReadErrors {
  private:
   struct Kind {
     std::size_t kept = 0, passed_over = 0;
-    SourceMark first;  ///< passed over
+    SourceMark first;  ///< ignored
   };
   std::vector<ErrorEntry> errors_;
   std::unordered_set<std::uint64_t> seen_;

@@ -102,7 +102,7 @@ void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) 
   if (!std::isfinite(section.arm.squaredNorm()))
     return build.source.error(
         section.at, fmt::format("{}: its centroid is at ({:g}, {:g}) of the node, expected numbers "
-                                "whose squares can be reckoned with",
+                                "whose squares do not overflow",
                                 section.shown, section.arm(0) + 0.0, section.arm(1) + 0.0));
   if (constants && (section.arm - section.shear_center).norm() > 1e-9 * section.arm.norm())
     build.source.error(section.at,

@@ -54,7 +54,7 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                                      const std::string& name, bool shell) {
   const char* const passes = "passes it over";
-  const char* const passed = "passed over";
+  const char* const passed = "ignored";
   if (o.kind == Kind::z_rectangular &&
       is_of_calculix(build, o, name,
                      {"SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR", "taken as RECTANGULAR"}))

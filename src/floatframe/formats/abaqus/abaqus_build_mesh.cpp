@@ -171,7 +171,7 @@ void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
   }
   for (const auto& [type, count] : counts.skins) {
     build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
-                                     "passed over; their element sets are node sets",
+                                     "ignored; their element sets are node sets",
                                      count.number, type->name));
   }
   for (const auto& [type, count] : counts.read_as) {

@@ -32,7 +32,7 @@ struct AbaqusType {
     rod,       ///< T3D2: harmless without a section, as a skin
     membrane,  ///< M3D: the same
     spring,    ///< SPRINGA, SPRING1, SPRING2
-    damper,    ///< DASHPOTA, ...: passed over
+    damper,    ///< DASHPOTA, ...: ignored
     gap        ///< GAPUNI: *GAP says what becomes of it
   };
   const char* name;

@@ -244,7 +244,7 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
   }
   if (further > 0) {
     content.note(lines.source().mark(first_further),
-                 fmt::format("what stands behind the coordinates of {} is passed over",
+                 fmt::format("what stands behind the coordinates of {} is ignored",
                              plural(further, "node")));
   }
 }
@@ -320,11 +320,10 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
     if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
   }
   if (further > 0) {
-    content.note(
-        lines.source().mark(first_further),
-        fmt::format("{} of type {} with more than {} nodes: the others are passed over, as "
-                    "CalculiX does",
-                    plural(further, "element"), type->name, type->nodes));
+    content.note(lines.source().mark(first_further),
+                 fmt::format("{} of type {} with more than {} nodes: the others are ignored, as "
+                             "CalculiX does",
+                             plural(further, "element"), type->name, type->nodes));
   }
 }
 

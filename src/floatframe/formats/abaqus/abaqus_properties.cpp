@@ -193,7 +193,7 @@ void read_abaqus_surface_section(AbaqusLines& lines, const AbaqusKeyword& keywor
     const SourceMark mark = lines.source().mark(keyword.at);
     const std::string elements = abaqus_name(keyword.value("ELSET"));
     content.notes.push_back(
-        fmt::format("{}:{}: *SURFACE SECTION of {} is passed over: it has no "
+        fmt::format("{}:{}: *SURFACE SECTION of {} is ignored: it has no "
                     "mass",
                     mark.file, mark.line, shown(elements)));
   }

@@ -61,7 +61,7 @@ class AbaqusSpringBuilder {
       }
     }
     if (dampers_ > 0)
-      b_.note({0, 1}, fmt::format("{} dashpots are passed over, the part has modal damping "
+      b_.note({0, 1}, fmt::format("{} dashpots are ignored, the part has modal damping "
                                   "(--damping)",
                                   dampers_));
   }
@@ -206,7 +206,7 @@ void read_abaqus_spring(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqus
 void read_abaqus_gap(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
   if (content.contact == DeckContact::ignore || content.only_nodes) {
     content.note(lines.source().mark(keyword.at),
-                 keyword.shown + " is passed over, as the options say: its nodes are free");
+                 keyword.shown + " is ignored, as the options say: its nodes are free");
   } else {
     lines.error(keyword,
                 "has no linear stiffness: --contact ignore (key `contact`) leaves its nodes free; "

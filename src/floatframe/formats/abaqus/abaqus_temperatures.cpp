@@ -67,7 +67,7 @@ void read_abaqus_initial_conditions(AbaqusLines& lines, const AbaqusKeyword& key
   const std::string type = abaqus_name(keyword.value("TYPE"));
   if (type != "TEMPERATURE" || keyword.has("FILE")) {
     content.note(lines.source().mark(keyword.at),
-                 fmt::format("{}{}{} is passed over", keyword.shown,
+                 fmt::format("{}{}{} is ignored", keyword.shown,
                              type.empty() ? "" : ", TYPE=", keyword.value("TYPE")));
     return lines.skip_data();
   }
@@ -105,7 +105,7 @@ void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content) {
   if (content.pending.empty()) {
     if (!content.initial_temperatures.empty())
       content.note(lines.source().mark(content.initial_temperatures.front().nodes.at),
-                   "*INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
+                   "*INITIAL CONDITIONS, TYPE=TEMPERATURE is ignored");
     return;
   }
   std::string why;

@@ -95,7 +95,7 @@ void read_abaqus_tie(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
   if (keyword.has("CYCLICSYMMETRY")) {
     const SourceMark mark = lines.source().mark(keyword.at);
     content.notes.push_back(
-        fmt::format("{}:{}: {}, CYCLIC SYMMETRY is passed over: the part is one sector, whose cut "
+        fmt::format("{}:{}: {}, CYCLIC SYMMETRY is ignored: the part is one sector, whose cut "
                     "faces are free",
                     mark.file, mark.line, keyword.shown));
     return lines.skip_data();
@@ -129,7 +129,7 @@ void read_abaqus_general_contact(AbaqusLines& lines, const AbaqusKeyword& keywor
   }
   const SourceMark mark = lines.source().mark(keyword.at);
   content.notes.push_back(
-      fmt::format("{}:{}: {} is passed over, as the options say: its surfaces "
+      fmt::format("{}:{}: {} is ignored, as the options say: its surfaces "
                   "are free",
                   mark.file, mark.line, keyword.shown));
 }
@@ -147,7 +147,7 @@ void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (content.contact == Contact::ignore) {
     const SourceMark mark = lines.source().mark(keyword.at);
     content.notes.push_back(
-        fmt::format("{}:{}: {} is passed over, as the options say: its "
+        fmt::format("{}:{}: {} is ignored, as the options say: its "
                     "surfaces are free",
                     mark.file, mark.line, keyword.shown));
     return lines.skip_data();

@@ -23,7 +23,7 @@ void read_abaqus_pre_tension(AbaqusLines& lines, const AbaqusKeyword& keyword,
                              AbaqusContent& content) {
   content.note(
       lines.source().mark(keyword.at),
-      fmt::format("{} is passed over: the bolt is whole and without its preload", keyword.shown));
+      fmt::format("{} is ignored: the bolt is whole and without its preload", keyword.shown));
   if (keyword.has("SURFACE") && !content.only_nodes)
     content.pre_tensions.push_back({content.named(keyword.value("SURFACE"), keyword.at)});
   lines.skip_data();
@@ -133,13 +133,13 @@ class DeckReader {
     }
     if (keyword.name == "STEP") {
       close_abaqus_blocks(content_, lines_.source(), "before *STEP");
-      note(keyword, "and what follows up to *END STEP is passed over");
+      note(keyword, "and what follows up to *END STEP is ignored");
       return step(keyword);
     }
     using Use = AbaqusKeywordRule::Use;
     const AbaqusKeywordRule rule = abaqus_keyword_rule(keyword.name);
     if (rule.use == Use::harmless) {
-      note(keyword, "is passed over");
+      note(keyword, "is ignored");
     } else if (rule.use == Use::refused) {
       error(keyword, fmt::format("is not supported: {}", rule.advice));
     } else {
@@ -178,7 +178,7 @@ class DeckReader {
     if (!near.empty()) {
       error(keyword, fmt::format("is not known, did you mean '*{}'?", near));
     } else if (content_.only_nodes) {
-      note(keyword, "is not known and is passed over");
+      note(keyword, "is not known and is ignored");
     } else {
       error(keyword,
             "is not known and may change stiffness, mass or constraints: take it out of the deck "

@@ -169,7 +169,7 @@ class ContactBuilder {
                             "where they touch",
                             id));
     if (!always && b_.options.contact == DeckContact::ignore)
-      return b_.note(p.at, fmt::format("the contact pair of real constants {} is passed over, as "
+      return b_.note(p.at, fmt::format("the contact pair of real constants {} is ignored, as "
                                        "the options say: its surfaces are free",
                                        id));
     SurfaceTie tie;

@@ -32,10 +32,9 @@ class AnsysMatrix {
     if (std::all_of(real->values.begin(), real->values.end(), [](double x) { return x == 0.0; }))
       return;
     if (type.keyopt[3] == 5)
-      return b_.note(e_.at,
-                     fmt::format("{}: its damping is passed over, the part has modal damping "
-                                 "(--damping)",
-                                 b_.label(e_)));
+      return b_.note(e_.at, fmt::format("{}: its damping is ignored, the part has modal damping "
+                                        "(--damping)",
+                                        b_.label(e_)));
     const bool mass = type.keyopt[3] == 2;
     if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
       return b_.shared_error(e_, fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
@@ -50,8 +49,8 @@ class AnsysMatrix {
     for (std::size_t k = 0; k < real->values.size(); ++k)
       if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
         return b_.error_once(real->at, fmt::format("real constants {}: constant {} is {:g}, "
-                                                   "expected a number whose square can be "
-                                                   "reckoned with",
+                                                   "expected a number whose square does not "
+                                                   "overflow",
                                                    e_.real, k + 1, x));
     if (nodes.size() < 2 || nodes[0] < 0 || nodes[1] < 0 || nodes[0] == nodes[1])
       return b_.error(e_, "it has no two different nodes");

@@ -69,7 +69,7 @@ class AnsysSprings {
   void notes() {
     if (dampers_ > 0)
       b_.model.notes.push_back(
-          fmt::format("{}: the damping of {} COMBIN14 is passed over, the part has modal damping "
+          fmt::format("{}: the damping of {} COMBIN14 is ignored, the part has modal damping "
                       "(--damping)",
                       b_.source.files()[0], dampers_));
   }

@@ -125,7 +125,7 @@ constexpr AnsysCommand ansys_commands[] = {
     {"CSYSBLOCK", skip_with_block},
 };
 
-/// Loads, solutions, files, pictures: passed over without a word.
+/// Loads, solutions, files, pictures: ignored without a word.
 constexpr std::array ansys_silent = {
     "/PREP7",     "/NOPR",     "/GOPR",    "/GO",     "/TITLE",     "/SOLU",      "/SOL",
     "/POST1",     "/POST26",   "/BATCH",   "/CONFIG", "/SHOW",      "/OUTPUT",    "/STITLE",

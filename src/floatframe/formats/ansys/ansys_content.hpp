@@ -118,7 +118,7 @@ struct AnsysContent {
 
   // While reading: what the commands before have set.
   int type = 1, material = 1, real = 1, section = 1, system = 0, nodal_system = 0;
-  int branch = 0;  ///< depth of a *IF whose lines are passed over
+  int branch = 0;  ///< depth of a *IF whose lines are ignored
   std::vector<double> temperatures;
   std::string table;  ///< of TB, with its material
   int table_material = 0;

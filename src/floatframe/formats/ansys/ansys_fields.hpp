@@ -15,7 +15,7 @@ namespace floatframe {
 
 class TextSource;
 
-/// One command after the other. Comments (behind `!`), empty lines and `/COM` are passed over; `$`
+/// One command after the other. Comments (behind `!`), empty lines and `/COM` are ignored; `$`
 /// divides commands of one line. Errors of form stop the reading: what follows them cannot be
 /// understood.
 class AnsysFields {

@@ -20,7 +20,7 @@ void note_passed_over(AnsysBuild& build) {
     list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
   if (!list.empty())
     build.model.notes.push_back(
-        fmt::format("{}: passed over, of loads and analyses: {}", build.source.files()[0], list));
+        fmt::format("{}: ignored, of loads and analyses: {}", build.source.files()[0], list));
 }
 
 }  // namespace

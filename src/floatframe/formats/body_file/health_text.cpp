@@ -173,7 +173,7 @@ std::string health_text(const HealthReport& r) {
   std::string text = fmt::format("{} nodes, {} elements, {} degrees of freedom -> {} modes\n",
                                  r.nodes, r.elements, r.dofs, r.modes);
   text += mass_text(r) + rigid_text(r) + interfaces_text(r) + modes_text(r) + free_text(r) +
-          damping_table(r) + stages_text(r) + list_text("Passed over in the file", r.notes, "  - ");
+          damping_table(r) + stages_text(r) + list_text("Ignored in the file", r.notes, "  - ");
   if (r.warnings.empty()) return text + "\nNo warnings.\n";
   return text + list_text(r.warnings.size() == 1
                               ? "WARNING: 1 thing to look at"

@@ -32,8 +32,7 @@ class GmshModel {
     elements();
     sets();
     for (const std::string& section : mesh_.passed_over) {
-      model_.notes.push_back(
-          fmt::format("{}: section ${} is passed over", model_.files[0], section));
+      model_.notes.push_back(fmt::format("{}: section ${} is ignored", model_.files[0], section));
     }
     if (!errors_.empty()) throw InputError(std::move(errors_));
     return std::move(model_);

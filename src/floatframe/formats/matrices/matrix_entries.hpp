@@ -46,7 +46,7 @@ bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& 
                       double& value);
 
 /// Lines "row column value", rows and columns from 1 to n; `map` names the file that says n. Lines
-/// that begin with % or * are passed over. Throws InputError.
+/// that begin with % or * are ignored. Throws InputError.
 SymmetricEntries read_triples(TextSource& source, const std::string& what, int n,
                               const std::string& map);
 

@@ -18,12 +18,12 @@ struct DofLabel {
 };
 
 /// "12.3" of CalculiX, "12,3" (CSV), or "1 12 UZ" with the number of the row (mapping of ANSYS);
-/// `#` comments and a first line of words are passed over.
+/// `#` comments and a first line of words are ignored.
 std::vector<DofLabel> read_dof_labels(TextSource& source);
 /// "12.3", for messages.
 std::vector<std::string> dof_names(const std::vector<DofLabel>& labels);
 
-/// Nodes of a CSV "node,x,y,z" (`#` comments, a first line of words is passed over).
+/// Nodes of a CSV "node,x,y,z" (`#` comments, a first line of words is ignored).
 FeModel read_node_table(TextSource& source);
 /// Nodes, sets and supports of any finite-element file, or of a CSV.
 FeModel read_nodes(const std::filesystem::path& file);

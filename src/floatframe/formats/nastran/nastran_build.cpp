@@ -60,7 +60,7 @@ int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string&
   model.positions.push_back(p);
   model.node_ids.push_back(++largest_id_);
   model.node_sources.push_back(at);
-  model.made_nodes.push_back(model.nodes() - 1);
+  model.generated_nodes.push_back(model.nodes() - 1);
   turned.push_back(0);
   if (!rotates.empty()) rotates.push_back(1);
   return model.nodes() - 1;

@@ -32,7 +32,7 @@ class SpringBuilder {
     }
     if (springs_.damping)
       b_.note(*springs_.damping,
-              "damping of springs and bushings (GE, B) is passed over: the part has modal damping");
+              "damping of springs and bushings (GE, B) is ignored: the part has modal damping");
   }
 
  private:

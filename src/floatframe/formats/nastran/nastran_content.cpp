@@ -98,7 +98,7 @@ class ContentReader {
     }
     if (const auto& at = c_.control.preload)
       c_.notes.push_back(
-          fmt::format("{}:{}: STATSUB is passed over: the part is free of the stress "
+          fmt::format("{}:{}: STATSUB is ignored: the part is free of the stress "
                       "of a preload, the frequencies of Nastran are not",
                       source_.files()[at->file], at->line));
     if (has_control && !cards.ended())
@@ -278,7 +278,7 @@ class ContentReader {
     if (!c_.control.missing_includes.empty()) {
       c_.notes.push_back(
           fmt::format("files that the executive control includes are missing and "
-                      "passed over: {}",
+                      "ignored: {}",
                       fmt::join(c_.control.missing_includes, ", ")));
     }
     std::string list, dampers, nominal, unselected;
@@ -292,19 +292,19 @@ class ContentReader {
     }
     if (!nominal.empty())
       c_.notes.push_back(
-          fmt::format("tables of stiffness and damping over frequency or load are passed over, the "
+          fmt::format("tables of stiffness and damping over frequency or load are ignored, the "
                       "part has the "
                       "constant ones: {}",
                       nominal));
     if (!unselected.empty())
-      c_.notes.push_back(fmt::format(
-          "cards that the case control does not select are passed over: {}", unselected));
+      c_.notes.push_back(
+          fmt::format("cards that the case control does not select are ignored: {}", unselected));
     if (!dampers.empty())
-      c_.notes.push_back(fmt::format(
-          "dampers are passed over, the part has modal damping (--damping): {}", dampers));
+      c_.notes.push_back(
+          fmt::format("dampers are ignored, the part has modal damping (--damping): {}", dampers));
     if (!list.empty()) {
       c_.notes.push_back(
-          fmt::format("cards that change neither stiffness nor mass are passed over: {}", list));
+          fmt::format("cards that change neither stiffness nor mass are ignored: {}", list));
     }
   }
 

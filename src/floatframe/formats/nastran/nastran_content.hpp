@@ -254,7 +254,7 @@ struct NastranContent {
 };
 
 /// Errors are collected in the source. With `only_nodes` all but nodes, coordinate systems and
-/// supports is passed over.
+/// supports is ignored.
 NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes);
 
 /// What a PARAM entry does to the part.

@@ -138,8 +138,8 @@ class NonstructuralBuilder {
     if (missing_ > 0)
       b_.note(first_missing_,
               fmt::format("{} numbers of nonstructural mass (NSM) are no elements or "
-                          "properties of their type in the file: they are passed "
-                          "over, as in Nastran",
+                          "properties of their type in the file: they are "
+                          "ignored, as in Nastran",
                           missing_));
     b_.note(c_.control.nonstructural.front().second,
             fmt::format("the nonstructural mass of set {} (NSM) is added, {:.6g} in all",

@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// (3i9,6e21.13e3) is 'i' 9 three times, then 'e' 21 six times; a scale factor (1P) is passed over.
+/// (3i9,6e21.13e3) is 'i' 9 three times, then 'e' 21 six times; a scale factor (1P) is ignored.
 struct FortranColumns {
   std::vector<std::pair<char, int>> columns;  ///< kind in lower case, width
   std::size_t integers() const noexcept;      ///< columns 'i' at the beginning

@@ -265,10 +265,10 @@ class UnvBuild {
           "have no stiffness and no mass",
           file, skins_));
     if (dampers_ > 0)
-      c_.model.notes.push_back(fmt::format(
-          "{}: {} dampers are passed over: the part has modal damping", file, dampers_));
+      c_.model.notes.push_back(
+          fmt::format("{}: {} dampers are ignored: the part has modal damping", file, dampers_));
     for (const int number : c_.passed_over)
-      c_.model.notes.push_back(fmt::format("{}: dataset {} is passed over", file, number));
+      c_.model.notes.push_back(fmt::format("{}: dataset {} is ignored", file, number));
   }
 
   TextSource& in_;

@@ -11,7 +11,7 @@ namespace floatframe {
 enum class UnvUse {
   mesh,    ///< a solid, or a skin or edge that makes node sets
   rigid,   ///< its nodes move as one rigid body
-  left,    ///< neither stiffness nor mass: passed over
+  left,    ///< neither stiffness nor mass: ignored
   refused  ///< has values in tables of the format that are not read
 };
 

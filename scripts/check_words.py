@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Words that an engineer would have to translate, and what to write instead, in sources, tests, messages and documents.
+
+Usage: check_words.py [root of the project]"""
+import pathlib
+import re
+import sys
+
+WORDS = {
+    r"passed over": "ignored",
+    r"pass(es)? over without a word": "ignores",
+    r"reckon": "compute; does not overflow",
+    r"spoken of": "reported",
+    r"told apart": "distinguished",
+    r"of our own": "Floatframe's",
+    r"stays? open by": "has a gap of",
+    r"handed_over|let_out": "flush",
+    r"made_nodes": "generated_nodes",
+    r"what one sees": "the frame or the quantity",
+    r"\bgapes?\b": "opens; leaves a gap",
+    r"\bdefeats?\b": "prevents",
+}
+FOLDERS = {"src": (".cpp", ".hpp"), "tests": (".cpp", ".hpp", ".py"), "python": (".py", ".cpp"), "scripts": (".py", ".sh"),
+           "bench": (".py", ".cpp", ".hpp"), "docs": (".md",), "viewer/src": (".ts",), "examples": (".md", ".py", ".yaml")}
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    files = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
+    for folder, endings in FOLDERS.items():
+        files += [f for f in sorted((root / folder).rglob("*")) if f.suffix in endings and f.name != "check_words.py"
+                  and "node_modules" not in f.parts]
+    found = 0
+    for file in files:
+        text = file.read_text(encoding="utf-8", errors="replace")
+        for word, better in WORDS.items():
+            for match in re.finditer(word, text, re.IGNORECASE):
+                line = text.count("\n", 0, match.start()) + 1
+                print(f"{file.relative_to(root)}:{line}: '{match[0]}': {better}")
+                found += 1
+    print(f"{found} words of the list in {len(files)} files")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
