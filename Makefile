@@ -3,7 +3,7 @@
 .PHONY: build test test-all test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
-VERSION := $(shell sed -n "s/^project(Floatframe VERSION \([0-9.]*\).*/\1/p" CMakeLists.txt)
+VERSION := $(shell awk '/^project/ {print $$3}' CMakeLists.txt)
 DEMO_MODEL := examples/iltis/iltis.yaml
 DEMO_OUTPUT := out/iltis
 CTEST := ctest --output-on-failure --no-tests=error -j2
