@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Words that an engineer would have to translate, and what to write instead, in sources, tests, messages and documents.
+"""Words that an engineer would have to translate, and what to write instead, in sources, tests, messages and documents; and long
+sentences of documents: more than 35 words between full stops, colons and semicolons, outside tables, blocks and formulas.
 
 Usage: check_words.py [root of the project]"""
 import pathlib
@@ -24,6 +25,40 @@ FOLDERS = {"src": (".cpp", ".hpp"), "tests": (".cpp", ".hpp", ".py"), "python": 
            "bench": (".py", ".cpp", ".hpp"), "docs": (".md",), "viewer/src": (".ts",), "examples": (".md", ".py", ".yaml")}
 
 
+LONGEST = 35
+PROSE_END = re.compile(r"[^.:;!?]*(?:[.:;!?](?!\s)[^.:;!?]*)*(?:[.:;!?](?=\s)|$)")
+
+
+def blank(match):
+    return re.sub(r"[^\n]", " ", match.group())
+
+
+def paragraphs(text):
+    """(first line, text) of each paragraph or item of a list."""
+    for kind in (r"```.*?```", r"\$\$.*?\$\$", r"<!--.*?-->"):
+        text = re.sub(kind, blank, text, flags=re.DOTALL)
+    lines = ["" if line.startswith(("|", "#")) else line for line in text.split("\n")] + [""]
+    first, held = 0, []
+    for k, line in enumerate(lines):
+        if held and (not line.strip() or re.match(r"\s*(-|\d+\.) ", line)):
+            yield first + 1, re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", "\n".join(held))
+            held = []
+        if line.strip():
+            first = first if held else k
+            held.append(line)
+
+
+def long_sentences(text):
+    """(line, number of words, beginning)"""
+    for first, prose in paragraphs(text):
+        for match in PROSE_END.finditer(prose):
+            sentence = match.group()
+            words = [word for word in sentence.split() if re.search(r"\w", word)]
+            if len(words) > LONGEST:
+                before = match.start() + len(sentence) - len(sentence.lstrip())
+                yield first + prose.count("\n", 0, before), len(words), " ".join(words[:8])
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     files = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
@@ -38,7 +73,11 @@ def main():
                 line = text.count("\n", 0, match.start()) + 1
                 print(f"{file.relative_to(root)}:{line}: '{match[0]}': {better}")
                 found += 1
-    print(f"{found} words of the list in {len(files)} files")
+        if file.suffix == ".md":
+            for line, words, begin in long_sentences(text):
+                print(f"{file.relative_to(root)}:{line}: a sentence of {words} words, at most {LONGEST}: '{begin} ...'")
+                found += 1
+    print(f"{found} words of the list or sentences that are too long in {len(files)} files")
     return 1 if found else 0
 
 

@@ -75,7 +75,7 @@ class RunFiles {
   void require_own_files() const;
   void require_no_unfinished_run() const;
   void resume();
-  /// The page of the viewer, or without it the static report.
+  /// The page of the viewer, where the program has it.
   void write_report(Report& report) const;
   void finish_states(const RunSummary& summary, std::vector<std::string>& failed);
 
