@@ -1,4 +1,4 @@
-# Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
+# Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or 13 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
 .PHONY: build test test-all test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 

@@ -9,7 +9,7 @@ import sys
 
 WORDS = {
     r"passed over": "ignored",
-    r"pass(es)? over without a word": "ignores",
+    r"pass(es)? it over": "ignores it",
     r"reckon": "compute; does not overflow",
     r"spoken of": "reported",
     r"told apart": "distinguished",

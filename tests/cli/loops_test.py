@@ -158,6 +158,23 @@ class Loops(unittest.TestCase):
         self.assertIn("degrees of freedom: 1", shown)
         self.assertIn("'p1', 'p2' and 'p3' are made exactly those of one line: by up to 0.000451 m (joint 'p2')", shown)
 
+    def test_gained_energy_of_vibrations_names_the_spectral_radius(self):
+        done, _, _ = self.run_model("bar_on_ball_joint", "--coordinates", "absolute", "--step", "0.001", "--duration", "20")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("take a smaller step than 0.001 s, or a spectral radius of 0.8", done.stderr)
+        done, x, _ = self.run_model("bar_on_ball_joint", "--coordinates", "absolute", "--step", "0.001", "--duration", "20",
+                                    "--set", "spectral_radius=0.8")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("energy balance", done.stderr)
+
+    def test_only_joints_that_slide_along_a_body_have_a_note(self):
+        text = (LOOPS / "slider_on_flexible_beam.yaml").read_text(encoding="utf-8")
+        self.assertIn("axis: x", text)
+        model = pathlib.Path(self.folder.name) / "model.yaml"
+        for axis, noted in (("x", True), ("z", False)):
+            model.write_text(text.replace("axis: x", f"axis: {axis}"), encoding="utf-8")
+            self.assertEqual("straight tangent" in program("check", model).stdout, noted, axis)
+
     def test_a_bar_that_comes_to_spin_without_inertia(self):
         """Absolute coordinates pass the position; joint coordinates name the bodies."""
         done, x, _ = self.run_model("near_spin", "--coordinates", "absolute")

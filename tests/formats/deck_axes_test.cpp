@@ -93,7 +93,7 @@ TEST(DeckAxes, PointAndTurnThatCalculixPassesOver) {
   const std::string blank =
       "the additional rotation of 30 degrees, whose axis is blank (1 in Abaqus), is ";
   const std::string ours =
-      "taken as in Abaqus; " + which + "CalculiX, which passes it over, give --dialect calculix";
+      "taken as in Abaqus; " + which + "CalculiX, which ignores it, give --dialect calculix";
   const std::string theirs = "ignored, as CalculiX does; " + which + "Abaqus give --dialect abaqus";
   expect(deck(c, DeckDialect::abaqus), moved, "");
   expect(deck(c, DeckDialect::by_content), moved, point + ours);
@@ -126,7 +126,7 @@ TEST(DeckAxes, BlankAxisOfShells) {
       "in Abaqus), is ";
   EXPECT_EQ(notes(", 0.\n", DeckDialect::by_content),
             blank +
-                "taken as in Abaqus; if the deck is one of CalculiX, which passes it over, give "
+                "taken as in Abaqus; if the deck is one of CalculiX, which ignores it, give "
                 "--dialect calculix\n");
   EXPECT_EQ(notes(", 0.\n", DeckDialect::calculix),
             blank +

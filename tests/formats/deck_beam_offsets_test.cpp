@@ -207,7 +207,7 @@ TEST(DeckBeamOffsets, OneOffsetForOneSection) {
             "stick.inp:20: *BEAM SECTION OFFSET has a second line, which is not supported");
 }
 
-// The line is one of Abaqus: it shows whose deck it is, and CalculiX would pass it over.
+// The line is one of Abaqus: it shows whose deck it is, and CalculiX would ignore it.
 TEST(DeckBeamOffsets, TheLineIsOneOfAbaqus) {
   const std::string line = "*BEAM SECTION OFFSET\n.02, -.03\n";
   const std::string text = sticks("B32", stick_section("SET1", "", "CIRC", ".03") + line, false);

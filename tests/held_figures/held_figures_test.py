@@ -134,6 +134,16 @@ def six_legs(outputs):
     return text[:text.index("outputs:")] + "outputs:\n" + outputs + text[text.index("simulation:"):]
 
 
+def chain(links, outputs):
+    """No loops: reactions are those of the tree."""
+    bodies = "".join(f"  b{k}: {{rigid: {{mass: 1, centre_of_mass: [{k + 0.5}, 0, 0], inertia: [.01, .1, .1]}}}}\n"
+                     for k in range(links))
+    joints = "".join(f"  j{k}: {{type: revolute, parent: {f'b{k - 1}' if k else 'ground'}, child: b{k}, at: [{k}, 0, 0], axis: y}}\n"
+                     for k in range(links))
+    return ("floatframe: 1\nbodies:\n" + bodies + "joints:\n" + joints + "outputs:\n" + outputs +
+            "simulation: {step: 0.001, duration: 1}\n")
+
+
 def cost_of_reactions(program, with_outputs, kinds):
     """Of the steps of a redundant mechanism with a reaction in every row, by those without: a run less a shorter one."""
     steps = {}
@@ -171,6 +181,8 @@ def instruction_figures(program):
         program, lambda outputs: row_of_parallelograms(18, outputs), ("  c0: {position: c0}\n", "  a0: {joint_force: a0}\n"))
     figures["steps with reactions of six legs, of those without"] = cost_of_reactions(
         program, six_legs, ("  c: {position: crank}\n", "  c: {joint_force: crank}\n"))
+    figures["steps with reactions of a chain of 36, of those without"] = cost_of_reactions(
+        program, lambda outputs: chain(36, outputs), ("  c: {position: b0}\n", "  c: {joint_force: j0}\n"))
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")

@@ -5,7 +5,7 @@
 
 namespace floatframe {
 
-Ticks nice_ticks(double low, double high, int about, bool cover) {
+Ticks nice_ticks(double low, double high, int about) {
   const double rough = (high - low) / std::max(about, 1);
   if (!(rough > 0.0) || !std::isfinite(rough)) return {low, 1.0, 1};
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
@@ -16,10 +16,8 @@ Ticks nice_ticks(double low, double high, int about, bool cover) {
       break;
     }
   }
-  // A value just beyond a tick counts as on it: 40.0001 m must not stretch the axis to 50 m.
-  const double slack = cover ? 0.01 : 1e-9;
-  const double from = cover ? std::floor(low / step + slack) : std::ceil(low / step - slack);
-  const double to = cover ? std::ceil(high / step - slack) : std::floor(high / step + slack);
+  constexpr double slack = 1e-9;
+  const double from = std::ceil(low / step - slack), to = std::floor(high / step + slack);
   return {from * step, step, static_cast<int>(to - from) + 1};
 }
 

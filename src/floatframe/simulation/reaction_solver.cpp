@@ -83,10 +83,13 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   else
     lambda_.setZero();
   f_.residual(a_, lambda_, 0.0, residual_);  // multipliers of the tangent
-  if (factorize() < 0) iterate(!has_W_);
+  const bool factorised = factorize() < 0;
+  // Without multipliers there is nothing but the forces to refine.
+  const bool shortened = factorised && has_W_ && f_.constraints() > 0;
+  if (factorised) iterate(!shortened);
   find_force_error();
   // Round-off of W^-1.
-  if (has_W_ && force_error_ > enough * largest_entry(lambda_)) {
+  if (shortened && force_error_ > enough * largest_entry(lambda_)) {
     iterate(true);
     find_force_error();
   }

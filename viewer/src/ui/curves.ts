@@ -202,7 +202,7 @@ export class Curves {
       const sentences = [`${file.name}: ${both.length} of ${plural(here.size, 'channel')} ${both.length === 1 ? 'is' : 'are'} laid over, dashed.`];
       if (onlyHere.length > 0) sentences.push(`The file has no ${listed(onlyHere)}.`);
       if (onlyThere.length > 0) sentences.push(`This page has no ${listed(onlyThere)}.`);
-      if (table.skipped > 0) sentences.push(`${plural(table.skipped, 'line')} of the file ${table.skipped === 1 ? 'is' : 'are'} no row of numbers and ignored.`);
+      if (table.skipped > 0) sentences.push(`${plural(table.skipped, 'line')} of the file ${table.skipped === 1 ? 'holds' : 'hold'} no numbers and ${table.skipped === 1 ? 'is' : 'are'} ignored.`);
       if (left.length > 0) sentences.push(`Left out: ${listed(left)}.`);
       const still = this.channels.filter((c) => c.still && table.columns.has(c.name)).length;
       if (still > 0) sentences.push(`${plural(still, 'channel')} without a curve ${still === 1 ? 'stays' : 'stay'} as text.`);

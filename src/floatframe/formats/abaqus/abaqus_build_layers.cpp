@@ -49,12 +49,12 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
   return true;
 }
 
-/// In the program of the deck. CalculiX passes the Z of a system over, a point c, and a turn whose
+/// In the program of the deck. CalculiX ignores the Z of a system, a point c, and a turn whose
 /// axis is blank.
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                                      const std::string& name, bool shell) {
-  const char* const passes = "passes it over";
-  const char* const passed = "ignored";
+  const char* const ignores = "ignores it";
+  const char* const ignored = "ignored";
   if (o.kind == Kind::z_rectangular &&
       is_of_calculix(build, o, name,
                      {"SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR", "taken as RECTANGULAR"}))
@@ -62,7 +62,7 @@ AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
   if (o.kind != Kind::cylindrical && o.c != Vec3::Zero() &&
       is_of_calculix(build, o, name,
                      {fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
-                      passes, passed}))
+                      ignores, ignored}))
     o.c.setZero();
   // Of shells the axis alone says which one is about the normal.
   if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
@@ -70,7 +70,7 @@ AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                      {fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 "
                                   "in Abaqus),",
                                   o.angle * 180.0 / std::numbers::pi),
-                      passes, passed}))
+                      ignores, ignored}))
     o.axis = 0;
   if (o.points_on_a_line())
     build.source.error(o.at, fmt::format("orientation {} {}", shown(name), o.wrong_points()));
