@@ -16,7 +16,7 @@ def command(*words):
 def header(path):
     """The JSON at the beginning of a result file."""
     text = path.read_bytes()
-    start = text.index(b"{")
+    start = text.index(b'{\n "format"')  # lengths and checksums before it may hold any byte
     return json.JSONDecoder().raw_decode(text[start:].decode("latin-1"))[0]
 
 
