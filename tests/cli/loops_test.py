@@ -176,15 +176,15 @@ class Loops(unittest.TestCase):
             self.assertEqual("straight tangent" in program("check", model).stdout, noted, axis)
 
     def test_a_bar_that_comes_to_spin_without_inertia(self):
-        """Absolute coordinates pass the position; joint coordinates name the bodies."""
-        done, x, _ = self.run_model("near_spin", "--coordinates", "absolute")
+        """The angles of its universal joint lose their mass on the way."""
+        done, fine, _ = self.run_model("near_spin", "--coordinates", "absolute", "--step", "0.00002")
         self.assertEqual(done.returncode, 0, done.stderr)
-        _, fine, _ = self.run_model("near_spin", "--coordinates", "absolute", "--step", "0.00002")
-        for axis in "xyz":
-            self.assertAlmostEqual(x[f"b3.{axis}"][-1], fine[f"b3.{axis}"][-1], delta=0.02)
-        done, _, _ = self.run_model("near_spin", "--coordinates", "relative")
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("bodies 'b1' and 'b3' can move there almost without mass", done.stderr)
+        for coordinates in ("absolute", "relative"):
+            done, x, _ = self.run_model("near_spin", "--coordinates", coordinates)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("energy balance", done.stderr)
+            for axis in "xyz":
+                self.assertAlmostEqual(x[f"b3.{axis}"][-1], fine[f"b3.{axis}"][-1], delta=0.02)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,13 @@
 // Joints of the description, and the free joints that bodies without one hang from.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
 
 namespace floatframe {
@@ -16,6 +21,40 @@ Mat3 frame_with_z(const Vec3& axis) {
   Mat3 R;
   R << x, y, z;
   return R;
+}
+
+/// The direction of a line through p_WP about which a body has no inertia, in world axes: a bar
+/// without section inertia. Zero if there is none.
+Vec3 line_of_mass(const Body& body, const Vec3& p_WP) {
+  constexpr double no_inertia = 1e-6;  // a radius of gyration of a thousandth of the length
+  const InertiaInvariants& I = body.data->invariants;
+  const Vec3 p_BP = body.X_WB.R.transpose() * (p_WP - body.X_WB.p);
+  const Mat3 moved = p_BP * I.m_u.transpose();
+  const SymmetricEigen eig =
+      symmetric_eigen(I.P_u - moved - moved.transpose() + I.m * p_BP * p_BP.transpose());
+  const VecX& P = eig.values;
+  if (P[0] + P[1] > no_inertia * P[2]) return Vec3::Zero();
+  return body.X_WB.R * eig.vectors.col(2);
+}
+
+/// A universal joint that alone holds a body without inertia about a line through it. Where the
+/// line comes into the plane of the two axes, the mass matrix of the joint's angles is singular and
+/// their rates grow beyond bounds; position and rotation of the body know no such place.
+bool turns_without_inertia(const Model& model, const Joint& joint, const Vec3& p_WP) {
+  constexpr double near_plane = 0.5;  // within 30 degrees
+  const bool universal =
+      joint_kind(joint.type).axes == JointAxes::two && joint_velocities(joint.type) == 2;
+  if (!universal || joint.motion) return false;
+  const Marker& F = model.markers[joint.frame_F];
+  const Mat3 R_WF = F.body < 0 ? F.X_NM.R : model.bodies[F.body].X_WB.R * F.X_NM.R;
+  const Vec3 normal = R_WF.col(2).cross(R_WF * joint.axis_2).normalized();
+  return std::ranges::any_of(std::array{joint.parent, joint.child}, [&](int body) {
+    if (body < 0) return false;
+    const auto holds = [body](const Joint& j) { return j.parent == body || j.child == body; };
+    if (std::ranges::count_if(model.joints, holds) > 1) return false;
+    const Vec3 line = line_of_mass(model.bodies[body], p_WP);
+    return line != Vec3::Zero() && std::abs(line.dot(normal)) < near_plane;
+  });
 }
 
 }  // namespace
@@ -50,6 +89,8 @@ void ModelBuilder::joints() {
 }
 
 void ModelBuilder::free_joints() {
+  for (Joint& j : model.joints)
+    j.cut = j.cut || turns_without_inertia(model, j, design_point(j.frame_M));
   std::vector<char> reached(model.bodies.size(), 0);
   std::vector<std::vector<int>> neighbours(model.bodies.size());
   std::vector<int> next;

@@ -1,8 +1,8 @@
 #pragma once
 // Spanning tree of the bodies and the joints that must be cut, found from the model: Prim's
 // algorithm from the ground, at each step the joint that removes most freedom (fewest relative
-// coordinates in the tree), then the one that gives the shortest chain, then file order. Joints the
-// user names as cut never enter the tree.
+// coordinates in the tree), then the one that gives the shortest chain, then file order. Joints
+// that are named as cut, by the user or for inertia (build_joints.cpp), never enter the tree.
 #include <vector>
 
 #include "floatframe/model/model.hpp"
