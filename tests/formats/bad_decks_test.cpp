@@ -213,7 +213,8 @@ INSTANTIATE_TEST_SUITE_P(Matrices, BadCalculix, testing::ValuesIn(calculix), nam
 
 const Case maps[] = {
     {"direction", "1.1\n1.7\n2.1\n",
-     "bad.dof:2: '1.7' is no degree of freedom, expected node and direction 1 to 6"},
+     "bad.dof:2: '1.7' is no degree of freedom, expected node and direction 1 to 6, or 0 of a "
+     "scalar point"},
     {"node_not_there", "1.1\n1.2\n5.1\n", "bad.dof:3: node 5 is not among the nodes of nodes.csv"},
     {"dof_twice", "1.1\n1.2\n1.1\n",
      "bad.dof:3: degree of freedom 1.1 is there already (line 1); matrices in which beams and "

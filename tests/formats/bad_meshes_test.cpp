@@ -80,7 +80,8 @@ TEST(BadMeshes, MatrixMarketWithTables) {
       {good, banner + "3 3 2\n1 1 2.\n", map, table, "M.mtx:2: the mass has 1 entries, expected 2"},
       {good, good, "\n", table, "dofs.txt: there are no degrees of freedom in the file"},
       {good, good, "1 1\n1 2\n1 7\n", table,
-       "dofs.txt:3: '1 7' is no degree of freedom, expected node and direction 1 to 6"},
+       "dofs.txt:3: '1 7' is no degree of freedom, expected node and direction 1 to 6, or 0 of a "
+       "scalar point"},
       {good, good, "1 1\n1 2\n2 3\n", table,
        "dofs.txt:3: node 2 is not among the nodes of nodes.csv"},
       {good, good, "1 1\n1 2\n1 1\n", table,

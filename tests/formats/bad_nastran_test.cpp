@@ -233,16 +233,16 @@ TEST(BadNastran, Matrices) {
   ASSERT_EQ(punch_error(good_punch), "no error");
   const Error errors[] = {
       {"KAAX           0       6", "KAAX           0       9",
-       "arm.pch:1: DMIG: IFO is 9, expected 1 (square) or 6 (symmetric)"},
+       "arm.pch:1: KAAX: IFO is 9, expected 1 (square) or 6 (symmetric)"},
       {"MAAX           0       6       2", "MAAX           0       6       4",
-       "arm.pch:7: DMIG: TIN is 4, expected 1 or 2 (real)"},
+       "arm.pch:7: MAAX: TIN is 4, expected 1 or 2 (real)"},
       {"2 3.000000000D+06", "2 3.0000000z0D+06",
        "arm.pch:6: DMIG: an entry: '3.0000000z0D+06' is not a number"},
-      {"DMIG*   KAAX                           1               2",
-       "DMIG*   KAAX                        1001               0",
-       "arm.pch:4: row 1001 of matrix KAAX is a scalar point, as reduced models have for their "
-       "modes; write matrices without modal degrees of freedom (no QSET and SPOINT): the reduction "
-       "is made here"},
+      {"*                      1               2 3.000000000D+06\n",
+       "*                      1               2 3.000000000D+06\n"
+       "DMIG*   KAAX                           1               0\n"
+       "*                      1               0 1.000000000D+00\n",
+       "arm.pch: node 1 has a row without a component, expected 1 to 6"},
       {"*                      1               2 3.000000000D+06\n", "",
        "arm.pch:10: the stiffness ends without a diagonal entry for 1.2 and 0 more: the file is "
        "truncated or "

@@ -55,6 +55,14 @@ TEST(NastranMembranes, StretchedStrip) {
   EXPECT_NEAR(coupled.M.coeff(0, 0), .25 / 9 * sheet_density * sheet_thickness, 1e-14);
 }
 
+// As a pre-processor punches blank materials.
+TEST(NastranMembranes, MaterialZeroIsBlank) {
+  const FeModel m = membrane_deck(membrane_strip("PSHELL,1,1,.002,0,,0,,,\n,,,0\n"));
+  EXPECT_EQ(m.elements[0].type, ElementType::membrane4s);
+  const FeModel plate = membrane_deck(membrane_strip("PSHELL,1,1,.002,1,,1,,,\n,,,0\n"));
+  EXPECT_EQ(element_kernel(plate.elements[0].type).dofs_per_node, 6);
+}
+
 // Equal plies at 0 and 90 degrees: the same as a sheet of their mean stiffness.
 TEST(NastranMembranes, Plies) {
   const FeModel m = membrane_deck(membrane_strip("PCOMP,1,,,,,,,MEM\n,1,.001,0.,,1,.001,90.\n"));

@@ -116,18 +116,26 @@ TEST(NastranPassing, WhatIsNotSelected) {
   EXPECT_EQ(passing_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
   EXPECT_EQ(passing_error(tetra + cards),
             "arm.bdf:9: DMIG is not read and may change stiffness or mass\n"
-            "arm.bdf:8: NSM1 is not read: only a case control selects it (CEND, NSM = n, BEGIN "
-            "BULK), and the file has none");
-  EXPECT_EQ(passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
-            "arm.bdf:11: NSM1 3: the type is 'PSOLID', expected PSHELL, PCOMP, PBAR, PBARL, PBEAM, "
-            "PBEAML, PROD, CONROD, PTUBE, PSHEAR or ELEMENT; others are not read");
+            "arm.bdf:8: NSM1 is not read: put the mass into NSM of the properties or into CONM2");
+  EXPECT_EQ(
+      passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
+      "arm.bdf:2: the case control has NSM = 3, which adds stiffness or mass and is not read");
+}
+
+// Each would stand for cards that are not written out; an equation may hold the sign.
+TEST(NastranPassing, FieldsThatRepeatTheCardBefore) {
+  const std::string repeats =
+      "a field is '=', which repeats one of the card before and is not "
+      "read: write the cards out, as Nastran does with ECHO = PUNCH";
+  for (const char* card : {"GRID,5,=,*(1.),==", "GRID,5,,==", "=,*(1),==", "=3"})
+    EXPECT_EQ(passing_error(tetra + card + "\n"), "arm.bdf:8: " + repeats) << card;
+  EXPECT_EQ(passing_error(tetra + "DEQATN,1,F(A),=,A\n"), "no error");
 }
 
 // A line BEGIN BULK alone is no case control that could select something.
 TEST(NastranPassing, BeginBulkIsNoCaseControl) {
   EXPECT_EQ(passing_error("BEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\n"),
-            "arm.bdf:9: NSM1 is not read: only a case control selects it (CEND, NSM = n, BEGIN "
-            "BULK), and the file has none");
+            "arm.bdf:9: NSM1 is not read: put the mass into NSM of the properties or into CONM2");
   EXPECT_EQ(passing_deck("BEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.size(), 1u);
   EXPECT_TRUE(
       passing_deck("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());

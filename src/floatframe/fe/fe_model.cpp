@@ -37,6 +37,14 @@ BeamSection BeamSection::rectangle(double width, double height) {
   return s;
 }
 
+bool FeMatrices::is_scalar(int node) const {
+  return std::binary_search(scalars.begin(), scalars.end(), node);
+}
+
+int FeModel::places() const noexcept {
+  return nodes() - (matrices ? static_cast<int>(matrices->scalars.size()) : 0);
+}
+
 bool FeModel::has_beams() const noexcept {
   return std::any_of(elements.begin(), elements.end(),
                      [](const Element& e) { return element_kernel(e.type).dofs_per_node == 6; });

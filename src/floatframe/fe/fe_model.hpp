@@ -216,6 +216,10 @@ struct FeMatrices {
   SparseMatrix K, M;      ///< symmetric, both halves stored
   std::vector<Dof> dofs;  ///< of each row
   SparseMatrix C = {};    ///< viscous damping; 0 x 0: none given
+  /// Nodes, ascending, that are no points: their row rx is the amplitude of a mode, at rest in a
+  /// rigid motion.
+  std::vector<int> scalars = {};
+  bool is_scalar(int node) const;
 };
 
 struct FeModel {
@@ -247,11 +251,13 @@ struct FeModel {
   std::vector<LinearEquation> equations;
   std::vector<Support> supports;
   std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
+  std::map<int, Mat3> axes_of_rows;    ///< of nodes whose rows in matrices have others: u = R u_row
   std::string units;                   ///< that its numbers were in, by `to_si`; empty: not known
   std::vector<std::string> files;      ///< paths as the user would write them
   std::vector<std::string> notes;      ///< one sentence each, with file:line: what was ignored
 
   int nodes() const noexcept { return static_cast<int>(positions.size()); }
+  int places() const noexcept;  ///< nodes that are points
   bool has_beams() const noexcept;
   int dofs_per_node() const noexcept { return has_beams() ? 6 : 3; }
   /// Index of a named node, -1 if there is none.

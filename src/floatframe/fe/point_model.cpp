@@ -342,7 +342,14 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
   PointBuilder builder(model, system, out);
   {
     const DofTable table = dof_table(model);
-    builder.add_nodes(mass_without_stations(model, table, integration), table);
+    SparseMatrix M = mass_without_stations(model, table, integration);
+    if (model.matrices && !model.matrices->scalars.empty()) {
+      std::vector<char> point(M.rows(), 1);
+      for (const int node : model.matrices->scalars)
+        std::fill_n(point.begin() + table.begin[node], table.count(node), 0);
+      M.prune([&](Eigen::Index i, Eigen::Index j, double) { return point[i] && point[j]; });
+    }
+    builder.add_nodes(M, table);
   }
   builder.add_stations(integration);
   builder.finish();

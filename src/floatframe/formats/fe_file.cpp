@@ -12,8 +12,10 @@
 #include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/equation_checks.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
+#include "floatframe/formats/matrices/op4_file.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
+#include "floatframe/formats/matrices/read_op4.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
@@ -37,6 +39,7 @@ const std::vector<FeFormat>& formats() {
        read_nastran},
       {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv, true},
       {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
+      {"op4", "Nastran matrices (OUTPUT4, .op4)", {".op4"}, looks_like_op4, read_op4},
       {"calculix_matrices",
        "CalculiX matrices (.sti, .mas, .dof)",
        {".sti", ".mas"},

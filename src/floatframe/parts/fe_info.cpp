@@ -193,7 +193,7 @@ std::vector<std::string> likely_units(const FeModel& model) {
 
 FeFacts fe_facts(const PartJob& job, const FeModel& model) {
   FeFacts out;
-  out.nodes = model.nodes();
+  out.nodes = model.places();
   std::map<std::string, int> types;
   for (const Element& e : model.elements) ++types[element_type_name(e.type)];
   out.elements.assign(types.begin(), types.end());

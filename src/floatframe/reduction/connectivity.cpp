@@ -54,6 +54,7 @@ Pieces pieces_of(const FeModel& model) {
     for (const LinearEquation::Term& t : e.terms) pieces.tie(e.terms.front().node, t.node);
   if (model.matrices) {
     const FeMatrices& m = *model.matrices;
+    for (const int scalar : m.scalars) pieces.tie(m.dofs.front().node, scalar);
     for (int j = 0; j < m.K.outerSize(); ++j) {
       const int node = m.dofs[j].node;
       pieces.use(node);

@@ -15,7 +15,10 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
   MatX R(system.size(), 6);
   for (int row = 0; row < system.size(); ++row) {
     const Dof& dof = system.dofs[row];
-    R.row(row) = rigid_motion_at(model.positions[dof.node] - origin).row(dof.axis);
+    if (model.matrices && model.matrices->is_scalar(dof.node))
+      R.row(row).setZero();
+    else
+      R.row(row) = rigid_motion_at(model.positions[dof.node] - origin).row(dof.axis);
   }
   return R;
 }
@@ -42,6 +45,7 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
   MatX U = MatX::Zero(system.size(), 18);
   for (int row = 0; row < system.size(); ++row) {
     const Dof& dof = system.dofs[row];
+    if (model.matrices && model.matrices->is_scalar(dof.node)) continue;
     const Vec3 r = (model.positions[dof.node] - centre) / size;
     int column = 0;
     for (int a = 0; a < 3; ++a) {

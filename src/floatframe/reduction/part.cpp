@@ -246,7 +246,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   Stages stages(options, health);
   check_options(options);
   validate(model);
-  health.nodes = model.nodes();
+  health.nodes = model.places();
   health.elements = static_cast<int>(model.elements.size());
   std::vector<MarkerPlace> markers = place_markers(model, options);
   std::vector<InterfacePlace> interfaces = place_interfaces(model, options, markers);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 
 #include "floatframe/fe/element_faces.hpp"
@@ -95,6 +96,8 @@ void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof
     for (int& node : nodes) node = place(node);
     it = nodes.empty() ? model.node_sets.erase(it) : std::next(it);
   }
+  std::erase_if(model.generated_nodes, [&](int node) { return place(node) < 0; });
+  for (int& node : model.generated_nodes) node = place(node);
   std::erase_if(model.supports, [&](const Support& s) { return place(s.node) < 0; });
   for (Support& s : model.supports) s.node = place(s.node);
   for (Dof& d : dofs) d.node = place(d.node);
@@ -129,6 +132,59 @@ void remove_spiders(FeModel& model, std::vector<Dof>& dofs) {
   remove_nodes(model, gone, dofs);
 }
 
+/// A node for each scalar point, at a place that means nothing; returns their numbers.
+std::vector<int> add_scalars(FeModel& model, const std::vector<DofLabel>& labels,
+                             TextSource& source) {
+  std::vector<int> numbers;
+  for (const DofLabel& label : labels) {
+    if (label.direction != 0) continue;
+    if (std::find(model.node_ids.begin(), model.node_ids.end(), label.node) != model.node_ids.end())
+      source.stop(label.at, fmt::format("node {} has a row without a component, expected 1 to 6",
+                                        label.node));
+    numbers.push_back(label.node);
+  }
+  const Vec3 place = model.positions.empty() ? Vec3::Zero().eval() : model.positions.front();
+  for (const int number : numbers) {
+    model.generated_nodes.push_back(model.nodes());
+    model.positions.push_back(place);
+    model.node_ids.push_back(number);
+    if (!model.node_sources.empty()) model.node_sources.emplace_back();
+    if (!model.node_names.empty()) model.node_names.emplace_back();
+  }
+  return numbers;
+}
+
+/// A matrix of rows of which some have axes of their own, u = T u_row, in the model's: T A T^T.
+SparseMatrix in_model_axes(SparseMatrix A, const FeModel& model, const TextSource& source) {
+  if (model.axes_of_rows.empty()) return A;
+  const std::vector<Dof>& dofs = model.matrices->dofs;
+  std::map<std::pair<int, int>, int> row_of;
+  for (int i = 0; i < std::ssize(dofs); ++i) row_of[{dofs[i].node, dofs[i].axis}] = i;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < std::ssize(dofs); ++i) {
+    const auto turned = model.axes_of_rows.find(dofs[i].node);
+    if (turned == model.axes_of_rows.end()) {
+      entries.emplace_back(i, i, 1.0);
+      continue;
+    }
+    const int first = dofs[i].axis - dofs[i].axis % 3;
+    for (int k = 0; k < 3; ++k) {
+      const auto other = row_of.find({dofs[i].node, first + k});
+      if (other == row_of.end())
+        throw InputError(
+            {source.files().front()},
+            fmt::format("{} has displacements in a system of its own (CD), and only "
+                        "some of its {} in the matrices: give all three",
+                        model.node_label(dofs[i].node), first == 0 ? "translations" : "rotations"));
+      entries.emplace_back(other->second, i, turned->second(k, dofs[i].axis % 3));
+    }
+  }
+  SparseMatrix T(A.rows(), A.rows());
+  T.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix back = T.transpose();
+  return T * SparseMatrix(A * back);
+}
+
 }  // namespace
 
 std::vector<DofLabel> read_dof_labels(TextSource& source) {
@@ -154,10 +210,12 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
     // A line of commas alone has no field.
     const std::optional<int> node = fields.empty() ? std::optional<int>{} : parse_label(fields[0]);
     const std::optional<int> direction =
-        fields.size() > 1 ? parse_label(fields[1]) : std::optional<int>{};
-    if (!node || !direction || fields.size() != 2 || *direction > 6) {
-      source.error(fmt::format("{} is no degree of freedom, expected node and direction 1 to 6",
-                               shown(line)));
+        fields.size() > 1 ? parse_integer(fields[1]) : std::optional<int>{};
+    if (!node || !direction || fields.size() != 2 || *direction < 0 || *direction > 6) {
+      source.error(
+          fmt::format("{} is no degree of freedom, expected node and direction 1 to 6, or "
+                      "0 of a scalar point",
+                      shown(line)));
       return;
     }
     labels.push_back({*node, *direction, source.here()});
@@ -240,6 +298,7 @@ FeModel read_nodes(const std::filesystem::path& file) {
 FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseMatrix K,
                      SparseMatrix M, TextSource& labels_source,
                      const std::vector<std::string>& other_files) {
+  const std::vector<int> scalars = add_scalars(model, labels, labels_source);
   std::unordered_map<int, int> index_of_id;
   for (std::size_t k = 0; k < model.node_ids.size(); ++k) {
     index_of_id.emplace(model.node_ids[k], static_cast<int>(k));
@@ -258,7 +317,7 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
                                       model.files.empty() ? "the model" : model.files.front()));
       continue;
     }
-    Dof dof{node->second, label.direction - 1};
+    Dof dof{node->second, label.direction == 0 ? 3 : label.direction - 1};
     const auto reference = reference_of_rotation.find(node->second);
     if (reference != reference_of_rotation.end() && dof.axis < 3) {
       dof = {reference->second, dof.axis + 3};
@@ -276,9 +335,12 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
   labels_source.throw_if_any();
   if (K.nonZeros() == 0) labels_source.stop({0, 0}, "the stiffness is zero");
   remove_spiders(model, matrices.dofs);
-  matrices.K = std::move(K);
-  matrices.M = std::move(M);
+  matrices.scalars.resize(scalars.size());  // the last nodes
+  std::iota(matrices.scalars.rbegin(), matrices.scalars.rend(), 0);
+  for (int& scalar : matrices.scalars) scalar = model.nodes() - 1 - scalar;
   model.matrices = std::move(matrices);
+  model.matrices->K = in_model_axes(std::move(K), model, labels_source);
+  model.matrices->M = in_model_axes(std::move(M), model, labels_source);
   // Those of the nodes come first, to which the places of nodes point.
   model.files.insert(model.files.end(), labels_source.files().begin(), labels_source.files().end());
   model.files.insert(model.files.end(), other_files.begin(), other_files.end());
@@ -311,7 +373,7 @@ std::filesystem::path damping_matrix_of(const std::filesystem::path& stiffness,
 }
 
 void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source) {
-  model.matrices->C = std::move(C);
+  model.matrices->C = in_model_axes(std::move(C), model, source);
   const std::string& file = source.files().front();
   if (std::find(model.files.begin(), model.files.end(), file) == model.files.end())
     model.files.push_back(file);

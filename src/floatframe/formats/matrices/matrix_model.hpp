@@ -11,7 +11,8 @@
 
 namespace floatframe {
 
-/// One row of the matrices as the file says it: node number, direction 1..6.
+/// One row of the matrices as the file says it: node number, direction 1..6; 0: a scalar point, the
+/// amplitude of a mode.
 struct DofLabel {
   int node = 0, direction = 0;
   FeSource at;

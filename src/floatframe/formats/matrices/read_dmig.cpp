@@ -17,7 +17,7 @@
 namespace floatframe {
 namespace {
 
-using Row = std::pair<int, int>;  // node, component from 1
+using Row = std::pair<int, int>;  // node, component from 1; scalar point, 0
 
 struct DmigEntry {
   Row row, column;
@@ -29,7 +29,7 @@ struct DmigEntry {
 class DmigFile {
  public:
   explicit DmigFile(TextSource& source) : source_(source) {
-    NastranCards cards(source, false);
+    NastranCards cards(source, false, NastranBegin::any);
     NastranCard card;
     while (cards.next(card)) {
       if (card.name != "DMIG") continue;
@@ -44,22 +44,27 @@ class DmigFile {
     source.throw_if_any();
   }
 
-  /// The entries of the only matrix whose name begins with a letter; an error if there are none or
-  /// several.
+  /// The entries of the matrix KAAX (MAAX, BAAX), else of the only one whose name begins with this
+  /// letter; an error if there are none or several.
   const std::vector<DmigEntry>& matrix(char letter, const char* what, const char* advice) {
+    const auto of_letter = [&](const auto& m) { return m.first[0] == letter; };
     std::vector<std::string> found;
-    for (const auto& [name, entries] : matrices_) {
+    for (const auto& [name, entries] : matrices_)
       if (name[0] == letter) found.push_back(name);
-    }
+    if (matrices_.contains(letter + std::string("AAX"))) found = {letter + std::string("AAX")};
+    const auto other = std::find_if(unfit_.begin(), unfit_.end(), of_letter);
+    if (found.empty() && other != unfit_.end())
+      source_.stop(other->second.first, other->second.second);
     if (found.size() != 1) {
-      std::string all;
-      for (const std::string& name : names_) all += (all.empty() ? "" : ", ") + name;
-      source_.stop({0, 0}, fmt::format("the file has {} {} matrix (its matrices: {}); expected one "
-                                       "whose name begins with {}{}",
-                                       found.empty() ? "no" : "more than one", what,
-                                       all.empty() ? "none" : all, letter, advice));
+      source_.stop({0, 0},
+                   fmt::format("the file has {} {} matrix (its matrices: {}); expected one "
+                               "whose name begins with {}{}",
+                               found.empty() ? "no" : "more than one", what,
+                               names_.empty() ? "none" : fmt::format("{}", fmt::join(names_, ", ")),
+                               letter, advice));
     }
     name_ = found[0];
+    used_.insert(name_);
     return matrices_[name_];
   }
   /// Has it a matrix whose name begins with a letter?
@@ -68,12 +73,11 @@ class DmigFile {
                        [&](const auto& m) { return m.first[0] == letter; });
   }
   const std::string& name() const { return name_; }
-  /// Matrices that are not used.
+  /// Matrices that `matrix` has not given.
   std::string others() const {
     std::string text;
-    for (const std::string& name : names_) {
-      if (!wanted(name)) text += (text.empty() ? "" : ", ") + name;
-    }
+    for (const std::string& name : names_)
+      if (!used_.contains(name)) text += (text.empty() ? "" : ", ") + name;
     return text;
   }
 
@@ -86,20 +90,19 @@ class DmigFile {
 
   void header(const std::string& name, NastranFields& f) {
     const int form = f.integer(2, "the form IFO", 0), type = f.integer(3, "the type TIN", 0);
-    if (!names_.insert(name).second) {
-      f.error("the matrix has a second header");
-    }
+    if (!names_.insert(name).second) f.error("the matrix has a second header");
     if (!wanted(name)) return;
-    matrices_[name];
-    if (form != 1 && form != 6) {
-      f.error(fmt::format("IFO is {}, expected 1 (square) or 6 (symmetric)", form));
-    }
-    if (type != 1 && type != 2) {
-      f.error(fmt::format("TIN is {}, expected 1 or 2 (real)", type));
-    }
+    if (form != 1 && form != 6)
+      unfit_[name] = {
+          f.at(), fmt::format("{}: IFO is {}, expected 1 (square) or 6 (symmetric)", name, form)};
+    else if (type != 1 && type != 2)
+      unfit_[name] = {f.at(), fmt::format("{}: TIN is {}, expected 1 or 2 (real)", name, type)};
+    else
+      matrices_[name];
   }
 
   void column(const std::string& name, NastranFields& f, const NastranCard& card) {
+    if (unfit_.contains(name)) return;
     const auto it = matrices_.find(name);
     if (it == matrices_.end()) {
       f.error("the matrix has no header before its first column");
@@ -107,33 +110,27 @@ class DmigFile {
       names_.insert(name);
       return;
     }
-    const Row column = row(f, card, 1);
+    const Row column = row(f, 1);
     for (std::size_t i = 4; i < f.size(); i += 4) {
       if (f.blank(i)) continue;
-      const Row r = row(f, card, i);
+      const Row r = row(f, i);
       it->second.push_back({r, column, f.real(i + 2, "an entry"), card.place(i)});
     }
   }
 
-  Row row(NastranFields& f, const NastranCard& card, std::size_t i) {
+  static Row row(NastranFields& f, std::size_t i) {
     const int node = f.label(i, "a node");
     const int component = f.integer(i + 1, "a component", 0);
-    if (component == 0 && node > 0) {
-      source_.stop(card.place(i),
-                   fmt::format("row {} of matrix {} is a scalar point, as reduced models have for "
-                               "their modes; write matrices without modal degrees of freedom (no "
-                               "QSET and SPOINT): the reduction is made here",
-                               node, upper_case(card.field(0))));
-    }
-    if (component < 1 || component > 6) {
-      f.error(fmt::format("component {} of node {}, expected 1 to 6", component, node));
-    }
+    if (component < 0 || component > 6)
+      f.error(fmt::format("component {} of node {}, expected 1 to 6, or 0 of a scalar point",
+                          component, node));
     return {node, component};
   }
 
   TextSource& source_;
   std::map<std::string, std::vector<DmigEntry>> matrices_;
-  std::set<std::string> names_;
+  std::map<std::string, std::pair<FeSource, std::string>> unfit_;  ///< why they are not read
+  std::set<std::string> names_, used_;
   std::string name_;
 };
 
@@ -224,7 +221,7 @@ FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& option
   std::filesystem::path nodes = options.nodes;
   if (nodes.empty()) {
     TextSource cards(file);
-    NastranCards reader(cards, false);
+    NastranCards reader(cards, false, NastranBegin::any);
     NastranCard card;
     while (nodes.empty() && reader.next(card)) {
       if (card.name == "GRID") nodes = file;

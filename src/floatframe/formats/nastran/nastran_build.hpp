@@ -182,12 +182,9 @@ void add_nastran_term(const NastranBuild& build, int node, const NastranEquation
                       LinearEquation& equation);
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);
-// nastran_nonstructural.cpp
-/// Mass that the case control selects (NSM), after the elements.
-void build_nastran_nonstructural(NastranBuild& build);
 // nastran_build_sets.cpp
 /// The set that the case control selects, or those that an ADD card of its number joins; an error
-/// if it selects two, or if one that is joined is not `there`. `what`: MPC, NSM, SPC.
+/// if it selects two, or if one that is joined is not `there`. `what`: MPC, SPC.
 std::set<int> selected_nastran_sets(NastranBuild& build,
                                     const std::vector<std::pair<int, FeSource>>& selected,
                                     const std::map<int, std::vector<int>>& added,

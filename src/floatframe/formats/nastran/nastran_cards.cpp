@@ -52,9 +52,13 @@ bool has_begin_bulk(std::string_view beginning) {
   return false;
 }
 
-NastranCards::NastranCards(TextSource& source, bool has_control)
-    : source_(source), begun_(has_control), replication_(source) {
+NastranCards::NastranCards(TextSource& source, bool has_control, NastranBegin begin)
+    : source_(source), begin_(begin), begun_(has_control) {
   if (has_control) read_control();
+}
+
+bool NastranCards::begins(std::string_view line) const {
+  return begin_ == NastranBegin::any ? is_begin(line) : is_begin_bulk(line);
 }
 
 void NastranCards::read_control() {
@@ -62,7 +66,7 @@ void NastranCards::read_control() {
   std::string_view line;
   while (source_.next(line)) {
     line = trimmed(line.substr(0, line.find('$')));
-    if (is_begin_bulk(line)) return;
+    if (begins(line)) return;
     if (is_begin(line)) source_.stop(source_.here(), fmt::format(one_model, shown(line)));
     std::string_view rest = line;
     const std::string_view word = next_word(rest);
@@ -101,11 +105,6 @@ void NastranCards::command(std::string_view line) {
   }
   if (same_word(word, "SPC")) {
     if (id && control_.spc.size() < most_commands) control_.spc.emplace_back(*id, source_.here());
-    return;
-  }
-  if (same_word(word, "NSM") && id) {
-    if (control_.nonstructural.size() < most_commands)
-      control_.nonstructural.emplace_back(*id, source_.here());
     return;
   }
   if (same_word(word.substr(0, word.find('(')), "STATSUB")) control_.preload = source_.here();
@@ -216,23 +215,12 @@ void NastranCards::include(std::string_view text, bool executive) {
 }
 
 bool NastranCards::next(NastranCard& card) {
-  std::swap(before_, card);  // the card of the call before
   if (!cards_of_control_.empty()) {
     card = std::move(cards_of_control_.front());
     cards_of_control_.pop_front();
     return true;
   }
-  if (replication_.next(card, before_)) return true;
-  expanded_before_ = std::move(expanded_);
   expanded_.clear();
-  while (true) {
-    if (!one(card)) return false;
-    if (replication_.complete(card, before_)) return true;
-    if (replication_.next(card, before_)) return true;
-  }
-}
-
-bool NastranCards::one(NastranCard& card) {
   std::string_view text;
   while (true) {
     if (!next_text(text)) return false;
@@ -241,7 +229,7 @@ bool NastranCards::one(NastranCard& card) {
       continue;
     }
     if (is_begin(text)) {
-      if (is_begin_bulk(trimmed(text)) && !std::exchange(begun_, true)) continue;
+      if (begins(trimmed(text)) && !std::exchange(begun_, true)) continue;
       source_.stop(source_.here(), fmt::format(one_model, shown(trimmed(text))));
     }
     break;
@@ -284,6 +272,12 @@ bool NastranCards::one(NastranCard& card) {
     mark = line.mark;
   }
   while (!card.fields.empty() && card.fields.back().empty()) card.fields.pop_back();
+  const auto repeats = [](std::string_view field) { return field == "=" || field == "=="; };
+  if (card.name.starts_with('=') ||
+      (card.name != "DEQATN" && std::any_of(card.fields.begin(), card.fields.end(), repeats)))
+    source_.stop(card.at,
+                 "a field is '=', which repeats one of the card before and is not read: "
+                 "write the cards out, as Nastran does with ECHO = PUNCH");
   return true;
 }
 

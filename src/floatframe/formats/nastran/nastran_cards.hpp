@@ -11,27 +11,29 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/formats/nastran/nastran_replication.hpp"
+#include "floatframe/formats/nastran/nastran_card.hpp"
 
 namespace floatframe {
 
 /// What the case control selects.
 struct NastranControl {
-  bool there = false;                                             ///< there is more than BEGIN BULK
-  std::vector<std::pair<int, FeSource>> mpc, nonstructural, spc;  ///< MPC = n, NSM = n, SPC = n
+  bool there = false;                              ///< there is more than BEGIN BULK
+  std::vector<std::pair<int, FeSource>> mpc, spc;  ///< MPC = n, SPC = n
   /// Commands that add stiffness or mass: "K2GG = STIF".
   std::vector<std::pair<std::string, FeSource>> additions;
   std::optional<FeSource> preload;            ///< STATSUB
   std::vector<std::string> missing_includes;  ///< of the executive control
 };
 
+/// What begins the bulk data: BEGIN BULK, or BEGIN SUPER of a punched superelement as well.
+enum class NastranBegin { bulk, any };
+
 class NastranCards {
  public:
-  /// `has_control`: there is a BEGIN BULK to look for.
-  NastranCards(TextSource& source, bool has_control);
+  /// `has_control`: there is such a line to look for.
+  NastranCards(TextSource& source, bool has_control, NastranBegin begin = NastranBegin::bulk);
 
-  /// The next card; false at ENDDATA or at the end of the file. `card` must come as the call before
-  /// left it: cards may repeat the one before.
+  /// The next card; false at ENDDATA or at the end of the file.
   bool next(NastranCard& card);
 
   /// ENDDATA was met.
@@ -49,24 +51,22 @@ class NastranCards {
     std::vector<std::string_view> data;
     bool large = false;
   };
-  bool one(NastranCard& card);
   bool next_text(std::string_view& text);
   void comment(std::string_view text);
   void split(std::string_view text, Line& line);
   void include(std::string_view text, bool executive);
+  bool begins(std::string_view line) const;
   void read_control();
   void command(std::string_view line);
 
   TextSource& source_;
-  bool begun_ = false;  // BEGIN BULK was there
+  NastranBegin begin_;
+  bool begun_ = false;  // it was there
   bool ended_ = false;  // so was ENDDATA
   int too_long_ = 0;    // the last line with too many fields
   NastranControl control_;
   std::deque<NastranCard> cards_of_control_;
-  // Lines of the card and of the one before that had tabs.
-  std::deque<std::string> expanded_, expanded_before_;
-  NastranReplication replication_;
-  NastranCard before_;
+  std::deque<std::string> expanded_;  // lines of the card that had tabs
   std::map<int, std::string> property_names_, material_names_, set_names_;
 };
 

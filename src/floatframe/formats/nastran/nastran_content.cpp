@@ -58,11 +58,6 @@ const std::map<std::string_view, NastranCardReader>& card_readers() {
       {"CELAS2", read_nastran_celas},
       {"CELAS3", read_nastran_scalar_spring},
       {"CELAS4", read_nastran_scalar_spring},
-      {"NSM", read_nastran_nonstructural},
-      {"NSM1", read_nastran_nonstructural},
-      {"NSML", read_nastran_nonstructural},
-      {"NSML1", read_nastran_nonstructural},
-      {"NSMADD", read_nastran_nonstructural_add},
       {"PELAS", read_nastran_pelas},
       {"CBUSH", read_nastran_bush},
       {"PBUSH", read_nastran_pbush},
@@ -89,7 +84,7 @@ class ContentReader {
   ContentReader(TextSource& source, bool only_nodes) : source_(source), only_nodes_(only_nodes) {}
 
   NastranContent read(bool has_control) {
-    NastranCards cards(source_, has_control);
+    NastranCards cards(source_, has_control, only_nodes_ ? NastranBegin::any : NastranBegin::bulk);
     c_.control = cards.control();
     NastranCard card;
     while (cards.next(card)) {
@@ -134,8 +129,7 @@ class ContentReader {
       return;
     }
     const auto reader = card_readers().find(name);
-    const bool mass = name.starts_with("NSM") && c_.control.nonstructural.empty();
-    if (reader != card_readers().end() && !mass) {
+    if (reader != card_readers().end()) {
       reader->second(f, c_);
       return once(f);
     }
@@ -253,7 +247,10 @@ class ContentReader {
     complete_nastran_bars(c_, source_);
     c_.scalar_points.finish();
     if (!only_nodes_) {
+      const bool mass_sets = std::any_of(passed_.begin(), passed_.end(),
+                                         [](const auto& p) { return p.first.starts_with("NSM"); });
       for (const auto& [command, at] : c_.control.additions) {
+        if (command.starts_with("NSM") && !mass_sets) continue;
         source_.error(at, fmt::format("the case control has {}, which adds stiffness or mass and "
                                       "is not read",
                                       command));

@@ -138,21 +138,6 @@ struct NastranMassMatrix {
   FeSource at;
 };
 
-/// NSM, NSM1, NSML, NSML1; of NSM and NSML one for each number.
-struct NastranNonstructural {
-  struct Range {
-    int first = 0, last = 0, step = 1;
-    bool several = false;  ///< some of them may be missing
-  };
-  const char* card = "";
-  std::string type;     ///< the card of the properties, or ELEMENT
-  bool lumped = false;  ///< `value` is the mass of all together
-  int set = 0;
-  double value = 0.0;  ///< over length or area
-  std::vector<Range> ranges;
-  FeSource at;
-};
-
 struct NastranMass {
   const char* card = "CONM2";
   int id = 0, node = 0, system = 0;
@@ -242,8 +227,6 @@ struct NastranContent {
   std::vector<NastranSet> sets;
   std::map<int, std::vector<int>> added_mpc_sets;  ///< MPCADD
   std::map<int, std::vector<int>> added_spc_sets;
-  std::vector<NastranNonstructural> nonstructural;
-  std::map<int, std::vector<int>> added_mass_sets;  ///< NSMADD
   NastranControl control;
   NastranWholeNumbers whole_numbers;
   double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
@@ -284,9 +267,6 @@ void read_nastran_mass(NastranFields&, NastranContent&);
 void read_nastran_mass_matrix(NastranFields&, NastranContent&);  ///< CONM1
 void read_nastran_scalar_mass(NastranFields&, NastranContent&);  ///< CMASS1, CMASS2
 void read_nastran_pmass(NastranFields&, NastranContent&);
-// nastran_nonstructural.cpp
-void read_nastran_nonstructural(NastranFields&, NastranContent&);  ///< NSM, NSM1, NSML, NSML1
-void read_nastran_nonstructural_add(NastranFields&, NastranContent&);
 // nastran_materials.cpp
 /// MAT2, MAT8, MAT9
 void read_nastran_anisotropic(NastranFields&, NastranContent&);

@@ -67,7 +67,7 @@ const std::pair<const char*, const char*> refused_cards[] = {
     {"CFAST", "fasteners are not supported; replace them with RBE3 and CBUSH"},
     {"CWELD", "welds are not supported; replace them with RBE3 and CBUSH"},
     {"CSEAM", "seam welds are not supported; replace them with RBE3 and CBUSH"},
-    {"NSM*", "only a case control selects it (CEND, NSM = n, BEGIN BULK), and the file has none"},
+    {"NSM*", "put the mass into NSM of the properties or into CONM2"},
     {"PBMSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBEAM"},
     {"PBCOMP", "lumped sections are not supported; give A, I1, I2 and J with PBEAM"},
     {"PBRSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBAR"},

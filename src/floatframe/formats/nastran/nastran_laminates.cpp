@@ -50,14 +50,16 @@ bool read_lam(NastranFields& f, NastranProperty& p) {
 }  // namespace
 
 void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
-  if (f.blank(1) && !f.blank(3))
+  // A material 0 is blank: so pre-processors punch what is missing.
+  const auto blank = [&](std::size_t i) { return f.blank(i) || parse_integer(f.text(i)) == 0; };
+  if (blank(1) && !blank(3))
     return f.error("MID1 is blank: a plate without stiffness in its plane is not supported");
   p.material = f.label(1, "the material");
   p.thickness = f.real(2, "the thickness");
-  p.membrane = f.blank(3);
+  p.membrane = blank(3);
   if (p.membrane) {
     for (const auto& [at, name] : {std::pair{5, "MID3"}, std::pair{10, "MID4"}})
-      if (!f.blank(at))
+      if (!blank(at))
         f.error(
             fmt::format("{} is {}, but MID2 is blank: a membrane has neither bending nor "
                         "transverse shear",
@@ -70,14 +72,14 @@ void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
   p.bending_factor = f.real(4, "12I/T**3", 1.0);
   if (!(p.bending_factor > 0.0))
     f.error(fmt::format("12I/T**3 is {:g}, expected more than 0", p.bending_factor));
-  if (!f.blank(5) && !p.membrane) {
+  if (!blank(5) && !p.membrane) {
     p.shear_material = f.label(5, "MID3");
     p.shell_shear = f.real(6, "TS/T", 5.0 / 6.0) * p.thickness;
     if (!(p.shell_shear > 0.0))
       f.error(fmt::format("TS/T is {}, expected more than 0", shown(f.text(6))));
   }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
-  if (!f.blank(10) && !p.membrane) p.coupling = f.label(10, "MID4");
+  if (!blank(10) && !p.membrane) p.coupling = f.label(10, "MID4");
 }
 
 void read_nastran_pcomp(NastranFields& f, NastranProperty& p) {

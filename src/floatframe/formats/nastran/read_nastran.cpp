@@ -46,17 +46,11 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
     source.throw_if_any();
     build_nastran_elements(build, options);
     nastran_mass_forms(build);
-    if (source.errors() == 0) build_nastran_nonstructural(build);
     build_nastran_springs(build);
     build_nastran_constraints(build);
     if (source.errors() == 0) build_nastran_torsion(build);
   } else {
-    for (const NastranGrid& g : content.grids) {
-      if (build.turned[&g - content.grids.data()] == 0) continue;
-      source.error(g.at, fmt::format("node {} has its displacements in the turned system CD {}; "
-                                     "matrices in such systems are not supported",
-                                     g.id, g.cd));
-    }
+    build.model.axes_of_rows.insert(build.turned_axes.begin(), build.turned_axes.end());
   }
   build_nastran_supports(build);
   build_nastran_sets(build, part == NastranPart::nodes);

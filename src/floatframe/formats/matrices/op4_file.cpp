@@ -1,0 +1,258 @@
+// A matrix is a header (columns, rows, form, type, name; rows negative: large strings), records of
+// columns in ascending order, and one of a column behind the last. A column: its number, its first
+// row, how many words follow, and values; with row 0 strings of values, each headed by
+//   one number   first row + 65536 (words + 1), or
+//   two numbers  words + 1, first row         where strings are large.
+// A value has one word, two in double precision, twice as many if it is complex.
+#include "floatframe/formats/matrices/op4_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr std::uint32_t op4_header_bytes = 24;
+constexpr int most_op4_rows = 10'000'000;
+
+int words_of(int type) { return type == 1 ? 1 : type == 4 ? 4 : 2; }
+
+void check_header(const Op4Matrix& m, const SourceMark& at) {
+  if (m.columns < 1 || m.columns > most_op4_rows || m.rows < 1 || m.rows > most_op4_rows ||
+      m.type < 1 || m.type > 4)
+    throw InputError(at, fmt::format("a matrix has {} columns, {} rows and type {}, expected "
+                                     "positive numbers and a type of 1 to 4",
+                                     m.columns, m.rows, m.type));
+}
+
+/// Keeps values of a column from a row on.
+template <class Value>
+void keep(Op4Matrix& m, int column, int row, int count, const SourceMark& at, Value&& value) {
+  if (row < 1 || count > m.rows || row - 1 > m.rows - count)
+    throw InputError(at, fmt::format("column {} of {} has {} values from row {} on, but {} rows",
+                                     column, m.name, count, row, m.rows));
+  if (!m.is_real_square()) return;
+  for (int i = 0; i < count; ++i)
+    if (const double x = value(i); x != 0.0) m.entries.emplace_back(row - 1 + i, column - 1, x);
+}
+
+class BinaryOp4 {
+ public:
+  BinaryOp4(std::string_view bytes, bool swapped, std::string file)
+      : bytes_(bytes), swapped_(swapped), at_{std::move(file)} {}
+
+  std::vector<Op4Matrix> read() {
+    std::vector<Op4Matrix> out;
+    while (place_ < bytes_.size()) {
+      record();
+      if (record_.size() != op4_header_bytes)
+        fail("the header of a matrix has another length than 24");
+      Op4Matrix m{upper_case(trimmed(record_.substr(16, 8))),
+                  integer(1),
+                  integer(0),
+                  integer(2),
+                  integer(3),
+                  {}};
+      large_ = m.rows < 0;
+      m.rows = large_ ? -m.rows : m.rows;
+      check_header(m, at_);
+      while (column(m)) {
+      }
+      out.push_back(std::move(m));
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(at_, fmt::format("byte {}: {}", place_, what));
+  }
+  std::uint32_t word(std::string_view from, std::size_t at) const {
+    if (at + 4 > from.size()) fail("the file ends within a record");
+    std::uint32_t w = 0;
+    std::memcpy(&w, from.data() + at, 4);
+    return swapped_ ? __builtin_bswap32(w) : w;
+  }
+  int integer(std::size_t i) const { return std::bit_cast<int>(word(record_, 4 * i)); }
+  void record() {
+    const std::size_t length = word(bytes_, place_);
+    if (length > bytes_.size() - place_ - 4) fail("the file ends within a record");
+    record_ = bytes_.substr(place_ + 4, length);
+    if (word(bytes_, place_ + 4 + length) != length) fail("a record does not end as it began");
+    place_ += length + 8;
+  }
+  double value(int type, std::size_t first_word, int i) const {
+    if (type == 1) return std::bit_cast<float>(word(record_, 4 * (first_word + i)));
+    const std::size_t at = 4 * (first_word + 2 * i);
+    std::uint64_t a = word(record_, at), b = word(record_, at + 4);
+    if (swapped_ != (std::endian::native == std::endian::big)) std::swap(a, b);
+    return std::bit_cast<double>(a | b << 32);
+  }
+  /// False at the record behind the last column.
+  bool column(Op4Matrix& m) {
+    record();
+    const int number = integer(0), row = integer(1);
+    if (number > m.columns) return false;
+    if (number < 1) fail(fmt::format("a column has the number {}", number));
+    const int words = std::min<int>(most_op4_rows, std::ssize(record_) / 4);
+    const auto values = [&](int first, int count, int from) {
+      keep(m, number, from, count / words_of(m.type), at_,
+           [&](int i) { return value(m.type, first, i); });
+    };
+    if (row > 0) {
+      values(3, words - 3, row);
+      return true;
+    }
+    for (int at = 3; at < words;) {
+      const int head = integer(at++);
+      const int length = large_ ? head - 1 : head / 65536 - 1;
+      const int from = large_ ? integer(at++) : head % 65536;
+      if (length < 1 || length > words - at)
+        fail(fmt::format("a string of column {} is longer than its record", number));
+      values(at, length, from);
+      at += length;
+    }
+    return true;
+  }
+
+  std::string_view bytes_, record_;
+  bool swapped_, large_ = false;
+  std::size_t place_ = 0;
+  SourceMark at_;
+};
+
+class TextOp4 {
+ public:
+  TextOp4(std::string_view text, std::string file) : text_(text), at_{std::move(file)} {}
+
+  std::vector<Op4Matrix> read() {
+    std::vector<Op4Matrix> out;
+    while (next()) {
+      const std::array<int, 4> size = integers<4>();
+      if (line_.size() < 40) fail("the header of a matrix is too short");
+      Op4Matrix m{upper_case(trimmed(line_.substr(32, 8))), size[1], size[0], size[2], size[3], {}};
+      // 1P,5E16.9
+      const std::string_view format = trimmed(line_.substr(40));
+      const std::size_t e = format.find_first_of("EDed"), dot = format.find('.');
+      const auto width = e < dot && dot != std::string_view::npos
+                             ? parse_label(format.substr(e + 1, dot - e - 1))
+                             : std::optional<int>(16);
+      if (!width) fail(fmt::format("{} is no format of numbers", shown(format)));
+      width_ = *width;
+      large_ = m.rows < 0;
+      m.rows = large_ ? -m.rows : m.rows;
+      check_header(m, at_);
+      while (column(m)) {
+      }
+      out.push_back(std::move(m));
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(at_, what); }
+  bool next() {
+    if (rest_ >= text_.size()) return false;
+    const std::size_t end = std::min(text_.find('\n', rest_), text_.size());
+    line_ = text_.substr(rest_, end - rest_);
+    while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' ')) line_.remove_suffix(1);
+    rest_ = end + 1;
+    ++at_.line;
+    return !line_.empty() || next();
+  }
+  template <std::size_t n>
+  std::array<int, n> integers() const {
+    std::array<int, n> out{};
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string_view field =
+          trimmed(line_.substr(std::min(8 * i, line_.size())).substr(0, 8));
+      const auto value = parse_integer(field);
+      if (!value) fail(not_an_integer(field));
+      out[i] = *value;
+    }
+    return out;
+  }
+  /// The values of the lines that follow, up to one without a decimal point.
+  void values() {
+    values_.clear();
+    while (rest_ < text_.size()) {
+      const std::size_t end = std::min(text_.find('\n', rest_), text_.size());
+      const std::string_view ahead = text_.substr(rest_, end - rest_);
+      const bool header = ahead.find(',') != std::string_view::npos;
+      if (header || ahead.find('.') == std::string_view::npos || !next()) return;
+      for (std::size_t i = 0; i < line_.size(); i += width_) {
+        const std::string_view field = trimmed(line_.substr(i, width_));
+        const auto value = parse_real(field);
+        if (!value) fail(not_a_real(field));
+        values_.push_back(*value);
+      }
+    }
+  }
+  bool column(Op4Matrix& m) {
+    if (!next()) fail("the file ends within a matrix");
+    const auto [number, row, words] = integers<3>();
+    const SourceMark at = at_;
+    const auto take = [&](int from, int count) {
+      values();
+      const int found = static_cast<int>(values_.size()) / (m.type > 2 ? 2 : 1);
+      if (number <= m.columns && count != found)
+        throw InputError(at, fmt::format("column {} of {} has {} values, expected {}", number,
+                                         m.name, found, count));
+      if (number <= m.columns) keep(m, number, from, count, at, [&](auto i) { return values_[i]; });
+    };
+    if (number < 1) fail(fmt::format("a column has the number {}", number));
+    if (row > 0) {  // here real numbers are counted, and real and imaginary parts
+      take(row, std::max(words, 0) / (m.type > 2 ? 2 : 1));
+      return number <= m.columns;
+    }
+    for (int left = words; left > 0;) {
+      if (!next()) fail("the file ends within a matrix");
+      const auto head = large_ ? integers<2>() : std::array<int, 2>{integers<1>()[0], 0};
+      const int length = large_ ? head[0] - 1 : head[0] / 65536 - 1;
+      if (length < 1) fail(fmt::format("a string of column {} has {} words", number, length));
+      left -= length + (large_ ? 2 : 1);
+      take(large_ ? head[1] : head[0] % 65536, length / words_of(m.type));
+    }
+    return number <= m.columns;
+  }
+
+  std::string_view text_, line_;
+  std::size_t rest_ = 0, width_ = 16;
+  bool large_ = false;
+  SourceMark at_;
+  std::vector<double> values_;
+};
+
+/// Of a binary file its first word: the length of the first record. Else 0.
+std::uint32_t first_length(std::string_view bytes) {
+  std::uint32_t first = 0;
+  if (bytes.size() > op4_header_bytes + 8) std::memcpy(&first, bytes.data(), 4);
+  return first == op4_header_bytes || first == __builtin_bswap32(op4_header_bytes) ? first : 0;
+}
+
+}  // namespace
+
+bool looks_like_op4(std::string_view beginning) {
+  if (first_length(beginning) != 0) return true;
+  const std::string_view line = beginning.substr(0, beginning.find('\n'));
+  if (line.size() < 42 || !begins_with(trimmed(line.substr(40)), "1P,")) return false;
+  for (std::size_t i = 0; i < 32; i += 8)
+    if (!parse_integer(trimmed(line.substr(i, 8)))) return false;
+  return true;
+}
+
+std::vector<Op4Matrix> read_op4_matrices(const std::string& bytes, const std::string& file) {
+  if (const std::uint32_t first = first_length(bytes))
+    return BinaryOp4(bytes, first != op4_header_bytes, file).read();
+  return TextOp4(bytes, file).read();
+}
+
+}  // namespace floatframe
