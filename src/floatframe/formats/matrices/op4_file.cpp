@@ -62,7 +62,7 @@ class BinaryOp4 {
                   integer(3),
                   {}};
       large_ = m.rows < 0;
-      m.rows = large_ ? -m.rows : m.rows;
+      m.rows = large_ ? -std::max(m.rows, -most_op4_rows) : m.rows;
       check_header(m, at_);
       while (column(m)) {
       }
@@ -113,7 +113,7 @@ class BinaryOp4 {
     }
     for (int at = 3; at < words;) {
       const int head = integer(at++);
-      const int length = large_ ? head - 1 : head / 65536 - 1;
+      const int length = large_ ? std::max(head, 0) - 1 : head / 65536 - 1;
       const int from = large_ ? integer(at++) : head % 65536;
       if (length < 1 || length > words - at)
         fail(fmt::format("a string of column {} is longer than its record", number));
@@ -148,7 +148,7 @@ class TextOp4 {
       if (!width) fail(fmt::format("{} is no format of numbers", shown(format)));
       width_ = *width;
       large_ = m.rows < 0;
-      m.rows = large_ ? -m.rows : m.rows;
+      m.rows = large_ ? -std::max(m.rows, -most_op4_rows) : m.rows;
       check_header(m, at_);
       while (column(m)) {
       }
@@ -159,14 +159,17 @@ class TextOp4 {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw InputError(at_, what); }
+  /// The next line that is not empty.
   bool next() {
-    if (rest_ >= text_.size()) return false;
-    const std::size_t end = std::min(text_.find('\n', rest_), text_.size());
-    line_ = text_.substr(rest_, end - rest_);
-    while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' ')) line_.remove_suffix(1);
-    rest_ = end + 1;
-    ++at_.line;
-    return !line_.empty() || next();
+    for (line_ = {}; line_.empty(); ++at_.line) {
+      if (rest_ >= text_.size()) return false;
+      const std::size_t end = std::min(text_.find('\n', rest_), text_.size());
+      line_ = text_.substr(rest_, end - rest_);
+      while (!line_.empty() && (line_.back() == '\r' || line_.back() == ' '))
+        line_.remove_suffix(1);
+      rest_ = end + 1;
+    }
+    return true;
   }
   template <std::size_t n>
   std::array<int, n> integers() const {
@@ -216,7 +219,7 @@ class TextOp4 {
     for (int left = words; left > 0;) {
       if (!next()) fail("the file ends within a matrix");
       const auto head = large_ ? integers<2>() : std::array<int, 2>{integers<1>()[0], 0};
-      const int length = large_ ? head[0] - 1 : head[0] / 65536 - 1;
+      const int length = large_ ? std::max(head[0], 0) - 1 : head[0] / 65536 - 1;
       if (length < 1) fail(fmt::format("a string of column {} has {} words", number, length));
       left -= length + (large_ ? 2 : 1);
       take(large_ ? head[1] : head[0] % 65536, length / words_of(m.type));
