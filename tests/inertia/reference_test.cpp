@@ -18,6 +18,19 @@ struct State {
   VecX y, ydot;
 };
 
+/// Turns the relative Qv of the material convention into that for sddot = d(sdot)/dt:
+///   Qv -= int B^T (omega x sdot) dm.
+void subtract_literal_correction(const PreprocessingData& data, const DeformedInvariants& deformed,
+                                 const Vec3& r0, const Mat3& A, const Vec3& omega, const Vec3& sdot,
+                                 VecX& Qv) noexcept {
+  const Vec3 a = omega.cross(sdot);
+  const Vec3 m_vec = data.m * r0 + A * deformed.m_bar;
+  const Vec3 a_body = A.transpose() * a;
+  Qv.head<3>() -= data.m * a;
+  Qv.segment<3>(3) -= m_vec.cross(a);
+  for (int k = 0; k < data.modes(); ++k) Qv(6 + k) -= data.S.col(k).dot(a_body);
+}
+
 State to_state(const Json& j) {
   State s;
   s.r0 = to_vec3(j["r0"]);

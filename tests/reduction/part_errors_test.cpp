@@ -161,22 +161,27 @@ TEST(PartErrors, FreedomsThatNothingFollowsAreNamed) {
             "neither the stiffness nor the mass of the free part holds node 117 uy");
 }
 
-TEST(PartErrors, CombinationsWithoutMassAreRefused) {
+TEST(PartErrors, CombinationsWithoutMass) {
   InertiaInvariants raw = InertiaInvariants::zero(9);
   raw.m = 1.0;
   raw.P_u = Mat3::Identity();
   raw.Sij[0][0] = MatX::Identity(9, 9);
   MatX B = MatX::Identity(6, 9);
-  EXPECT_EQ(elastic_modes(MatX::Identity(9, 9), raw, B).lambda.size(), 3);
+  MatX K = MatX::Identity(9, 9);
+  EXPECT_EQ(elastic_modes(K, raw, B).lambda.size(), 3);
   raw.Sij[0][0](7, 8) = raw.Sij[0][0](8, 7) = 1.0;  // the same motion twice
+  const ElasticModes rest = elastic_modes(K, raw, B);
+  EXPECT_EQ(rest.lambda.size(), 2);
+  EXPECT_EQ(rest.without_mass, 1);
   const auto error = [&] {
     try {
-      elastic_modes(MatX::Identity(9, 9), raw, B);
+      elastic_modes(K, raw, B);
     } catch (const InputError& e) {
       return std::string(e.what());
     }
     return std::string();
   };
+  K.bottomRightCorner<2, 2>().setOnes();  // nor stiffness where they differ
   EXPECT_EQ(error(),
             "the modes hold a combination that moves no mass: there are more interface degrees of "
             "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");

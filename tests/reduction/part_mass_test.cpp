@@ -2,6 +2,7 @@
 // where masses differ between directions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/body/modal_mass.hpp"
@@ -125,6 +126,29 @@ TEST(PartMass, OfMatricesOfABeam) {
   for (const std::string& warning : part.health.warnings)
     warned += warning.find("changes with the deformation is unknown") != std::string::npos ? 1 : 0;
   EXPECT_EQ(warned, 1);
+}
+
+// Five bars with lumped mass: the fifth bending mode makes seven motions of six masses.
+TEST(PartMass, MoreMotionsThanMasses) {
+  FeModel model = read_fe_file(fe_data("lumped_bars.bdf"));
+  to_si(model, *find_unit_system("m-kg-s"));
+  PartOptions options;
+  options.stresses = false;
+  InterfaceDescription d;
+  d.name = "A";
+  d.choice = node_of(model, 0);
+  options.interfaces.push_back(d);
+  options.modes = 9;
+  const ReducedPart part = reduce_part(model, options);
+  EXPECT_EQ(part.body.modes(), 8);
+  const ModeHealth& last = part.health.normal_modes[8];
+  EXPECT_TRUE(last.kept);
+  EXPECT_NEAR(last.frequency, 1149.97529382, 1e-6);  // Bernoulli bars, rotations condensed
+  EXPECT_EQ(std::count_if(part.health.notes.begin(), part.health.notes.end(),
+                          [](const std::string& n) {
+                            return n.starts_with("of the modes 1 combined motions move no mass");
+                          }),
+            1);
 }
 
 }  // namespace

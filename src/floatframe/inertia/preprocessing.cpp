@@ -183,15 +183,4 @@ void absolute_stiffened(const PreprocessingData& data, StiffeningData& stiffenin
   absolute_terms<true>(data, &stiffening, A, Adot, ydot, work, M, Qv);
 }
 
-void subtract_literal_correction(const PreprocessingData& data, const DeformedInvariants& deformed,
-                                 const Vec3& r0, const Mat3& A, const Vec3& omega, const Vec3& sdot,
-                                 VecX& Qv) noexcept {
-  const Vec3 a = omega.cross(sdot);
-  const Vec3 m_vec = data.m * r0 + A * deformed.m_bar;
-  const Vec3 a_body = A.transpose() * a;
-  Qv.head<3>() -= data.m * a;
-  Qv.segment<3>(3) -= m_vec.cross(a);
-  for (int k = 0; k < data.modes(); ++k) Qv(6 + k) -= data.S.col(k).dot(a_body);
-}
-
 }  // namespace floatframe

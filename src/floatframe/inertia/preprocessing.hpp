@@ -127,10 +127,4 @@ void absolute_stiffened(const PreprocessingData& data, StiffeningData& stiffenin
                         const Mat3& Adot, const double* y, const double* ydot,
                         PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept;
 
-/// Turns the relative Qv of the material convention into that for sddot = d(sdot)/dt:
-///   Qv -= int B^T (omega x sdot) dm.
-void subtract_literal_correction(const PreprocessingData& data, const DeformedInvariants& deformed,
-                                 const Vec3& r0, const Mat3& A, const Vec3& omega, const Vec3& sdot,
-                                 VecX& Qv) noexcept;
-
 }  // namespace floatframe

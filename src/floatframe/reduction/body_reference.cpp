@@ -8,6 +8,26 @@
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
+namespace {
+
+constexpr double no_mass = 1e-13;  ///< of the largest eigenvalue
+
+/// A in the directions C, symmetric but for rounding.
+MatX in_directions(const MatX& A, const MatX& C) {
+  const MatX a = C.transpose() * A * C;
+  return 0.5 * (a + a.transpose());
+}
+
+/// The combinations of the directions C that have mass, as modes: M x = K x / w^2, so that those
+/// without are at w^-2 = 0. All of C if it holds a mechanism.
+MatX with_mass(const MatX& C, const MatX& K, const MatX& M) {
+  const SymmetricEigen eig = generalised_eigen(in_directions(M, C), in_directions(K, C));
+  const double most = eig.values(eig.values.size() - 1);  // of w^-2, ascending
+  if (!eig.found || !(most > 0.0)) return C;
+  return C * eig.vectors.rightCols((eig.values.array() > no_mass * most).count());
+}
+
+}  // namespace
 
 ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B) {
   const Eigen::Index n = K.rows();
@@ -32,20 +52,21 @@ ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const Ma
   const PivotedQr qr = pivoted_qr(conditions.transpose());
   if (qr.rank < 6)
     throw InputError("the body reference does not remove all rigid motions of the part");
-  const MatX null = s.asDiagonal() * qr.Q.rightCols(n - 6);
-
-  MatX Kc = null.transpose() * K * null;
-  MatX Mc = null.transpose() * M * null;
-  Kc = (0.5 * (Kc + Kc.transpose())).eval();
-  Mc = (0.5 * (Mc + Mc.transpose())).eval();
-  const VecX m = symmetric_eigenvalues(Mc);
+  MatX null = s.asDiagonal() * qr.Q.rightCols(n - 6);
+  const auto masses = [&] { return symmetric_eigenvalues(in_directions(M, null)); };
+  VecX m = masses();
+  if (!(m(0) > no_mass * m(m.size() - 1))) {
+    null = with_mass(null, K, M);
+    result.without_mass = static_cast<int>(n - 6 - null.cols());
+    m = masses();
+  }
   result.condition = m(0) > 0.0 ? m(m.size() - 1) / m(0) : std::numeric_limits<double>::infinity();
-  if (!(m(0) > 1e-13 * m(m.size() - 1))) {
+  if (!(m(0) > no_mass * m(m.size() - 1))) {
     throw InputError(
         "the modes hold a combination that moves no mass: there are more interface degrees of "
         "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
   }
-  const SymmetricEigen modes = generalised_eigen(Kc, Mc);
+  const SymmetricEigen modes = generalised_eigen(in_directions(K, null), in_directions(M, null));
   result.lambda = modes.values;
   result.C = null * modes.vectors;
   const VecX first = result.C.col(0).cwiseAbs();

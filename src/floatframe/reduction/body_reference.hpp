@@ -20,11 +20,12 @@ struct ElasticModes {
   /// Strain energy of the first mode against the sum of its parts without their signs,
   /// c^T K c / |c|^T |K| |c|: rounding if the mode is a mechanism.
   double stiffness = 1.0;
+  int without_mass = 0;  ///< combinations that move no mass, which are left out
 };
 
 /// K: raw stiffness; the raw shapes must be of one size, rotations counted times the size of the
 /// body, or a small mass is taken for none. Throws InputError if the conditions are not independent
-/// on the rigid motions, or if a combination of modes has no mass.
+/// on the rigid motions, or if a combination of modes has neither mass nor stiffness.
 ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B);
 inline constexpr double least_stiffness = 1e-10;
 

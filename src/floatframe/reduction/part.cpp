@@ -208,7 +208,8 @@ ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
 
 /// In the frame that is asked for.
 ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const InertiaInvariants& raw,
-                        const std::vector<InterfacePlace>& interfaces, const PartOptions& options) {
+                        const std::vector<InterfacePlace>& interfaces, const PartOptions& options,
+                        HealthReport& health) {
   ElasticModes modes =
       elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
   if (modes.mass < least_modal_mass)
@@ -216,6 +217,12 @@ ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const Iner
         "a combination of the modes moves as a rigid body and has no inertia of its own; use fewer "
         "modes or a finer mesh");
   fix_signs(basis.X, modes.C);
+  health.modal_mass_condition = modes.condition;
+  if (modes.without_mass > 0)
+    health.notes.push_back(fmt::format(
+        "of the modes {} combined motions move no mass and are left out: there are more "
+        "interface degrees of freedom and modes than the mesh has ways to move",
+        modes.without_mass));
   return modes;
 }
 
@@ -284,8 +291,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
   if (model.matrices) match_mass_matrix(system, R, basis.X, raw);
   const ElasticModes free = free_elastic_modes(model, system, basis, raw);
-  const ElasticModes modes = body_modes(model, basis, raw, interfaces, options);
-  health.modal_mass_condition = modes.condition;
+  const ElasticModes modes = body_modes(model, basis, raw, interfaces, options, health);
   const MatX X = basis.X * modes.C;
   part.body = body_of(model, system, basis, raw, modes, X, interfaces, markers);
   add_damping(model, system, R, X, options, part.body, health);

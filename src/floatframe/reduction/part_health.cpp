@@ -138,9 +138,9 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
         points.anisotropy));
   if (model.matrices && !model.matrices->scalars.empty())
     list.push_back(fmt::format(
-        "the file has {} amplitudes of modes (scalar points) without shapes: mass, damping and "
-        "stiffness are those of the file, but how these modes change the inertia is unknown, which "
-        "matters where the body spins",
+        "the file has {} amplitudes of modes (scalar points) without shapes: its matrices are "
+        "kept, "
+        "but how these modes change the inertia is unknown, which matters where the body spins",
         model.matrices->scalars.size()));
   if (health.rigid_residual > 1e-9) {
     list.push_back(fmt::format(

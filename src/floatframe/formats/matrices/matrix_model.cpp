@@ -173,8 +173,7 @@ SparseMatrix in_model_axes(SparseMatrix A, const FeModel& model, const TextSourc
       if (other == row_of.end())
         throw InputError(
             {source.files().front()},
-            fmt::format("{} has displacements in a system of its own (CD), and only "
-                        "some of its {} in the matrices: give all three",
+            fmt::format("{} has a system of its own (CD): give all three of its {}",
                         model.node_label(dofs[i].node), first == 0 ? "translations" : "rotations"));
       entries.emplace_back(other->second, i, turned->second(k, dofs[i].axis % 3));
     }

@@ -25,12 +25,16 @@ constexpr int most_op4_rows = 10'000'000;
 
 int words_of(int type) { return type == 1 ? 1 : type == 4 ? 4 : 2; }
 
-void check_header(const Op4Matrix& m, const SourceMark& at) {
+/// True if the matrix has large strings.
+bool check_header(Op4Matrix& m, const SourceMark& at) {
+  const bool large = m.rows < 0;
+  m.rows = large ? -std::max(m.rows, -most_op4_rows) : m.rows;
   if (m.columns < 1 || m.columns > most_op4_rows || m.rows < 1 || m.rows > most_op4_rows ||
       m.type < 1 || m.type > 4)
     throw InputError(at, fmt::format("a matrix has {} columns, {} rows and type {}, expected "
                                      "positive numbers and a type of 1 to 4",
                                      m.columns, m.rows, m.type));
+  return large;
 }
 
 /// Keeps values of a column from a row on.
@@ -39,7 +43,7 @@ void keep(Op4Matrix& m, int column, int row, int count, const SourceMark& at, Va
   if (row < 1 || count > m.rows || row - 1 > m.rows - count)
     throw InputError(at, fmt::format("column {} of {} has {} values from row {} on, but {} rows",
                                      column, m.name, count, row, m.rows));
-  if (!m.is_real_square()) return;
+  if (!m.real_square()) return;
   for (int i = 0; i < count; ++i)
     if (const double x = value(i); x != 0.0) m.entries.emplace_back(row - 1 + i, column - 1, x);
 }
@@ -61,9 +65,7 @@ class BinaryOp4 {
                   integer(2),
                   integer(3),
                   {}};
-      large_ = m.rows < 0;
-      m.rows = large_ ? -std::max(m.rows, -most_op4_rows) : m.rows;
-      check_header(m, at_);
+      large_ = check_header(m, at_);
       while (column(m)) {
       }
       out.push_back(std::move(m));
@@ -147,9 +149,7 @@ class TextOp4 {
                              : std::optional<int>(16);
       if (!width) fail(fmt::format("{} is no format of numbers", shown(format)));
       width_ = *width;
-      large_ = m.rows < 0;
-      m.rows = large_ ? -std::max(m.rows, -most_op4_rows) : m.rows;
-      check_header(m, at_);
+      large_ = check_header(m, at_);
       while (column(m)) {
       }
       out.push_back(std::move(m));

@@ -15,7 +15,7 @@ struct Op4Matrix {
   int type = 0;  ///< 1, 2: real, single and double; 3, 4: complex
   std::vector<Eigen::Triplet<double>> entries;
 
-  bool is_real_square() const { return (form == 1 || form == 6) && type <= 2 && rows == columns; }
+  bool real_square() const { return (form == 1 || form == 6) && type <= 2 && rows == columns; }
 };
 
 bool looks_like_op4(std::string_view beginning);

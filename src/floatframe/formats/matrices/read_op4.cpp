@@ -33,29 +33,23 @@ std::vector<DofLabel> rows_of_cards(TextSource& source) {
   while (cards.next(card)) {
     NastranFields f(source, card);
     const std::string& name = card.name;
-    if (name == "GRID") {
-      add_rows(all, f.label(0, "the number of the node"), 63u);
-    } else if (name == "SPOINT") {
-      for (std::size_t i = 0; i < f.size(); ++i) {
+    const auto add_list = [&](std::set<Row>& rows, std::size_t i, unsigned components) {
+      for (; i < f.size(); ++i) {
         if (f.blank(i)) continue;
-        const auto [first, last] = f.range(i, "a scalar point");
-        for (int id = first; id > 0 && id <= last && id < first + 100000; ++id)
-          add_rows(all, id, 0);
+        const auto [first, last] = f.range(i, "a node or scalar point");
+        for (int id = first; id <= std::min(last, first + 100000); ++id)
+          add_rows(rows, id, components);
       }
-    } else if (name == "EXTRN" || name == "ASET" || name == "QSET") {
-      for (std::size_t i = 0; i < f.size(); i += 2)
-        if (!f.blank(i))
-          add_rows(name == "EXTRN" ? external : analysis, f.label(i, "a node"),
-                   f.components(i + 1, "the components"));
-    } else if (name == "ASET1" || name == "QSET1") {
-      const unsigned components = f.components(0, "the components");
-      for (std::size_t i = 1; i < f.size(); ++i) {
-        if (f.blank(i)) continue;
-        const auto [first, last] = f.range(i, "a node");
-        for (int id = first; id > 0 && id <= last && id < first + 100000; ++id)
-          add_rows(analysis, id, components);
-      }
-    }
+    };
+    if (name == "GRID") add_rows(all, f.label(0, "the number of the node"), 63u);
+    if (name == "SPOINT") add_list(all, 0, 0);
+    if (name == "ASET1" || name == "QSET1")
+      add_list(analysis, 1, f.components(0, "the components"));
+    if (name != "EXTRN" && name != "ASET" && name != "QSET") continue;
+    for (std::size_t i = 0; i < f.size(); i += 2)
+      if (!f.blank(i))
+        add_rows(name == "EXTRN" ? external : analysis, f.label(i, "a node"),
+                 f.components(i + 1, "the components"));
   }
   source.throw_if_any();
   std::vector<DofLabel> labels;
@@ -72,8 +66,8 @@ const Op4Matrix* choose_op4(const std::vector<Op4Matrix>& matrices, char letter,
                             const std::string& file) {
   std::vector<const Op4Matrix*> found;
   for (const Op4Matrix& m : matrices)
-    if (m.name.starts_with(letter) && !m.name.starts_with("K4") && m.is_real_square() &&
-        m.rows > 1 && (size == 0 || m.rows == size))
+    if (m.name.starts_with(letter) && !m.name.starts_with("K4") && m.real_square() && m.rows > 1 &&
+        (size == 0 || m.rows == size))
       found.push_back(&m);
   if (found.empty()) return nullptr;
   for (const char* rest : {"XX", "AA", "AAX"})
@@ -89,16 +83,13 @@ const Op4Matrix* choose_op4(const std::vector<Op4Matrix>& matrices, char letter,
 
 /// Both halves, also of a matrix that is stored as one.
 SparseMatrix whole(const Op4Matrix& m) {
-  std::vector<Eigen::Triplet<double>> entries = m.entries;
-  const auto above = [](const auto& e) { return e.row() < e.col(); };
-  const auto below = [](const auto& e) { return e.row() > e.col(); };
-  if (std::none_of(entries.begin(), entries.end(), above) ||
-      std::none_of(entries.begin(), entries.end(), below))
-    for (const auto& e : m.entries)
-      if (e.row() != e.col()) entries.emplace_back(e.col(), e.row(), e.value());
-  SparseMatrix out(m.rows, m.rows);
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  SparseMatrix A(m.rows, m.rows);
+  A.setFromTriplets(m.entries.begin(), m.entries.end());
+  const SparseMatrix lower = A.triangularView<Eigen::Lower>(),
+                     upper = A.triangularView<Eigen::Upper>();
+  if (lower.nonZeros() == A.nonZeros()) return A.selfadjointView<Eigen::Lower>();
+  if (upper.nonZeros() == A.nonZeros()) return A.selfadjointView<Eigen::Upper>();
+  return A;
 }
 
 }  // namespace

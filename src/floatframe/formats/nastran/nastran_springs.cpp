@@ -84,14 +84,20 @@ void read_nastran_pelas(NastranFields& f, NastranContent& c) {
   }
 }
 
-void read_nastran_bush(NastranFields& f, NastranContent& c) {
+/// What CBUSH and CBUSH1D begin with.
+static NastranSpring bush_between_nodes(NastranFields& f, const char* card) {
   NastranSpring s;
-  s.card = "CBUSH";
+  s.card = card;
   s.at = f.at();
   s.id = f.label(0, "the number of the element");
   s.property = f.blank(1) ? s.id : f.label(1, "the property");
   s.nodes[0] = f.label(2, "node GA");
   s.nodes[1] = f.blank(3) ? 0 : f.label(3, "node GB");
+  return s;
+}
+
+void read_nastran_bush(NastranFields& f, NastranContent& c) {
+  NastranSpring s = bush_between_nodes(f, "CBUSH");
   if (f.blank(5) && f.blank(6) && !f.blank(4) && parse_label(f.text(4))) {
     s.orientation_node = f.label(4, "node GO");
   } else {
@@ -134,13 +140,7 @@ void read_nastran_pbush(NastranFields& f, NastranContent& c) {
 }
 
 void read_nastran_bush1d(NastranFields& f, NastranContent& c) {
-  NastranSpring s;
-  s.card = "CBUSH1D";
-  s.at = f.at();
-  s.id = f.label(0, "the number of the element");
-  s.property = f.blank(1) ? s.id : f.label(1, "the property");
-  s.nodes[0] = f.label(2, "node GA");
-  s.nodes[1] = f.blank(3) ? 0 : f.label(3, "node GB");
+  NastranSpring s = bush_between_nodes(f, "CBUSH1D");
   s.system = f.integer(4, "the coordinate system CID", -1);
   c.springs.list.push_back(s);
 }
