@@ -8,6 +8,7 @@
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/model_builder.hpp"
 
 namespace floatframe {
@@ -40,19 +41,18 @@ Vec3 line_of_mass(const Body& body, const Vec3& p_WP) {
 /// A universal joint that alone holds a body without inertia about a line through it. Where the
 /// line comes into the plane of the two axes, the mass matrix of the joint's angles is singular and
 /// their rates grow beyond bounds; position and rotation of the body know no such place.
-bool turns_without_inertia(const Model& model, const Joint& joint, const Vec3& p_WP) {
+bool turns_without_inertia(const Model& model, const Joint& joint) {
   constexpr double near_plane = 0.5;  // within 30 degrees
   const bool universal =
       joint_kind(joint.type).axes == JointAxes::two && joint_velocities(joint.type) == 2;
   if (!universal || joint.motion) return false;
-  const Marker& F = model.markers[joint.frame_F];
-  const Mat3 R_WF = F.body < 0 ? F.X_NM.R : model.bodies[F.body].X_WB.R * F.X_NM.R;
-  const Vec3 normal = R_WF.col(2).cross(R_WF * joint.axis_2).normalized();
+  const Pose X_WF = design_pose(model, joint.frame_F);
+  const Vec3 normal = (X_WF.R * Vec3::UnitZ().cross(joint.axis_2)).normalized();
   return std::ranges::any_of(std::array{joint.parent, joint.child}, [&](int body) {
     if (body < 0) return false;
     const auto holds = [body](const Joint& j) { return j.parent == body || j.child == body; };
     if (std::ranges::count_if(model.joints, holds) > 1) return false;
-    const Vec3 line = line_of_mass(model.bodies[body], p_WP);
+    const Vec3 line = line_of_mass(model.bodies[body], X_WF.p);
     return line != Vec3::Zero() && std::abs(line.dot(normal)) < near_plane;
   });
 }
@@ -89,8 +89,7 @@ void ModelBuilder::joints() {
 }
 
 void ModelBuilder::free_joints() {
-  for (Joint& j : model.joints)
-    j.cut = j.cut || turns_without_inertia(model, j, design_point(j.frame_M));
+  for (Joint& j : model.joints) j.cut = j.cut || turns_without_inertia(model, j);
   std::vector<char> reached(model.bodies.size(), 0);
   std::vector<std::vector<int>> neighbours(model.bodies.size());
   std::vector<int> next;

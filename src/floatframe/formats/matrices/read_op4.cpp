@@ -37,8 +37,8 @@ std::vector<DofLabel> rows_of_cards(TextSource& source) {
       for (; i < f.size(); ++i) {
         if (f.blank(i)) continue;
         const auto [first, last] = f.range(i, "a node or scalar point");
-        for (int id = first; id <= std::min(last, first + 100000); ++id)
-          add_rows(rows, id, components);
+        for (int k = 0; k <= std::min(last - first, 100000); ++k)
+          add_rows(rows, first + k, components);
       }
     };
     if (name == "GRID") add_rows(all, f.label(0, "the number of the node"), 63u);
