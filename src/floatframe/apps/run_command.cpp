@@ -239,7 +239,6 @@ int run_model(const RunArguments& arguments) {
       setting_facts(arguments.model.path, arguments.model.settings, description.simulation));
   report.software = build_description();
   report.processor = processor_name();
-  report.spectral_radius = description.simulation.spectral_radius;
   report.result.summary.settings = arguments.model.settings;
   report.result.summary.files = used.files;
   if (arguments.strict) make_strict(report.result.summary);

@@ -121,7 +121,6 @@ class AugmentedLagrangian {
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
-    if (options_.follows_massless && k.trapezoidal) follow_massless(state, k);
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
     experience_.continues_at = state.t;
@@ -341,7 +340,6 @@ class AugmentedLagrangian {
     return true;
   }
 
-  void follow_massless(const State& state, const Scheme& k) noexcept;
   bool solve_accelerations(const State&, const Scheme&, double penalty, double enough) noexcept;
   bool settle_accelerations(double s, double penalty, double enough) noexcept;
 
@@ -396,5 +394,4 @@ class AugmentedLagrangian {
 
 }  // namespace floatframe
 
-#include "floatframe/integrator/massless_motion.hpp"  // the members that are not
-#include "floatframe/integrator/restart.hpp"          // defined here
+#include "floatframe/integrator/restart.hpp"  // the members that are not defined here

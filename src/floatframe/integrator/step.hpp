@@ -31,8 +31,6 @@ struct StepOptions {
   double time_budget = 0.0;
   /// What lies beyond is of directions without mass, in a restart [m/s2, rad/s2, amplitudes/s2].
   double largest_acceleration = 1e7;
-  /// Motions without mass follow the others by statics (massless_motion.hpp).
-  bool follows_massless = false;
 };
 
 /// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.

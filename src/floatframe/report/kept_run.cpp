@@ -86,7 +86,6 @@ std::string kept_page(const Model& model, const KeptRun& run, const RunSummary& 
   report.facts.push_back(setting_facts(run.model_file, run.settings, run.options));
   report.software = build_description();
   report.processor = processor_name();
-  report.spectral_radius = run.options.spectral_radius;
   PageBuffer buffer;
   auto page = run_page(report, page_curves(report.result.table), buffer);
   if (run.states) {

@@ -39,7 +39,7 @@ std::vector<std::string> ending(const Report& report) {
   return out;
 }
 
-Json energy_table(const EnergySummary& e, bool damped) {
+Json energy_table(const EnergySummary& e) {
   Json rows = Json::array();
   const auto row = [&](const std::string& name, double start, double end) {
     rows.push_back({name, joules(start), joules(end), joules(end - start)});
@@ -54,8 +54,7 @@ Json energy_table(const EnergySummary& e, bool damped) {
         rows.push_back(
             {"work of " + spaced_words(energy_flow_names[k]), "", "", joules(e.work.value[k])});
     rows.push_back(
-        {damped ? "remainder: numerical dissipation" : "remainder: error of the integration", "",
-         "", joules(e.remainder)});
+        {"remainder: error and damping of the integration", "", "", joules(e.remainder)});
   }
   return {{"heading", "Energy"}, {"columns", {"energy", "start", "end", "change"}}, {"rows", rows}};
 }
@@ -64,8 +63,7 @@ Json energy_table(const EnergySummary& e, bool damped) {
 Json page_tables(const Report& report) {
   Json out = tables_json(report.tables);
   const RunSummary& s = report.result.summary;
-  if (!report.result.table.columns.empty())
-    out.push_back(energy_table(s.energy, report.spectral_radius < 1.0));
+  if (!report.result.table.columns.empty()) out.push_back(energy_table(s.energy));
   return out;
 }
 

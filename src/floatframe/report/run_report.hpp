@@ -27,7 +27,6 @@ struct Report {
   std::vector<PageTable> tables;   ///< of the model, for the page of the viewer
   std::string software;            ///< version and build
   std::string processor;
-  double spectral_radius = 1.0;  ///< of the integrator: below 1 it dissipates
 };
 
 }  // namespace floatframe

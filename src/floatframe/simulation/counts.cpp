@@ -54,20 +54,6 @@ void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
   }
 }
 
-/// Bars that have no inertia about their axis where nothing but torsion holds that spin.
-void note_massless(RelativeFormulation& f, const State& start, double penalty_mass,
-                   std::vector<std::string>& notes) {
-  for (const std::size_t i : bodies_without_inertia(f, start, penalty_mass)) {
-    const Body& body = f.model().bodies[i];
-    if (body.modes() == 0 || body.data->mass_model == MassModel::hermite) continue;
-    notes.push_back(fmt::format(
-        "body '{}' has a motion without mass that stiffness holds (the spin of a bar about its "
-        "axis): it follows the others by statics; mass_model: hermite with section_inertia: true "
-        "gives it inertia",
-        body.name));
-  }
-}
-
 /// A toggle that is so near to straight has forces a hundred thousand times its loads.
 constexpr double nearly_singular = 1e-5;
 
@@ -101,7 +87,8 @@ ModelCounts check(const Model& model) {
   // A singular mass matrix shows here.
   const double penalty_mass = default_penalty_mass(model, Coordinates::relative);
   if (start_accelerations(relative, start, penalty_mass))
-    note_massless(relative, start, penalty_mass, c.start.notes);
+    std::ranges::move(massless_notes(relative, start, penalty_mass),
+                      std::back_inserter(c.start.notes));
   relative.positions(0.0, start.q);
   relative.velocities(start.v);
   const int rank = rank_of(relative.constraint_rows());

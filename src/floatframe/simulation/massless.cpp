@@ -1,5 +1,8 @@
 #include "floatframe/simulation/massless.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -159,7 +162,10 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
 }
 
 template <class F>
-std::vector<std::size_t> bodies_without_inertia(F& f, const State& state, double penalty_mass) {
+std::vector<std::string> massless_notes(F& f, const State& state, double penalty_mass) {
+  const std::vector<Body>& all = f.model().bodies;
+  const auto bends = [](const Body& b) { return b.modes() > 0; };
+  if (std::none_of(all.begin(), all.end(), bends)) return {};
   const int nv = f.velocities();
   const double s = little_stiffness(f), penalty = penalty_of_passes(f, penalty_mass);
   const VecX no_lambda = VecX::Zero(f.constraints());
@@ -173,11 +179,23 @@ std::vector<std::size_t> bodies_without_inertia(F& f, const State& state, double
   constexpr double noticeable = 1e-3;
   const VecX without = x - with;
   if (!without.allFinite() || !(largest(without) > noticeable)) return {};
-  const std::vector<std::size_t> bodies = bodies_moved(f, state, without);
+  std::vector<std::string> notes;
+  for (const std::size_t i : bodies_moved(f, state, without)) {
+    if (!(all[i].data->invariants.m > 0.0)) {
+      notes.clear();
+      break;
+    }
+    if (bends(all[i]))
+      notes.push_back(fmt::format(
+          "body '{}' has a motion without mass that stiffness holds (the spin of a bar about its "
+          "axis): steps use a spectral radius of at most {:g}; mass_model: hermite with "
+          "section_inertia: true gives it inertia",
+          all[i].name, forgets_statics));
+  }
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
-  return bodies;
+  return notes;
 }
 
 template VecX mass_diagonal(RelativeFormulation&, const State&);
@@ -190,10 +208,8 @@ template bool may_lack_mass(RelativeFormulation&, const VecX&, const VecX&, doub
 template bool may_lack_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
 template bool start_by_passes(RelativeFormulation&, State&, double, double, bool, bool);
 template bool start_by_passes(AbsoluteFormulation&, State&, double, double, bool, bool);
-template std::vector<std::size_t> bodies_without_inertia(RelativeFormulation&, const State&,
-                                                         double);
-template std::vector<std::size_t> bodies_without_inertia(AbsoluteFormulation&, const State&,
-                                                         double);
+template std::vector<std::string> massless_notes(RelativeFormulation&, const State&, double);
+template std::vector<std::string> massless_notes(AbsoluteFormulation&, const State&, double);
 template bool start_held_by_stiffness(RelativeFormulation&, State&, const VecX&, double);
 template bool start_held_by_stiffness(AbsoluteFormulation&, State&, const VecX&, double);
 

@@ -43,10 +43,15 @@ bool lacks_mass(double growth);
 template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
 
-/// Bodies, by their indices, with a motion that has no mass and that stiffness holds, at the state
-/// where `f` is. None if a pivot vanishes.
+/// Spectral radius with which motions without mass follow by statics. The trapezoidal rule turns an
+/// error of their rate over in each step, and constraints feed that into the rest.
+inline constexpr double forgets_statics = 0.7;
+
+/// Sentences on flexible bodies with a motion that has no mass and that stiffness holds, at the
+/// state where `f` is. None if a pivot vanishes, or if a body without any mass has one: where these
+/// go is decided by dampers. Rigid bodies without inertia are led by their joints.
 template <class F>
-std::vector<std::size_t> bodies_without_inertia(F& f, const State& state, double penalty_mass);
+std::vector<std::string> massless_notes(F& f, const State& state, double penalty_mass);
 
 /// s of a T without stiffness.
 inline constexpr double no_stiffness = 1e-30;

@@ -239,7 +239,7 @@ class Run {
     s.energy.total_end = e.total();
     if (joints_) result_.state = std::make_shared<SystemState>(steps_.system_state(*joints_));
     if (!watch_) return;
-    watch_->finish(steps_.state(), o_.spectral_radius, steps_.corners(), s);
+    watch_->finish(steps_.state(), steps_.step_options().spectral_radius, steps_.corners(), s);
     const auto unresolved =
         unresolved_forcing(steps_.model(), o_.step, steps_.begin(), o_.duration, steps_.corners());
     s.warnings.insert(s.warnings.begin(), unresolved.begin(), unresolved.end());

@@ -36,22 +36,6 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
-/// A flexible body has a motion without mass, which its stiffness holds, and no body without any
-/// mass has one: where these go is decided by dampers. Rigid bodies without inertia alone are led
-/// by their joints.
-template <class F>
-bool bends_without_inertia(F& f, const State& state, double penalty_mass) {
-  const std::vector<Body>& all = f.model().bodies;
-  const auto bends = [](const Body& b) { return b.modes() > 0; };
-  if (std::none_of(all.begin(), all.end(), bends)) return false;
-  bool found = false;
-  for (const std::size_t i : bodies_without_inertia(f, state, penalty_mass)) {
-    if (!(all[i].data->invariants.m > 0.0)) return false;
-    found = found || bends(all[i]);
-  }
-  return found;
-}
-
 /// A model that can move as its motions ask.
 const Model& movable(const Model& model) {
   for (const LockedLoops& locked : model.hints.locked)
@@ -78,8 +62,13 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
     state_.t = start.t;
     f_.start_from(tree, start.q, start.v, state_.q, state_.v);
   }
-  if (start_accelerations(f_, state_, step_options_.penalty_mass))
-    step_options_.follows_massless = bends_without_inertia(f_, state_, step_options_.penalty_mass);
+  double& spectral_radius = step_options_.spectral_radius;
+  if (start_accelerations(f_, state_, step_options_.penalty_mass) &&
+      spectral_radius > forgets_statics)
+    for (std::string& note : massless_notes(f_, state_, step_options_.penalty_mass)) {
+      spectral_radius = forgets_statics;
+      add_note(std::move(note));
+    }
   note_linear_markers(model(), report_);
   for (std::string& note : doubtful_gauges(model())) add_note(std::move(note));
   spring_angles_.assign(f_.spring_angles().begin(), f_.spring_angles().end());
