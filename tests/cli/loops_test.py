@@ -189,7 +189,7 @@ class Loops(unittest.TestCase):
             done, _, summary = self.run_model(name, *absolute, *options)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertNotIn("energy balance", done.stderr)
-            self.assertEqual("steps use a spectral radius of at most 0.7" in str(summary["start"]), noted)
+            self.assertEqual("gives way to a spectral radius of 0.7" in str(summary["start"]), noted)
 
     def test_only_joints_that_slide_along_a_body_have_a_note(self):
         text = (LOOPS / "slider_on_flexible_beam.yaml").read_text(encoding="utf-8")

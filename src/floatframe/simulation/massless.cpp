@@ -188,8 +188,8 @@ std::vector<std::string> massless_notes(F& f, const State& state, double penalty
     if (bends(all[i]))
       notes.push_back(fmt::format(
           "body '{}' has a motion without mass that stiffness holds (the spin of a bar about its "
-          "axis): steps use a spectral radius of at most {:g}; mass_model: hermite with "
-          "section_inertia: true gives it inertia",
+          "axis): the trapezoidal rule gives way to a spectral radius of {:g}; mass_model: "
+          "hermite with section_inertia: true gives it inertia",
           all[i].name, forgets_statics));
   }
   f.positions(state.t, state.q);

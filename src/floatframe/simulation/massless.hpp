@@ -43,8 +43,9 @@ bool lacks_mass(double growth);
 template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
 
-/// Spectral radius with which motions without mass follow by statics. The trapezoidal rule turns an
-/// error of their rate over in each step, and constraints feed that into the rest.
+/// Spectral radius with which motions without mass follow by statics, where the trapezoidal rule
+/// was asked for. That turns an error of their rate over in each step, and constraints feed it into
+/// the rest.
 inline constexpr double forgets_statics = 0.7;
 
 /// Sentences on flexible bodies with a motion that has no mass and that stiffness holds, at the

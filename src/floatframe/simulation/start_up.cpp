@@ -63,8 +63,7 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
     f_.start_from(tree, start.q, start.v, state_.q, state_.v);
   }
   double& spectral_radius = step_options_.spectral_radius;
-  if (start_accelerations(f_, state_, step_options_.penalty_mass) &&
-      spectral_radius > forgets_statics)
+  if (start_accelerations(f_, state_, step_options_.penalty_mass) && spectral_radius >= 1.0)
     for (std::string& note : massless_notes(f_, state_, step_options_.penalty_mass)) {
       spectral_radius = forgets_statics;
       add_note(std::move(note));
