@@ -3,7 +3,7 @@
 
     scripts/count_faulty_decks.py [--least N]
 
-Each counts that a test of tests/formats expects as "FILE:LINE: sentence" or, where the test puts the
+Each counts that a test of tests/decks expects as "FILE:LINE: sentence" or, where the test puts the
 name of the file before it, "LINE: sentence"; equal ones of a file count once. Sentences of at least
 four words; what sounds like a note does not count. Prints the count by file of tests and in all; with --least, exit code 1 if they are fewer.
 """
@@ -35,7 +35,7 @@ def main():
     parser.add_argument('--least', type=int, default=0)
     parser.add_argument('--show', action='store_true', help='print the sentences')
     options = parser.parse_args()
-    folder = pathlib.Path(__file__).resolve().parent.parent / 'tests' / 'formats'
+    folder = pathlib.Path(__file__).resolve().parent.parent / 'tests' / 'decks'
     total = 0
     for file in sorted(folder.glob('*_test.cpp')):
         found = sentences(file.read_text(encoding='utf-8'))

@@ -74,7 +74,7 @@ def source_figures():
     figures = {
         "casts in src": sum(len(re.findall(r"\b(?:static|const|reinterpret|dynamic)_cast<", t)) for t in texts.values()),
         "lines of src": sum(t.count("\n") for t in texts.values()),
-        "lines of src/floatframe/formats": sum(t.count("\n") for p, t in texts.items() if SOURCES / "formats" in p.parents),
+        "lines of decks and formats": sum(t.count("\n") for p, t in texts.items() if {SOURCES / "formats", SOURCES / "decks"} & set(p.parents)),
     }
     folder = tempfile.mkdtemp(prefix="floatframe-headers-")
     try:

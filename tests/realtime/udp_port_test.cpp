@@ -293,9 +293,6 @@ TEST(UdpPort, DoesNotAllocate) {
 TEST(UdpAddress, IsReadAndShown) {
   EXPECT_EQ(parse_udp_address("127.0.0.1:47100", "--send").text(), "127.0.0.1:47100");
   EXPECT_EQ(parse_udp_address("[::1]:80", "--send").text(), "[::1]:80");
-  EXPECT_TRUE(parse_udp_address("127.1.2.3:1", "--send").loopback());
-  EXPECT_TRUE(parse_udp_address("[::1]:1", "--send").loopback());
-  EXPECT_FALSE(parse_udp_address("192.0.2.1:1", "--send").loopback());
   for (const char* bad : {"", "127.0.0.1", ":80", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1",
                           "127.0.0.1:8a", "::1:80", "127.0.0.1:800000000000000000000"}) {
     try {

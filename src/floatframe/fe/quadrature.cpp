@@ -70,15 +70,4 @@ QuadratureRule triangle_rule(int n) {
   return rule;
 }
 
-QuadratureRule wedge_rule(int n, int m) {
-  const LineRule line = gauss_jacobi(m, 0);
-  QuadratureRule rule;
-  for (int k = 0; k < m; ++k) {
-    for (const QuadraturePoint& q : triangle_rule(n)) {
-      rule.push_back({Vec3(q.xi(0), q.xi(1), 2 * line.u(k) - 1), 2 * q.weight * line.weight(k)});
-    }
-  }
-  return rule;
-}
-
 }  // namespace floatframe

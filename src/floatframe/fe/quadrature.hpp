@@ -26,9 +26,7 @@ QuadratureRule brick_rule(int n);
 QuadratureRule tetrahedron_rule(int n);
 /// The same with the 4 symmetric points, degree 2.
 QuadratureRule tetrahedron_rule_4();
-/// Triangle 0 <= xi_1, xi_2, xi_1 + xi_2 <= 1 (area 1/2) times [-1, 1]: n^2 points times m.
-QuadratureRule wedge_rule(int n, int m);
-/// Triangle only (xi_3 = 0), n^2 points; weights sum to 1/2.
+/// Triangle 0 <= xi_1, xi_2, xi_1 + xi_2 <= 1, xi_3 = 0, n^2 points; weights sum to 1/2.
 QuadratureRule triangle_rule(int n);
 
 }  // namespace floatframe

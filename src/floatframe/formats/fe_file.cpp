@@ -8,54 +8,48 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/core/utf8_text.hpp"
 #include "floatframe/fe/springs.hpp"
-#include "floatframe/formats/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/ansys/read_ansys.hpp"
+#include "floatframe/formats/deck_component.hpp"
 #include "floatframe/formats/equation_checks.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/matrices/op4_file.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
 #include "floatframe/formats/matrices/read_op4.hpp"
-#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
-#include "floatframe/formats/unv/read_unv.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr std::size_t most_notes = 500;
 
-/// A reader is one file of this folder and one entry here.
+/// Of this folder. A reader is one file and one entry here, those of decks in deck_list.cpp.
+const FeFormat own_formats[] = {
+    {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh, true},
+    {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
+    {"op4", "Nastran matrices (OUTPUT4, .op4)", {".op4"}, looks_like_op4, read_op4},
+    {"calculix_matrices",
+     "CalculiX matrices (.sti, .mas, .dof)",
+     {".sti", ".mas"},
+     looks_like_calculix_matrix,
+     read_calculix_matrices},
+    {"abaqus_matrices",
+     "Abaqus matrices (.mtx)",
+     {".mtx"},
+     looks_like_abaqus_matrix,
+     read_abaqus_matrices},
+    {"matrix_market",
+     "Matrix Market matrices (.mtx)",
+     {".mtx", ".mm"},
+     looks_like_matrix_market,
+     read_matrix_market}};
+
 const std::vector<FeFormat>& formats() {
-  static const std::vector<FeFormat> list{
-      {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
-      {"ansys", "ANSYS deck (.cdb)", {".cdb"}, looks_like_ansys, read_ansys},
-      {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh, true},
-      {"nastran",
-       "Nastran bulk data (.bdf)",
-       {".bdf", ".dat", ".nas", ".fem", ".blk"},
-       looks_like_nastran,
-       read_nastran},
-      {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv, true},
-      {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
-      {"op4", "Nastran matrices (OUTPUT4, .op4)", {".op4"}, looks_like_op4, read_op4},
-      {"calculix_matrices",
-       "CalculiX matrices (.sti, .mas, .dof)",
-       {".sti", ".mas"},
-       looks_like_calculix_matrix,
-       read_calculix_matrices},
-      {"abaqus_matrices",
-       "Abaqus matrices (.mtx)",
-       {".mtx"},
-       looks_like_abaqus_matrix,
-       read_abaqus_matrices},
-      {"matrix_market",
-       "Matrix Market matrices (.mtx)",
-       {".mtx", ".mm"},
-       looks_like_matrix_market,
-       read_matrix_market},
-  };
+  static const std::vector<FeFormat> list = [] {
+    std::vector<FeFormat> all = deck_component().readers;
+    all.insert(all.end(), std::begin(own_formats), std::end(own_formats));
+    return all;
+  }();
   return list;
 }
 
@@ -65,7 +59,7 @@ std::string known_formats() {
   for (const FeFormat& f : formats()) {
     text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", f.description, f.name);
   }
-  return text;
+  return text + deck_component_missing();
 }
 
 bool has_ending(const FeFormat& format, std::string name) {

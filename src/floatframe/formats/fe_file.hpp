@@ -1,8 +1,8 @@
 #pragma once
 // Finite-element files of other programs. All readers give the same FeModel, in the units of the
-// file. A new format is one file with a reader and one entry in the list of fe_file.cpp. Files may
-// be compressed with gzip (.gz). Errors throw InputError with file:line, all that can be found at
-// once.
+// file. A new format is one file with a reader and one entry in the list of fe_file.cpp or
+// deck_list.cpp. Files may be compressed with gzip (.gz). Errors throw InputError with file:line,
+// all that can be found at once.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -93,6 +93,8 @@ struct FeFormat {
   FeModel (*read)(const std::filesystem::path& file, const FeReadOptions& options);
   /// Surfaces are shells only by FeReadOptions::thicknesses.
   bool without_sections = false;
+  /// Of a deck beside matrices: nodes, sets, spiders and supports alone; null: that has none.
+  FeModel (*read_nodes)(const std::filesystem::path& file) = nullptr;
 };
 
 std::span<const FeFormat> fe_formats();

@@ -49,12 +49,6 @@ std::pair<double, double> share(double distance, double over) {
 
 }  // namespace
 
-double road_spectrum_at(const RoadSpectrum& spectrum, double n) noexcept {
-  if (!(n >= road_classes::low && n <= road_classes::high)) return 0.0;
-  const double x = road_classes::reference / n;
-  return spectrum.roughness * x * x;
-}
-
 double road_variance(const RoadSpectrum& spectrum, double from, double to) noexcept {
   const double a = std::clamp(from, road_classes::low, road_classes::high),
                b = std::clamp(to, road_classes::low, road_classes::high * (1.0 + 1e-9));

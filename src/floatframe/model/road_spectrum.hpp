@@ -23,9 +23,7 @@ struct RoadSpectrum {
   std::int64_t seed = 1;                          ///< another one is another road
 };
 
-/// G(n) [m3]; 0 outside the range.
-double road_spectrum_at(const RoadSpectrum& spectrum, double n) noexcept;
-/// int G dn between two wave numbers [m2].
+/// int G dn between two wave numbers [m2]; G is 0 outside the range.
 double road_variance(const RoadSpectrum& spectrum, double from, double to) noexcept;
 
 /// A sum of 1000 waves with random phases, one in each of as many bands of equal ratio, which

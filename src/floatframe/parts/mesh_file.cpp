@@ -40,10 +40,4 @@ std::string save_converted_mesh(const PartJob& job, const std::string& out, int 
   return converted.summary;
 }
 
-std::string mesh_formats_text() {
-  std::vector<std::string> texts;
-  for (const MeshFormat& format : mesh_formats()) texts.emplace_back(format.description);
-  return fmt::format("{}", fmt::join(texts, "; "));
-}
-
 }  // namespace floatframe

@@ -23,7 +23,4 @@ ConvertedMesh convert_mesh_file(const PartJob& job, const std::filesystem::path&
 /// cannot be written, InputError where it would replace a file that was read.
 std::string save_converted_mesh(const PartJob& job, const std::string& out, int modes);
 
-/// "CalculiX deck (.inp); ..."
-std::string mesh_formats_text();
-
 }  // namespace floatframe

@@ -92,12 +92,6 @@ std::string UdpAddress::text() const {
   return port() == 0 ? shown : fmt::format("{}:{}", shown, port());
 }
 
-bool UdpAddress::loopback() const noexcept {
-  const std::array<unsigned char, 16> host = host_bytes(*this);
-  if (family() == AF_INET6 && IN6_IS_ADDR_LOOPBACK(&ipv6(*this)->sin6_addr)) return true;
-  return host[10] == 0xff && host[11] == 0xff && host[12] == 127;
-}
-
 bool UdpAddress::same_host(const UdpAddress& other) const noexcept {
   return known() && other.known() && host_bytes(*this) == host_bytes(other);
 }

@@ -18,7 +18,6 @@ struct UdpAddress {
   void set_port(std::uint16_t port) noexcept;
   /// "127.0.0.1:47100", "[::1]:47100"; without a port of its own "127.0.0.1", "[::1]".
   std::string text() const;
-  bool loopback() const noexcept;
   /// The same host, whatever the ports. An IPv4 address is the same as its form within IPv6
   /// (::ffff:127.0.0.1), in which a socket of both kinds shows it.
   bool same_host(const UdpAddress& other) const noexcept;

@@ -32,11 +32,6 @@ double CampbellPoint::damping() const noexcept {
   return size > 0.0 ? -lambda.real() / size : 0.0;
 }
 
-std::string whirl_word(double whirl, double across) {
-  if (across < 1e-3) return "";
-  return whirl > 0.1 ? "forward" : whirl < -0.1 ? "backward" : "planar";
-}
-
 CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
   CampbellDiagram d;
   check_options(o);

@@ -83,7 +83,4 @@ struct CampbellDiagram {
 /// state, or if the system depends on the angle of the rotor.
 CampbellDiagram campbell(const Model& model, const CampbellOptions& options);
 
-/// "forward", "backward", "planar", or "" for a motion of the axis that is not across it.
-std::string whirl_word(double whirl, double across);
-
 }  // namespace floatframe

@@ -8,12 +8,9 @@
 #include <unordered_map>
 
 #include "floatframe/fe/element_faces.hpp"
-#include "floatframe/formats/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -276,19 +273,12 @@ FeModel read_nodes(const std::filesystem::path& file) {
     TextSource source(file);
     return read_node_table(source);
   }
-  if (looks_like_abaqus(read_beginning(file, std::size_t{1} << 16))) {
-    TextSource source(file);
-    return read_abaqus(source, {}, DeckPart::nodes);
-  }
   const std::string beginning = read_beginning(file, std::size_t{1} << 20);
-  if (looks_like_nastran(beginning) || looks_like_dmig(beginning)) {
-    TextSource source(file);
-    return read_nastran(source, has_begin_bulk(beginning), {}, NastranPart::nodes);
-  }
-  if (looks_like_ansys(beginning)) {
-    TextSource source(file);
-    return read_ansys_nodes(source);
-  }
+  const bool matrices = looks_like_dmig(beginning);  // nodes may stand beside them
+  for (const FeFormat& f : fe_formats())
+    if (f.read_nodes &&
+        (f.recognise(beginning) || (matrices && f.name == std::string_view("nastran"))))
+      return f.read_nodes(file);
   FeModel model = read_fe_file(file);
   keep_nodes(model);
   return model;

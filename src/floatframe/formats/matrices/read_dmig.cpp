@@ -11,7 +11,6 @@
 #include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

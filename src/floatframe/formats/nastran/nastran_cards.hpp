@@ -70,15 +70,6 @@ class NastranCards {
   std::map<int, std::string> property_names_, material_names_, set_names_;
 };
 
-/// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
-bool is_harmless_nastran_card(const std::string& name);
-
-/// Cards that say what touches what.
-bool is_nastran_contact_card(const std::string& name);
-
-/// What to do about a card that is not read; null if there is nothing special about it.
-const char* why_nastran_card_is_refused(const std::string& name);
-
 /// Is there a line BEGIN (BULK, SUPER, ...) in a text or in the beginning of a file?
 bool has_begin_bulk(std::string_view text);
 

@@ -4,7 +4,6 @@
 
 namespace floatframe {
 
-WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options);
 WrittenMesh gmsh_mesh_file(const FeModel& model, const MeshWriteOptions& options);
 WrittenMesh vtu_mesh(const FeModel& model, const MeshWriteOptions& options);
 

@@ -1,0 +1,311 @@
+// Surfaces, spiders, equations and supports of an Abaqus deck in the model.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/decks/face_weights.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Collects nodes, each once, with the sum of their weights; used again for the next spider.
+class NodeList {
+ public:
+  explicit NodeList(std::size_t count) : place_(count, -1) {}
+  void clear() {
+    for (const std::vector<int>* list : {&nodes, &excluded_}) {
+      for (const int node : *list) place_[node] = -1;
+    }
+    nodes.clear();
+    weights.clear();
+    excluded_.clear();
+  }
+  void exclude(int node) {
+    if (node < 0) return;
+    place_[node] = -2;
+    excluded_.push_back(node);
+  }
+  void add(int node, double weight) {
+    int& place = place_[node];
+    if (place == -2) return;
+    if (place < 0) {
+      place = static_cast<int>(nodes.size());
+      nodes.push_back(node);
+      weights.push_back(0.0);
+    }
+    weights[place] += weight;
+  }
+  std::vector<int> nodes;
+  std::vector<double> weights;
+
+ private:
+  std::vector<int> place_, excluded_;
+};
+
+/// The name in the model, with that of the instance where others have the same.
+std::string surface_name(const AbaqusContent& c, const AbaqusContent::Key& key) {
+  return abaqus_model_name(c, key, c.surfaces);
+}
+
+void build_surfaces(AbaqusBuild& build) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  for (const auto& [key, surface] : c.surfaces) {
+    const std::string name = surface_name(c, key);
+    if (surface.of_nodes) {
+      std::vector<int> nodes;
+      for (const AbaqusSurface::Item& item : surface.items) {
+        const std::vector<int> found = build.nodes.resolve(item.where);
+        nodes.insert(nodes.end(), found.begin(), found.end());
+      }
+      if (!surface.internal && !nodes.empty()) model.node_sets.emplace(name, std::move(nodes));
+      continue;
+    }
+    std::vector<ElementFace> faces;
+    const std::size_t before = build.source.errors();
+    for (const AbaqusSurface::Item& item : surface.items) {
+      for (const int e : build.elements.resolve(item.where)) {
+        const int index = build.element_index[e];
+        const AbaqusElement& element = c.elements[e];
+        const std::size_t count = index < 0 ? 0 : element_faces(model.elements[index].type).size();
+        if (static_cast<std::size_t>(item.face) >= count) {
+          build.source.error(item.where.at,
+                             fmt::format("surface {}: element {} ({}) has no face {}", shown(name),
+                                         element.id, element.type->name, item.face + 1));
+          break;
+        }
+        faces.push_back({index, item.face});
+      }
+    }
+    if (faces.empty() && build.source.errors() == before) {
+      build.source.error(surface.at, fmt::format("surface {} is empty", shown(name)));
+    }
+    model.surfaces[name] = std::move(faces);
+  }
+}
+
+void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list) {
+  std::string name;
+  const AbaqusSurface* const surface = find_abaqus_surface(build, *spider.surface, name);
+  if (surface == nullptr) return;
+  if (surface->of_nodes) {
+    for (const AbaqusSurface::Item& item : surface->items) {
+      for (const int node : build.nodes.resolve(item.where)) list.add(node, item.weight);
+    }
+    return;
+  }
+  const FeModel& model = build.model;
+  for (const ElementFace& f : model.surfaces.at(name)) {
+    const Element& element = model.elements[f.element];
+    const FaceNodes& face = element_faces(element.type)[f.face];
+    std::vector<Vec3> corners;
+    for (int k = 0; k < face.corners; ++k)
+      corners.push_back(model.positions[element.nodes[face.nodes[k]]]);
+    const std::vector<double> weights = face_weights(corners, face.count);
+    for (int k = 0; k < face.count; ++k) list.add(element.nodes[face.nodes[k]], weights[k]);
+  }
+}
+
+void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, NodeList& list) {
+  const AbaqusContent& c = build.content;
+  Spider spider;
+  spider.kind = raw.kind;
+  spider.name = raw.name;
+  spider.mask = raw.mask;
+  spider.source = raw.at;
+  const std::size_t before = build.source.errors();
+  if (raw.reference_by_element) {
+    const int e = build.elements.one(raw.reference, "*DISTRIBUTING COUPLING");
+    if (e >= 0) {
+      const AbaqusElement& element = c.elements[e];
+      if (element.type->family != AbaqusType::Family::coupling) {
+        build.source.error(raw.at, fmt::format("*DISTRIBUTING COUPLING names element {} ({}), "
+                                               "expected one of type DCOUP3D",
+                                               element.id, element.type->name));
+      } else if (const std::vector<int> node = build.nodes_of_elements({e}); node.size() == 1) {
+        spider.reference = node.front();
+      } else {
+        build.source.error(element.at,
+                           fmt::format("element {} ({}): node {} does not exist", element.id,
+                                       element.type->name, c.element_nodes[element.first]));
+      }
+    }
+  } else {
+    spider.reference = build.nodes.one(raw.reference, "reference node");
+  }
+  if (raw.rotation) {
+    spider.rotation_node = build.nodes.one(*raw.rotation, "rotation node");
+    if (spider.rotation_node == spider.reference) spider.rotation_node = -1;
+  }
+  list.clear();
+  list.exclude(spider.reference);
+  list.exclude(spider.rotation_node);
+  for (std::size_t k = 0; k < raw.nodes.size(); ++k) {
+    const double weight = raw.weights.empty() ? 1.0 : raw.weights[k];
+    for (const int node : build.nodes.resolve(raw.nodes[k])) list.add(node, weight);
+  }
+  for (const AbaqusReference& elements : raw.elements) {
+    for (const int node : build.nodes_of_elements(build.elements.resolve(elements))) {
+      list.add(node, 1.0);
+    }
+  }
+  if (raw.surface && !only_nodes) add_surface(build, raw, list);
+  if (build.source.errors() != before) return;
+  if (list.nodes.empty() && !only_nodes) {
+    build.source.error(raw.at, "the rigid body or coupling has no nodes beside its reference");
+    return;
+  }
+  spider.nodes = list.nodes;
+  if (spider.kind == Spider::Kind::mean) spider.weights = list.weights;
+  build.model.spiders.push_back(std::move(spider));
+}
+
+/// Displacements of a rotation node are rotations of its reference.
+class DofMap {
+ public:
+  explicit DofMap(const FeModel& model) {
+    for (const Spider& s : model.spiders) {
+      if (s.rotation_node >= 0) reference_.emplace(s.rotation_node, s.reference);
+    }
+  }
+  bool is_rotation(int node) const { return reference_.contains(node); }
+  Dof operator()(int node, int axis) const {
+    const auto it = reference_.find(node);
+    return it == reference_.end() ? Dof{node, axis} : Dof{it->second, axis % 3 + 3};
+  }
+
+ private:
+  std::map<int, int> reference_;
+};
+
+/// A term in body axes: of a turned node one of each axis.
+void add_term(LinearEquation& equation, const Dof& dof, double factor,
+              const std::map<int, Mat3>& axes) {
+  const auto it = axes.find(dof.node);
+  if (it == axes.end()) {
+    equation.terms.push_back({dof.node, dof.axis, factor});
+    return;
+  }
+  const int first = dof.axis / 3 * 3;
+  const Vec3 direction = it->second.col(dof.axis - first);
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  for (int k = 0; k < 3; ++k) {
+    const int axis = (static_cast<int>(largest) + k) % 3;
+    if (std::abs(direction(axis)) > 1e-15)
+      equation.terms.push_back({dof.node, first + axis, factor * direction(axis)});
+  }
+}
+
+void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap& dofs,
+                    const std::map<int, Mat3>& axes) {
+  std::vector<std::vector<int>> nodes;
+  const std::size_t before = build.source.errors();
+  for (const AbaqusEquation::Term& term : raw.terms) {
+    nodes.push_back(build.nodes.resolve(term.nodes));
+    if (build.source.errors() != before) return;
+    if (nodes.back().size() != 1 && nodes.back().size() != nodes.front().size()) {
+      build.source.error(raw.at, fmt::format("*EQUATION: {} has {} nodes, expected 1 or {} as in "
+                                             "the first term",
+                                             build.content.text(term.nodes, "node"),
+                                             nodes.back().size(), nodes.front().size()));
+      return;
+    }
+  }
+  build.nodes.spend(nodes.front().size() * raw.terms.size(), raw.at);
+  for (std::size_t k = 0; k < nodes.front().size(); ++k) {
+    LinearEquation equation;
+    equation.source = raw.at;
+    for (std::size_t t = 0; t < raw.terms.size(); ++t) {
+      const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][k];
+      const Dof dof = dofs(node, raw.terms[t].axis);
+      add_term(equation, dof, raw.terms[t].factor, axes);
+    }
+    build.model.equations.push_back(std::move(equation));
+  }
+}
+
+/// A node that follows in some directions only follows in its own ones.
+void check_turned_spiders(AbaqusBuild& build, const std::map<int, Mat3>& axes) {
+  if (axes.empty()) return;
+  for (const Spider& s : build.model.spiders) {
+    const unsigned translations = s.mask & 7u, rotations = s.mask >> 3;
+    if (s.kind == Spider::Kind::mean ||
+        ((translations == 0 || translations == 7u) && (rotations == 0 || rotations == 7u)))
+      continue;
+    for (const int node : s.nodes) {
+      if (!axes.contains(node)) continue;
+      build.source.error(s.source, fmt::format("{} follows in some directions only, and *TRANSFORM "
+                                               "turns them, which is not supported",
+                                               build.model.node_label(node)));
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
+                                         std::string& shown_name) {
+  const AbaqusContent& c = build.content;
+  const int name = reference.name;
+  const FeSource& at = reference.at;
+  const AbaqusNamed<AbaqusSurface> found = find_abaqus_name(c, c.surfaces, reference.scope, name);
+  if (found.entry != nullptr) {
+    shown_name = surface_name(c, found.entry->first);
+    return &found.entry->second;
+  }
+  if (found.several) {
+    build.source.error(at, fmt::format("surface {} is in several instances: put the name of one "
+                                       "and a dot before it",
+                                       shown(c.names[name])));
+    return nullptr;
+  }
+  std::vector<std::string> known;
+  for (const auto& [key, s] : c.surfaces) {
+    if (known.size() == most_known) break;
+    known.push_back(c.names[key.second]);
+  }
+  build.source.error(at, fmt::format("surface {} does not exist{}", shown(c.names[name]),
+                                     did_you_mean(c.names[name], known)));
+  return nullptr;
+}
+
+void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
+  const AbaqusContent& c = build.content;
+  if (!only_nodes) {
+    build_surfaces(build);
+    std::string name;
+    for (const AbaqusPreTension& p : c.pre_tensions) find_abaqus_surface(build, p.surface, name);
+    build.source.throw_if_any();
+  }
+  NodeList list(c.nodes.size());
+  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes, list);
+  const DofMap dofs(build.model);
+  const std::map<int, Mat3> axes = abaqus_node_axes(build);
+  // A *MPC is several equations: one error is enough.
+  FeSource wrong;
+  for (const AbaqusEquation& equation : c.equations) {
+    if (equation.at.file == wrong.file && equation.at.line == wrong.line) continue;
+    const std::size_t before = build.source.errors();
+    build_equation(build, equation, dofs, axes);
+    if (build.source.errors() != before) wrong = equation.at;
+  }
+  for (const AbaqusSupport& support : c.supports) {
+    for (const int node : build.nodes.resolve(support.nodes)) {
+      const bool rotation = dofs.is_rotation(node);
+      const unsigned mask = rotation ? (support.mask & 7u) << 3 : support.mask;
+      build.model.supports.push_back({dofs(node, 0).node, mask, support.at});
+    }
+  }
+  check_turned_spiders(build, axes);
+  if (!only_nodes && build.source.errors() == 0) build_abaqus_ties(build);
+  build.arms.tie(build.model);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,260 @@
+// Orientations and layers of the sections of an Abaqus deck.
+//
+// Solids have the axes of their orientation at each point. Of shells axis 1 is projected on the
+// element: Abaqus takes the axis that follows the one about which the additional rotation turns
+// (1, 2, 3, 1), after that rotation; without an orientation global x, or global z where x is within
+// 0.1 degrees of the normal. CalculiX has the axes in space; with the third along the normal that
+// is the same.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/decks/number_sizes.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Family = AbaqusType::Family;
+using Kind = AbaqusOrientation::Kind;
+
+/// What the two programs read in their own ways.
+struct DialectHabit {
+  std::string what;      ///< "SYSTEM=Z RECTANGULAR"
+  const char* calculix;  ///< what CalculiX does with it: "takes it as RECTANGULAR"
+  const char* taken;     ///< and what it is then: "taken as RECTANGULAR"
+};
+
+/// Whether it is CalculiX' way here. A note where it is not sure that the user knows.
+bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
+                    const DialectHabit& d) {
+  const DialectClues& clues = build.clues;
+  const DeckDialect given = build.content.dialect;
+  if (given == DeckDialect::abaqus) return false;
+  const std::string what = fmt::format("orientation {}: {} is ", shown(name), d.what);
+  if (given == DeckDialect::by_content && (!clues.calculix || clues.abaqus)) {
+    if (clues.by_axes || clues.calculix || !clues.abaqus)
+      build.note(o.at, what + fmt::format("taken as in Abaqus; if the deck is one of CalculiX, "
+                                          "which {}, give --dialect calculix",
+                                          d.calculix));
+    return false;
+  }
+  build.note(o.at, what + fmt::format("{}, as CalculiX does; if the deck is one of Abaqus give "
+                                      "--dialect abaqus",
+                                      d.taken));
+  return true;
+}
+
+/// In the program of the deck. CalculiX ignores the Z of a system, a point c, and a turn whose
+/// axis is blank.
+AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
+                                     const std::string& name, bool shell) {
+  const char* const ignores = "ignores it";
+  const char* const ignored = "ignored";
+  if (o.kind == Kind::z_rectangular &&
+      is_of_calculix(build, o, name,
+                     {"SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR", "taken as RECTANGULAR"}))
+    o.kind = Kind::rectangular;
+  if (o.kind != Kind::cylindrical && o.c != Vec3::Zero() &&
+      is_of_calculix(build, o, name,
+                     {fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
+                      ignores, ignored}))
+    o.c.setZero();
+  // Of shells the axis alone says which one is about the normal.
+  if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
+      is_of_calculix(build, o, name,
+                     {fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 "
+                                  "in Abaqus),",
+                                  o.angle * 180.0 / std::numbers::pi),
+                      ignores, ignored}))
+    o.axis = 0;
+  if (o.points_on_a_line())
+    build.source.error(o.at, fmt::format("orientation {} {}", shown(name), o.wrong_points()));
+  return o;
+}
+
+Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
+  Orientation out;
+  Vec3 x = o.a - o.c, z;
+  if (o.kind == Kind::cylindrical) {
+    out.kind = Orientation::Kind::cylindrical;
+    z = o.b - o.a;
+    Eigen::Index least = 0;
+    z.cwiseAbs().minCoeff(&least);
+    x = Vec3::Unit(least);
+  } else if (o.kind == Kind::z_rectangular) {
+    z = o.a - o.c;
+    x = o.b - o.c;
+  } else {
+    z = x.cross(o.b - o.c);
+  }
+  z.normalize();
+  x = (x - z * z.dot(x)).normalized();
+  out.axes << x, z.cross(x), z;
+  out.origin = o.kind == Kind::cylindrical ? o.a : o.c;
+  out.axes = (place.R * out.axes).eval();
+  out.origin = place.at(out.origin);
+  if (o.axis > 0) out.turn = Eigen::AngleAxisd(o.angle, Vec3::Unit(o.axis - 1)).toRotationMatrix();
+  return out;
+}
+
+/// Which axis of an orientation is about the normal of a shell.
+int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
+  const DialectClues& clues = build.clues;
+  const DeckDialect given = build.content.dialect;
+  const bool calculix =
+      given == DeckDialect::calculix || (given == DeckDialect::by_content && clues.calculix);
+  const bool abaqus =
+      given == DeckDialect::abaqus || (given == DeckDialect::by_content && clues.abaqus);
+  if (o.axis == 0 && abaqus && !calculix)
+    build.source.error(o.at, fmt::format("orientation {} is used for shells and has no second line "
+                                         "(axis and angle of the additional rotation)",
+                                         shown(name)));
+  if (o.axis == 0) return 3;
+  if (o.axis != 3 && calculix && !abaqus)
+    build.source.error(o.at, fmt::format("orientation {} is used for shells and turns about axis "
+                                         "{}; of CalculiX decks only turns about axis 3, the "
+                                         "normal, are read",
+                                         shown(name), o.axis));
+  if (o.axis != 3 && o.axis_given && !calculix && !abaqus)
+    build.note(o.at, fmt::format("orientation {} of shells turns about axis {}, which is taken "
+                                 "about the normal as in Abaqus; if the deck is one of CalculiX, "
+                                 "which turns the axes in space, give --dialect calculix",
+                                 shown(name), o.axis));
+  return o.axis;
+}
+
+/// Global axes for shells without an orientation: x, or z where x is the normal.
+int default_orientation(AbaqusBuild& build, const Vec3& normal) {
+  const bool across = std::abs(normal(0)) > std::cos(0.1 * std::numbers::pi / 180.0);
+  const auto [it, fresh] = build.orientation_index.try_emplace(
+      across ? "*Z" : "*X", static_cast<int>(build.model.orientations.size()));
+  if (!fresh) return it->second;
+  Orientation o;
+  if (across) o.axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  build.model.orientations.push_back(o);
+  return it->second;
+}
+
+std::vector<Vec3> corners_of(const AbaqusBuild& build, const Element& e) {
+  const int count = element_kernel(e.type).nodes;
+  std::vector<Vec3> out;
+  for (int k = 0; k < count; ++k) out.push_back(build.model.positions[e.nodes[k]]);
+  return out;
+}
+
+/// Index of a shell section like that of the element, with the angles of its plies.
+int with_angles(AbaqusBuild& build, int section, const std::vector<double>& angles) {
+  std::vector<long> key = {section};
+  for (const double angle : angles) key.push_back(std::lround(angle * 1e8));
+  std::vector<ShellSection>& shells = build.model.shells;
+  const auto [it, fresh] = build.turned_sections.try_emplace(key, static_cast<int>(shells.size()));
+  if (fresh) {
+    shells.push_back(shells[section]);
+    for (std::size_t k = 0; k < angles.size(); ++k) shells.back().plies[k].angle = angles[k];
+  }
+  return it->second;
+}
+
+}  // namespace
+
+int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section) {
+  const bool shell = is_abaqus_sheet(section.family);
+  const AbaqusScope scope = section.elements.scope;
+  const auto [place, fresh] = build.orientation_index.try_emplace(
+      fmt::format("{}*{}*{}", name, shell ? "SHELL" : "SOLID", static_cast<int>(scope)), -1);
+  if (!fresh) return place->second;
+  const AbaqusOrientation* const found = build.content.orientation(scope, name);
+  if (found == nullptr) {
+    std::vector<std::string> known;
+    for (const auto& [key, o] : build.content.orientations)
+      if (known.size() < 100) known.push_back(key.second);
+    build.source.error(section.at,
+                       fmt::format("{} names the orientation {}, which does not exist{}",
+                                   section.shown, shown(name), did_you_mean(name, known)));
+    return -1;
+  }
+  const AbaqusOrientation meant = in_program_of_deck(build, *found, name, shell);
+  Orientation o = placed(meant, build.content.placement(meant.scope));
+  if (shell) {
+    const int normal = normal_axis(build, meant, name);
+    Mat3 permuted = Mat3::Zero();
+    for (int k = 0; k < 3; ++k) permuted((normal + k) % 3, k) = 1.0;
+    o.turn = (o.turn * permuted).eval();
+  }
+  place->second = static_cast<int>(build.model.orientations.size());
+  build.model.orientations.push_back(o);
+  return place->second;
+}
+
+ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& section,
+                                  const std::function<int(const std::string&)>& material) {
+  ShellSection out;
+  for (const AbaqusSection::Ply& ply : section.plies)
+    out.plies.push_back({material(ply.material), ply.thickness, ply.angle});
+  if (section.symmetric)
+    for (std::size_t k = out.plies.size(); k-- > 0;) out.plies.push_back(out.plies[k]);
+  out.thickness = section.thickness;
+  if (!out.plies.empty()) {
+    out.thickness = 0.0;
+    for (const ShellPly& ply : out.plies) out.thickness += ply.thickness;
+  }
+  out.shear = 5.0 / 6.0 * out.thickness;
+  out.offset = -section.offset * out.thickness;
+  if (is_abaqus_sheet(section.family))
+    for (const AbaqusSection::Ply& ply : section.plies)
+      if (!ply.orientation.empty()) abaqus_orientation(build, ply.orientation, section);
+  return out;
+}
+
+void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const ShellSection& shell,
+                        int material) {
+  const std::vector<Material>& all = build.model.materials;
+  const std::string huge = huge_sheet(shell, all[material].density, all);
+  if (!huge.empty()) build.source.error(section.at, fmt::format("{}: {}", section.shown, huge));
+}
+
+void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
+                           const Material& material) {
+  if (!material.elasticity) return;
+  if (section.family == Family::beam)
+    build.source.error(section.at, fmt::format("{}: material {} is not isotropic, which beams must "
+                                               "be",
+                                               section.shown, shown(section.material)));
+  if (section.family == Family::solid && material.plane)
+    build.source.error(section.at, fmt::format("{}: material {} is a lamina, which only shells can "
+                                               "have",
+                                               section.shown, shown(section.material)));
+}
+
+void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
+                           const AbaqusProperties& p, Element& e) {
+  e.orientation = p.orientation;
+  if (!is_abaqus_sheet(section.family) || !p.directional) return;
+  const std::vector<Vec3> corners = corners_of(build, e);
+  if (p.orientation < 0) e.orientation = default_orientation(build, shell_normal(corners));
+  const bool own = std::any_of(section.plies.begin(), section.plies.end(),
+                               [](const auto& ply) { return !ply.orientation.empty(); });
+  if (!own) return;
+  const std::vector<Orientation>& all = build.model.orientations;
+  const Vec3 n = shell_normal(corners), axis = first_axis(corners, &all[e.orientation], 0.0);
+  std::vector<double> angles;
+  for (const AbaqusSection::Ply& ply : section.plies) {
+    double angle = ply.angle;
+    if (!ply.orientation.empty()) {
+      const int index = abaqus_orientation(build, ply.orientation, section);
+      if (index < 0) return;
+      const Vec3 along = first_axis(corners, &all[index], 0.0);
+      angle = std::atan2(n.dot(axis.cross(along)), axis.dot(along));
+    }
+    angles.push_back(angle);
+  }
+  for (std::size_t k = section.symmetric ? angles.size() : 0; k-- > 0;) angles.push_back(angles[k]);
+  e.section = with_angles(build, e.section, angles);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,339 @@
+// Nodes, elements, masses and sets of an Abaqus deck in the model.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <unordered_set>
+
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/decks/number_sizes.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Family = AbaqusType::Family;
+
+/// How many elements of a type there are, and where the first stands.
+struct Count {
+  long number = 0;
+  FeSource at;
+  void add(const FeSource& source) {
+    if (number++ == 0) at = source;
+  }
+};
+
+/// Nodes or elements that get a new number, since another instance or the assembly has theirs.
+class Renumbered {
+ public:
+  Renumbered(AbaqusBuild& build, const char* what) : b_(build), what_(what) {}
+  void add(AbaqusScope scope, int old, int fresh, const FeSource& at) {
+    Range& r = ranges_[scope];
+    if (r.count++ == 0) r = {1, old, fresh, fresh, at};
+    r.last = fresh;
+  }
+  void note() {
+    for (const auto& [scope, r] : ranges_) {
+      const auto instance = b_.content.instances.find(scope);
+      const std::string of = scope == AbaqusScope::assembly ? std::string("the assembly")
+                             : instance == b_.content.instances.end()
+                                 ? std::string("the part")
+                                 : "instance " + shown(instance->second.name);
+      b_.note(r.at, r.count == 1
+                        ? fmt::format("{} {} of {} has the number of another one: it becomes {} {}",
+                                      what_, r.old, of, what_, r.first)
+                        : fmt::format("{} {}s of {} have numbers of others: they become {} to {}",
+                                      r.count, what_, of, r.first, r.last));
+    }
+  }
+
+ private:
+  struct Range {
+    long count = 0;
+    int old = 0, first = 0, last = 0;
+    FeSource at;
+  };
+  AbaqusBuild& b_;
+  const char* what_;
+  std::map<AbaqusScope, Range> ranges_;
+};
+
+void build_masses(AbaqusBuild& build) {
+  const AbaqusContent& c = build.content;
+  const std::vector<int> section_of = sections_of_elements(build, c.masses);
+  for (std::size_t e = 0; e < c.elements.size(); ++e) {
+    const AbaqusElement& element = c.elements[e];
+    const bool rotary = element.type->family == Family::rotary;
+    if (!rotary && element.type->family != Family::mass) continue;
+    if (section_of[e] < 0) {
+      build.source.error(element.at, fmt::format("{} has no {}", abaqus_label(element),
+                                                 rotary ? "*ROTARY INERTIA" : "*MASS"));
+      continue;
+    }
+    const AbaqusSection& section = c.masses[section_of[e]];
+    const auto node =
+        c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
+    if (node == c.node_of_label.end()) {
+      build.source.error(element.at,
+                         fmt::format("{}: node {} does not exist", abaqus_label(element),
+                                     c.element_nodes[element.first]));
+      continue;
+    }
+    if (const std::string huge = huge_mass(section.mass, section.J); !huge.empty())
+      build.source.error(section.at,
+                         fmt::format("{} of {}: {}", section.shown, abaqus_label(element), huge));
+    const Mat3& R = c.placement(element.scope).R;
+    build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose(),
+                                  section.at,
+                                  fmt::format("{} of {}", section.shown, abaqus_label(element))});
+  }
+}
+
+}  // namespace
+
+void AbaqusBuild::note(const FeSource& at, const std::string& text) {
+  const SourceMark m = source.mark(at);
+  model.notes.push_back(fmt::format("{}:{}: {}", m.file, m.line, text));
+}
+
+std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
+  std::vector<int> result;
+  list_of_node_.resize(content.nodes.size(), 0);
+  ++node_list_;
+  for (const int e : list) {
+    const AbaqusElement& element = content.elements[e];
+    for (int k = 0; k < element.type->nodes; ++k) {
+      const auto it = content.node_of_label.find(
+          AbaqusContent::label(element.scope, content.element_nodes[element.first + k]));
+      if (it == content.node_of_label.end()) continue;
+      int& last = list_of_node_[it->second];
+      if (last == node_list_) continue;
+      last = node_list_;
+      result.push_back(it->second);
+    }
+  }
+  return result;
+}
+
+void build_abaqus_nodes(AbaqusBuild& build) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  std::int64_t free_number = 0;
+  for (const AbaqusNode& node : c.nodes) free_number = std::max<std::int64_t>(free_number, node.id);
+  const bool several = c.instances.size() > 1;
+  model.positions.reserve(c.nodes.size());
+  model.node_ids.reserve(c.nodes.size());
+  model.node_sources.reserve(c.nodes.size());
+  std::unordered_set<int> taken;
+  Renumbered nodes(build, "node");
+  for (const AbaqusNode& node : c.nodes) {
+    model.positions.push_back(c.placement(node.scope).at(node.p));
+    if (const std::string huge = huge_place(model.positions.back()); !huge.empty())
+      build.source.error(node.at,
+                         fmt::format("node {}{}: {}", c.prefix(node.scope), node.id, huge));
+    int id = node.id;
+    // Numbers of one scope are different, so only several scopes can share one.
+    if (!c.parts.empty() && !taken.insert(id).second) {
+      if (++free_number > std::numeric_limits<int>::max())
+        build.source.stop(node.at,
+                          fmt::format("node {}{} has the number of another node, and there "
+                                      "is no free one",
+                                      c.prefix(node.scope), id));
+      id = static_cast<int>(free_number);
+      nodes.add(node.scope, node.id, id, node.at);
+    }
+    model.node_ids.push_back(id);
+    model.node_sources.push_back(node.at);
+    if (several)
+      model.node_names.push_back(c.instances.contains(node.scope)
+                                     ? fmt::format("{}{}", c.prefix(node.scope), node.id)
+                                     : std::string());
+  }
+  nodes.note();
+  build.source.throw_if_any();
+}
+
+namespace {
+
+bool is_skin_without_section(Family family) noexcept {
+  return family == Family::skin || family == Family::rod || family == Family::membrane;
+}
+
+/// Elements of one kind, for a note.
+struct ElementCounts {
+  std::map<const AbaqusType*, Count> skins, read_as;
+  Count without_section, structural;
+};
+
+void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
+  if (counts.structural.number == 0) {
+    build.source.error({0, 0}, "the deck has no element with stiffness");
+  }
+  for (const auto& [type, count] : counts.skins) {
+    build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
+                                     "ignored; their element sets are node sets",
+                                     count.number, type->name));
+  }
+  for (const auto& [type, count] : counts.read_as) {
+    build.note(count.at, fmt::format("{} elements of type {} are read {}", count.number, type->name,
+                                     type->remark));
+  }
+}
+
+void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_only, bool given) {
+  if (mesh_only && !given && counts.structural.number > 0)
+    build.note(counts.structural.at, "the deck has no material");
+  if (!mesh_only && given)
+    build.note({0, 1}, "the deck has materials of its own; the one given is not used");
+}
+
+void no_section(AbaqusBuild& build, const AbaqusElement& element) {
+  const Family family = element.type->family;
+  build.source.error(
+      element.at,
+      fmt::format("{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
+                  family == Family::solid   ? "SOLID"
+                  : family == Family::shell ? "SHELL"
+                                            : "BEAM"));
+}
+
+/// Nothing if one of its nodes is not there.
+std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
+                                  const AbaqusProperties& p) {
+  const AbaqusContent& c = build.content;
+  Element result;
+  result.type = element.type->type;
+  result.material = p.material;
+  result.section = p.section;
+  result.reference = p.reference;
+  result.id = element.id;
+  result.source = element.at;
+  for (int k = 0; k < element.type->nodes; ++k) {
+    const int id = c.element_nodes[element.first + k];
+    const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
+    if (it == c.node_of_label.end()) {
+      build.source.error(element.at,
+                         fmt::format("{}: node {} does not exist", abaqus_label(element), id));
+      return std::nullopt;
+    }
+    result.nodes[k] = it->second;
+  }
+  return result;
+}
+
+}  // namespace
+
+void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const std::size_t before = build.source.errors();
+  const std::vector<int> section_of = sections_of_elements(build, c.sections);
+  const bool assigned = build.source.errors() == before;
+  look_at_abaqus_beams(build, section_of);
+  const std::vector<AbaqusProperties> properties = abaqus_properties(build);
+  const bool mesh_only = c.sections.empty() && c.materials.empty();
+  AbaqusProperties given;
+  if (mesh_only && options.material) {
+    model.materials.push_back(*options.material);
+    model.material_names.emplace_back();
+    given.material = 0;
+  }
+  const bool has_shells =
+      std::any_of(c.sections.begin(), c.sections.end(),
+                  [](const AbaqusSection& s) { return s.family == Family::shell; });
+  AbaqusNodalThickness thickness(build);
+  ElementCounts counts;
+  Renumbered renumbered(build, "element");
+  std::unordered_set<int> taken, without_area;
+  const bool scopes = !c.parts.empty();
+  constexpr std::int64_t largest_id = std::numeric_limits<int>::max();
+  std::int64_t free_number = 0;
+  for (const AbaqusElement& element : c.elements)
+    free_number = std::max<std::int64_t>(free_number, element.id);
+  for (std::size_t e = 0; e < c.elements.size(); ++e) {
+    const AbaqusElement& element = c.elements[e];
+    const AbaqusType& type = *element.type;
+    const int section = section_of[e];
+    // Shells are skins of a solid unless the deck has shells.
+    const bool skin = section < 0 && (is_skin_without_section(type.family) ||
+                                      (type.family == Family::shell && !has_shells));
+    if (skin) counts.skins[&type].add(element.at);
+    if (type.family == Family::spring) counts.structural.add(element.at);
+    if (skin || is_abaqus_point(type.family)) continue;
+    counts.structural.add(element.at);
+    const bool material_given = mesh_only && type.family == Family::solid;
+    if (section < 0 && !material_given) {
+      if (counts.without_section.number == 0 && assigned) no_section(build, element);
+      counts.without_section.add(element.at);
+      continue;
+    }
+    if (type.family == Family::rod && !(c.sections[section].thickness > 0.0)) {
+      if (without_area.insert(section).second)
+        build.source.error(
+            c.sections[section].at,
+            fmt::format("*SOLID SECTION names {}, which needs the area of its section "
+                        "in the line below",
+                        abaqus_label(element)));
+      continue;
+    }
+    if (type.remark != nullptr) counts.read_as[&type].add(element.at);
+    auto result = element_of(build, element, section < 0 ? given : properties[section]);
+    if (!result) continue;
+    if (section >= 0) {
+      orient_abaqus_element(build, c.sections[section], properties[section], *result);
+      thickness.apply(c.sections[section], *result);
+      move_abaqus_beam(build, c.sections[section], element, *result);
+    }
+    build.element_index[e] = static_cast<int>(model.elements.size());
+    if (scopes && !taken.insert(result->id).second && ++free_number <= largest_id) {
+      renumbered.add(element.scope, result->id, static_cast<int>(free_number), element.at);
+      result->id = static_cast<int>(free_number);
+    }
+    if (c.instances.size() > 1 && c.instances.contains(element.scope))
+      result->name =
+          fmt::format("element {}{} ({})", c.prefix(element.scope), element.id, type.name);
+    model.elements.push_back(*result);
+  }
+  report_abaqus_directions(build);
+  thickness.notes();
+  note_elements(build, counts);
+  renumbered.note();
+  note_materials(build, counts, mesh_only, options.material.has_value());
+  build_masses(build);
+}
+
+void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const auto name_of = [&](const AbaqusContent::Key& key, const auto& sets) {
+    return abaqus_model_name(c, key, sets);
+  };
+  for (const auto& [key, set] : c.node_sets) {
+    const std::vector<int>& members = build.nodes.members(key);
+    if (!set.internal) model.node_sets[name_of(key, c.node_sets)] = members;
+  }
+  for (const auto& [key, set] : c.element_sets) {
+    const std::vector<int>& members = build.elements.members(key);
+    if (set.internal) continue;
+    const std::string name = name_of(key, c.element_sets);
+    std::vector<int> list, skins;
+    for (const int e : members) {
+      const int index = build.element_index[e];
+      const Family family = c.elements[e].type->family;
+      if (index >= 0) {
+        list.push_back(index);
+      } else if (only_nodes || is_skin_without_section(family) || family == Family::shell) {
+        skins.push_back(e);
+      }
+    }
+    if (!skins.empty()) model.node_sets.emplace(name, build.nodes_of_elements(skins));
+    if (!list.empty()) model.element_sets[name] = std::move(list);
+  }
+  for (const auto* resolver : {&build.nodes, &build.elements}) {
+    if (resolver->gaps() == 0) continue;
+    build.note(resolver->first_gap(),
+               fmt::format("{} numbers of GENERATE do not exist", resolver->gaps()));
+  }
+}
+
+}  // namespace floatframe

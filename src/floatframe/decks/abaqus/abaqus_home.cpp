@@ -1,0 +1,100 @@
+// How Abaqus treats the elements of its decks: first-order elements have lumped mass in its
+// frequencies (B31, S3, S4, C3D4, C3D6, C3D8 and their kin), all others consistent mass, as all
+// have in CalculiX; B31 shears, B33 does not; S4R5, S8R5 and STRI are for thin shells. Shear
+// factors of B31 by the section: those that Abaqus documents.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <type_traits>
+
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/fe/lumped_mass.hpp"
+
+namespace floatframe {
+namespace {
+
+/// The default of its slenderness compensation.
+constexpr double slenderness_of_abaqus = 0.25;
+
+/// Of Abaqus, CalculiX, or nothing shows which.
+DeckDialect dialect_of(const AbaqusBuild& build) {
+  const DialectClues& clues = build.clues;
+  if (build.content.dialect != DeckDialect::by_content) return build.content.dialect;
+  if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
+  return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
+}
+
+/// B31, and the shells that are not for thin ones only.
+bool shears(const AbaqusType& type) noexcept {
+  const std::string_view name = type.name;
+  if (type.family == AbaqusType::Family::shell)
+    return name.starts_with('S') && !name.starts_with("STRI") && !name.ends_with('5');
+  return name.starts_with("B31");
+}
+
+/// The copy of a section without shear.
+template <class Section>
+int without_shear(std::vector<Section>& sections, int section, std::map<int, int>& copies) {
+  const auto [it, fresh] = copies.emplace(section, static_cast<int>(sections.size()));
+  if (fresh) {
+    Section copy = sections[section];
+    if constexpr (std::is_same_v<Section, ShellSection>) {
+      copy.shear = 0.0;
+    } else {
+      copy.shear_y = copy.shear_z = copy.slenderness = 0.0;
+    }
+    sections.push_back(copy);
+  }
+  return it->second;
+}
+
+}  // namespace
+
+double abaqus_shear_factor(std::string_view shape) noexcept {
+  struct Factor {
+    std::string_view shape;
+    double factor;
+  };
+  constexpr std::array factors{Factor{"RECT", 0.85}, Factor{"CIRC", 0.89}, Factor{"PIPE", 0.53},
+                               Factor{"BOX", 0.44}, Factor{"I", 0.44}};
+  const auto it = std::find_if(factors.begin(), factors.end(),
+                               [&](const Factor& f) { return f.shape == shape; });
+  return it == factors.end() ? 1.0 : it->factor;
+}
+
+void as_in_home_program(AbaqusBuild& build) {
+  FeModel& model = build.model;
+  const AbaqusContent& c = build.content;
+  if (c.sections.empty() || build.source.errors() > 0) return;
+  const bool of_abaqus = dialect_of(build) == DeckDialect::abaqus;
+  if (of_abaqus)
+    for (BeamSection& s : model.sections)
+      if (s.has_shear()) s.slenderness = slenderness_of_abaqus;
+  std::map<int, int> beams, shells;  // section: its copy without shear
+  for (std::size_t e = 0; e < c.elements.size(); ++e) {
+    const int index = build.element_index[e];
+    if (index < 0) continue;
+    Element& element = model.elements[index];
+    const AbaqusType& type = *c.elements[e].type;
+    const bool cubic = element.type == ElementType::beam2 && !shears(type);
+    if (of_abaqus && !quadratic(element.type) && !cubic) element.mass_form = MassForm::lumped;
+    if (shears(type)) continue;
+    if (is_beam(element.type) && model.sections[element.section].has_shear())
+      element.section = without_shear(model.sections, element.section, beams);
+    if (is_shell(element.type) && model.shells[element.section].shear > 0.0)
+      element.section = without_shear(model.shells, element.section, shells);
+  }
+}
+
+void note_mass_of_unclear_dialect(AbaqusBuild& build) {
+  const std::vector<Element>& elements = build.model.elements;
+  if (build.content.sections.empty() || dialect_of(build) != DeckDialect::by_content ||
+      std::all_of(elements.begin(), elements.end(),
+                  [](const Element& e) { return quadratic(e.type); }))
+    return;
+  build.model.notes.push_back(
+      "the mass of all elements is consistent, as in CalculiX; Abaqus lumps that of elements of "
+      "first order: --dialect abaqus if the deck is one of Abaqus");
+}
+
+}  // namespace floatframe

@@ -1,0 +1,228 @@
+// *NONSTRUCTURAL MASS: mass smeared over elements, of paint, cables or what a model leaves out. Of
+// a total mass each element has its share in proportion to its own mass (which scales densities) or
+// to its volume (which adds the same density to all). Solids, beams and rods get it as density,
+// shells and membranes as mass over area in their middle.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Units = AbaqusNonstructuralMass::Units;
+
+class SmearedMass {
+ public:
+  explicit SmearedMass(AbaqusBuild& build)
+      : b_(build), m_(build.model), size_(m_.elements.size()), more_(size_.size(), 0.0) {}
+
+  void add(const AbaqusNonstructuralMass& raw) {
+    const std::size_t before = b_.source.errors();
+    const std::vector<int> list = elements_of(raw);
+    if (b_.source.errors() != before) return;
+    if (list.empty())
+      return error(raw, fmt::format("names {}, which has no elements with stiffness",
+                                    b_.content.text(raw.elements, "element")));
+    double sum = 0.0;  // of what a total mass is shared by
+    if (raw.units == Units::total)
+      for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
+    if (raw.units == Units::total && !(sum > 0.0))
+      return error(raw,
+                   "shares a mass among elements without mass: give their materials *DENSITY, "
+                   "or DISTRIBUTION=VOLUME PROPORTIONAL");
+    if (!std::isfinite(sum))
+      return error(raw, fmt::format("shares a mass among elements whose {} is {:g}, expected a "
+                                    "finite number",
+                                    raw.by_volume ? "volume" : "mass", sum));
+    double mass = 0.0;
+    for (const int e : list) {
+      const Size& s = size(e);
+      const std::size_t k = static_cast<std::size_t>(e);
+      double more = raw.units == Units::total ? raw.value / sum : raw.value;
+      if (raw.units == Units::length) {
+        more /= m_.sections[static_cast<std::size_t>(m_.elements[k].section)].A;
+      } else if (raw.units == Units::total && !raw.by_volume) {
+        more *= s.density;
+      } else if (raw.units != Units::area) {
+        more *= s.measure;
+      }
+      more_[k] += more;
+      mass += (s.density + more_[k]) * (s.volume / s.measure);
+      if (std::isfinite(s.density + more_[k])) continue;
+      return error(
+          raw, fmt::format("gives {} a {} of {:g}, expected a finite number", label_of(e),
+                           has_shell_section(m_.elements[k].type) ? "mass over area" : "density",
+                           s.density + more_[k]));
+    }
+    if (!std::isfinite(mass))
+      return error(raw,
+                   fmt::format("gives its {} elements a mass of {:g}, expected a finite number",
+                               list.size(), mass));
+    b_.note(raw.at, fmt::format("*NONSTRUCTURAL MASS is added to {} elements of {}", list.size(),
+                                b_.content.text(raw.elements, "element")));
+  }
+
+  /// Elements of one section get the same, so few new materials and sections are needed.
+  void finish() {
+    if (b_.source.errors() > 0) return;
+    for (std::size_t k = 0; k < more_.size(); ++k)
+      if (more_[k] != 0.0) give(m_.elements[k], more_[k]);
+  }
+
+ private:
+  struct Size {
+    bool known = false;
+    double mass = 0.0, volume = 0.0;  ///< by itself
+    /// Of sheets mass over area and thickness; else density and 1.
+    double density = 0.0, measure = 1.0;
+  };
+
+  void error(const AbaqusNonstructuralMass& raw, const std::string& text) {
+    b_.source.error(raw.at, "*NONSTRUCTURAL MASS " + text);
+  }
+
+  std::string label_of(int index) const {
+    const auto it = std::find(b_.element_index.begin(), b_.element_index.end(), index);
+    return abaqus_label(
+        b_.content.elements[static_cast<std::size_t>(it - b_.element_index.begin())]);
+  }
+
+  /// Indices in the model; an error if one cannot have such a mass.
+  std::vector<int> elements_of(const AbaqusNonstructuralMass& raw) {
+    std::vector<int> list;
+    for (const int e : b_.elements.resolve(raw.elements)) {
+      const int index = b_.element_index[static_cast<std::size_t>(e)];
+      const AbaqusElement& deck = b_.content.elements[static_cast<std::size_t>(e)];
+      if (index < 0 && is_abaqus_point(deck.type->family)) continue;
+      const ElementType type =
+          index < 0 ? ElementType::beam2 : m_.elements[static_cast<std::size_t>(index)].type;
+      std::string why;
+      if (index < 0) {
+        why = "has no section here";
+      } else if (raw.units == Units::area && !has_shell_section(type)) {
+        why = "is no shell or membrane, but the mass is one over area";
+      } else if (raw.units == Units::length && !is_beam(type) && !is_rod(type)) {
+        why = "is no beam or rod, but the mass is one over length";
+      } else if (missing_density(m_.elements[static_cast<std::size_t>(index)])) {
+        why = "is of a material without *DENSITY, which must stand in the deck then";
+      }
+      if (why.empty()) {
+        list.push_back(index);
+        continue;
+      }
+      error(raw, fmt::format("names {}, which {}", abaqus_label(deck), why));
+      return {};
+    }
+    return list;
+  }
+
+  bool missing_density(const Element& e) const {
+    if (m_.without_density.contains(e.material)) return true;
+    if (!has_shell_section(e.type)) return false;
+    for (const ShellPly& ply : m_.shells[static_cast<std::size_t>(e.section)].plies)
+      if (m_.without_density.contains(ply.material)) return true;
+    return false;
+  }
+
+  const Size& size(int index) {
+    Size& s = size_[static_cast<std::size_t>(index)];
+    if (s.known) return s;
+    s.known = true;
+    const Element& e = m_.elements[static_cast<std::size_t>(index)];
+    const ElementKernel& kernel = element_kernel(e.type);
+    ElementInput in = gather(m_, e);
+    const bool sheet = has_shell_section(e.type);
+    s.density = sheet ? layers_of(in).mass : in.material.density;
+    if (sheet) s.measure = in.shell.thickness;
+    if (sheet) {  // of unit mass over area
+      in.layers.reset();
+      in.shell.plies.clear();
+      in.shell.mass = 1.0;
+    }
+    in.material = {in.material.young, 0.0, sheet ? 0.0 : 1.0};
+    MatX M;
+    kernel.scalar_mass(in, M);
+    const double extent = M.sum();  // area or volume
+    s.mass = extent * s.density;
+    s.volume = extent * s.measure;
+    return s;
+  }
+
+  void give(Element& e, double more) {
+    const bool sheet = has_shell_section(e.type);
+    const auto [it, fresh] =
+        sheet ? sections_.try_emplace({e.section, more}, static_cast<int>(m_.shells.size()))
+              : materials_.try_emplace({e.material, more}, static_cast<int>(m_.materials.size()));
+    (sheet ? e.section : e.material) = it->second;
+    if (!fresh) return;
+    const std::size_t old = static_cast<std::size_t>(it->first.first);
+    if (sheet) {
+      m_.shells.push_back(m_.shells[old]);
+      m_.shells.back().mass += more;
+    } else {
+      m_.materials.push_back(m_.materials[old]);
+      m_.materials.back().density += more;
+      m_.material_names.push_back(m_.material_names[old] + " and nonstructural mass");
+    }
+  }
+
+  AbaqusBuild& b_;
+  FeModel& m_;
+  std::vector<Size> size_;
+  std::vector<double> more_;  ///< of each element: density, of sheets mass over area
+  std::map<std::pair<int, double>, int> sections_, materials_;
+};
+
+}  // namespace
+
+void read_abaqus_nonstructural_mass(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                    AbaqusContent& content) {
+  lines.allow_only(keyword, {"ELSET", "UNITS", "DISTRIBUTION"});
+  AbaqusNonstructuralMass mass;
+  mass.at = keyword.at;
+  const std::size_t before = lines.source().errors();
+  const std::string_view elements = lines.required(keyword, "ELSET");
+  const std::string units = abaqus_name(lines.required(keyword, "UNITS"));
+  const std::string distribution = abaqus_name(keyword.value("DISTRIBUTION"));
+  if (units == "MASSPERVOLUME") {
+    mass.units = Units::volume;
+  } else if (units == "MASSPERAREA") {
+    mass.units = Units::area;
+  } else if (units == "MASSPERLENGTH") {
+    mass.units = Units::length;
+  } else if (units != "TOTALMASS" && lines.source().errors() == before) {
+    lines.error(keyword, fmt::format("has the units {}, expected TOTAL MASS, MASS PER VOLUME, MASS "
+                                     "PER AREA or MASS PER LENGTH",
+                                     shown(keyword.value("UNITS"))));
+  }
+  mass.by_volume = distribution == "VOLUMEPROPORTIONAL";
+  if (!distribution.empty() && !mass.by_volume && distribution != "MASSPROPORTIONAL")
+    lines.error(keyword, fmt::format("has the distribution {}, expected MASS PROPORTIONAL or "
+                                     "VOLUME PROPORTIONAL",
+                                     shown(keyword.value("DISTRIBUTION"))));
+  std::vector<std::string_view> fields;
+  if (lines.next_fields(fields)) {
+    mass.value = positive_real(lines, fields[0], "nonstructural mass");
+    lines.no_more(keyword, fields, 1);
+  } else {
+    lines.error(keyword, "has no data line");
+  }
+  lines.skip_data();
+  if (content.only_nodes || lines.source().errors() != before) return;
+  mass.elements = content.named(elements, keyword.at);
+  content.nonstructural.push_back(mass);
+}
+
+void build_abaqus_nonstructural_mass(AbaqusBuild& build) {
+  if (build.content.nonstructural.empty() || build.source.errors() > 0) return;
+  SmearedMass smeared(build);
+  for (const AbaqusNonstructuralMass& mass : build.content.nonstructural) smeared.add(mass);
+  smeared.finish();
+}
+
+}  // namespace floatframe

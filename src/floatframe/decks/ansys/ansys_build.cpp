@@ -1,0 +1,224 @@
+#include "floatframe/decks/ansys/ansys_build.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/plural.hpp"
+#include "floatframe/decks/number_sizes.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+
+Mat3 ansys_rotation(const Vec3& angles) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  return (Eigen::AngleAxisd(degree * angles(0), Vec3::UnitZ()) *
+          Eigen::AngleAxisd(degree * angles(1), Vec3::UnitX()) *
+          Eigen::AngleAxisd(degree * angles(2), Vec3::UnitY()))
+      .toRotationMatrix();
+}
+
+int AnsysBuild::node(int id, const FeSource& at, const std::string& who) {
+  const auto it = content.node_index.find(id);
+  if (it != content.node_index.end()) return it->second;
+  source.error(at, fmt::format("{} has node {}, which is not in the file", who, id));
+  return -1;
+}
+
+bool AnsysBuild::nodes_of(const AnsysElement& e, std::vector<int>& nodes) {
+  nodes.clear();
+  for (int k = 0; k < e.nodes; ++k) {
+    const int id = content.element_nodes[e.first + k];
+    nodes.push_back(id == 0 ? -1 : node(id, e.at, label(e)));
+    if (id != 0 && nodes.back() < 0) return false;
+  }
+  return true;
+}
+
+std::string AnsysBuild::label(const AnsysElement& e) const {
+  const auto it = content.types.find(e.type);
+  const AnsysLibraryElement* library =
+      it == content.types.end() ? nullptr : ansys_library_element(it->second.number);
+  return library == nullptr ? fmt::format("element {}", e.id)
+                            : fmt::format("element {} ({})", e.id, library->name);
+}
+
+const AnsysType* AnsysBuild::type(const AnsysElement& e) {
+  const auto it = content.types.find(e.type);
+  if (it != content.types.end() && ansys_library_element(it->second.number) != nullptr)
+    return &it->second;
+  if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
+  said.push_back(e.type);
+  if (it == content.types.end()) {
+    source.error(e.at, fmt::format("element {} is of type {}, which no ET gives", e.id, e.type));
+  } else if (it->second.number == 179) {
+    source.error(
+        it->second.at,
+        fmt::format("type {} is PRETS179: the mesh is cut there, and what holds it together "
+                    "is the preload of an analysis; write the mesh without the cut",
+                    e.type));
+  } else {
+    source.error(
+        it->second.at,
+        fmt::format("type {} is element {}, which is not read; read are SOLID45, 92, 95, "
+                    "185, 186, 187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, "
+                    "PIPE288, 289, LINK8, 180, COMBIN14, MATRIX27, MASS21 and MPC184",
+                    e.type, it->second.number));
+  }
+  return nullptr;
+}
+
+const AnsysReal* AnsysBuild::real(const AnsysElement& e) const {
+  const auto it = content.reals.find(e.real);
+  return it == content.reals.end() ? nullptr : &it->second;
+}
+
+const AnsysSection* AnsysBuild::section(const AnsysElement& e, const char* kind) const {
+  const auto it = content.sections.find(e.section);
+  return it != content.sections.end() && it->second.kind == kind ? &it->second : nullptr;
+}
+
+const AnsysMaterial::Values::mapped_type* AnsysMaterial::find(const std::string& label) const {
+  for (const Values* of : {&tables, &values})
+    if (const auto it = of->find(label); it != of->end() && !it->second.empty()) return &it->second;
+  return nullptr;
+}
+
+int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
+  const auto [it, fresh] =
+      materials.try_emplace({id, more_density}, static_cast<int>(model.materials.size()));
+  if (!fresh) return it->second;
+  const auto found = content.materials.find(id);
+  Material m;
+  const bool own = found != content.materials.end();
+  if (own) {
+    m = ansys_material(found->second, id, options.temperature, content, source);
+  } else if (content.materials.empty() && options.material) {
+    m = *options.material;
+  } else if (!content.materials.empty()) {
+    error(e, fmt::format("it has material {}, which is not in the file", id));
+  }
+  if (const std::string huge = huge_constant(m); own && !huge.empty())
+    source.error(found->second.at, fmt::format("material {}: {}", id, huge));
+  if (own && found->second.find("DENS") == nullptr)
+    model.without_density[it->second] = {found->second.at, 1.0};
+  m.density += more_density;
+  if (!std::isfinite(m.density))
+    error(e, fmt::format("the density of its material {} and its added mass make {:g}, expected a "
+                         "finite number",
+                         id, m.density));
+  model.materials.push_back(std::move(m));
+  model.material_names.push_back(fmt::format("{}", id));
+  return it->second;
+}
+
+std::optional<int> AnsysBuild::layer_material(double number, const AnsysElement& e,
+                                              const FeSource& at) {
+  if (!(number >= 0.0 && number < 1e9) || number != std::floor(number)) {
+    error_once(at, fmt::format("section {}: a layer is of material {:g}, which is no number of a "
+                               "material",
+                               e.section, number));
+    return std::nullopt;
+  }
+  const int id = static_cast<int>(number);
+  return material(id == 0 ? e.material : id, e);
+}
+
+std::optional<Orientation> AnsysBuild::system(int id, const FeSource& at, const std::string& who) {
+  if (id == 0) return std::nullopt;
+  Orientation o;
+  int kind = id;
+  if (id > 10) {
+    const auto it = content.systems.find(id);
+    if (it == content.systems.end()) {
+      source.error(at,
+                   fmt::format("{} has coordinate system {}, which is not in the file", who, id));
+      return std::nullopt;
+    }
+    const AnsysSystem& s = it->second;
+    if (!s.round) {
+      source.error(s.at,
+                   fmt::format("coordinate system {} is elliptical, expected a round one", id));
+      return std::nullopt;
+    }
+    kind = s.kind;
+    o.axes = ansys_rotation(s.angles);
+    o.origin = s.origin;
+  }
+  if (kind > 2) {
+    source.error(at,
+                 fmt::format("{} has coordinate system {}: toroidal ones and those of numbers 3 "
+                             "to 10 are not read",
+                             who, id));
+    return std::nullopt;
+  }
+  if (kind == 1) o.kind = Orientation::Kind::cylindrical;
+  if (kind == 2) {  // radial, around, towards the pole
+    o.kind = Orientation::Kind::spherical;
+    o.turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  }
+  return o;
+}
+
+int AnsysBuild::orientation(int id, const FeSource& at, const std::string& who) {
+  if (id == 0) return -1;
+  const auto [it, fresh] = orientations.try_emplace(id, -1);
+  if (!fresh) return it->second;
+  if (const auto o = system(id, at, who)) {
+    it->second = static_cast<int>(model.orientations.size());
+    model.orientations.push_back(*o);
+  }
+  return it->second;
+}
+
+Mat3 AnsysBuild::nodal_axes(int node) const {
+  const auto it = content.node_angles.find(node);
+  return it == content.node_angles.end() ? Mat3::Identity() : ansys_rotation(it->second);
+}
+
+std::vector<char> AnsysBuild::nodes_with_rotations() const {
+  std::vector<char> rotates(model.positions.size(), 0);
+  for (const Element& e : model.elements) {
+    const ElementKernel& kernel = element_kernel(e.type);
+    for (int k = 0; k < kernel.nodes; ++k)
+      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
+  }
+  for (const Spider& s : model.spiders) rotates[s.reference] = 1;
+  for (const Spring& s : model.springs)
+    for (int end = 0; end < 2; ++end)
+      if (s.nodes[end] >= 0 && !s.directions[end].tail<3>().isZero(0.0)) rotates[s.nodes[end]] = 1;
+  return rotates;
+}
+
+void AnsysBuild::error(const AnsysElement& e, const std::string& text) {
+  source.error(e.at, fmt::format("{}: {}", label(e), text));
+}
+
+void AnsysBuild::shared_error(const AnsysElement& e, const std::string& text) {
+  const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e});
+  if (!fresh) ++it->second.others;
+}
+
+void AnsysBuild::report_shared() {
+  for (const auto& [key, s] : shared) {
+    std::string text = key.second;
+    if (s.others > 0) text += "; the same holds for " + plural(s.others, "other element");
+    error(s.first, text);
+  }
+  shared.clear();
+}
+
+void AnsysBuild::error_once(const FeSource& at, const std::string& text) {
+  if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, text)).second)
+    source.error(at, text);
+}
+
+void AnsysBuild::note(const FeSource& at, const std::string& text) {
+  model.notes.push_back(ErrorEntry{source.mark(at), text}.text());
+}
+
+}  // namespace floatframe

@@ -1,0 +1,121 @@
+#pragma once
+// From the content of an ANSYS deck to the model.
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "floatframe/decks/ansys/ansys_content.hpp"
+#include "floatframe/decks/rigid_arms.hpp"
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+/// A section of beams in the axes of its principal moments.
+struct AnsysBeam {
+  BeamSection section;
+  double turn = 0.0;                ///< of y towards z [rad]
+  double mass = 0.0;                ///< besides that of the material [mass/length]
+  double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the turn
+};
+
+struct AnsysBuild {
+  TextSource& source;
+  AnsysContent& content;
+  const FeReadOptions& options;
+  FeModel& model;
+  std::vector<int> index = {};  ///< in the model, of each element of the deck; -1: none
+
+  /// Index of a node; an error and -1 if it is not there.
+  int node(int id, const FeSource& at, const std::string& who);
+  /// The nodes of an element as indices, in the order of the deck, -1 for 0 and missing ones;
+  /// false with an error.
+  bool nodes_of(const AnsysElement& e, std::vector<int>& nodes);
+  /// "element 12 (SOLID185)"
+  std::string label(const AnsysElement& e) const;
+  /// The type of an element and what it is; null with an error, once a type.
+  const AnsysType* type(const AnsysElement& e);
+  const AnsysReal* real(const AnsysElement& e) const;
+  /// The section of an element if it is one of a kind (SHEL, BEAM, ...), else null.
+  const AnsysSection* section(const AnsysElement& e, const char* kind) const;
+  /// Index of a material by its number, with a mass besides its own over the volume.
+  int material(int id, const AnsysElement& e, double more_density = 0.0);
+  /// That of a layer, 0: of the element; nothing and an error if the number is none of a material.
+  std::optional<int> layer_material(double number, const AnsysElement& e, const FeSource& at);
+  /// Axes of a coordinate system; none of the global rectangular one. An error if it is not read.
+  std::optional<Orientation> system(int id, const FeSource& at, const std::string& who);
+  /// Index in FeModel::orientations; -1: body axes.
+  int orientation(int id, const FeSource& at, const std::string& who);
+  /// Axes of the nodal system of a node; columns in body axes.
+  Mat3 nodal_axes(int node) const;
+  /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
+  std::vector<char> nodes_with_rotations() const;
+  void error(const AnsysElement& e, const std::string& text);
+  /// An error that elements of the same type share: `report_shared` says it with the first of them.
+  void shared_error(const AnsysElement& e, const std::string& text);
+  void report_shared();
+  /// An error of what many elements have; equal ones are one.
+  void error_once(const FeSource& at, const std::string& text);
+  void note(const FeSource& at, const std::string& text);
+
+  std::map<std::pair<int, double>, int> materials = {};
+  std::map<int, int> orientations = {};
+  std::map<std::pair<int, int>, int> layups = {};  ///< by section and material; -1: with an error
+  std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
+  int solved_sections = 0;                             ///< shapes whose torsion has been computed
+  RigidArms arms = {};                                 ///< of beams beside their nodes
+  std::vector<char> rotates = {};                      ///< for masses: `nodes_with_rotations`
+  int largest_node = 0;                                ///< of `add_own_node`
+  std::vector<int> said = {};                          ///< types with an error
+  struct Shared {
+    AnsysElement first;
+    long others = 0;
+  };
+  std::map<std::pair<int, std::string>, Shared> shared = {};  ///< by type and text
+  std::set<std::string> said_once = {};
+};
+
+/// Solids, shells, beams, rods.
+void build_ansys_elements(AnsysBuild& build);
+/// Elements of those families; `nodes`: indices in the order of the deck.
+void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                       Element& element);
+/// Empty if all of a beam are finite numbers, else what they are.
+std::string ansys_beam_misfit(const AnsysBeam& beam);
+// ansys_build_layers.cpp: solids with layers; the latter false with an error.
+bool ansys_has_layers(const AnsysBuild& build, const AnsysElement& e, const AnsysType& type);
+bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                        Element& element);
+bool build_ansys_line(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                      const std::vector<int>& nodes, Element& element);
+/// BEAM and PIPE sections; none with an error.
+std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSection& section,
+                                            const AnsysElement& e);
+/// Iy, Iz of the principal axes and the turn, from moments about y and z.
+void set_ansys_principal(double Iyy, double Izz, double Iyz, AnsysBeam& beam);
+/// MATRIX27
+void build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                        const std::vector<int>& nodes);
+/// A point mass of an element; inertia of a node without rotations is left out, with a note.
+void add_ansys_mass(AnsysBuild& build, const AnsysElement& e, PointMass mass);
+// ansys_build_points.cpp
+/// COMBIN14, MATRIX27, MPC184, CERIG, then MASS21.
+void build_ansys_springs(AnsysBuild& build);
+void build_ansys_rigid(AnsysBuild& build);
+void build_ansys_masses(AnsysBuild& build);
+// ansys_build_contact.cpp
+void build_ansys_contact(AnsysBuild& build);
+// ansys_build_constraints.cpp
+void build_ansys_equations(AnsysBuild& build);
+void build_ansys_supports(AnsysBuild& build);
+void build_ansys_components(AnsysBuild& build);
+
+/// R_z(a) R_x(b) R_y(c), angles in degrees: of nodes and coordinate systems.
+Mat3 ansys_rotation(const Vec3& angles);
+
+}  // namespace floatframe

@@ -1,0 +1,264 @@
+// Springs, rigid links and regions, point masses.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "floatframe/decks/ansys/ansys_build.hpp"
+#include "floatframe/decks/number_sizes.hpp"
+
+namespace floatframe {
+namespace {
+
+using F = AnsysFamily;
+
+/// Calls what is given with every element of a family, its type and nodes.
+template <typename Use>
+void each(AnsysBuild& b, F family, Use use) {
+  std::vector<int> nodes;
+  for (const AnsysElement& e : b.content.elements) {
+    const auto it = b.content.types.find(e.type);
+    if (it == b.content.types.end()) continue;
+    const AnsysLibraryElement* library = ansys_library_element(it->second.number);
+    if (library != nullptr && library->family == family && b.nodes_of(e, nodes))
+      use(e, it->second, nodes);
+  }
+}
+
+/// COMBIN14: KEYOPT(2) = 0 along the line of its nodes (KEYOPT(3) = 1: a torsion spring about it),
+/// 1 to 6 a direction of its nodes.
+class AnsysSprings {
+ public:
+  explicit AnsysSprings(AnsysBuild& build) : b_(build) {}
+
+  void one(const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
+    const AnsysReal* real = b_.real(e);
+    if (real == nullptr)
+      return b_.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
+    if (real->value(1) != 0.0 || real->value(2) != 0.0) ++dampers_;
+    Spring s;
+    s.stiffness = real->value(0);
+    if (s.stiffness == 0.0) return;
+    if (s.stiffness < 0.0)
+      return b_.shared_error(
+          e, fmt::format("its stiffness is {:g}, expected none below 0", s.stiffness));
+    s.name = b_.label(e);
+    s.source = e.at;
+    if (nodes.empty() || nodes[0] < 0) return b_.error(e, "it has no node");
+    s.nodes = {nodes[0], nodes.size() > 1 ? nodes[1] : -1};
+    const int direction = type.keyopt[2];
+    if (direction < 0 || direction > 6 || type.keyopt[1] != 0)
+      return b_.shared_error(
+          e, fmt::format("KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring of "
+                         "its line or of UX to ROTZ",
+                         type.keyopt[1], direction));
+    if (direction > 0) {
+      for (int end = 0; end < 2; ++end)
+        if (s.nodes[end] >= 0)
+          s.directions[end].segment<3>(direction > 3 ? 3 : 0) =
+              (end == 0 ? -1.0 : 1.0) * b_.nodal_axes(s.nodes[end]).col((direction - 1) % 3);
+    } else if (!along(e, type, s)) {
+      return;
+    }
+    b_.model.springs.push_back(std::move(s));
+  }
+
+  void notes() {
+    if (dampers_ > 0)
+      b_.model.notes.push_back(
+          fmt::format("{}: the damping of {} COMBIN14 is ignored, the part has modal damping "
+                      "(--damping)",
+                      b_.source.files()[0], dampers_));
+  }
+
+ private:
+  bool along(const AnsysElement& e, const AnsysType& type, Spring& s) {
+    if (type.keyopt[3] != 0 && type.keyopt[3] != 1) {
+      b_.shared_error(
+          e, fmt::format("KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]));
+      return false;
+    }
+    if (s.nodes[1] < 0) {
+      b_.error(e, "it has one node, and no direction (KEYOPT(2))");
+      return false;
+    }
+    const Vec3 d = b_.model.positions[s.nodes[1]] - b_.model.positions[s.nodes[0]];
+    if (!(d.norm() > 0.0)) {
+      b_.error(e, "its nodes are at one place, and it has no direction (KEYOPT(2))");
+      return false;
+    }
+    const int first = type.keyopt[3] == 1 ? 3 : 0;
+    s.directions[0].segment<3>(first) = -d.normalized();
+    s.directions[1].segment<3>(first) = d.normalized();
+    return true;
+  }
+
+  AnsysBuild& b_;
+  int dampers_ = 0;
+};
+
+/// Nodes joined by rigid beams move as one body: a spider of each connected set.
+class RigidBodies {
+ public:
+  explicit RigidBodies(int nodes) : parent_(nodes), links_(nodes, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  void join(int a, int b, const FeSource& at, const std::string& name) {
+    ++links_[a];
+    ++links_[b];
+    first_.try_emplace(a, at, name);
+    first_.try_emplace(b, at, name);
+    parent_[root(a)] = root(b);
+  }
+  void add_to(FeModel& model) {
+    std::map<int, std::vector<int>> bodies;
+    for (const auto& [node, where] : first_) bodies[root(node)].push_back(node);
+    for (const auto& [key, nodes] : bodies) {
+      // The node that most links share.
+      const int reference = *std::max_element(nodes.begin(), nodes.end(),
+                                              [&](int a, int b) { return links_[a] < links_[b]; });
+      Spider s;
+      s.reference = reference;
+      s.name = first_.at(reference).second;
+      s.source = first_.at(reference).first;
+      for (const int n : nodes)
+        if (n != reference) s.nodes.push_back(n);
+      model.spiders.push_back(std::move(s));
+    }
+  }
+
+ private:
+  int root(int n) {
+    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
+    return n;
+  }
+  std::vector<int> parent_, links_;
+  std::map<int, std::pair<FeSource, std::string>> first_;
+};
+
+}  // namespace
+
+void build_ansys_springs(AnsysBuild& b) {
+  AnsysSprings springs(b);
+  each(b, F::spring,
+       [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
+         springs.one(e, type, nodes);
+       });
+  springs.notes();
+  each(b, F::matrix,
+       [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
+         if (type.keyopt[3] != 2) build_ansys_matrix(b, e, type, nodes);
+       });
+}
+
+/// KEYOPT(1) of MPC184: 0 a rigid link, of which only the length is kept, 1 a rigid beam.
+void build_ansys_rigid(AnsysBuild& b) {
+  RigidBodies bodies(b.model.nodes());
+  each(b, F::rigid, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
+    if (type.keyopt[1] > 1)
+      return b.shared_error(
+          e, fmt::format("KEYOPT(1) = {}: joints are not read, they are joints of the "
+                         "model; rigid links (0) and beams (1) are",
+                         type.keyopt[1]));
+    if (n.size() < 2 || n[0] < 0 || n[1] < 0 || n[0] == n[1])
+      return b.error(e, "it has no two different nodes");
+    if (type.keyopt[1] == 1) return bodies.join(n[0], n[1], e.at, b.label(e));
+    const Vec3 d = b.model.positions[n[1]] - b.model.positions[n[0]];
+    if (!(d.norm() > 0.0)) return b.error(e, "its nodes are at one place");
+    LinearEquation equation;
+    equation.source = e.at;
+    for (int k = 0; k < 3; ++k)
+      if (const double x = d(k) / d.norm(); std::abs(x) > 1e-12) {
+        equation.terms.push_back({n[1], k, x});
+        equation.terms.push_back({n[0], k, -x});
+      }
+    b.model.equations.push_back(std::move(equation));
+  });
+  bodies.add_to(b.model);
+  std::map<std::pair<int, unsigned>, std::size_t> regions;
+  for (const AnsysRigid& r : b.content.rigid) {
+    const int master = b.node(r.master, r.at, "CERIG"), slave = b.node(r.slave, r.at, "CERIG");
+    if (master < 0 || slave < 0) continue;
+    const auto [it, fresh] = regions.try_emplace({master, r.mask}, b.model.spiders.size());
+    if (fresh) {
+      Spider s;
+      s.name = fmt::format("CERIG of node {}", r.master);
+      s.reference = master;
+      s.mask = r.mask;
+      s.source = r.at;
+      b.model.spiders.push_back(std::move(s));
+    }
+    b.model.spiders[it->second].nodes.push_back(slave);
+  }
+}
+
+void add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
+  if (m.mass == 0.0 && m.J.isZero(0.0)) return;
+  if (const std::string huge = huge_mass(m.mass, m.J); !huge.empty()) return b.error(e, huge);
+  if (!m.J.isZero(0.0) && b.rotates[m.node] == 0) {
+    b.note(e.at, fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
+                             "left out",
+                             b.label(e), b.model.node_ids[m.node]));
+    m.J.setZero();
+  }
+  m.source = e.at;
+  m.name = b.label(e);
+  b.model.masses.push_back(std::move(m));
+}
+
+/// MASS21: KEYOPT(3) = 0 masses of the three directions, then moments of inertia; 2 a mass.
+void build_ansys_masses(AnsysBuild& b) {
+  b.rotates = b.nodes_with_rotations();
+  each(b, F::mass, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
+    const AnsysReal* real = b.real(e);
+    if (real == nullptr)
+      return b.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
+    if (n.empty() || n[0] < 0) return b.error(e, "it has no node");
+    if (type.keyopt[1] != 0 || (type.keyopt[3] != 0 && type.keyopt[3] != 2))
+      return b.error(e,
+                     fmt::format("KEYOPT(1) = {}, KEYOPT(3) = {}: expected masses (0) of a node in "
+                                 "space (0 or 2)",
+                                 type.keyopt[1], type.keyopt[3]));
+    PointMass m;
+    m.node = n[0];
+    m.mass = real->value(0);
+    const std::size_t inertias = type.keyopt[3] == 0 ? 6 : 1;
+    for (std::size_t k = 0; k < inertias; ++k) {
+      if (!(real->value(k) < 0.0)) continue;
+      if (b.said_once.insert(fmt::format("mass of real constants {}", e.real)).second)
+        b.source.error(real->at, fmt::format("real constants {}: a {} of {:g} for {}, "
+                                             "expected none below 0",
+                                             e.real, k < 3 ? "mass" : "moment of inertia",
+                                             real->value(k), b.label(e)));
+      return;
+    }
+    if (type.keyopt[3] == 0) {
+      for (std::size_t k = 7; k < 10; ++k)
+        if (real->value(k) != 0.0)
+          return b.error_once(
+              real->at, fmt::format("real constants {}: a mass beside its node (constant {} is "
+                                    "{:g}) is not read; give it a node of its own",
+                                    e.real, k + 1, real->value(k)));
+      for (std::size_t k = 1; k < 3; ++k)
+        if (std::abs(real->value(k) - m.mass) > 1e-9 * std::abs(m.mass))
+          return b.error_once(
+              real->at, fmt::format("real constants {}: masses of {:g}, {:g} and {:g} in the three "
+                                    "directions; a part has one",
+                                    e.real, m.mass, real->value(1), real->value(2)));
+      m.J.diagonal() << real->value(3), real->value(4), real->value(5);
+      if (type.keyopt[2] == 1) {
+        const Mat3 R = b.nodal_axes(n[0]);
+        m.J = R * m.J * R.transpose();
+      }
+    }
+    add_ansys_mass(b, e, m);
+  });
+  each(b, F::matrix, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
+    if (type.keyopt[3] == 2) build_ansys_matrix(b, e, type, n);
+  });
+}
+
+}  // namespace floatframe

@@ -1,0 +1,179 @@
+#pragma once
+// What the commands of an ANSYS deck say, by kind and with the user's numbers, before it is a
+// model.
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "floatframe/decks/ansys/ansys_fields.hpp"
+#include "floatframe/decks/ansys/ansys_types.hpp"
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+struct AnsysElement {
+  int id = 0, type = 0, material = 0, real = 0, section = 0, system = 0;
+  std::size_t first = 0;  ///< its nodes in AnsysContent::element_nodes
+  int nodes = 0;
+  FeSource at;
+};
+
+/// LOCAL: turned by the angles about z, the new x, the new y [degree].
+struct AnsysSystem {
+  int kind = 0;  ///< 0 rectangular, 1 cylindrical, 2 spherical, 3 toroidal
+  Vec3 origin = Vec3::Zero(), angles = Vec3::Zero();
+  bool round = true;  ///< neither elliptical nor the like
+  FeSource at;
+};
+
+struct AnsysMaterial {
+  /// By label (EX, DENS, ...): temperatures with values; one without: {{0, value}}.
+  using Values = std::map<std::string, std::vector<std::pair<double, double>>>;
+  Values values;                    ///< of MP and MPDATA
+  Values tables;                    ///< of TB: EX, PRXY, DENS
+  std::vector<double> anisotropic;  ///< TB,ANEL: 21 constants
+  bool compliance = false;          ///< of these
+  FeSource at;
+
+  /// Nullptr if there is none. Of both that of TB; they must be equal (`ansys_material`).
+  const Values::mapped_type* find(const std::string& label) const;
+};
+
+struct AnsysReal {
+  std::vector<double> values;
+  FeSource at;
+  double value(std::size_t k) const noexcept { return k < values.size() ? values[k] : 0.0; }
+};
+
+struct AnsysSection {
+  std::string kind, shape;                ///< SHELL, BEAM, LINK, ...; RECT, ...
+  std::vector<std::vector<double>> rows;  ///< SECDATA, SECBLOCK
+  std::string offset;                     ///< SECOFFSET: MID, ...; empty: not given
+  std::vector<double> offsets;            ///< its numbers: of USER and what follows
+  std::vector<double> control;            ///< SECCONTROL
+  FeSource at;
+};
+
+/// 0 where nothing is given.
+inline double ansys_value(const std::vector<double>& row, std::size_t k) noexcept {
+  return k < row.size() ? row[k] : 0.0;
+}
+
+struct AnsysTerm {
+  int node = 0, axis = 0;
+  double factor = 0.0;
+};
+
+/// CE
+struct AnsysEquation {
+  std::vector<AnsysTerm> terms;
+  double constant = 0.0;
+  FeSource at;
+};
+
+/// CP: a degree of freedom that all nodes share.
+struct AnsysCoupling {
+  int axis = -1;
+  std::vector<int> nodes;
+  FeSource at;
+};
+
+/// CERIG
+struct AnsysRigid {
+  int master = 0, slave = 0;
+  unsigned mask = 63u;
+  FeSource at;
+};
+
+struct AnsysComponent {
+  std::string name;
+  bool elements = false;
+  std::vector<int> members;  ///< numbers; a negative one ends a range
+  FeSource at;
+};
+
+struct AnsysContent {
+  FeModel model;  ///< with the nodes
+  std::unordered_map<int, int> node_index;
+  std::unordered_map<int, Vec3> node_angles;  ///< by index; of the nodal system [degree]
+  std::map<int, AnsysType> types;
+  std::vector<AnsysElement> elements;
+  std::vector<int> element_nodes;  ///< numbers
+  std::unordered_map<int, std::size_t> element_index;
+  std::map<int, AnsysSystem> systems;
+  std::map<int, AnsysMaterial> materials;
+  std::map<int, AnsysReal> reals;
+  std::map<int, AnsysSection> sections;
+  std::map<int, AnsysEquation> equations;
+  std::map<int, AnsysCoupling> couplings;
+  std::vector<AnsysRigid> rigid;
+  std::vector<AnsysComponent> components;
+  std::vector<std::pair<AnsysTerm, FeSource>> supports;  ///< axis -1: all
+  bool lumped = false;                                   ///< LUMPM,ON
+
+  // While reading: what the commands before have set.
+  int type = 1, material = 1, real = 1, section = 1, system = 0, nodal_system = 0;
+  int branch = 0;  ///< depth of a *IF whose lines are ignored
+  std::vector<double> temperatures;
+  std::string table;  ///< of TB, with its material
+  int table_material = 0;
+  double table_temperature = 0.0;     ///< of TBTEMP
+  int real_set = 0, section_set = 0;  ///< of R, SECTYPE
+  int constraint = 0;                 ///< number of the last CE or CP
+  int highest_element = 0;
+  bool ended = false;  ///< /EOF
+  std::map<std::string, FeSource> passed_over;
+};
+
+/// Throws InputError at the first error of form.
+AnsysContent read_ansys_content(TextSource& source);
+
+/// "UX" 0 to "ROTZ" 5; -1 of another word.
+int ansys_axis(std::string_view word) noexcept;
+/// Is field 1 the mark of the commands that CDWRITE writes, "R5.0" or "UNBL"?
+bool ansys_written(const AnsysFields& f);
+
+using AnsysCommandReader = void (*)(AnsysFields&, AnsysContent&);
+// ansys_mesh_commands.cpp
+void read_ansys_node(AnsysFields&, AnsysContent&);
+void read_ansys_node_block(AnsysFields&, AnsysContent&);
+void read_ansys_element(AnsysFields&, AnsysContent&);
+void read_ansys_element_more(AnsysFields&, AnsysContent&);
+void read_ansys_element_block(AnsysFields&, AnsysContent&);
+void read_ansys_component(AnsysFields&, AnsysContent&);
+void read_ansys_system(AnsysFields&, AnsysContent&);
+// ansys_property_commands.cpp
+void read_ansys_type(AnsysFields&, AnsysContent&);
+void read_ansys_type_block(AnsysFields&, AnsysContent&);
+void read_ansys_key_option(AnsysFields&, AnsysContent&);
+void read_ansys_real(AnsysFields&, AnsysContent&);
+void read_ansys_real_more(AnsysFields&, AnsysContent&);
+void read_ansys_real_block(AnsysFields&, AnsysContent&);
+void read_ansys_section(AnsysFields&, AnsysContent&);
+void read_ansys_section_data(AnsysFields&, AnsysContent&);
+void read_ansys_section_block(AnsysFields&, AnsysContent&);
+void read_ansys_section_offset(AnsysFields&, AnsysContent&);
+void read_ansys_section_control(AnsysFields&, AnsysContent&);
+// ansys_materials.cpp
+void read_ansys_material(AnsysFields&, AnsysContent&);
+void read_ansys_temperatures(AnsysFields&, AnsysContent&);
+void read_ansys_material_data(AnsysFields&, AnsysContent&);
+void read_ansys_table(AnsysFields&, AnsysContent&);
+void read_ansys_table_temperature(AnsysFields&, AnsysContent&);
+void read_ansys_table_field(AnsysFields&, AnsysContent&);
+void read_ansys_table_data(AnsysFields&, AnsysContent&);
+/// The material in the units of the deck; its density is 0 if there is none.
+Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,
+                        AnsysContent& content, TextSource& source);
+// ansys_constraint_commands.cpp
+void read_ansys_equation(AnsysFields&, AnsysContent&);
+void read_ansys_coupling(AnsysFields&, AnsysContent&);
+void read_ansys_rigid(AnsysFields&, AnsysContent&);
+void read_ansys_support(AnsysFields&, AnsysContent&);
+
+}  // namespace floatframe

@@ -1,0 +1,186 @@
+#include "floatframe/decks/ansys/ansys_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "floatframe/formats/text/text_fields.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+namespace {
+
+bool begins_command(std::string_view line) noexcept {
+  return !line.empty() && (std::isalpha(static_cast<unsigned char>(line[0])) != 0 ||
+                           line[0] == '/' || line[0] == '*' || line[0] == '!' || line[0] == '_');
+}
+
+}  // namespace
+
+bool AnsysFields::next() {
+  while (true) {
+    if (!waiting_.empty()) {
+      const std::string command = std::move(waiting_.back());
+      waiting_.pop_back();
+      split(command);
+      return true;
+    }
+    std::string_view raw;
+    if (!source_.next(raw)) return false;
+    at_ = source_.here();
+    std::string_view text = trimmed(raw);
+    // Titles may hold any character.
+    if (begins_with(text, "/COM") || begins_with(text, "C***")) continue;
+    if (begins_with(text, "/TIT")) {
+      split("/TITLE");
+      return true;
+    }
+    text = trimmed(text.substr(0, text.find('!')));
+    if (text.empty()) continue;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find('$', begin), text.size());
+      if (const auto part = trimmed(text.substr(begin, end - begin)); !part.empty())
+        waiting_.emplace_back(part);
+      begin = end + 1;
+    }
+    std::reverse(waiting_.begin(), waiting_.end());
+  }
+}
+
+void AnsysFields::split(std::string_view command) {
+  line_ = command;
+  split_commas(line_, fields_);
+  command_ = upper_case(fields_.empty() ? std::string_view{} : fields_[0]);
+}
+
+bool AnsysFields::is(std::string_view name) const noexcept {
+  if (name.front() == '/' || name.front() == '*' || name.size() <= 4 || command_.size() < 4)
+    return command_ == name;
+  return std::string_view(command_).substr(0, 4) == name.substr(0, 4);
+}
+
+std::string_view AnsysFields::text(std::size_t k) const noexcept {
+  return k < fields_.size() ? fields_[k] : std::string_view{};
+}
+
+std::string AnsysFields::word(std::size_t k) const { return upper_case(text(k)); }
+
+void AnsysFields::set_parameter(std::string_view name, std::optional<double> value) {
+  parameters_[upper_case(trimmed(name))] = value;
+}
+
+std::optional<double> AnsysFields::number(std::size_t k) const {
+  if (const auto value = parse_real(text(k))) return value;
+  const auto it = parameters_.find(upper_case(text(k)));
+  return it == parameters_.end() ? std::nullopt : it->second;
+}
+
+double AnsysFields::real(std::size_t k, const char* what, double missing) {
+  if (blank(k)) return missing;
+  const auto value = number(k);
+  if (!value)
+    stop(
+        fmt::format("{}: {}: {}; expressions and parameters that no *SET gives as a number are "
+                    "not read",
+                    command_, what, not_a_real(text(k))));
+  return *value;
+}
+
+int AnsysFields::integer(std::size_t k, const char* what, int missing) {
+  if (blank(k)) return missing;
+  const double value = real(k, what);
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+    stop(fmt::format("{}: {}: {}", command_, what, not_an_integer(text(k))));
+  return static_cast<int>(value);
+}
+
+int AnsysFields::label(std::size_t k, const char* what) {
+  const int value = integer(k, what);
+  if (value < 1)
+    stop(fmt::format("{}: {}: {}, expected a number of 1 or more", command_, what,
+                     blank(k) ? std::string("the field is empty") : shown(text(k))));
+  return value;
+}
+
+FortranColumns AnsysFields::columns() {
+  std::string_view line;
+  if (!source_.next(line))
+    source_.stop(at_, fmt::format("the file ends where the format of {} is expected", command_));
+  const auto format = parse_fortran_columns(line);
+  if (!format)
+    source_.stop(source_.here(), fmt::format("{}: a format like (3i9,6e21.13e3) is expected, "
+                                             "found {}",
+                                             command_, shown(trimmed(line))));
+  return *format;
+}
+
+bool AnsysFields::block_line(std::string_view& line) {
+  while (source_.next(line)) {
+    const std::string_view text = trimmed(line);
+    if (text.empty()) continue;
+    if (!begins_command(text)) return true;
+    source_.put_back();
+    return false;
+  }
+  if (command_ == "NBLOCK" || command_ == "EBLOCK")
+    source_.stop(source_.here(), fmt::format("the file ends within {}, which begins in line {} and "
+                                             "ends with -1: it is cut short",
+                                             command_, at_.line));
+  return false;
+}
+
+bool AnsysFields::row(const FortranColumns& format, std::vector<std::string_view>& cells) {
+  std::string_view line;
+  if (!block_line(line)) return false;
+  cells.clear();
+  if (trimmed(line) == "-1") return false;
+  if (!format.split(line, cells).empty())
+    source_.stop(source_.here(), fmt::format("{}: the line is longer than its format, which has {} "
+                                             "columns",
+                                             command_, format.columns.size()));
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  return true;
+}
+
+bool AnsysFields::loose_row(std::vector<std::string_view>& cells) {
+  std::string_view line;
+  if (!block_line(line)) return false;
+  if (line.find(',') != std::string_view::npos) {
+    split_commas(line, cells);
+  } else {
+    split_blanks(line, cells);
+  }
+  return true;
+}
+
+void AnsysFields::skip_block() {
+  std::string_view line;
+  while (block_line(line)) {
+  }
+}
+
+int AnsysFields::cell_integer(const std::vector<std::string_view>& cells, std::size_t k,
+                              const char* what) {
+  if (k >= cells.size() || cells[k].empty()) return 0;
+  const auto value = parse_integer(cells[k]);
+  if (!value)
+    source_.stop(source_.here(),
+                 fmt::format("{}: {}: {}", command_, what, not_an_integer(cells[k])));
+  return *value;
+}
+
+double AnsysFields::cell_real(const std::vector<std::string_view>& cells, std::size_t k,
+                              const char* what) {
+  if (k >= cells.size() || cells[k].empty()) return 0.0;
+  const auto value = parse_real(cells[k]);
+  if (!value)
+    source_.stop(source_.here(), fmt::format("{}: {}: {}", command_, what, not_a_real(cells[k])));
+  return *value;
+}
+
+void AnsysFields::stop(const std::string& message) { source_.stop(at_, message); }
+
+}  // namespace floatframe

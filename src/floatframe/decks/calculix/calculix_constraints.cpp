@@ -1,0 +1,249 @@
+// Springs and point masses of a CalculiX deck, after its equations.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "floatframe/core/plural.hpp"
+#include "floatframe/decks/calculix/calculix_equations.hpp"
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
+#include "floatframe/math/dense.hpp"
+
+namespace floatframe {
+namespace {
+
+/// CalculiX tells the line of the stiffness from that of the directions by its point.
+std::string with_point(std::string number) {
+  if (number.find('.') == std::string::npos)
+    number.insert(std::min(number.find('e'), number.size()), ".");
+  return number;
+}
+
+/// A spring of any directions between further nodes: the first direction of each is its end's
+/// share of the elongation, the others follow the spring's node, so that nothing is loose.
+class Springs {
+ public:
+  Springs(CalculixText& deck, CalculixEquations& equations) : deck_(deck), equations_(equations) {}
+
+  void add(const Spring& s) {
+    const bool grounded = s.nodes[1] < 0, straight = !grounded && along_its_line(s);
+    std::pair<int, int> ends[2];
+    const int count = grounded ? 1 : 2;
+    for (int end = 0; end < count; ++end) {
+      const auto k = static_cast<std::size_t>(end);
+      // SPRING2 takes the second displacement less the first.
+      const Vec6 d = end == 0 && !grounded ? Vec6(-s.directions[k]) : s.directions[k];
+      if (straight)
+        ends[end].first = deck_.node(s.nodes[k]);
+      else if (axis_of(d) >= 0 && !equations_.is_turn_of_knot(s.nodes[k], axis_of(d)))
+        ends[end] = equations_.place(s.nodes[k], axis_of(d), s.source);
+      else
+        ends[end] = further_node(s.source, s.nodes[k], d);
+    }
+    const int number = ++deck_.numbers.last_element;
+    const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
+    elements_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n{}",
+                             grounded   ? "SPRING1"
+                             : straight ? "SPRINGA"
+                                        : "SPRING2",
+                             set, number);
+    std::string directions;
+    for (int end = 0; end < count; ++end) {
+      elements_ += fmt::format(", {}", ends[end].first);
+      if (!straight) directions += fmt::format("{}{}", end == 0 ? "" : ", ", ends[end].second);
+    }
+    elements_ += fmt::format("\n*SPRING, ELSET={}\n{}\n{}\n", set, directions,
+                             with_point(calculix_number(s.stiffness)));
+  }
+
+  /// Springs without their massless ends (spring_system): K = sum lambda v v^T. Each term is a
+  /// spring between two further nodes, whose first directions are the shares in v . q of one node
+  /// and of the others.
+  void add_condensed(const SpringBlock& block, const FeSource& source) {
+    const SymmetricEigen eigen = symmetric_eigen(block.K);
+    const Eigen::Index last = eigen.values.size() - 1;
+    for (Eigen::Index k = 0; k <= last; ++k) {
+      if (!(eigen.values(k) > 1e-12 * eigen.values(last))) continue;
+      std::map<int, Vec6> of_node;
+      for (std::size_t i = 0; i < block.dofs.size(); ++i) {
+        const double v = eigen.vectors(static_cast<Eigen::Index>(i), k);
+        if (std::abs(v) < 1e-13) continue;
+        of_node.try_emplace(block.dofs[i].node, Vec6::Zero()).first->second(block.dofs[i].axis) = v;
+      }
+      const auto first = of_node.begin(), second = std::next(first);
+      const bool alone = second == of_node.end();
+      std::vector<std::pair<int, int>> ends = {
+          further_node(source, first->first, alone ? first->second : Vec6(-first->second))};
+      if (!alone) {
+        std::map<int, double> sum;
+        for (auto it = second; it != of_node.end(); ++it) {
+          must_be_in_an_element(source, it->first);
+          for (const auto& [dof, factor] : equations_.independent(it->first, it->second))
+            sum[dof] += factor;
+        }
+        ends.push_back(further_node(source, second->first, second->second));
+        rows_[rows_.size() - 3].terms = {sum.begin(), sum.end()};  // of its first direction
+      }
+      const int number = ++deck_.numbers.last_element;
+      const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
+      elements_ += alone ? fmt::format(
+                               "*ELEMENT, TYPE=SPRING1, ELSET={0}\n{1}, {2}\n*SPRING, "
+                               "ELSET={0}\n1\n",
+                               set, number, ends[0].first)
+                         : fmt::format(
+                               "*ELEMENT, TYPE=SPRING2, ELSET={0}\n{1}, {2}, {3}\n*SPRING, "
+                               "ELSET={0}\n1, 1\n",
+                               set, number, ends[0].first, ends[1].first);
+      elements_ += with_point(calculix_number(eigen.values(k))) + '\n';
+    }
+  }
+
+  void finish() {
+    if (!nodes_.empty())
+      deck_.text +=
+          "** Ends of springs: the first direction is a share of the elongation\n*NODE\n" + nodes_;
+    for (const Row& row : rows_) equations_.add(row.place, row.terms, row.source);
+    deck_.text += elements_;
+  }
+
+ private:
+  /// The only degree of freedom of a direction, with the factor 1; else -1.
+  static int axis_of(const Vec6& d) {
+    int axis = 0;
+    d.maxCoeff(&axis);
+    return d == Vec6::Unit(axis) ? axis : -1;
+  }
+
+  bool along_its_line(const Spring& s) const {
+    const auto at = [&](int end) {
+      return deck_.model
+          .positions[static_cast<std::size_t>(s.nodes[static_cast<std::size_t>(end)])];
+    };
+    const Vec3 d = at(1) - at(0);
+    if (!(d.norm() > 0.0)) return false;
+    Vec6 line = Vec6::Zero();
+    line.head<3>() = d.normalized();
+    return (s.directions[0] + line).norm() < 1e-14 && (s.directions[1] - line).norm() < 1e-14;
+  }
+
+  /// CalculiX leaves out degrees of freedom of nodes that only equations have.
+  bool is_in_an_element(int node) {
+    if (in_elements_.empty()) {
+      in_elements_.assign(deck_.model.positions.size(), 0);
+      for (const Element& e : deck_.model.elements)
+        for (int k = 0; k < element_nodes(e.type); ++k)
+          in_elements_[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+      for (const PointMass& m : deck_.model.masses)
+        if (m.mass != 0.0) in_elements_[static_cast<std::size_t>(m.node)] = 1;
+      for (const Spider& s : deck_.model.spiders)
+        in_elements_[static_cast<std::size_t>(s.reference)] = 1;
+    }
+    return in_elements_[static_cast<std::size_t>(node)] != 0;
+  }
+
+  void must_be_in_an_element(const FeSource& source, int node) {
+    if (is_in_an_element(node)) return;
+    deck_.errors.add(deck_.model.mark(source),
+                     fmt::format("a spring that is neither along an axis nor along the line of "
+                                 "its nodes ends at {}, which no element has: CalculiX would "
+                                 "hold it there",
+                                 deck_.model.node_label(node)));
+  }
+
+  std::pair<int, int> further_node(const FeSource& source, int node, const Vec6& direction) {
+    must_be_in_an_element(source, node);
+    const int number = ++deck_.numbers.last_node;
+    const Vec3& p = deck_.model.positions[static_cast<std::size_t>(node)];
+    nodes_ += fmt::format("{}, {}, {}, {}\n", number, calculix_number(p(0)), calculix_number(p(1)),
+                          calculix_number(p(2)));
+    rows_.push_back({{number, 1}, equations_.independent(node, direction), source});
+    for (int axis = 1; axis < 3; ++axis)
+      rows_.push_back({{number, axis + 1}, equations_.independent(node, Vec6::Unit(axis)), source});
+    return {number, 1};
+  }
+
+  struct Row {
+    std::pair<int, int> place;
+    DependentDofs::Terms terms;
+    FeSource source;
+  };
+
+  CalculixText& deck_;
+  CalculixEquations& equations_;
+  std::string nodes_, elements_;
+  std::vector<char> in_elements_;
+  std::vector<Row> rows_;
+};
+
+/// Does it end at a degree of freedom without mass that only springs hold?
+bool is_loose(const Spring& s, const std::set<std::pair<int, int>>& condensed) {
+  for (int end = 0; end < 2; ++end)
+    for (int axis = 0; axis < 6; ++axis)
+      if (s.directions[static_cast<std::size_t>(end)](axis) != 0.0 &&
+          condensed.contains({s.nodes[static_cast<std::size_t>(end)], axis}))
+        return true;
+  return false;
+}
+
+void add_springs(CalculixText& deck, Springs& springs) {
+  const FeModel& model = deck.model;
+  if (model.springs.empty()) return;
+  const DofTable table = dof_table(model);
+  std::set<std::pair<int, int>> condensed;
+  for (const Dof& dof : spring_system(model, table).condensed)
+    condensed.insert({dof.node, dof.axis});
+  std::vector<Spring> loose;
+  for (const Spring& s : model.springs) {
+    if (is_loose(s, condensed))
+      loose.push_back(s);
+    else
+      springs.add(s);
+  }
+  if (loose.empty()) return;
+  FeModel only = model;
+  only.springs = loose;
+  for (const SpringBlock& block : spring_system(only, table).blocks)
+    springs.add_condensed(block, loose.front().source);
+  deck.notes.push_back(
+      fmt::format("{} that massless nodes or rotations of solids have an end at: the stiffness "
+                  "between the others is written, as springs of further nodes",
+                  plural(static_cast<long>(loose.size()), "spring")));
+}
+
+void add_masses(CalculixText& deck) {
+  int& number = deck.numbers.last_element;
+  std::size_t turning = 0;
+  for (const PointMass& m : deck.model.masses) {
+    turning += !m.J.isZero(0.0);
+    if (m.mass == 0.0) continue;
+    const std::string set = written_name(fmt::format("MASS_{}", ++number), true, deck.names);
+    deck.text += fmt::format("*ELEMENT, TYPE=MASS, ELSET={0}\n{1}, {2}\n*MASS, ELSET={0}\n{3}\n",
+                             set, number, deck.node(m.node), calculix_number(m.mass));
+  }
+  if (turning > 0)
+    deck.notes.push_back(
+        fmt::format("the inertia of {} about the node is left out: CalculiX has "
+                    "masses without inertia",
+                    plural(static_cast<long>(turning), "point mass", "point masses")));
+}
+
+}  // namespace
+
+void add_calculix_constraints(CalculixText& deck) {
+  CalculixEquations equations(deck);
+  equations.add_dependences();
+  Springs springs(deck, equations);
+  add_springs(deck, springs);
+  springs.finish();
+  equations.add_zeros();
+  equations.say_refused();
+  add_masses(deck);
+}
+
+}  // namespace floatframe

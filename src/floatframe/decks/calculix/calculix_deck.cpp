@@ -1,0 +1,320 @@
+// A deck of CalculiX: nodes, elements, sets and surfaces; a step of free vibration if all masses
+// are known. Sections and constraints are in sources of their own.
+// Source: CalculiX CrunchiX User's Manual 2.20, "Input deck format".
+#include "floatframe/decks/calculix/calculix_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "floatframe/core/plural.hpp"
+#include "floatframe/decks/calculix/calculix_text.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/free_turns.hpp"
+
+namespace floatframe {
+namespace {
+
+const char* calculix_type(ElementType type) {
+  switch (type) {
+    case ElementType::beam2:
+      return "B31";
+    case ElementType::rod2:
+      return "T3D2";
+    case ElementType::beam3:
+      return "B32";
+    case ElementType::tri3:
+      return "S3";
+    case ElementType::shear4:  // refused before
+    case ElementType::quad4:
+      return "S4";
+    case ElementType::tri6:
+      return "S6";
+    case ElementType::quad8:
+      return "S8";
+    case ElementType::membrane3:
+      return "M3D3";
+    case ElementType::membrane4:
+      return "M3D4";
+    case ElementType::membrane4s:
+      return "M3D4R";
+    case ElementType::membrane6:
+      return "M3D6";
+    case ElementType::membrane8:
+      return "M3D8";
+    case ElementType::membrane8r:
+      return "M3D8R";
+    case ElementType::tet4:
+      return "C3D4";
+    case ElementType::tet10:
+      return "C3D10";
+    case ElementType::hex8:
+      return "C3D8";
+    case ElementType::hex8i:
+      return "C3D8I";
+    case ElementType::hex8r:
+      return "C3D8R";
+    case ElementType::hex20:
+      return "C3D20";
+    case ElementType::hex20r:
+      return "C3D20R";
+    case ElementType::wedge6:
+      return "C3D6";
+    case ElementType::wedge15:
+      return "C3D15";
+    case ElementType::pyramid5:
+      return "C3D8";
+    case ElementType::pyramid13:
+      return "C3D20";
+  }
+  return "";
+}
+
+/// Nodes as they are written: pyramids are bricks whose upper face is one node.
+std::vector<int> deck_nodes(const CalculixText& deck, const Element& e) {
+  std::vector<int> order;
+  if (e.type == ElementType::pyramid5) {
+    order = {0, 1, 2, 3, 4, 4, 4, 4};
+  } else if (e.type == ElementType::pyramid13) {
+    order = {0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
+  } else {
+    for (int k = 0; k < element_nodes(e.type); ++k) order.push_back(k);
+  }
+  for (int& k : order) k = deck.node(e.nodes[static_cast<std::size_t>(k)]);
+  return order;
+}
+
+void add_nodes(CalculixText& deck) {
+  deck.text += "*NODE, NSET=NALL\n";
+  for (int n = 0; n < deck.model.nodes(); ++n) {
+    if (deck.beside != nullptr && deck.beside->left_out[static_cast<std::size_t>(n)] != 0) continue;
+    const Vec3& p = deck.model.positions[static_cast<std::size_t>(n)];
+    deck.text += fmt::format("{}, {}, {}, {}\n", deck.node(n), calculix_number(p(0)),
+                             calculix_number(p(1)), calculix_number(p(2)));
+  }
+  deck.names.insert("NALL");
+}
+
+void add_elements(CalculixText& deck) {
+  std::size_t pyramids = 0, spread = 0, expanded = 0, modes = 0, rods = 0;
+  std::string last;
+  for (std::size_t e = 0; e < deck.model.elements.size(); ++e) {
+    const Element& element = deck.model.elements[e];
+    // CalculiX has pipes in B32R only.
+    const auto s = static_cast<std::size_t>(element.section);
+    const bool pipe = element.type == ElementType::beam3 && s < deck.model.sections.size() &&
+                      deck.model.sections[s].bore > 0.0;
+    const std::string type = pipe ? "B32R" : calculix_type(element.type);
+    if (type != last) deck.text += fmt::format("*ELEMENT, TYPE={}\n", type);
+    last = type;
+    std::vector<int> numbers = deck_nodes(deck, element);
+    numbers.insert(numbers.begin(), deck.element(e));
+    add_calculix_numbers(deck.text, numbers, true);
+    pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
+    modes += element.type == ElementType::hex8i;
+    rods += is_rod(element.type);
+    spread += element.mass_form != MassForm::consistent;
+    expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type) ||
+                is_membrane(element.type);
+  }
+  const auto note = [&](std::size_t count, const char* what) {
+    if (count > 0)
+      deck.notes.push_back(fmt::format("{} {}", plural(static_cast<long>(count), "element"), what));
+  };
+  note(pyramids,
+       "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
+  note(spread, "of lumped mass: CalculiX takes consistent mass");
+  note(expanded,
+       "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
+       "integration points (B32, S8, not B32R, S8R), its frequencies differ");
+  note(
+      rods,
+      "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, and "
+      "is clamped to beams at their nodes");
+  note(modes,
+       "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
+       "frequencies are lower, by some percent where the mesh is coarse");
+}
+
+/// CalculiX 2.20 joins what it makes of rods with what it makes of beams in all directions only if
+/// the element with the smallest number at their node is a beam; else some come loose. Such rods
+/// get numbers above all others.
+void number_rods_after_beams(CalculixText& deck) {
+  const std::vector<Element>& elements = deck.model.elements;
+  std::vector<char> bends(deck.model.positions.size(), 0);
+  const auto any_node = [&](const Element& e) {
+    const auto last = e.nodes.begin() + element_nodes(e.type);
+    return std::any_of(e.nodes.begin(), last,
+                       [&](int n) { return bends[static_cast<std::size_t>(n)] != 0; });
+  };
+  for (const Element& e : elements)
+    for (int k = 0; k < element_nodes(e.type) && is_beam(e.type); ++k)
+      bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  int largest = 0;  // of the beams
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (is_beam(elements[i].type)) largest = std::max(largest, deck.element(i));
+  long renumbered = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!is_rod(elements[i].type) || deck.element(i) > largest || !any_node(elements[i])) continue;
+    deck.numbers.element[i] = ++deck.numbers.last_element;
+    ++renumbered;
+  }
+  if (renumbered > 0)
+    deck.notes.push_back(fmt::format(
+        "{} numbered anew, after the beams that they meet: CalculiX 2.20 joins them only "
+        "in some directions otherwise",
+        plural(renumbered, "rod is", "rods are")));
+}
+
+/// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
+void note_beams_on_shells(CalculixText& deck) {
+  std::vector<unsigned> at(deck.model.positions.size(), 0);
+  for (const Element& e : deck.model.elements) {
+    const unsigned kind = is_beam(e.type) ? 1 : is_shell(e.type) ? 2 : 0;
+    for (int k = 0; k < element_nodes(e.type); ++k)
+      at[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] |= kind;
+  }
+  const auto first = std::find(at.begin(), at.end(), 3u);
+  if (first == at.end()) return;
+  deck.notes.push_back(fmt::format(
+      "beams and shells share {}: a shell of CalculiX does not resist that a beam turns "
+      "there about the normal of the shell, which is a frequency of zero where nothing "
+      "else does; first: {}",
+      plural(std::count(at.begin(), at.end(), 3u), "node"),
+      deck.model.node_label(static_cast<int>(first - at.begin()))));
+}
+
+void add_set(CalculixText& deck, const char* keyword, const std::string& name,
+             const std::vector<int>& members) {
+  if (members.empty()) return;
+  deck.text += fmt::format("*{0}, {0}={1}\n", keyword, deck.name_of(name));
+  add_calculix_numbers(deck.text, members, false);
+}
+
+void add_sets(CalculixText& deck) {
+  for (const auto& [name, nodes] : deck.model.node_sets) {
+    std::vector<int> members;
+    for (const int n : nodes) members.push_back(deck.node(n));
+    add_set(deck, "NSET", name, members);
+  }
+  for (const auto& [name, elements] : deck.model.element_sets) {
+    std::vector<int> members;
+    for (const int e : elements) members.push_back(deck.element(static_cast<std::size_t>(e)));
+    add_set(deck, "ELSET", name, members);
+  }
+  std::size_t skins = 0;
+  for (const auto& [name, faces] : deck.model.surfaces) {
+    std::string lines;
+    for (const ElementFace& f : faces) {
+      const auto e = static_cast<std::size_t>(f.element);
+      const ElementType type = deck.model.elements[e].type;
+      const bool solid = element_kernel(type).family == ElementFamily::solid &&
+                         type != ElementType::pyramid5 && type != ElementType::pyramid13;
+      if (solid)
+        lines += fmt::format("{}, S{}\n", deck.element(e), f.face + 1);
+      else
+        ++skins;
+    }
+    if (!lines.empty())
+      deck.text += fmt::format("*SURFACE, NAME={}\n{}", deck.name_of(name), lines);
+  }
+  if (skins > 0)
+    deck.notes.push_back(fmt::format("{} of surfaces left out: they are not faces of solids",
+                                     plural(static_cast<long>(skins), "face")));
+}
+
+/// What holds the part in its own deck is not in force here either: comments.
+void add_supports(CalculixText& deck) {
+  if (deck.model.supports.empty()) return;
+  deck.text += "** Supports of the model; without the stars they are in force:\n** *BOUNDARY\n";
+  for (const Support& s : deck.model.supports)
+    for (int axis = 0; axis < 6; ++axis)
+      if ((s.mask >> static_cast<unsigned>(axis) & 1u) != 0u)
+        deck.text += fmt::format("** {}, {}, {}\n", deck.node(s.node), axis + 1, axis + 1);
+}
+
+void add_step(CalculixText& deck, int modes) {
+  if (modes <= 0) return;
+  if (!deck.model.without_density.empty()) {
+    deck.notes.push_back(
+        "no step of vibration: the density of a material is not known (--density RHO)");
+    return;
+  }
+  // Its Lanczos vectors, five times the modes, must not be more than its degrees of freedom.
+  if (const int most = static_cast<int>(std::max(1L, deck.dofs / 5)); modes > most) {
+    modes = most;
+    deck.notes.push_back(fmt::format(
+        "the step asks for {}, a fifth of the {} of the deck: asked for more than it can "
+        "find, CalculiX prints zeros",
+        plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom")));
+  }
+  deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
+}
+
+/// Turns of beams: CalculiX loses equations whose dependent term is the rotation of a beam.
+std::size_t leave_out_beams(const FeModel& model, std::vector<FreeTurn>& turns) {
+  std::vector<char> bends(model.positions.size(), 0);
+  for (const Element& e : model.elements)
+    if (is_beam(e.type))
+      for (int k = 0; k < element_nodes(e.type); ++k)
+        bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  return std::erase_if(turns, [&](const FreeTurn& turn) {
+    return std::any_of(turn.group.begin(), turn.group.end(),
+                       [&](int k) { return bends[static_cast<std::size_t>(k)] != 0; });
+  });
+}
+
+}  // namespace
+
+std::string calculix_number(double value) { return fmt::format("{:.13g}", value); }
+
+void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bool goes_on) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const bool end = k + 1 == numbers.size();
+    text += std::to_string(numbers[k]);
+    if (!end && (k % 16 != 15 || goes_on)) text += ',';
+    if (end || k % 16 == 15)
+      text += '\n';
+    else
+      text += ' ';
+  }
+}
+
+WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
+  if (model.elements.empty())
+    throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
+  const std::optional<OffsetBeams> beside = offset_beams(model);
+  const FeModel& given = beside ? beside->model : model;
+  FeModel tied;  // only if needed: what nothing resists is singular there too
+  std::vector<FreeTurn> turns = free_turns(given);
+  const std::size_t bars = leave_out_beams(given, turns);
+  if (!turns.empty()) {
+    tied = given;
+    tie_free_turns(tied, turns);
+  }
+  CalculixText deck(turns.empty() ? given : tied);
+  if (beside) deck.beside = &*beside;
+  if (!turns.empty()) deck.notes.push_back(tied.notes.back());
+  if (bars > 0)
+    deck.notes.push_back(
+        fmt::format("{} of beams can turn about the line that holds them: nodes without rotations; "
+                    "that is a frequency of zero of each in CalculiX",
+                    plural(static_cast<long>(bars), "straight group")));
+  deck.text = "*HEADING\nWritten by Floatframe\n";
+  number_rods_after_beams(deck);
+  add_nodes(deck);
+  add_elements(deck);
+  note_beams_on_shells(deck);
+  add_sets(deck);
+  add_calculix_sections(deck);
+  add_calculix_constraints(deck);
+  add_supports(deck);
+  deck.renamed.note(deck.notes);
+  add_step(deck, options.modes);
+  deck.errors.throw_if_any();
+  return {std::move(deck.text), std::move(deck.notes)};
+}
+
+}  // namespace floatframe

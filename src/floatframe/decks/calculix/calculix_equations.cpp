@@ -1,0 +1,293 @@
+#include "floatframe/decks/calculix/calculix_equations.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "floatframe/core/plural.hpp"
+#include "floatframe/decks/calculix/calculix_knots.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
+#include "floatframe/math/rigid_motion.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Numbers of the nodes whose displacements are the rotations of another node; 0: none.
+std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
+  const FeModel& model = deck.model;
+  std::vector<char> bends(model.positions.size(), 0);
+  for (const Element& e : model.elements)
+    if (element_kernel(e.type).dofs_per_node == 6)
+      for (int k = 0; k < element_nodes(e.type); ++k)
+        bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  std::vector<int> out(model.positions.size(), 0);
+  for (const Spider& s : model.spiders)
+    if (s.rotation_node >= 0)
+      out[static_cast<std::size_t>(s.reference)] = deck.node(s.rotation_node);
+  std::string lines;
+  int& last = deck.numbers.last_node;
+  for (int n = 0; n < model.nodes(); ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    if (table.count(n) < 6 || bends[at] != 0 || out[at] != 0) continue;
+    out[at] = ++last;
+    const Vec3& p = model.positions[at];
+    lines += fmt::format("{}, {}, {}, {}\n", last, calculix_number(p(0)), calculix_number(p(1)),
+                         calculix_number(p(2)));
+  }
+  if (!lines.empty()) deck.text += "** Their displacements are rotations of nodes\n*NODE\n" + lines;
+  return out;
+}
+
+/// Of what ties a node, for a message.
+FeSource source_of_tie(const FeModel& model, int node) {
+  for (const Spider& s : model.spiders)
+    if (s.reference == node || std::find(s.nodes.begin(), s.nodes.end(), node) != s.nodes.end())
+      return s.source;
+  for (const LinearEquation& e : model.equations)
+    for (const LinearEquation::Term& t : e.terms)
+      if (t.node == node) return e.source;
+  return {};
+}
+
+/// Nodes of elements: what they can do has stiffness or mass.
+std::vector<char> nodes_of_elements(const FeModel& model) {
+  std::vector<char> out(model.positions.size(), 0);
+  for (const Element& e : model.elements)
+    for (int k = 0; k < element_nodes(e.type); ++k)
+      out[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  return out;
+}
+
+/// Of each node without elements what shows its six motions, one column each: by row the factor.
+using NodeColumns = std::map<int, std::array<std::map<int, double>, 6>>;
+
+/// Masses, which have no inertia in a deck, and springs; `row` counts.
+void add_masses_and_springs(const FeModel& model, const std::vector<char>& in_elements, int row,
+                            NodeColumns& columns) {
+  for (const PointMass& m : model.masses)
+    if (in_elements[static_cast<std::size_t>(m.node)] == 0 && m.mass != 0.0)
+      for (std::size_t axis = 0; axis < 3; ++axis) columns[m.node][axis][row++] = 1.0;
+  for (const Spring& s : model.springs)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const int node = s.nodes[end];
+      if (node < 0 || in_elements[static_cast<std::size_t>(node)] != 0) continue;
+      for (std::size_t axis = 0; axis < 6; ++axis)
+        if (const double d = s.directions[end](static_cast<int>(axis)); d != 0.0)
+          columns[node][axis][row] = d;
+      ++row;
+    }
+}
+
+/// Those of some sparse columns that are sums of the ones before them. Of a node of springs, whose
+/// displacements all exist in CalculiX, also empty ones.
+std::vector<std::size_t> repeated_columns(const std::array<std::map<int, double>, 6>& columns,
+                                          bool sprung) {
+  std::map<int, int> rows;
+  for (const auto& column : columns)
+    for (const auto& [row, value] : column) rows.try_emplace(row, static_cast<int>(rows.size()));
+  std::vector<std::size_t> out;
+  std::vector<VecX> basis;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    VecX x = VecX::Zero(static_cast<Eigen::Index>(rows.size()));
+    for (const auto& [row, value] : columns[k]) x(rows.at(row)) = value;
+    const double size = x.norm();
+    if (size == 0.0) {  // in no equation
+      if (sprung && k < 3) out.push_back(k);
+      continue;
+    }
+    for (int again = 0; again < 2; ++again)
+      for (const VecX& q : basis) x -= q.dot(x) * q;
+    if (x.norm() > 1e-9 * size)
+      basis.push_back(x.normalized());
+    else
+      out.push_back(k);
+  }
+  return out;
+}
+
+}  // namespace
+
+CalculixEquations::CalculixEquations(CalculixText& deck)
+    : deck_(deck),
+      table_(dof_table(deck.model)),
+      dependences_(resolve_dependences(deck.model, table_)),
+      place_(static_cast<std::size_t>(table_.size())) {
+  deck.dofs = std::count(dependences_.dependent.begin(), dependences_.dependent.end(), 0);
+  if (!dependences_.any && deck.model.springs.empty()) return;
+  const std::vector<int> rotations = add_rotation_nodes(deck, table_);
+  knots_ = calculix_knots(deck);
+  for (int n = 0; n < deck.model.nodes(); ++n)
+    for (int axis = 0; axis < table_.count(n); ++axis) {
+      const int turned = axis < 3 ? 0 : rotations[static_cast<std::size_t>(n)];
+      place_[static_cast<std::size_t>(table_.index(n, axis))] =
+          turned > 0 ? std::pair{turned, axis - 2} : std::pair{deck.node(n), axis + 1};
+    }
+}
+
+void CalculixEquations::add_dependences() {
+  const std::vector<char> in_elements = nodes_of_elements(deck_.model);
+  std::vector<std::string> held;
+  for (int node = 0; node < deck_.model.nodes(); ++node)
+    for (int axis = 0; axis < table_.count(node); ++axis) {
+      const auto dof = static_cast<std::size_t>(table_.index(node, axis));
+      if (dependences_.dependent[dof] == 0) continue;
+      add(place_[dof], dependences_.terms[dof], source_of_tie(deck_.model, node));
+      if (dependences_.terms[dof].empty() && in_elements[static_cast<std::size_t>(node)] != 0)
+        held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
+    }
+  if (!held.empty())
+    deck_.notes.push_back(fmt::format(
+        "{} held by equations of the model, written as *BOUNDARY: the part is not free; first: {}",
+        plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
+  note_not_rigid(in_elements);
+  hold_idle_motions(in_elements);
+}
+
+void CalculixEquations::note_not_rigid(const std::vector<char>& in_elements) const {
+  if (!dependences_.any) return;
+  const FeModel& model = deck_.model;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : model.positions) box.extend(p);
+  const double size = std::max(0.5 * box.diagonal().norm(), 1e-300);
+  std::vector<Vec6> motion(place_.size());  // of each degree of freedom in the rigid ones
+  std::vector<std::string> names;
+  for (int node = 0; node < model.nodes(); ++node) {
+    const Vec3 p = model.positions[static_cast<std::size_t>(node)] - box.center();
+    for (int axis = 0; axis < table_.count(node); ++axis) {
+      Vec6 row = rigid_motion_at(p).row(axis);
+      row.tail<3>() /= size;
+      motion[static_cast<std::size_t>(table_.index(node, axis))] = row;
+    }
+  }
+  for (int node = 0; node < model.nodes(); ++node)
+    for (int axis = 0; axis < table_.count(node); ++axis) {
+      const auto dof = static_cast<std::size_t>(table_.index(node, axis));
+      if (dependences_.dependent[dof] == 0 || dependences_.terms[dof].empty() ||
+          in_elements[static_cast<std::size_t>(node)] == 0)
+        continue;
+      Vec6 off = motion[dof];
+      double largest = off.cwiseAbs().maxCoeff();
+      for (const auto& [other, factor] : dependences_.terms[dof]) {
+        const Vec6 term = factor * motion[static_cast<std::size_t>(other)];
+        largest = std::max(largest, term.cwiseAbs().maxCoeff());
+        off -= term;
+      }
+      if (off.cwiseAbs().maxCoeff() > 1e-6 * largest)
+        names.push_back(fmt::format("{} {}", model.node_label(node), node_dof_names[axis]));
+    }
+  if (names.empty()) return;
+  deck_.notes.push_back(fmt::format(
+      "{} bound by equations of the model that rigid motions do not satisfy: the part is not free; "
+      "first: {}",
+      plural(static_cast<long>(names.size()), "direction is", "directions are"), names.front()));
+}
+
+void CalculixEquations::hold_idle_motions(const std::vector<char>& in_elements) {
+  if (!dependences_.any) return;
+  std::vector<int> node_of(place_.size(), -1);
+  for (int n = 0; n < deck_.model.nodes(); ++n)
+    if (in_elements[static_cast<std::size_t>(n)] == 0 && table_.count(n) == 6)
+      std::fill_n(node_of.begin() + table_.begin[static_cast<std::size_t>(n)], 6, n);
+  NodeColumns columns;
+  const auto rows = static_cast<int>(place_.size());
+  for (int row = 0; row < rows; ++row)
+    for (const auto& [dof, factor] : dependences_.terms[static_cast<std::size_t>(row)])
+      if (const int n = node_of[static_cast<std::size_t>(dof)]; n >= 0)
+        columns[n][static_cast<std::size_t>(dof - table_.begin[static_cast<std::size_t>(n)])][row] =
+            factor;
+  add_masses_and_springs(deck_.model, in_elements, rows, columns);
+  std::set<int> sprung;
+  for (const Spring& s : deck_.model.springs) sprung.insert(s.nodes.begin(), s.nodes.end());
+  std::vector<std::string> held;
+  for (const auto& [node, of_node] : columns)
+    for (const std::size_t axis : repeated_columns(of_node, sprung.contains(node))) {
+      const int dof = table_.index(node, static_cast<int>(axis));
+      if (dof < 0 || dependences_.dependent[static_cast<std::size_t>(dof)] != 0) continue;
+      add(place_[static_cast<std::size_t>(dof)], {}, {});
+      held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
+    }
+  if (held.empty()) return;
+  deck_.dofs -= static_cast<long>(held.size());
+  deck_.notes.push_back(fmt::format(
+      "{} held of nodes without elements: what shows that motion does not tell it from others of "
+      "the node, and CalculiX finds wrong frequencies if all are free; first: {}",
+      plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
+}
+
+void CalculixEquations::add(const std::pair<int, int>& place, const Terms& terms,
+                            const FeSource& source) {
+  const auto& [node, axis] = place;
+  if (terms.empty()) {
+    zeros_ += fmt::format("{}, {}, {}\n", node, axis, axis);
+    return;
+  }
+  if (axis > 3) refuse(node, source);
+  deck_.text += fmt::format("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
+  int in_line = 1;
+  for (const auto& [other, factor] : terms) {
+    const auto& [there, direction] = place_[static_cast<std::size_t>(other)];
+    if (direction > 3) refuse(there, source);
+    deck_.text += in_line++ % 4 == 0 ? ",\n" : ", ";
+    deck_.text += fmt::format("{}, {}, {}", there, direction, calculix_number(factor));
+  }
+  deck_.text += '\n';
+}
+
+std::pair<int, int> CalculixEquations::place(int node, int axis, const FeSource& source) {
+  const std::pair<int, int> place = place_[static_cast<std::size_t>(table_.index(node, axis))];
+  if (place.second > 3) refuse(place.first, source);
+  return place;
+}
+
+bool CalculixEquations::is_turn_of_knot(int node, int axis) const {
+  const auto& [number, direction] = place_[static_cast<std::size_t>(table_.index(node, axis))];
+  return direction > 3 && knots_.contains(number);
+}
+
+void CalculixEquations::refuse(int node, const FeSource& source) {
+  if (knots_.contains(node)) return;
+  if (!refused_.insert(node).second || refused_.size() > 1) return;
+  first_refused_ = node;
+  first_source_ = source;
+}
+
+void CalculixEquations::say_refused() {
+  if (refused_.empty()) return;
+  const auto more = static_cast<long>(refused_.size()) - 1;
+  deck_.errors.add(
+      deck_.model.mark(first_source_),
+      fmt::format(
+          "the rotation of node {}, of a beam or shell, is in an equation, a spring or the "
+          "arm of an end beside its node; CalculiX, which makes solids of beams and shells, "
+          "would lose it (.vtu and .msh show the mesh){}",
+          first_refused_,
+          more == 0
+              ? ""
+              : fmt::format("; the same holds for {}", plural(more, "more node", "more nodes"))));
+}
+
+void CalculixEquations::add_zeros() {
+  if (!zeros_.empty()) deck_.text += "*BOUNDARY\n" + zeros_;
+}
+
+CalculixEquations::Terms CalculixEquations::independent(int node, const Vec6& factors) const {
+  std::map<int, double> sum;
+  for (int axis = 0; axis < 6; ++axis) {
+    const int dof = table_.index(node, axis);
+    if (factors(axis) == 0.0 || dof < 0) continue;
+    const std::size_t k = static_cast<std::size_t>(dof);
+    if (dependences_.dependent[k] == 0) sum[dof] += factors(axis);
+    for (const auto& [other, factor] : dependences_.terms[k]) sum[other] += factors(axis) * factor;
+  }
+  Terms out;
+  for (const auto& [dof, factor] : sum)
+    if (factor != 0.0) out.emplace_back(dof, factor);
+  return out;
+}
+
+}  // namespace floatframe

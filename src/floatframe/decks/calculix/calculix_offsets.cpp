@@ -1,0 +1,255 @@
+#include "floatframe/decks/calculix/calculix_offsets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "floatframe/fe/beam_tangent.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double same_arm = 1e-9;
+
+/// Ends of arms: nodes that follow one other node rigidly, in all directions.
+class ArmEnds {
+ public:
+  explicit ArmEnds(const FeModel& model) : model_(model) {
+    for (const Spider& s : model.spiders)
+      for (const int end : s.nodes)
+        if (s.kind == Spider::Kind::rigid && s.mask == 63u) node_of_[end] = s.reference;
+    std::map<int, std::vector<const LinearEquation*>> equations;
+    for (const LinearEquation& e : model.equations)
+      if (!e.terms.empty()) equations[e.terms.front().node].push_back(&e);
+    for (const auto& [end, list] : equations)
+      if (const int node = node_of(end, list); node >= 0) node_of_[end] = node;
+    leave_out_others();
+  }
+
+  /// The node that `end` follows; -1: it is no end of an arm.
+  int operator()(int end) const {
+    const auto it = node_of_.find(end);
+    return it == node_of_.end() ? -1 : it->second;
+  }
+  void leave_out(int end) { node_of_.erase(end); }
+  const std::map<int, int>& all() const { return node_of_; }
+
+ private:
+  /// u' = u + theta x d, theta' = theta: six equations; -1 if they say something else.
+  int node_of(int end, const std::vector<const LinearEquation*>& list) const {
+    if (list.size() != 6) return -1;
+    int node = -1;
+    unsigned axes = 0;
+    Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
+    for (const LinearEquation* e : list) {
+      const LinearEquation::Term& first = e->terms.front();
+      axes |= 1u << static_cast<unsigned>(first.axis);
+      for (std::size_t k = 1; k < e->terms.size(); ++k) {
+        const LinearEquation::Term& t = e->terms[k];
+        if (node >= 0 && t.node != node) return -1;
+        node = t.node;
+        A(first.axis, t.axis) -= t.factor / first.factor;
+      }
+    }
+    if (axes != 63u || node < 0 || node == end) return -1;
+    const Vec3 d = model_.positions[end] - model_.positions[node];
+    Eigen::Matrix<double, 6, 6> rigid = Eigen::Matrix<double, 6, 6>::Identity();
+    for (int k = 0; k < 3; ++k) rigid.block<1, 3>(k, 3) = d.cross(Vec3::Unit(k)).transpose();
+    return (A - rigid).norm() <= same_arm * rigid.norm() ? node : -1;
+  }
+
+  /// What something else than beams and the arm has must stay.
+  void leave_out_others() {
+    std::map<int, int> spiders;
+    for (const Spider& s : model_.spiders) {
+      leave_out(s.reference);
+      for (const int end : s.nodes)
+        if (++spiders[end] > 1 || s.kind != Spider::Kind::rigid) leave_out(end);
+    }
+    for (const LinearEquation& e : model_.equations)
+      for (const LinearEquation::Term& t : e.terms)
+        if (t.node != e.terms.front().node || spiders.contains(t.node)) leave_out(t.node);
+    for (const PointMass& m : model_.masses) leave_out(m.node);
+    for (const Spring& s : model_.springs)
+      for (const int node : s.nodes) leave_out(node);
+    for (const Support& s : model_.supports) leave_out(s.node);
+    for (const auto& [name, nodes] : model_.node_sets)
+      for (const int node : nodes) leave_out(node);
+    for (const Element& e : model_.elements)
+      for (int k = 0; k < element_nodes(e.type); ++k)
+        if (!is_beam(e.type)) leave_out(e.nodes[static_cast<std::size_t>(k)]);
+  }
+
+  const FeModel& model_;
+  std::map<int, int> node_of_;
+};
+
+/// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
+std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
+                                                     const ArmEnds& ends) {
+  const auto s = static_cast<std::size_t>(e.section);
+  if (e.section < 0 || s >= model.sections.size()) return std::nullopt;
+  const BeamSection& section = model.sections[s];
+  if (section.outline == BeamSection::Outline::unknown) return std::nullopt;
+  const int count = element_nodes(e.type);
+  std::array<Vec3, 3> at{}, arm{};
+  for (int k = 0; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const int node = ends(e.nodes[i]);
+    at[i] = model.positions[node < 0 ? e.nodes[i] : node];
+    arm[i] = model.positions[e.nodes[i]] - at[i];
+  }
+  const bool round = section.outline == BeamSection::Outline::round;
+  const std::array<double, 2> thickness{section.width, round ? section.width : section.height};
+  std::array<double, 2> out{};
+  for (int k = 0; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3 t = beam_tangent(at, count, k).normalized();
+    const Vec3 n2 = t.cross(e.reference).normalized(), n1 = n2.cross(t);
+    const std::array<double, 2> of_node{-arm[i].dot(n1) / thickness[0],
+                                        -arm[i].dot(n2) / thickness[1]};
+    const double size = std::max({1.0, std::abs(of_node[0]), std::abs(of_node[1])});
+    const bool across = std::abs(arm[i].dot(t)) <= same_arm * size * thickness[0];
+    if (k == 0) out = of_node;
+    for (std::size_t j = 0; j < 2; ++j)
+      if (!across || !(std::abs(of_node[j] - out[j]) <= same_arm * size)) return std::nullopt;
+  }
+  return out;
+}
+
+/// What CalculiX would take for beams of one line, whose normals it averages.
+bool along_each_other(const FeModel& model, const Element& a, const Element& b) {
+  const auto axis = [&](const Element& e) {
+    const auto last = static_cast<std::size_t>(element_nodes(e.type)) - 1;
+    return Vec3(model.positions[e.nodes[last]] - model.positions[e.nodes[0]]).normalized();
+  };
+  return std::abs(axis(a).dot(axis(b))) > 0.9;
+}
+
+/// CalculiX has no arm: what else sits at a node acts on the beam beside it. So the nodes behind
+/// arms belong to beams alone, and beams in one line have one arm.
+class ArmNodes {
+ public:
+  explicit ArmNodes(const FeModel& model) : model_(model), taken_(model.positions.size(), 0) {
+    for (const PointMass& m : model.masses) taken_[m.node] = 1;
+    for (const Spring& s : model.springs)
+      for (const int node : s.nodes)
+        if (node >= 0) taken_[node] = 1;
+    for (const Element& e : model.elements)
+      if (!is_beam(e.type))
+        for (int k = 0; k < element_nodes(e.type); ++k)
+          taken_[e.nodes[static_cast<std::size_t>(k)]] = 1;
+  }
+
+  bool may_be(const ArmEnds& ends, int end) const {
+    const int node = ends(end);
+    if (taken_[node] != 0) return false;
+    for (const Spider& s : model_.spiders) {
+      if (s.reference != node && std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end())
+        continue;
+      if (s.reference != node ||
+          std::any_of(s.nodes.begin(), s.nodes.end(), [&](int n) { return ends(n) != node; }))
+        return false;
+    }
+    for (const LinearEquation& e : model_.equations) {
+      const bool has = std::any_of(e.terms.begin(), e.terms.end(),
+                                   [&](const LinearEquation::Term& t) { return t.node == node; });
+      if (has && ends(e.terms.front().node) != node) return false;
+    }
+    return true;
+  }
+
+ private:
+  const FeModel& model_;
+  std::vector<char> taken_;
+};
+
+/// The node of the model that `node` of a beam is at when its arm is gone.
+int foot(const ArmEnds& ends, int node) {
+  const int there = ends(node);
+  return there < 0 ? node : there;
+}
+
+/// Does a beam in the same line meet it with another arm?
+bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
+                       const std::map<int, std::vector<int>>& beams_at, const Element& e) {
+  for (int k = 0; k < element_nodes(e.type); ++k) {
+    const int node = e.nodes[static_cast<std::size_t>(k)];
+    const auto at = beams_at.find(foot(ends, node));
+    if (at == beams_at.end()) continue;
+    for (const int i : at->second) {
+      const Element& other = model.elements[static_cast<std::size_t>(i)];
+      const auto last = other.nodes.begin() + element_nodes(other.type);
+      if (std::find(other.nodes.begin(), last, node) == last && along_each_other(model, e, other))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Leaves out ends of beams whose arms OFFSET1 and OFFSET2 do not say, and what hangs on these.
+void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
+  const ArmNodes nodes(model);
+  std::map<int, std::vector<int>> beams_at;
+  for (std::size_t i = 0; i < model.elements.size(); ++i)
+    if (is_beam(model.elements[i].type))
+      for (int k = 0; k < element_nodes(model.elements[i].type); ++k)
+        beams_at[foot(ends, model.elements[i].nodes[static_cast<std::size_t>(k)])].push_back(
+            static_cast<int>(i));
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const Element& e : model.elements) {
+      if (!is_beam(e.type)) continue;
+      const auto last = e.nodes.begin() + element_nodes(e.type);
+      if (std::none_of(e.nodes.begin(), last, [&](int n) { return ends(n) >= 0; })) continue;
+      if (std::all_of(e.nodes.begin(), last,
+                      [&](int n) { return ends(n) < 0 || nodes.may_be(ends, n); }) &&
+          !meets_another_arm(model, ends, beams_at, e) && written_offsets(model, e, ends))
+        continue;
+      std::for_each(e.nodes.begin(), last, [&](int n) { ends.leave_out(n); });
+      changed = true;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<OffsetBeams> offset_beams(const FeModel& model) {
+  ArmEnds ends(model);
+  keep_what_can_be_said(model, ends);
+  std::set<int> moved;
+  for (const Element& e : model.elements)
+    if (is_beam(e.type))
+      for (int k = 0; k < element_nodes(e.type); ++k)
+        if (const int n = e.nodes[static_cast<std::size_t>(k)]; ends(n) >= 0) moved.insert(n);
+  if (moved.empty()) return std::nullopt;
+  OffsetBeams out{model, {}, {}};
+  out.offsets.assign(model.elements.size(), {0.0, 0.0});
+  out.left_out.assign(model.positions.size(), 0);
+  for (const int end : moved) out.left_out[static_cast<std::size_t>(end)] = 1;
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    Element& e = out.model.elements[i];
+    if (!is_beam(e.type)) continue;
+    bool beside = false;
+    for (int k = 0; k < element_nodes(e.type); ++k) {
+      int& node = e.nodes[static_cast<std::size_t>(k)];
+      if (!moved.contains(node)) continue;
+      node = ends(node);
+      beside = true;
+    }
+    if (beside) out.offsets[i] = *written_offsets(model, model.elements[i], ends);
+  }
+  std::erase_if(out.model.equations, [&](const LinearEquation& e) {
+    return !e.terms.empty() && moved.contains(e.terms.front().node);
+  });
+  for (Spider& s : out.model.spiders)
+    std::erase_if(s.nodes, [&](int node) { return moved.contains(node); });
+  std::erase_if(out.model.spiders, [](const Spider& s) { return s.nodes.empty(); });
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,49 @@
+#pragma once
+// What the parts of a CalculiX deck share. Numbers have 13 digits: CalculiX reads 20 characters of
+// a field.
+#include <set>
+#include <string>
+#include <vector>
+
+#include "floatframe/decks/calculix/calculix_offsets.hpp"
+#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/written/written_numbers.hpp"
+
+namespace floatframe {
+
+struct CalculixText {
+  explicit CalculixText(const FeModel& m) : model(m) { numbers = written_numbers(m, notes); }
+  const FeModel& model;
+  WrittenNumbers numbers;
+  std::string text;
+  std::vector<std::string> notes;
+  ErrorList errors;
+  const OffsetBeams* beside = nullptr;  ///< if `model` is of it
+  std::set<std::string> names;          ///< of sets, surfaces, materials and orientations
+  RenamedNames renamed;
+  long dofs = 0;  ///< degrees of freedom that depend on none, at least
+
+  int node(int index) const { return numbers.node[static_cast<std::size_t>(index)]; }
+  int element(std::size_t index) const { return numbers.element[index]; }
+  /// In capitals; of a set, surface or material of the model.
+  std::string name_of(const std::string& given) {
+    std::string name = written_name(given, true, names);
+    renamed.add(given, name);
+    return name;
+  }
+  SourceMark mark_of(const Element& e) const { return model.mark(e.source); }
+};
+
+/// "1.5e-05", at most 20 characters.
+std::string calculix_number(double value);
+
+/// Numbers, 16 in a line; an element's lines end with a comma where it goes on.
+void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bool goes_on);
+
+/// Materials, orientations and sections of all elements, in sets of their own.
+void add_calculix_sections(CalculixText& deck);
+
+/// Spiders and equations (CalculixEquations), springs, point masses.
+void add_calculix_constraints(CalculixText& deck);
+
+}  // namespace floatframe

@@ -1,0 +1,206 @@
+#include "floatframe/decks/nastran/nastran_build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A point in the coordinates of a system; angles in degrees.
+Vec3 to_basic(const NastranFrame& f, const Vec3& x) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  Vec3 local = x;
+  if (f.kind == 'C') {
+    local = {x(0) * std::cos(x(1) * degree), x(0) * std::sin(x(1) * degree), x(2)};
+  } else if (f.kind == 'S') {
+    const double r = x(0) * std::sin(x(1) * degree);
+    local = {r * std::cos(x(2) * degree), r * std::sin(x(2) * degree),
+             x(0) * std::cos(x(1) * degree)};
+  }
+  return f.origin + f.R * local;
+}
+
+}  // namespace
+
+Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p) {
+  if (f.kind == 'R') return f.R;
+  const Vec3 local = f.R.transpose() * (p - f.origin);
+  const double r = std::hypot(local(0), local(1)), R = local.norm();
+  const bool on_axis = !(r > 1e-12 * R);
+  const double c = on_axis ? 1.0 : local(0) / r, s = on_axis ? 0.0 : local(1) / r;
+  Mat3 T;
+  if (f.kind == 'C') {
+    T << c, -s, 0, s, c, 0, 0, 0, 1;
+  } else {
+    const double z = R > 0.0 ? local(2) / R : 1.0, w = R > 0.0 ? r / R : 0.0;
+    T << w * c, z * c, -s, w * s, z * s, c, z, -w, 0;
+  }
+  return f.R * T;
+}
+
+Mat3 NastranBuild::axes(int node) const {
+  const auto it = turned_axes.find(node);
+  return it == turned_axes.end() ? Mat3::Identity() : it->second;
+}
+
+int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string& who) {
+  if (largest_id_ == 0) {
+    largest_id_ = *std::max_element(model.node_ids.begin(), model.node_ids.end());
+  }
+  if (largest_id_ == std::numeric_limits<int>::max()) {
+    source.stop(at, fmt::format("{} needs a node of its own, but there is no number above {}", who,
+                                largest_id_));
+  }
+  model.positions.push_back(p);
+  model.node_ids.push_back(++largest_id_);
+  model.node_sources.push_back(at);
+  model.generated_nodes.push_back(model.nodes() - 1);
+  turned.push_back(0);
+  if (!rotates.empty()) rotates.push_back(1);
+  return model.nodes() - 1;
+}
+
+void NastranBuild::give_rotations(int node, const FeSource& at, const std::string& who) {
+  if (rotates[node] != 0) return;
+  rotates[node] = 1;
+  Spider s;
+  s.name = who;
+  s.reference = node;
+  s.source = at;
+  s.nodes = {add_node(model.positions[node], at, who)};
+  model.spiders.push_back(std::move(s));
+}
+
+int NastranBuild::node(int id, const FeSource& at, const std::string& who) {
+  const auto it = node_of.find(id);
+  if (it != node_of.end()) return it->second;
+  if (id > 0) {
+    source.error(at,
+                 content.scalar_points.contains(id)
+                     ? fmt::format("{} has the scalar point {}, expected a node (GRID)", who, id)
+                     : fmt::format("{} has node {}, which is not in the file", who, id));
+  }
+  return -1;
+}
+
+void NastranBuild::spend(std::size_t members, const FeSource& at) {
+  spent_ += members;
+  const std::uint64_t most = 10'000'000 + 100 * (content.grids.size() + content.elements.size());
+  if (spent_ > most) {
+    source.stop(at, fmt::format("the sets and supports have more than {} members in all, too many "
+                                "for a file of {} nodes and {} elements",
+                                most, content.grids.size(), content.elements.size()));
+  }
+}
+
+void NastranBuild::note(const FeSource& at, const std::string& text) {
+  model.notes.push_back(ErrorEntry{source.mark(at), text}.text());
+}
+
+const NastranFrame& NastranBuild::frame(int id, const FeSource& at) {
+  const auto it = frames_.find(id);
+  if (it != frames_.end()) return it->second;
+  return frames_[id] = made(id, at);
+}
+
+NastranFrame NastranBuild::made(int id, const FeSource& at) {
+  if (id == 0) return {};
+  const auto it = content.systems.find(id);
+  const auto by_nodes = content.node_systems.find(id);
+  const bool nodes = by_nodes != content.node_systems.end();
+  if (it == content.systems.end() && !nodes) {
+    const auto other = content.other_systems.find(id);
+    source.error(at, other == content.other_systems.end()
+                         ? fmt::format("coordinate system {} is not in the file", id)
+                         : fmt::format("coordinate system {} is a {}, which is not read (CORD1R, "
+                                       "CORD1C, CORD1S, CORD2R, CORD2C and CORD2S are)",
+                                       id, other->second));
+    return {};
+  }
+  const FeSource own = nodes ? by_nodes->second.at : it->second.at;
+  if (!open_.insert(id).second || open_.size() > 100) {
+    source.error(own, fmt::format("coordinate system {} refers to itself through its reference "
+                                  "systems, or these are more than 100 deep",
+                                  id));
+    return {};
+  }
+  if (nodes) {
+    const NastranNodeSystem& s = by_nodes->second;
+    const Vec3 a = place_of(s.a, own, id), b = place_of(s.b, own, id), c = place_of(s.c, own, id);
+    open_.erase(id);
+    return through(s.kind, a, b, c, id, own);
+  }
+  const NastranSystem& s = it->second;
+  const NastranFrame base = frame(s.rid, s.at);
+  open_.erase(id);
+  return through(s.kind, to_basic(base, s.a), to_basic(base, s.b), to_basic(base, s.c), id, own);
+}
+
+/// Origin a, b on z, c in the xz plane.
+NastranFrame NastranBuild::through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
+                                   const FeSource& at) {
+  NastranFrame f;
+  f.kind = kind;
+  f.origin = a;
+  const Vec3 z = b - a, y = z.cross(c - a);
+  if (!(y.norm() > 1e-12 * z.norm() * (c - a).norm())) {
+    source.error(at, fmt::format("coordinate system {}: its points A, B and C are on a line", id));
+    return f;
+  }
+  f.R.col(2) = z.normalized();
+  f.R.col(1) = y.normalized();
+  f.R.col(0) = f.R.col(1).cross(f.R.col(2));
+  return f;
+}
+
+Vec3 NastranBuild::place_of(int id, const FeSource& at, int system) {
+  if (grid_of_.empty()) {
+    for (const NastranGrid& g : content.grids) {
+      grid_of_.try_emplace(g.id, static_cast<int>(&g - content.grids.data()));
+    }
+  }
+  const auto it = grid_of_.find(id);
+  if (it == grid_of_.end()) {
+    source.error(
+        at, fmt::format("coordinate system {} has node {}, which is not in the file", system, id));
+    return Vec3(id, 0.1 * id * id, 1.0);  // somewhere; the error is known
+  }
+  const NastranGrid& g = content.grids[it->second];
+  return to_basic(frame(g.cp, g.at), g.x);
+}
+
+void build_nastran_nodes(NastranBuild& build) {
+  FeModel& model = build.model;
+  const std::size_t n = build.content.grids.size();
+  model.positions.reserve(n);
+  model.node_ids.reserve(n);
+  model.node_sources.reserve(n);
+  build.node_of.reserve(n);
+  build.turned.reserve(n);
+  for (const NastranGrid& g : build.content.grids) {
+    const auto [it, fresh] = build.node_of.try_emplace(g.id, model.nodes());
+    if (!fresh && g.id > 0) {
+      const FeSource& first = model.node_sources[it->second];
+      build.source.error(
+          g.at, fmt::format("node {} is in the file twice, first in line {}", g.id, first.line));
+    }
+    model.positions.push_back(to_basic(build.frame(g.cp, g.at), g.x));
+    model.node_ids.push_back(g.id);
+    model.node_sources.push_back(g.at);
+    // Cylindrical and spherical systems turn with the place.
+    const NastranFrame* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
+    build.turned.push_back(cd != nullptr && (cd->kind != 'R' || !cd->R.isIdentity(1e-9)));
+    if (build.turned.back() != 0) {
+      build.turned_axes[model.nodes() - 1] = nastran_axes_at(*cd, model.positions.back());
+    }
+  }
+  if (n == 0) build.source.error({0, 0}, "the file has no nodes (GRID)");
+}
+
+}  // namespace floatframe

@@ -1,0 +1,205 @@
+#pragma once
+// From the content of Nastran bulk data to the model.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "floatframe/decks/nastran/nastran_content.hpp"
+#include "floatframe/decks/stiffeners.hpp"
+#include "floatframe/formats/fe_file.hpp"
+
+namespace floatframe {
+
+/// Axes of a coordinate system in basic coordinates: x = origin + R x_local.
+struct NastranFrame {
+  Mat3 R = Mat3::Identity();
+  Vec3 origin = Vec3::Zero();
+  char kind = 'R';  ///< rectangular, cylindrical, spherical
+};
+
+/// Equations in directions that are not those of the basic axes. Those of one node are solved for
+/// as many of its basic directions, each of its own, so that every equation has a dependent degree
+/// of freedom.
+class NastranEquations {
+ public:
+  /// `rotation`: the block that the equation determines. The order of its terms does not matter.
+  void add(int node, bool rotation, LinearEquation equation);
+  void flush(FeModel& model, TextSource& source);
+  /// Node and block of each.
+  std::vector<std::pair<int, bool>> blocks() const {
+    std::vector<std::pair<int, bool>> list;
+    for (const auto& [block, equations] : blocks_) list.push_back(block);
+    return list;
+  }
+
+ private:
+  std::map<std::pair<int, bool>, std::vector<LinearEquation>> blocks_;
+};
+
+struct NastranBuild {
+  const NastranContent& content;
+  TextSource& source;
+  FeModel model;
+  std::unordered_map<int, int> node_of;  ///< index of a node number
+  std::map<int, int> orientation_of;     ///< index in FeModel::orientations of a system
+  std::vector<char> turned;              ///< nodes whose displacements are in a turned system
+  NastranEquations equations;            ///< what goes to the model at the end
+  NastranScalarPoints scalars;
+
+  NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
+  /// Index of a node; an error and -1 if it is not there.
+  int node(int id, const FeSource& at, const std::string& who);
+  /// The system in basic coordinates; an error (once a system) and basic axes if it is not there.
+  const NastranFrame& frame(int id, const FeSource& at);
+  void note(const FeSource& at, const std::string& text);
+  /// Axes of the displacements of a node (CD) at its place; columns in basic axes.
+  Mat3 axes(int node) const;
+  std::unordered_map<int, Mat3> turned_axes;  ///< of the turned nodes
+  /// A new node with a number of its own.
+  int add_node(const Vec3& p, const FeSource& at, const std::string& who);
+  std::vector<char> rotates;  ///< nodes that have rotations; empty until constraints are built
+  /// A node that nothing else uses gets rotations by a spider with a node of its own.
+  void give_rotations(int node, const FeSource& at, const std::string& who);
+  /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
+  /// there are too many in all.
+  void spend(std::size_t members, const FeSource& at);
+
+ private:
+  int largest_id_ = 0;
+  std::uint64_t spent_ = 0;
+  NastranFrame made(int id, const FeSource& at);
+  NastranFrame through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
+                       const FeSource& at);
+  /// Where a node is, before it is in the model.
+  Vec3 place_of(int id, const FeSource& at, int system);
+  std::unordered_map<int, int> grid_of_;
+  std::map<int, NastranFrame> frames_;
+  std::set<int> open_;  // systems being made, to find circles
+};
+
+// nastran_build.cpp
+void build_nastran_nodes(NastranBuild& build);
+/// Directions of a system at a place: cylinder radial, around, along; sphere radial, along the
+/// meridian (theta), around (phi). On the axis the angle around is zero.
+Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p);
+// nastran_masses.cpp
+/// Of each node one.
+std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
+// nastran_build_elements.cpp
+/// Lumped or consistent.
+void nastran_mass_forms(NastranBuild& build);
+void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
+// nastran_build_layers.cpp
+/// `material`: index of one by its number.
+ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
+                                   const NastranProperty& p,
+                                   const std::function<int(int)>& material);
+/// Axes of the material of an element whose section and material are known.
+void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result);
+void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
+/// The cards that a property of a kind could have in place of a material; empty if it may have it.
+std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card);
+// nastran_build_materials.cpp
+/// Materials of the model by their numbers.
+class NastranMaterials {
+ public:
+  explicit NastranMaterials(NastranBuild& build) : b_(build), c_(build.content) {}
+  /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
+  int index(const NastranProperty& p, double nonstructural);
+  int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
+  /// The same as another without density.
+  int massless(int material);
+  /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
+  /// E and NU are, and nothing else of a bar depends on it.
+  double own_shear(int id);
+
+ private:
+  Material elastic(int id, const NastranMaterial& m);
+  Material scaled(Material m) const;
+  NastranBuild& b_;
+  const NastranContent& c_;
+  std::map<std::tuple<int, double, bool>, int> indices_;
+  std::map<int, int> massless_;
+  std::set<int> inconsistent_, checked_, unfit_for_bars_;
+  std::set<std::tuple<int, int, int>> checked_properties_;  // file, line and material
+  // Properties by line, whose nonstructural mass is said, and is too negative.
+  std::set<std::pair<int, int>> noted_, negative_;
+};
+// nastran_build_weak_bars.cpp
+/// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
+bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
+std::string weak_nastran_bar_note(const NastranProperty& p);
+/// Springs that bend as the beam does; the rod has its material and reference vector.
+void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& section,
+                         double shear_modulus, const std::string& who);
+// nastran_build_bars.cpp
+/// Columns x along the bar, y in the plane of x and v; zero where there is no direction.
+Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v);
+/// The error of a bar for which there is no direction.
+void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who);
+/// Orientation and ends of bars. `finish` ties the ends to their nodes.
+class NastranBars {
+ public:
+  explicit NastranBars(NastranBuild& build) : b_(build) {}
+  /// The element has its nodes, and is a rod if it does not bend; `turn`: of the principal axes of
+  /// its section; `bends`: across both axes.
+  bool place(const NastranElement& e, double turn, bool bends, Element& element);
+  void finish();
+
+ private:
+  struct Tie {
+    int fresh = -1, node = -1;
+    Vec3 arm = Vec3::Zero();
+    Mat3 axes = Mat3::Identity();
+    unsigned mask = 63u;  ///< what is tied, in the axes
+    FeSource at;
+  };
+  void tie(const Tie& t, bool rotates);
+  NastranBuild& b_;
+  std::vector<Tie> ties_;
+  std::map<std::array<double, 4>, int> offset_nodes_;
+  std::vector<BeamOnNodes> bars_;  ///< that are no rods
+  std::map<int, int> spiders_;
+};
+// nastran_build_rigid.cpp
+/// RBE1, RBAR and RTRPLT whose independent components are of several nodes, RROD.
+void build_nastran_rigids(NastranBuild& build);
+void give_nastran_rigid_rotations(NastranBuild& build);
+// nastran_build_means.cpp
+/// An RBE3 that is no mean spider of displacements; after all other constraints.
+void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
+// nastran_build_constraints.cpp
+/// Node of a term of an MPC; an error and -1 if it has none.
+int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
+                         const NastranEquation::Term& term);
+/// Adds a term of a node in basic axes.
+void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
+                      LinearEquation& equation);
+void build_nastran_constraints(NastranBuild& build);
+void build_nastran_supports(NastranBuild& build);
+// nastran_build_sets.cpp
+/// The set that the case control selects, or those that an ADD card of its number joins; an error
+/// if it selects two, or if one that is joined is not `there`. `what`: MPC, SPC.
+std::set<int> selected_nastran_sets(NastranBuild& build,
+                                    const std::vector<std::pair<int, FeSource>>& selected,
+                                    const std::map<int, std::vector<int>>& added,
+                                    const std::set<int>& there, const char* what);
+void build_nastran_sets(NastranBuild& build, bool only_nodes);
+
+/// Numbers with their index, to look up ranges.
+class NastranNumbers {
+ public:
+  explicit NastranNumbers(std::vector<std::pair<int, int>> number_and_index);
+  /// Appends the indices from `first` to `last`; false if there are none.
+  bool append(int first, int last, std::vector<int>& indices) const;
+
+ private:
+  std::vector<std::pair<int, int>> sorted_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,331 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+#include "floatframe/decks/nastran/nastran_build.hpp"
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr unsigned all_six = 63u, translations = 7u;
+
+/// Directions of a node with a turned system matter unless all three of a kind are meant.
+bool any_axes(unsigned mask) {
+  const unsigned low = mask & 7u, high = mask >> 3;
+  return (low == 0u || low == 7u) && (high == 0u || high == 7u);
+}
+
+class ConstraintBuilder {
+ public:
+  explicit ConstraintBuilder(NastranBuild& build) : b_(build) {
+    b_.rotates.assign(b_.model.nodes(), 0);
+    for (const Element& e : b_.model.elements) {
+      const ElementKernel& kernel = element_kernel(e.type);
+      if (kernel.dofs_per_node != 6) continue;
+      for (int k = 0; k < kernel.nodes; ++k) b_.rotates[index(e.nodes[k])] = 1;
+    }
+    for (const Spring& s : b_.model.springs)
+      for (int end = 0; end < 2; ++end)
+        if (!s.directions[end].tail<3>().isZero(0.0)) b_.rotates[index(s.nodes[end])] = 1;
+  }
+
+  void build() {
+    for (const Spider& s : b_.model.spiders) b_.rotates[index(s.reference)] = 1;  // of bars
+    for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean})
+      for (const NastranSpider& s : b_.content.spiders)
+        if (s.kind == kind) spider(s);
+    give_nastran_rigid_rotations(b_);
+    for (const NastranMass& m : b_.content.masses) mass(m);
+    for (const NastranMass& m : nastran_rigid_masses(b_)) mass(m);
+    check_nastran_scalar_masses(b_);
+    follow_turned();
+    equations();
+    build_nastran_rigids(b_);
+    for (const NastranSpider* s : general_) build_nastran_mean(b_, *s);
+    b_.equations.flush(b_.model, b_.source);
+  }
+
+ private:
+  static std::size_t index(int node) { return node; }
+
+  /// A node with a turned system that follows only in some of its directions.
+  struct Follower {
+    const NastranSpider* spider = nullptr;
+    int reference = -1, node = -1;
+  };
+
+  /// By equations, once it is known which nodes have rotations: by an element, a spring, a mass.
+  void follow_turned() {
+    if (followers_.empty()) return;
+    const DofTable dofs = dof_table(b_.model);
+    for (const Follower& f : followers_) {
+      const bool rotates = dofs.count(f.node) == 6;
+      const Mat3 axes = b_.axes(f.node);
+      const Vec3 arm = b_.model.positions[index(f.node)] - b_.model.positions[index(f.reference)];
+      for (int c = 0; c < 6; ++c) {
+        const bool rotation = c >= 3;
+        if (((f.spider->mask >> c) & 1u) == 0 || (rotation && !rotates)) continue;
+        const Vec3 axis = axes.col(c % 3), lever = arm.cross(axis);
+        LinearEquation e;
+        e.source = f.spider->at;
+        for (int k = 0; k < 3; ++k) {
+          const int dof = rotation ? 3 + k : k;
+          e.terms.push_back({f.node, dof, axis(k)});
+          e.terms.push_back({f.reference, dof, -axis(k)});
+          if (!rotation) e.terms.push_back({f.reference, 3 + k, -lever(k)});
+        }
+        b_.equations.add(f.node, rotation, std::move(e));
+      }
+    }
+  }
+
+  /// An RBE3 whose reference follows in all directions the displacements of its nodes, each once.
+  /// Rotations of nodes that have none do not count. Others give their reference rotations here and
+  /// are equations later.
+  bool is_plain_mean(const NastranSpider& s) {
+    std::set<int> seen;
+    bool plain = s.mask == all_six;
+    for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+      const auto it = b_.node_of.find(s.nodes[i]);
+      if (it == b_.node_of.end()) return true;  // an error
+      const unsigned mask = s.components[i];
+      const bool rotations = (mask >> 3) != 0 && b_.rotates[index(it->second)] != 0;
+      plain = plain && seen.insert(it->second).second && (mask & 7u) == translations && !rotations;
+    }
+    const int reference = b_.node_of.at(s.reference);
+    if (!plain && (s.mask >> 3) != 0)
+      b_.give_rotations(reference, s.at, fmt::format("{} {}", s.card, s.id));
+    return plain;
+  }
+
+  void spider(const NastranSpider& s) {
+    const std::string who = fmt::format("{} {}", s.card, s.id);
+    if (s.nodes.empty()) {
+      b_.source.error(s.at, fmt::format("{} has no nodes", who));
+      return;
+    }
+    if (s.mask == 0) {
+      b_.source.error(s.at, fmt::format("{} has no components", who));
+      return;
+    }
+    Spider spider;
+    spider.kind = s.kind;
+    spider.name = who;
+    spider.mask = s.mask;
+    spider.source = s.at;
+    spider.reference = b_.node(s.reference, s.at, who);
+    if (spider.reference < 0) return;
+    if (s.kind == Spider::Kind::mean && !is_plain_mean(s)) return general_.push_back(&s);
+    for (const int id : s.nodes) {
+      const int node = b_.node(id, s.at, who);
+      if (node < 0) return;
+      if (s.kind == Spider::Kind::rigid && node == spider.reference)
+        return b_.source.error(s.at, fmt::format("{}: node {} depends on itself", who, id));
+      if (s.kind == Spider::Kind::rigid && (s.mask >> 3) != 0) b_.rotates[index(node)] = 1;
+      if (s.kind == Spider::Kind::rigid && b_.turned[index(node)] != 0 && !any_axes(s.mask)) {
+        followers_.push_back({&s, spider.reference, node});
+        continue;
+      }
+      spider.nodes.push_back(node);
+      if (s.kind == Spider::Kind::rigid) {
+        if (s.mask == all_six) rigid_of_[node] = static_cast<int>(b_.model.spiders.size());
+      }
+    }
+    if (spider.nodes.empty()) {  // a node that only gives the reference its rotations
+      spider.mask = all_six;
+      spider.nodes.push_back(b_.add_node(b_.model.positions[index(spider.reference)], s.at, who));
+    }
+    b_.rotates[index(spider.reference)] = 1;
+    if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; })) {
+      spider.weights = s.weights;
+    }
+    b_.model.spiders.push_back(std::move(spider));
+  }
+
+  void mass(const NastranMass& m) {
+    const std::string who = fmt::format("{} {}", m.card, m.id);
+    const int node = b_.node(m.node, m.at, who);
+    if (node < 0) return;
+    const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
+    if (axes.kind != 'R') {
+      b_.source.error(m.at, fmt::format("{}: its system {} is not rectangular", who, m.system));
+      return;
+    }
+    PointMass point;
+    point.node = node;
+    point.source = m.at;
+    point.name = who;
+    point.mass = m.mass * b_.content.mass_factor;
+    point.J = b_.content.mass_factor * axes.R * m.J * axes.R.transpose();
+    const Vec3 p = b_.model.positions[index(node)];
+    // CID -1: the offset is the place of the mass in basic coordinates.
+    const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
+    if (b_.rotates[index(node)] == 0) {
+      if (offset.norm() > 0.0) {
+        b_.source.error(m.at, fmt::format("{} has an offset, but node {} has no rotations; tie the "
+                                          "mass to several nodes (RBE2, RBE3)",
+                                          who, m.node));
+        return;
+      }
+      if (point.J.cwiseAbs().maxCoeff() > 0.0) {
+        b_.note(m.at,
+                fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
+                            "left out",
+                            who, m.node));
+        point.J.setZero();
+      }
+    }
+    if (offset.norm() > 0.0) point.node = add_rigid_node(node, p + offset, who, m.at);
+    b_.model.masses.push_back(point);
+  }
+
+  /// A new node that moves rigidly with another.
+  int add_rigid_node(int node, const Vec3& p, const std::string& who, const FeSource& at) {
+    FeModel& model = b_.model;
+    const int fresh = b_.add_node(p, at, who);
+    const auto spider = rigid_of_.find(node);
+    if (spider != rigid_of_.end()) {
+      model.spiders[index(spider->second)].nodes.push_back(fresh);
+    } else {
+      Spider rigid;
+      rigid.name = who;
+      rigid.reference = node;
+      rigid.nodes = {fresh};
+      rigid.source = at;
+      model.spiders.push_back(std::move(rigid));
+    }
+    return fresh;
+  }
+
+  void equations() {
+    const bool by_control = b_.content.control.there;
+    std::set<int> there;
+    for (const NastranEquation& e : b_.content.equations) there.insert(e.set);
+    const std::set<int> selected =
+        selected_nastran_sets(b_, b_.content.control.mpc, b_.content.added_mpc_sets, there, "MPC");
+    int set = 0, passed_over = 0, applied = 0;
+    FeSource first;
+    std::vector<const NastranEquation*> of_scalar_points;
+    for (const NastranEquation& e : b_.content.equations) {
+      if (by_control && !selected.contains(e.set)) {
+        if (passed_over++ == 0) first = e.at;
+        continue;
+      }
+      if (!by_control && set != 0 && e.set != set) {
+        b_.source.error(e.at, fmt::format("the file has MPC sets {} and {}; only one can be read, "
+                                          "remove the other",
+                                          set, e.set));
+        return;
+      }
+      set = e.set;
+      ++applied;
+      if (std::any_of(e.terms.begin(), e.terms.end(), [&](const NastranEquation::Term& t) {
+            return b_.content.scalar_points.contains(t.node);
+          })) {
+        of_scalar_points.push_back(&e);
+        continue;
+      }
+      LinearEquation equation;
+      equation.source = e.at;
+      for (const NastranEquation::Term& term : e.terms) {
+        const int node = nastran_node_of_term(b_, e, term);
+        if (node < 0) return;
+        add_nastran_term(b_, node, term, equation);
+      }
+      const int dependent = b_.node_of.at(e.terms[0].node);
+      if (b_.turned[index(dependent)] != 0) {
+        b_.equations.add(dependent, e.terms[0].component >= 3, std::move(equation));
+      } else {
+        b_.model.equations.push_back(std::move(equation));
+      }
+    }
+    build_nastran_scalar_equations(b_, of_scalar_points);
+    if (passed_over > 0) {
+      b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
+                                 "select: they are not applied",
+                                 passed_over));
+    }
+    if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0) {
+      b_.source.error(b_.content.control.mpc.front().second,
+                      fmt::format("the case control selects MPC set {}, which is not in the file",
+                                  b_.content.control.mpc.front().first));
+    }
+  }
+
+  NastranBuild& b_;
+  std::unordered_map<int, int> rigid_of_;      // rigid spider that a node follows
+  std::vector<const NastranSpider*> general_;  // RBE3 that are equations
+  std::vector<Follower> followers_;
+};
+
+/// Basic directions that lie in what is held in turned axes.
+unsigned held_in_basic(const Mat3& axes, unsigned mask) {
+  unsigned basic = 0;
+  for (int c = 0; c < 6; ++c) {
+    double share = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const bool held = ((mask >> (c < 3 ? k : 3 + k)) & 1u) != 0;
+      if (held) share += axes(c % 3, k) * axes(c % 3, k);
+    }
+    if (share > 1.0 - 1e-9) basic |= 1u << c;
+  }
+  return basic;
+}
+
+}  // namespace
+
+int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
+                         const NastranEquation::Term& term) {
+  const int node = build.node(term.node, e.at, fmt::format("MPC {}", e.set));
+  if (node < 0 || term.component >= 0) return node;
+  build.source.error(e.at, fmt::format("MPC {}: the component of node {} is missing, expected one "
+                                       "of 1 to 6",
+                                       e.set, term.node));
+  return -1;
+}
+
+void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
+                      LinearEquation& equation) {
+  if (build.turned[static_cast<std::size_t>(node)] == 0) {
+    equation.terms.push_back({node, term.component, term.factor});
+    return;
+  }
+  const Vec3 axis = build.axes(node).col(term.component % 3);
+  for (int k = 0; k < 3; ++k) {
+    const double factor = term.factor * axis(k);
+    if (std::abs(factor) > 1e-15 * std::abs(term.factor))
+      equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
+  }
+}
+
+void build_nastran_constraints(NastranBuild& build) { ConstraintBuilder(build).build(); }
+
+void build_nastran_supports(NastranBuild& build) {
+  const NastranNumbers numbers({build.node_of.begin(), build.node_of.end()});
+  std::vector<int> nodes;
+  for (const NastranSupport& s : build.content.supports) {
+    nodes.clear();
+    const bool points = build.content.scalar_points.overlaps(s.first, s.last);
+    if (s.first == s.last) {
+      const int node = points ? -1 : build.node(s.first, s.at, "a support (SPC)");
+      if (node >= 0) nodes.push_back(node);
+    } else if (!numbers.append(s.first, s.last, nodes) && !points) {
+      build.source.error(s.at,
+                         fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
+    }
+    build.spend(nodes.size(), s.at);
+    for (const int node : nodes) {
+      const unsigned mask =
+          build.turned[node] == 0 ? s.mask : held_in_basic(build.axes(node), s.mask);
+      if (mask != 0) build.model.supports.push_back({node, mask, s.at});
+    }
+  }
+}
+
+}  // namespace floatframe

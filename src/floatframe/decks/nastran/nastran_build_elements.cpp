@@ -1,0 +1,391 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/decks/nastran/nastran_build.hpp"
+#include "floatframe/decks/nastran/nastran_tapers.hpp"
+#include "floatframe/fe/elasticity.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Of a mass over length or area; a size that is not positive is an error of its own.
+double density_of(double mass, double size) { return size > 0.0 ? mass / size : 0.0; }
+
+class ElementBuilder {
+ public:
+  ElementBuilder(NastranBuild& build, const FeReadOptions& options)
+      : b_(build),
+        c_(build.content),
+        options_(options),
+        bars_(build),
+        materials_(build),
+        tapers_(build) {}
+
+  void build() {
+    mesh_only_ = c_.properties.empty() && c_.materials.empty() && c_.other_materials.empty();
+    if (mesh_only_ && options_.material) {
+      b_.model.materials.push_back(*options_.material);
+      b_.model.material_names.emplace_back();
+    }
+    std::unordered_map<int, FeSource> seen;
+    for (const NastranElement& e : c_.elements) {
+      const auto [it, fresh] = seen.try_emplace(e.id, e.at);
+      if (!fresh && e.id > 0) {
+        b_.source.error(e.at, fmt::format("{}: this element number is in the file twice, first in "
+                                          "line {}",
+                                          label(e), it->second.line));
+      }
+      if (mesh_only_ &&
+          (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
+        skin(e);
+      } else {
+        element(e);
+      }
+    }
+    bars_.finish();
+    notes();
+  }
+
+ private:
+  static std::string label(const NastranElement& e) { return fmt::format("{} {}", e.card, e.id); }
+
+  std::vector<std::string> set_names(int property) const {
+    std::vector<std::string> names = {fmt::format("PID {}", property)};
+    const auto it = c_.property_names.find(property);
+    if (it != c_.property_names.end() && it->second != names[0]) names.push_back(it->second);
+    return names;
+  }
+
+  /// A surface or line of a mesh without properties: its nodes are a set.
+  void skin(const NastranElement& e) {
+    if (skins_++ == 0) first_skin_ = e.at;
+    for (int k = 0; k < e.count; ++k) {
+      const int node = b_.node(e.nodes[k], e.at, label(e));
+      if (node < 0) return;
+      for (const std::string& name : set_names(e.property)) {
+        if (members_[name].insert(node).second) b_.model.node_sets[name].push_back(node);
+      }
+    }
+  }
+
+  /// The element's property, of one of the given cards; null with an error.
+  const NastranProperty* property(const NastranElement& e,
+                                  std::initializer_list<const char*> cards) {
+    const auto it = c_.properties.find(e.property);
+    if (it == c_.properties.end()) {
+      if (missing_.insert(e.property).second) {
+        b_.source.error(e.at,
+                        fmt::format("{}: property {} is not in the file", label(e), e.property));
+      }
+      return nullptr;
+    }
+    const std::string_view card = it->second.card;
+    if (std::find(cards.begin(), cards.end(), card) == cards.end()) {
+      b_.source.error(e.at, fmt::format("{}: property {} is a {}, expected a {}", label(e),
+                                        e.property, card, *cards.begin()));
+      return nullptr;
+    }
+    return &it->second;
+  }
+
+  void element(const NastranElement& e) {
+    Element result;
+    result.type = e.type;
+    result.id = e.id;
+    result.source = e.at;
+    for (int k = 0; k < e.count; ++k) {
+      const std::size_t i = k;
+      result.nodes[i] = b_.node(e.nodes[i], e.at, label(e));
+      if (result.nodes[i] < 0) return;
+    }
+    if (mesh_only_) {
+      result.material = options_.material ? 0 : -1;
+    } else if (e.type == ElementType::shear4) {
+      const NastranProperty* p = property(e, {"PSHEAR"});
+      if (p == nullptr) return;
+      result.material = materials_.index(*p, density_of(p->nonstructural, p->thickness));
+      result.section = panel(e.property, *p);
+      edge_rods(*p, result);
+    } else if (e.surface) {
+      const NastranProperty* p = property(e, {"PSHELL", "PCOMP", "PCOMPG"});
+      if (p == nullptr) return;
+      if (e.other) {
+        b_.source.error(e.at, fmt::format("{}: only a part of its mid-side nodes is given; all "
+                                          "or none must be",
+                                          label(e)));
+        return;
+      }
+      // A PCOMP has its nonstructural mass in its section.
+      const double t = thickness(e, *p);
+      if (p->membrane) result.type = membrane_of(e.type);
+      result.material =
+          materials_.index(*p, p->plies.empty() ? density_of(p->nonstructural, t) : 0.0);
+      result.section = shell(e, *p, t);
+      orient_nastran_shell(b_, e, result);
+    } else if (e.type == ElementType::beam2) {
+      const bool bar = e.card == std::string_view("CBAR");
+      const NastranProperty* p =
+          bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
+      if (p == nullptr) return;
+      if (!p->stations.empty()) return tapered(e, *p, result);
+      if (is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
+        return weak(e, *p, result);
+      if (!bars_.place(e, p->turn, true, result)) return;
+      result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
+      result.section = section(e.property, *p);
+    } else if (e.type == ElementType::rod2) {
+      const bool tube = e.card == std::string_view("CTUBE");
+      const NastranProperty* p = property(e, {tube ? "PTUBE" : "PROD", "CONROD"});
+      if (p == nullptr) return;
+      result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
+      result.section = rod_section(e.property, *p);
+    } else {
+      const NastranProperty* p = property(e, {"PSOLID"});
+      if (p == nullptr) return;
+      result.material = materials_.index(*p, 0.0);
+      orient_nastran_solid(b_, *p, result);
+      if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
+    }
+    add(e, result);
+  }
+
+  void add(const NastranElement& e, const Element& result) {
+    if (e.property > 0)  // a CONROD has none
+      for (const std::string& name : set_names(e.property)) {
+        b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
+      }
+    b_.model.elements.push_back(result);
+  }
+
+  /// A bar without some of its stiffness: a rod, and springs where it bends.
+  void weak(const NastranElement& e, const NastranProperty& p, Element& result) {
+    const bool bends = p.section.Iy > 0.0 || p.section.Iz > 0.0;
+    if (!bends) result.type = ElementType::rod2;
+    if (!bars_.place(e, bends ? p.turn : 0.0, false, result)) return;
+    result.type = ElementType::rod2;
+    result.material = materials_.index(p, p.nonstructural / p.section.A);
+    result.section = rod_section(e.property, p);
+    if (weak_.insert(e.property).second)
+      b_.note(p.at, fmt::format("{} {}: {}", p.card, e.property, weak_nastran_bar_note(p)));
+    const double shear =
+        b_.model.materials[result.material].shear() * materials_.own_shear(p.material);
+    if (bends) add_nastran_bending(b_, result, p.section, shear, label(e));
+    add(e, result);
+  }
+
+  /// A chain of beams of constant section between the ends of a tapered one.
+  void tapered(const NastranElement& e, const NastranProperty& p, Element& whole) {
+    if (!bars_.place(e, 0.0, true, whole)) return;
+    const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
+    const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
+    const Mat3 T = nastran_bar_axes(b - a, whole.reference);
+    if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(b_, e.at, label(e));
+    int last = whole.nodes[0];
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const NastranPiece& piece = pieces[k];
+      Element part = whole;
+      part.nodes[0] = last;
+      if (k + 1 < pieces.size())
+        part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, label(e));
+      last = part.nodes[1];
+      part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
+      part.material = materials_.index(p, density_of(piece.nonstructural, piece.section.A));
+      part.section = piece_section(e.property, p, piece, k);
+      add(e, part);
+    }
+  }
+
+  int piece_section(int id, const NastranProperty& p, const NastranPiece& piece, std::size_t k) {
+    std::vector<int>& known = piece_sections_[id];
+    if (k < known.size()) return known[k];
+    if (k == 0) judge_section(p, id);
+    known.push_back(static_cast<int>(b_.model.sections.size()));
+    b_.model.sections.push_back(piece.section);
+    own_shear(p, b_.model.sections.back());
+    return known.back();
+  }
+
+  static ElementType membrane_of(ElementType shell) {
+    switch (shell) {
+      case ElementType::tri3:
+        return ElementType::membrane3;
+      case ElementType::quad4:  // its shear is that of the middle in Nastran too
+        return ElementType::membrane4s;
+      case ElementType::tri6:
+        return ElementType::membrane6;
+      default:
+        return ElementType::membrane8;
+    }
+  }
+
+  int section(int id, const NastranProperty& p) {
+    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
+    if (!fresh) return it->second;
+    judge_section(p, id);
+    b_.model.sections.push_back(p.section);
+    own_shear(p, b_.model.sections.back());
+    return it->second;
+  }
+
+  /// What is wrong with a section of bars, and what is approximated.
+  void judge_section(const NastranProperty& p, int id) {
+    const std::pair<const char*, double> values[] = {
+        {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
+    for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
+    for (const std::string& remark : p.remarks)
+      b_.note(p.at, fmt::format("{} {}: {}", p.card, id, remark));
+  }
+
+  void own_shear(const NastranProperty& p, BeamSection& own) {
+    const double ratio = materials_.own_shear(p.material);
+    for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
+  }
+
+  int rod_section(int id, const NastranProperty& p) {
+    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
+    if (!fresh) return it->second;
+    must_be_positive(p, std::abs(id), "A", p.section.A);
+    b_.model.sections.push_back(p.section);
+    b_.model.sections.back().J *= materials_.own_shear(p.material);
+    return it->second;
+  }
+
+  void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
+    if (!(value > 0.0))
+      b_.source.error(
+          p.at, fmt::format("{} {}: {} is {:g}, expected more than 0", p.card, id, what, value));
+  }
+
+  /// The mean of the corners.
+  double thickness(const NastranElement& e, const NastranProperty& p) {
+    if (!e.own_thickness) return p.thickness;
+    if (!p.plies.empty()) {
+      b_.source.error(e.at,
+                      fmt::format("{}: it has thicknesses of its corners, and its property {} "
+                                  "is a {}",
+                                  label(e), e.property, p.card));
+      return p.thickness;
+    }
+    const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
+    double sum = 0.0, least = 1e300, most = 0.0;
+    for (int k = 0; k < corners; ++k) {
+      const double own = e.corner_thickness[k];
+      const double t = own < 0.0 ? p.thickness : e.relative_thickness ? own * p.thickness : own;
+      sum += t;
+      least = std::min(least, t);
+      most = std::max(most, t);
+    }
+    const double mean = sum / corners;
+    if (most - least > 1e-6 * mean) {
+      if (uneven_++ == 0) first_uneven_ = e.at;
+      unevenness_ = std::max(unevenness_, (most - least) / mean);
+      return mean;
+    }
+    return most;
+  }
+
+  int shell(const NastranElement& e, const NastranProperty& p, double t) {
+    const auto [it, fresh] =
+        shells_.try_emplace({e.property, e.offset, t}, static_cast<int>(b_.model.shells.size()));
+    if (!fresh) return it->second;
+    must_be_positive(p, e.property, "the thickness", t);
+    ShellSection section = nastran_shell_section(b_, e, p, [&](int id) {
+      // Of plies the mass counts, of a PSHELL that of its first material.
+      return materials_.index(p, 0.0, id, !p.plies.empty());
+    });
+    if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
+    section.thickness = t;
+    b_.model.shells.push_back(std::move(section));
+    return it->second;
+  }
+
+  int panel(int id, const NastranProperty& p) {
+    const auto [it, fresh] = panels_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
+    if (!fresh) return it->second;
+    must_be_positive(p, id, "the thickness", p.thickness);
+    b_.model.shells.push_back(
+        {.thickness = p.thickness, .shear = p.thickness * materials_.own_shear(p.material)});
+    return it->second;
+  }
+
+  /// Of a panel: F1 along the edges 12 and 34, F2 along the others; without mass. Up to 1.01 a
+  /// factor is a share of the panel, above a width in thicknesses.
+  void edge_rods(const NastranProperty& p, const Element& panel) {
+    const auto at = [&](int k) { return b_.model.positions[panel.nodes[k % 4]]; };
+    const double area = 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
+    for (int k = 0; k < 4; ++k) {
+      const double factor = p.edge_factors[k % 2], t = p.thickness;
+      const double along = (at(k + 1) - at(k)).norm() + (at(k + 3) - at(k + 2)).norm();
+      if (factor == 0.0 || !(along > 0.0)) continue;
+      Element rod;
+      rod.type = ElementType::rod2;
+      rod.source = panel.source;
+      rod.nodes[0] = panel.nodes[k];
+      rod.nodes[1] = panel.nodes[(k + 1) % 4];
+      rod.material = materials_.massless(panel.material);
+      rod.section = static_cast<int>(b_.model.sections.size());
+      b_.model.sections.push_back({});
+      b_.model.sections.back().A = factor > 1.01 ? 0.5 * factor * t * t : factor * t * area / along;
+      b_.model.elements.push_back(rod);
+    }
+  }
+
+  void notes() {
+    const bool nothing = b_.model.elements.empty() && c_.springs.list.empty();
+    if (nothing && b_.source.errors() == 0) {
+      b_.source.error({0, 0},
+                      mesh_only_ && skins_ > 0
+                          ? "the file has no solid elements, and its shells and bars have no "
+                            "properties"
+                          : "the file has no solid, shell, bar, rod or spring; of masses and "
+                            "rigid elements alone there is no flexible part");
+    }
+    if (skins_ > 0) {
+      b_.note(first_skin_,
+              fmt::format("{} surfaces and lines of the mesh have no property: they only "
+                          "make node sets",
+                          skins_));
+    }
+    if (uneven_ > 0)
+      b_.note(first_uneven_,
+              fmt::format("{} shells have corners of different thickness, by {:.1f} % at most: "
+                          "each has the mean of its corners",
+                          uneven_, 100.0 * unevenness_));
+    if (mesh_only_ && !options_.material && !b_.model.elements.empty()) {
+      b_.note(b_.model.elements[0].source, "the file has no material");
+    }
+    if (!mesh_only_ && options_.material) {
+      b_.note({0, 1}, "the file has materials of its own; the one given is not used");
+    }
+  }
+
+  NastranBuild& b_;
+  const NastranContent& c_;
+  const FeReadOptions& options_;
+  NastranBars bars_;
+  NastranMaterials materials_;
+  NastranTapers tapers_;
+  std::map<int, std::vector<int>> piece_sections_;
+  bool mesh_only_ = false;
+  int skins_ = 0;
+  FeSource first_skin_;
+  std::set<int> missing_, weak_;
+  std::map<std::string, std::set<int>> members_;
+  std::map<int, int> sections_, panels_;
+  std::map<std::tuple<int, double, double>, int> shells_;
+  int uneven_ = 0;  // shells whose corners differ in thickness
+  FeSource first_uneven_;
+  double unevenness_ = 0.0;
+};
+
+}  // namespace
+
+void build_nastran_elements(NastranBuild& build, const FeReadOptions& options) {
+  ElementBuilder(build, options).build();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,114 @@
+// Materials with axes, shell sections and the axes of elements. Axis 1 of a shell is at THETA from
+// its side G1-G2, or the x axis of the system MCID projected on it.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/decks/nastran/nastran_build.hpp"
+#include "floatframe/fe/elasticity.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+int system_orientation(NastranBuild& build, int system, const FeSource& at) {
+  const auto [it, fresh] =
+      build.orientation_of.try_emplace(system, static_cast<int>(build.model.orientations.size()));
+  if (!fresh) return it->second;
+  const NastranFrame& frame = build.frame(system, at);
+  Orientation o;
+  o.kind = frame.kind == 'C'   ? Orientation::Kind::cylindrical
+           : frame.kind == 'S' ? Orientation::Kind::spherical
+                               : Orientation::Kind::rectangular;
+  o.axes = frame.R;
+  o.origin = frame.origin;
+  build.model.orientations.push_back(o);
+  return it->second;
+}
+
+/// TS of a PSHELL by the shear modulus of its first material.
+double shear_thickness(NastranBuild& build, const NastranElement& e, const NastranProperty& p,
+                       const std::function<int(int)>& material) {
+  if (p.shear_material == 0 || p.shear_material == p.material) return p.shell_shear;
+  const int first = material(p.material), other = material(p.shear_material);
+  const std::vector<Material>& all = build.model.materials;
+  if (all[first].elasticity || all[other].elasticity) {
+    build.source.error(p.at, fmt::format("{} {}: MID3 is not MID1: that is read of MAT1 only",
+                                         p.card, e.property));
+    return 0.0;
+  }
+  return p.shell_shear * all[other].shear() / all[first].shear();
+}
+
+/// MID4: no elasticity, so its constants may have any sign.
+Mat3 coupling_of(NastranBuild& build, const NastranElement& e, const NastranProperty& p) {
+  const auto it = build.content.materials.find(p.coupling);
+  if (it != build.content.materials.end() && it->second.plane)
+    return build.content.stiffness_factor *
+           plane_stress(anisotropic_material(*it->second.elasticity, true, 0.0));
+  build.source.error(
+      p.at, fmt::format("{} {}: MID4 is {}, expected a MAT2", p.card, e.property, p.coupling));
+  return Mat3::Zero();
+}
+
+}  // namespace
+
+ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
+                                   const NastranProperty& p,
+                                   const std::function<int(int)>& material) {
+  ShellSection s;
+  s.thickness = p.thickness;
+  s.offset = e.offset;
+  if (p.plies.empty()) {
+    if (p.bending != 0 && p.bending != p.material) s.bending = material(p.bending);
+    if (p.coupling != 0) s.coupling = coupling_of(build, e, p);
+    s.shear = shear_thickness(build, e, p, material);
+    s.bending_factor = p.bending_factor;
+    return s;
+  }
+  s.shear = p.shell_shear;
+  s.smeared = p.smeared;
+  s.mass = p.nonstructural * build.content.mass_factor;
+  for (const NastranPly& ply : p.plies)
+    s.plies.push_back({material(ply.material), ply.thickness, ply.angle});
+  if (!p.z0) return s;
+  const double middle = *p.z0 + 0.5 * p.thickness;
+  if (e.offset != 0.0 && std::abs(middle) > 1e-6 * p.thickness)
+    build.source.error(e.at, fmt::format("{} {}: it has an offset ZOFFS, and its {} {} a Z0 of "
+                                         "{:g}: give one of them",
+                                         e.card, e.id, p.card, e.property, *p.z0));
+  s.offset += middle;
+  return s;
+}
+
+void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result) {
+  const ShellSection& section = build.model.shells[result.section];
+  if (is_plain(section, build.model.materials[result.material])) return;
+  result.angle = e.theta;
+  if (e.material_system < 0) return;
+  result.orientation = system_orientation(build, e.material_system, e.at);
+  if (build.model.orientations[result.orientation].kind != Orientation::Kind::rectangular)
+    build.source.error(e.at, fmt::format("{} {}: its material system MCID {} is cylindrical or "
+                                         "spherical, expected a rectangular one",
+                                         e.card, e.id, e.material_system));
+}
+
+void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result) {
+  if (!build.model.materials[result.material].elasticity || p.material_system == 0) return;
+  if (p.material_system < 0) {
+    build.source.error(p.at, fmt::format("PSOLID: CORDM is {}: axes of the element are not read, "
+                                         "give a coordinate system",
+                                         p.material_system));
+    return;
+  }
+  result.orientation = system_orientation(build, p.material_system, p.at);
+}
+
+std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card) {
+  const std::string_view have = m.card;
+  const bool shell = card == "PSHELL" || card.starts_with("PCOMP"), solid = card == "PSOLID";
+  if (have == "MAT1" || (solid && have == "MAT9") || (shell && have != "MAT9")) return {};
+  return solid ? "MAT1 or MAT9" : shell ? "MAT1, MAT2 or MAT8" : "MAT1";
+}
+
+}  // namespace floatframe

@@ -1,0 +1,272 @@
+#include "floatframe/decks/nastran/nastran_scalar_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+
+#include "floatframe/decks/nastran/nastran_build.hpp"
+#include "floatframe/formats/nastran/nastran_fields.hpp"
+
+namespace floatframe {
+
+void NastranRanges::finish() {
+  std::sort(ranges_.begin(), ranges_.end());
+  std::vector<std::pair<int, int>> joined;
+  for (const auto& [first, last] : ranges_) {
+    if (!joined.empty() && first <= joined.back().second) {
+      joined.back().second = std::max(joined.back().second, last);
+    } else if (first <= last) {
+      joined.emplace_back(first, last);
+    }
+  }
+  ranges_ = std::move(joined);
+}
+
+bool NastranRanges::overlaps(int first, int last) const {
+  const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), last,
+                                      [](int id, const auto& range) { return id < range.first; });
+  return after != ranges_.begin() && std::prev(after)->second >= first;
+}
+
+void read_nastran_scalar_points(NastranFields& f, NastranContent& c) {
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    if (f.blank(i)) continue;
+    const auto [first, last] = f.range(i, "a scalar point");
+    if (first > 0) c.scalar_points.add(first, last);
+  }
+}
+
+namespace {
+
+/// A spring or mass between scalar points; point 0 is the ground.
+struct PointElement {
+  int id = 0, property = 0;     ///< 0: it has its own value
+  std::optional<double> value;  ///< K of a CELAS4, M of a CMASS4
+  std::array<int, 2> points{};
+};
+
+/// `value`: the name of its own value; null if it has a property.
+PointElement point_element(NastranFields& f, const char* value, NastranContent& c) {
+  PointElement e;
+  e.id = f.label(0, "the number of the element");
+  if (value != nullptr) {
+    e.value = f.real(1, value);
+  } else {
+    e.property = f.blank(1) ? e.id : f.label(1, "the property");
+  }
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (f.blank(2 + end) || f.text(2 + end) == "0") continue;
+    const int point = e.points[end] = f.label(2 + end, "a scalar point");
+    if (point > 0) c.scalar_points.add(point, point);
+  }
+  return e;
+}
+
+}  // namespace
+
+void read_nastran_scalar_spring(NastranFields& f, NastranContent& c) {
+  NastranSpring s;
+  const bool own = f.name() == "CELAS4";
+  s.card = own ? "CELAS4" : "CELAS3";
+  s.at = f.at();
+  const PointElement e = point_element(f, own ? "K" : nullptr, c);
+  s.id = e.id;
+  s.property = e.property;
+  s.stiffness = e.value;
+  s.nodes = e.points;
+  s.components = {-1, -1};
+  if (s.nodes[0] == 0) std::swap(s.nodes[0], s.nodes[1]);
+  if (s.nodes[0] == 0) return f.error("it has no scalar point");
+  c.springs.list.push_back(s);
+}
+
+void read_nastran_mass_of_points(NastranFields& f, NastranContent& c) {
+  const bool own = f.name() == "CMASS4";
+  const PointElement e = point_element(f, own ? "M" : nullptr, c);
+  c.scalar_masses.push_back(
+      {own ? "CMASS4" : "CMASS3", e.id, e.property, e.points, e.value.value_or(1.0), f.at()});
+}
+
+void check_nastran_scalar_masses(NastranBuild& build) {
+  int held = 0;
+  FeSource first;
+  for (const NastranScalarMass& m : build.content.scalar_masses) {
+    const std::string who = fmt::format("{} {}", m.card, m.id);
+    double mass = m.mass;
+    if (m.property > 0) {
+      const auto it = build.content.pmass.find(m.property);
+      if (it == build.content.pmass.end()) {
+        build.source.error(
+            m.at, fmt::format("{}: property {} (PMASS) is not in the file", who, m.property));
+        continue;
+      }
+      mass *= it->second.first;
+    }
+    int point = 0;
+    for (const int id : m.points) {
+      if (id == 0) continue;
+      if (!build.content.scalar_points.contains(id)) {
+        build.source.error(m.at, fmt::format("{}: the component of node {} is missing, expected "
+                                             "one of 1 to 6",
+                                             who, id));
+        mass = 0.0;
+      } else if (point == 0 && !build.scalars.held(id)) {
+        point = id;
+      }
+    }
+    if (mass == 0.0) continue;
+    if (point == 0) {
+      if (held++ == 0) first = m.at;
+      continue;
+    }
+    build.source.error(
+        m.at, fmt::format("{}: the mass {:g} of scalar point {} has no place, so it has none in "
+                          "the inertia of a part that moves; make the point a node (GRID) where "
+                          "the mass is, with CONM2, on CELAS2 in one component and tied to the "
+                          "part by MPC in the others",
+                          who, mass, point));
+  }
+  if (held > 0)
+    build.note(first, fmt::format("{} masses of scalar points that are held (SPC) or of the ground "
+                                  "are left out",
+                                  held));
+}
+
+namespace {
+
+/// The springs and equations that tie scalar points together, with the first node among them.
+class ScalarPointBuilder {
+ public:
+  ScalarPointBuilder(NastranBuild& build, std::map<int, NastranScalarPoint>& points)
+      : b_(build), c_(build.content), points_(points) {}
+
+  void build() {
+    for (const NastranSpring& s : c_.springs.list) {
+      if (std::string_view(s.card).starts_with("CBUSH")) continue;
+      for (const int id : s.nodes)
+        if (NastranScalarPoint* point = use(id, s.at)) point->sprung = true;
+    }
+    for (const NastranEquation& e : c_.equations)
+      for (const NastranEquation::Term& t : e.terms) use(t.node, e.at);
+    for (const NastranGrid& g : c_.grids)
+      if (is_point(g.id))
+        b_.source.error(g.at, fmt::format("node {} is a scalar point as well (SPOINT, or by an "
+                                          "element of scalar points)",
+                                          g.id));
+    springs();
+    equations();
+    for (auto& [id, point] : points_) {
+      const Group& group = groups_[root(id)];
+      point.axis = group.turns.value_or(false) ? 3 : 0;
+      point.node = b_.model.nodes();
+      b_.model.positions.push_back(b_.model.positions[std::max(group.node, 0)]);
+      b_.model.node_ids.push_back(id);
+      b_.model.node_sources.push_back(first_[id]);
+      b_.turned.push_back(0);
+    }
+  }
+
+ private:
+  struct Group {
+    std::optional<bool> turns;  ///< its springs end at rotations
+    int node = -1;
+  };
+
+  bool is_point(int id) const { return id > 0 && c_.scalar_points.contains(id); }
+
+  /// Null if it is no scalar point, or the ground.
+  NastranScalarPoint* use(int id, const FeSource& at) {
+    if (!is_point(id) || b_.scalars.held(id)) return nullptr;
+    const auto [it, fresh] = points_.try_emplace(id);
+    if (fresh) {
+      first_[id] = at;
+      parent_[id] = id;
+    }
+    return &it->second;
+  }
+
+  int root(int id) {
+    while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
+    return id;
+  }
+
+  void springs() {
+    for (const NastranSpring& s : c_.springs.list)
+      if (points_.contains(s.nodes[0]) && points_.contains(s.nodes[1]))
+        parent_[root(s.nodes[0])] = root(s.nodes[1]);
+    for (const NastranSpring& s : c_.springs.list)
+      for (int end = 0; end < 2; ++end) {
+        const int id = s.nodes[end], other = s.nodes[1 - end];
+        const auto node = b_.node_of.find(other);
+        if (!points_.contains(id) || node == b_.node_of.end() || s.components[1 - end] < 0)
+          continue;
+        Group& group = groups_[root(id)];
+        const bool turns = s.components[1 - end] >= 3;
+        if (group.node < 0) group.node = node->second;
+        if (group.turns.value_or(turns) != turns)
+          b_.source.error(s.at, fmt::format("{} {}: scalar point {} is tied to a rotation and to a "
+                                            "displacement by springs; one of them must be tied by "
+                                            "MPC, which says the lever",
+                                            s.card, s.id, id));
+        group.turns = turns;
+      }
+  }
+
+  /// Where springs do not say it: equations of rotations alone.
+  void equations() {
+    std::map<int, bool> turns;
+    for (const NastranEquation& e : c_.equations) {
+      bool any = false, all = true;
+      int node = -1;
+      for (const NastranEquation::Term& t : e.terms) {
+        const auto it = b_.node_of.find(t.node);
+        if (it == b_.node_of.end() || t.component < 0) continue;
+        if (node < 0) node = it->second;
+        any = true;
+        all = all && t.component >= 3;
+      }
+      for (const NastranEquation::Term& t : e.terms) {
+        if (!points_.contains(t.node) || !any) continue;
+        Group& group = groups_[root(t.node)];
+        if (group.node < 0) group.node = node;
+        turns.try_emplace(root(t.node), true).first->second &= all;
+      }
+    }
+    for (const auto& [id, value] : turns)
+      if (!groups_[id].turns) groups_[id].turns = value;
+  }
+
+  NastranBuild& b_;
+  const NastranContent& c_;
+  std::map<int, NastranScalarPoint>& points_;
+  std::map<int, FeSource> first_;
+  std::map<int, int> parent_;
+  std::map<int, Group> groups_;
+};
+
+}  // namespace
+
+void NastranScalarPoints::build(NastranBuild& b) {
+  std::set<int> there;
+  for (const NastranSupport& s : b.content.supports) there.insert(s.set);
+  // Without a case control all are in force.
+  const bool all = !b.content.control.there ||
+                   !b.content.scalar_points.overlaps(1, std::numeric_limits<int>::max());
+  const std::set<int> selected =
+      all ? there
+          : selected_nastran_sets(b, b.content.control.spc, b.content.added_spc_sets, there, "SPC");
+  for (const NastranSupport& s : b.content.supports)
+    if (selected.contains(s.set)) held_.add(s.first, s.last);
+  held_.finish();
+  ScalarPointBuilder(b, points_).build();
+}
+
+const NastranScalarPoint* NastranScalarPoints::find(int id) const {
+  const auto it = points_.find(id);
+  return it == points_.end() ? nullptr : &it->second;
+}
+
+}  // namespace floatframe

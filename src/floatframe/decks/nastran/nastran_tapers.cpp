@@ -1,0 +1,188 @@
+#include "floatframe/decks/nastran/nastran_tapers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "floatframe/decks/nastran/nastran_build.hpp"
+#include "floatframe/formats/nastran/nastran_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* names_of_taper[] = {"A", "I1", "I2", "I12", "J", "NSM"};
+/// A taper below this is rounding of numbers in files.
+constexpr double same_section = 1e-3;
+
+std::array<double, 6> values_of(const NastranStation& s) {
+  return {s.section.A, s.section.I1, s.section.I2, s.section.I12, s.section.J, s.nonstructural};
+}
+
+/// Values between two stations.
+NastranStation between_stations(const NastranStation& a, const NastranStation& b, double x) {
+  const double t = b.x > a.x ? (x - a.x) / (b.x - a.x) : 0.0;
+  const auto mix = [t](double p, double q) { return p + t * (q - p); };
+  NastranStation s;
+  s.x = x;
+  s.section = {mix(a.section.A, b.section.A), mix(a.section.I1, b.section.I1),
+               mix(a.section.I2, b.section.I2), mix(a.section.I12, b.section.I12),
+               mix(a.section.J, b.section.J)};
+  s.nonstructural = mix(a.nonstructural, b.nonstructural);
+  s.shape = a.shape;
+  s.shape.shear_y = mix(a.shape.shear_y, b.shape.shear_y);
+  s.shape.shear_z = mix(a.shape.shear_z, b.shape.shear_z);
+  s.shape.width = mix(a.shape.width, b.shape.width);
+  s.shape.height = mix(a.shape.height, b.shape.height);
+  s.shape.bore = mix(a.shape.bore, b.shape.bore);
+  return s;
+}
+
+/// The mean of 1/y over a line from a to b, inverted.
+double harmonic(double a, double b) {
+  if (!(a > 0.0) || !(b > 0.0)) return 0.5 * (a + b);
+  const double d = (b - a) / a;
+  return std::abs(d) < 1e-4 ? a * (1.0 + d / 2.0 - d * d / 12.0) : (b - a) / std::log1p(d);
+}
+
+/// Largest ratio of A, I1, I2 and J of two stations, as a logarithm; of I12, which may be zero or
+/// change its sign, the change over the other moments; of NSM over the larger one.
+double taper(const NastranStation& a, const NastranStation& b) {
+  double most = 0.0;
+  const std::array<double, 6> p = values_of(a), q = values_of(b);
+  for (const std::size_t k : {0, 1, 2, 4})
+    if (p[k] > 0.0 && q[k] > 0.0) most = std::max(most, std::abs(std::log(q[k] / p[k])));
+  const double bending = std::sqrt(std::max(p[1] * p[2], q[1] * q[2]));
+  if (bending > 0.0) most = std::max(most, std::abs(q[3] - p[3]) / bending);
+  const double mass = std::max(std::abs(p[5]), std::abs(q[5]));
+  if (mass > 0.0) most = std::max(most, std::abs(q[5] - p[5]) / mass);
+  return std::min(most, 3.2);
+}
+
+double wanted_pieces(const NastranStation& a, const NastranStation& b) {
+  return (b.x - a.x) * std::sqrt(500.0 * taper(a, b));
+}
+
+int number_of_pieces(double wanted, double share) {
+  return std::max(1, static_cast<int>(std::ceil(share * wanted - 1e-9)));
+}
+
+NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
+  const NastranStation middle = between_stations(a, b, 0.5 * (a.x + b.x));
+  NastranSection s = middle.section;
+  const bool straight = a.section.I12 == 0.0 && b.section.I12 == 0.0;
+  s.J = harmonic(a.section.J, b.section.J);
+  if (straight) {  // turned principal axes turn along the piece: those of its
+                   // middle
+    s.I1 = harmonic(a.section.I1, b.section.I1);
+    s.I2 = harmonic(a.section.I2, b.section.I2);
+  }
+  NastranProperty p;
+  set_nastran_section(p, s);
+  NastranPiece piece;
+  piece.from = a.x;
+  piece.to = b.x;
+  piece.section = middle.shape;
+  piece.section.A = p.section.A;
+  piece.section.Iy = p.section.Iy;
+  piece.section.Iz = p.section.Iz;
+  piece.section.J = p.section.J;
+  piece.section.shear_y = harmonic(a.shape.shear_y, b.shape.shear_y);
+  piece.section.shear_z = harmonic(a.shape.shear_z, b.shape.shear_z);
+  piece.turn = p.turn;
+  piece.nonstructural = middle.nonstructural;
+  return piece;
+}
+
+std::vector<NastranPiece> chain_of(const std::vector<NastranStation>& stations, double share) {
+  std::vector<NastranPiece> out;
+  for (std::size_t k = 1; k < stations.size(); ++k) {
+    const NastranStation &a = stations[k - 1], &b = stations[k];
+    const int n = number_of_pieces(wanted_pieces(a, b), share);
+    NastranStation from = a;
+    for (int i = 1; i <= n; ++i) {
+      const NastranStation to = i == n ? b : between_stations(a, b, a.x + i * (b.x - a.x) / n);
+      out.push_back(piece_between(from, to));
+      from = to;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
+                                std::vector<NastranStation> stations) {
+  std::stable_sort(stations.begin() + 1, stations.end(),
+                   [](const NastranStation& a, const NastranStation& b) { return a.x < b.x; });
+  for (std::size_t k = 1; k < stations.size(); ++k) {
+    if (!(stations[k].x > 0.0) || stations[k].x > 1.0)
+      return f.error_in(
+          stations[k].field,
+          fmt::format("a station is at X/XB = {:g}, expected more than 0 and at most 1",
+                      stations[k].x));
+    if (stations[k].x == stations[k - 1].x)
+      return f.error_in(stations[k].field,
+                        fmt::format("a second station is at X/XB = {:g}, expected one at a place",
+                                    stations[k].x));
+  }
+  if (stations.back().x < 1.0) {  // end B is as end A
+    stations.push_back(stations.front());
+    stations.back().x = 1.0;
+  }
+  bool same = true;
+  const std::array<double, 6> first = values_of(stations.front());
+  for (const NastranStation& s : stations) {
+    const std::array<double, 6> here = values_of(s);
+    if (here[3] != 0.0 && here[3] * here[3] >= here[1] * here[2])
+      return f.error(fmt::format("I12 is {:g} at X/XB = {:g}, its square is not less than I1 I2",
+                                 here[3], s.x));
+    for (std::size_t k = 0; k < 6; ++k) {
+      same = same && std::abs(here[k] - first[k]) <= same_section * std::abs(first[k]);
+      if (k == 3 || k == 5 || here[k] > 0.0 || (first[k] == 0.0 && here[k] == 0.0)) continue;
+      return f.error(fmt::format("{} is {:g} at X/XB = {:g}, expected more than 0",
+                                 names_of_taper[k], here[k], s.x));
+    }
+  }
+  if (!same) p.stations = std::move(stations);
+}
+
+NastranTapers::NastranTapers(NastranBuild& build) {
+  const NastranContent& c = build.content;
+  // Pieces are nodes and elements: a file may have so many for its size.
+  const double most = 1000.0 + static_cast<double>(c.grids.size() + c.elements.size());
+  std::map<int, int> beams;
+  double wanted = 0.0;
+  for (const NastranElement& e : c.elements) {
+    const auto it = c.properties.find(e.property);
+    if (e.type != ElementType::beam2 || it == c.properties.end() || it->second.stations.empty())
+      continue;
+    ++beams[e.property];
+    const std::vector<NastranStation>& s = it->second.stations;
+    for (std::size_t k = 1; k < s.size(); ++k)
+      wanted += number_of_pieces(wanted_pieces(s[k - 1], s[k]), 1.0);
+  }
+  const double share = std::min(1.0, most / std::max(wanted, 1.0));
+  for (const auto& [id, count] : beams) {
+    const NastranProperty& p = c.properties.at(id);
+    std::vector<NastranPiece>& pieces = pieces_[id] = chain_of(p.stations, share);
+    build.note(p.at,
+               fmt::format("{} {}: its section changes along the beam: {} elements are chains "
+                           "of {} beams of constant section, with nodes of their own{}",
+                           p.card, id, count, pieces.size(),
+                           share < 1.0 ? fmt::format(" (fewer than for 0.05 %, by {:.2g}, for "
+                                                     "the size of the file)",
+                                                     share)
+                                       : ""));
+  }
+}
+
+const std::vector<NastranPiece>& NastranTapers::pieces(int property) const {
+  static const std::vector<NastranPiece> none;
+  const auto it = pieces_.find(property);
+  return it == pieces_.end() ? none : it->second;
+}
+
+}  // namespace floatframe

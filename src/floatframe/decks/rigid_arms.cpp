@@ -1,0 +1,104 @@
+#include "floatframe/decks/rigid_arms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+void add_arm_equations(FeModel& model, int end, int node, const FeSource& at) {
+  const Vec3 arm = model.positions[end] - model.positions[node];
+  for (int k = 0; k < 3; ++k) {
+    LinearEquation move, turn;
+    move.source = turn.source = at;
+    turn.terms = {{end, 3 + k, 1.0}, {node, 3 + k, -1.0}};
+    move.terms = {{end, k, 1.0}, {node, k, -1.0}};
+    const Vec3 lever = arm.cross(Vec3::Unit(k));  // e_k . (theta x d) = theta . (d x e_k)
+    for (int i = 0; i < 3; ++i)
+      if (lever(i) != 0.0) move.terms.push_back({node, 3 + i, -lever(i)});
+    model.equations.push_back(std::move(move));
+    model.equations.push_back(std::move(turn));
+  }
+}
+
+}  // namespace
+
+int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
+                 int& largest) {
+  largest = largest == 0 ? *std::max_element(model.node_ids.begin(), model.node_ids.end())
+                         : std::max(largest, model.node_ids.back());
+  if (largest == std::numeric_limits<int>::max())
+    source.stop(at, fmt::format("a node of its own is needed here, but there is no number above {}",
+                                largest));
+  model.positions.push_back(p);
+  model.node_ids.push_back(++largest);
+  model.node_sources.push_back(at);
+  model.generated_nodes.push_back(model.nodes() - 1);
+  if (!model.node_names.empty()) model.node_names.emplace_back();
+  return model.nodes() - 1;
+}
+
+int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm,
+                   const FeSource& at) {
+  if (!std::isfinite(arm.squaredNorm()))  // stiffness about the node holds that square
+    source.stop(at, fmt::format("the end of a beam is ({:g}, {:g}, {:g}) from {}, expected numbers "
+                                "whose squares do not overflow",
+                                arm(0), arm(1), arm(2), model.node_label(node)));
+  const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
+  if (!fresh) return it->second;
+  it->second = add_own_node(model, source, model.positions[node] + arm, at, largest_id_);
+  arms_.push_back({it->second, node, at});
+  return it->second;
+}
+
+/// At the nodes of the file.
+std::vector<BeamOnNodes> RigidArms::beams(const FeModel& model) const {
+  std::vector<int> at(model.positions.size());
+  std::iota(at.begin(), at.end(), 0);
+  for (const Arm& a : arms_) at[a.end] = a.node;
+  std::vector<BeamOnNodes> out;
+  for (const Element& e : model.elements) {
+    if (!is_beam(e.type)) continue;
+    BeamOnNodes beam;
+    const BeamSection& section = model.sections[e.section];
+    beam.holds = section.Iy > 0.0 && section.Iz > 0.0;
+    for (int k = 0; k < element_nodes(e.type); ++k) {
+      beam.nodes[static_cast<std::size_t>(k)] = at[e.nodes[k]];
+      beam.beside |= at[e.nodes[k]] != e.nodes[k];
+    }
+    out.push_back(beam);
+  }
+  return out;
+}
+
+void RigidArms::tie(FeModel& model) const {
+  if (arms_.empty()) return;
+  free_drilling_at_stiffeners(model, beams(model));
+  const std::vector<int> dofs = dofs_without_springs(model);
+  std::map<int, std::size_t> spiders;
+  for (const Arm& a : arms_) {
+    if (dofs[a.node + 1] == 6) {
+      add_arm_equations(model, a.end, a.node, a.at);
+      continue;
+    }
+    const auto [it, fresh] = spiders.try_emplace(a.node, model.spiders.size());
+    if (fresh) {
+      Spider s;
+      s.name = fmt::format("beams of {}", model.node_label(a.node));
+      s.reference = a.node;
+      s.source = a.at;
+      model.spiders.push_back(std::move(s));
+    }
+    model.spiders[it->second].nodes.push_back(a.end);
+  }
+}
+
+}  // namespace floatframe

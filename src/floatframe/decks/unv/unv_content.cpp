@@ -1,0 +1,259 @@
+#include "floatframe/decks/unv/unv_content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+
+bool is_unv_delimiter(std::string_view line) { return trimmed(line) == "-1"; }
+
+namespace {
+
+constexpr std::array unv_passed_over{55,   56,   57,   58,   151,  773,  776,  1703, 1710,
+                                     2400, 2414, 2429, 2430, 2432, 2437, 2417, 2420, 164};
+
+class UnvParser {
+ public:
+  explicit UnvParser(TextSource& in) : in_(in) {}
+
+  UnvContent read() {
+    std::string_view line;
+    while (in_.next(line)) {
+      if (trimmed(line).empty()) continue;
+      if (!is_unv_delimiter(line))
+        in_.stop(in_.here(), fmt::format("a dataset begins with a line -1, found {}", shown(line)));
+      const FeSource begin = in_.here();
+      if (!in_.next(line)) in_.stop(begin, "the file ends where the number of a dataset follows");
+      const auto number = parse_label(trimmed(line));
+      if (!number)
+        in_.stop(in_.here(), fmt::format("the number of a dataset is expected, found {}",
+                                         shown(trimmed(line))));
+      dataset(*number);
+    }
+    return std::move(c_);
+  }
+
+ private:
+  /// The next line of the dataset; false at its end.
+  bool record(std::string_view& line) {
+    if (!in_.next(line))
+      in_.stop(in_.here(),
+               fmt::format("the file ends within dataset {}: a line -1 is expected", dataset_));
+    return !is_unv_delimiter(line);
+  }
+  std::string_view needed(const char* what) {
+    std::string_view line;
+    if (!record(line))
+      in_.stop(in_.here(), fmt::format("dataset {} ends where {} expected", dataset_, what));
+    return line;
+  }
+
+  /// Whole numbers of fields of ten characters, with or without blanks between them.
+  void integers(std::string_view line, std::size_t least, const char* what) {
+    split_blanks(line, words_);
+    const bool filled = std::any_of(words_.begin(), words_.end(),
+                                    [](std::string_view word) { return word.size() > 10; });
+    if (filled) {
+      words_.clear();
+      for (std::size_t k = 0; k < line.size(); k += 10)
+        words_.push_back(trimmed(line.substr(k, 10)));
+    }
+    numbers_.clear();
+    for (const std::string_view word : words_) {
+      const auto value = parse_integer(word);
+      if (!value) in_.stop(in_.here(), fmt::format("{}: {}", what, not_an_integer(word)));
+      numbers_.push_back(*value);
+    }
+    if (numbers_.size() < least)
+      in_.stop(in_.here(), fmt::format("{} has {} numbers, at least {} are expected", what,
+                                       numbers_.size(), least));
+  }
+
+  Vec3 point(std::size_t first, const char* what) {
+    if (words_.size() != first + 3)
+      in_.stop(in_.here(), fmt::format("{} has {} coordinates, 3 are expected", what,
+                                       words_.size() - std::min(first, words_.size())));
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) {
+      const auto value = parse_real(words_[first + k]);
+      if (!value) in_.stop(in_.here(), fmt::format("{}: {}", what, not_a_real(words_[first + k])));
+      p[k] = *value;
+    }
+    return p;
+  }
+
+  void dataset(int number) {
+    dataset_ = number;
+    switch (number) {
+      case 15:
+      case 781:
+      case 2411:
+        return read_nodes();
+      case 780:
+      case 2412:
+        return read_elements();
+      case 2435:
+      case 2452:
+      case 2467:
+      case 2477:
+        return read_groups();
+      case 2420:
+        return read_systems();
+      case 164:
+        return read_units();
+      default:
+        break;
+    }
+    if (std::find(unv_passed_over.begin(), unv_passed_over.end(), number) == unv_passed_over.end())
+      in_.stop(in_.here(),
+               fmt::format("dataset {} is not known: whether it changes stiffness or mass is not "
+                           "clear; remove it from the file if it does not",
+                           number));
+    if (number != 151) c_.passed_over.insert(number);
+    std::string_view line;
+    while (record(line)) {
+    }
+  }
+
+  void read_nodes() {
+    std::string_view line;
+    while (record(line)) {
+      const FeSource at = in_.here();
+      Vec3 p;
+      if (dataset_ == 15) {
+        split_blanks(line, words_);
+        p = point(4, "the node");
+        numbers_.clear();
+        for (int k = 0; k < 2; ++k) numbers_.push_back(parse_integer(words_[k]).value_or(-1));
+      } else {
+        integers(line, 4, "the node");
+        split_blanks(needed("the coordinates of a node are"), words_);
+        p = point(0, "the node");
+      }
+      const int id = numbers_[0], system = numbers_[1];
+      if (id < 1) in_.stop(at, fmt::format("a node has the number {}, expected is 1 or more", id));
+      const auto [it, fresh] = c_.node_index.try_emplace(id, c_.model.nodes());
+      if (!fresh)
+        in_.error(at, fmt::format("node {} is in the file twice, first in line {}", id,
+                                  c_.model.node_sources[it->second].line));
+      c_.systems_used.try_emplace(system, std::pair{id, at});
+      c_.model.positions.push_back(p);
+      c_.model.node_ids.push_back(id);
+      c_.model.node_sources.push_back(at);
+    }
+  }
+
+  void read_elements() {
+    std::string_view line;
+    const bool old = dataset_ == 780;
+    while (record(line)) {
+      UnvElement e;
+      e.at = in_.here();
+      integers(line, old ? 8 : 6, "the element");
+      e.id = numbers_[0];
+      e.material = numbers_[old ? 5 : 3];
+      e.nodes = numbers_[old ? 7 : 5];
+      e.type = unv_type(numbers_[1]);
+      if (e.id < 1)
+        in_.stop(e.at, fmt::format("an element has the number {}, expected is 1 or more", e.id));
+      if (e.type == nullptr)
+        in_.stop(e.at, fmt::format("element {} has the descriptor {}, which is not supported; "
+                                   "supported are solid elements 111 to 113, 115, 116, 118, rigid "
+                                   "ones 121, 122, and shells, beams and rods as skins",
+                                   e.id, numbers_[1]));
+      const int most = e.type->use == UnvUse::rigid ? 1'000'000 : 20;
+      if (e.nodes < 1 || e.nodes > most || (e.type->nodes > 0 && e.nodes != e.type->nodes))
+        in_.stop(e.at, fmt::format("element {} ({}) has {} nodes, {} are expected", e.id,
+                                   e.type->name, e.nodes,
+                                   e.type->nodes > 0 ? std::to_string(e.type->nodes)
+                                                     : fmt::format("1 to {}", most)));
+      if (e.type->beam) static_cast<void>(needed("the orientation of a beam is"));
+      e.first = c_.element_nodes.size();
+      while (c_.element_nodes.size() < e.first + e.nodes) {
+        integers(needed("the nodes of an element are"), 1, "the list of nodes");
+        c_.element_nodes.insert(c_.element_nodes.end(), numbers_.begin(), numbers_.end());
+      }
+      if (c_.element_nodes.size() != e.first + e.nodes)
+        in_.stop(in_.here(),
+                 fmt::format("element {} ({}) has {} nodes listed, {} are expected", e.id,
+                             e.type->name, c_.element_nodes.size() - e.first, e.nodes));
+      const auto [it, fresh] = c_.element_index.try_emplace(e.id, c_.elements.size());
+      if (!fresh)
+        in_.error(e.at, fmt::format("element {} is in the file twice, first in line {}", e.id,
+                                    c_.elements[it->second].at.line));
+      c_.elements.push_back(e);
+    }
+  }
+
+  void read_groups() {
+    std::string_view line;
+    while (record(line)) {
+      UnvGroup group;
+      group.at = in_.here();
+      integers(line, 8, "the group");
+      const int number = numbers_[0], count = numbers_[7];
+      if (count < 0)
+        in_.stop(group.at,
+                 fmt::format("group {} has {} members, expected is 0 or more", number, count));
+      group.name = std::string(trimmed(needed("the name of a group is")));
+      if (group.name.empty()) group.name = fmt::format("group {}", number);
+      while (group.members.size() < static_cast<std::size_t>(count)) {
+        integers(needed("the members of a group are"), 4, "the list of members");
+        for (std::size_t k = 0; k + 3 < numbers_.size(); k += 4)
+          group.members.emplace_back(numbers_[k], numbers_[k + 1]);
+        if (numbers_.size() % 4 != 0 || group.members.size() > static_cast<std::size_t>(count))
+          in_.stop(in_.here(), fmt::format("group '{}' has {} members in its first line, and "
+                                           "another number of them is listed",
+                                           group.name, count));
+      }
+      c_.groups.push_back(std::move(group));
+    }
+  }
+
+  /// Only systems that lie in the global one are taken.
+  void read_systems() {
+    static_cast<void>(needed("the number of a part is"));
+    static_cast<void>(needed("the name of a part is"));
+    std::string_view line;
+    while (record(line)) {
+      integers(line, 2, "the coordinate system");
+      const int label = numbers_[0], kind = numbers_[1];
+      static_cast<void>(needed("the name of a coordinate system is"));
+      bool plain = kind == 0;
+      for (int row = 0; row < 4; ++row) {
+        split_blanks(needed("the axes of a coordinate system are"), words_);
+        const Vec3 axis = point(0, "the coordinate system");
+        const Vec3 own = row < 3 ? Vec3(Vec3::Unit(row)) : Vec3(Vec3::Zero());
+        plain = plain && (axis - own).cwiseAbs().maxCoeff() == 0.0;
+      }
+      c_.systems[label] = plain;
+    }
+  }
+
+  void read_units() {
+    const std::string text(trimmed(needed("the units are")));
+    c_.model.notes.push_back(
+        fmt::format("{}:{}: the file says that its units are {}; the units given with the file "
+                    "are taken",
+                    in_.files()[in_.here().file], in_.here().line, shown(text)));
+    std::string_view line;
+    while (record(line)) {
+    }
+  }
+
+  TextSource& in_;
+  UnvContent c_;
+  std::vector<std::string_view> words_;
+  std::vector<int> numbers_;
+  int dataset_ = 0;
+};
+
+}  // namespace
+
+UnvContent read_unv_content(TextSource& in) { return UnvParser(in).read(); }
+
+}  // namespace floatframe

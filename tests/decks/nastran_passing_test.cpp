@@ -1,0 +1,205 @@
+// Cards and forms of cards that change nothing of a part are ignored, whatever program wrote
+// them; those that cannot be read say why.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "floatframe/decks/nastran/read_nastran.hpp"
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe::test {
+namespace {
+
+FeModel passing_deck(const std::string& text) {
+  TextSource source(text, "arm.bdf");
+  return read_nastran(source, has_begin_bulk(text), {});
+}
+
+std::string passing_error(const std::string& text) {
+  return test::error_of([&] { passing_deck(text); });
+}
+
+const std::string tetra =
+    "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"  // 1 to 4
+    "CTETRA,1,1,1,2,3,4\nPSOLID,1,1\nMAT1,1,2.+11,,.25,8000.\n";                // 5 to 7
+
+TEST(NastranPassing, HarmlessCards) {
+  for (const char* card :
+       {"DEBUG,192,2",       "CAERO1,1,1",      "SPLINE1,1",        "AEROS,,,1.,1.",
+        "AELIST,1,2",        "AECOMP,A,AELIST", "MKAERO1,.5",       "CHBDYG,1,,AREA4",
+        "CONV,1,2",          "QBDY1,1,2.,3",    "RADBC,1,1.,,2",    "RADLST,1,2",
+        "MATT4,1,2",         "MAT4,1,2.",       "TABLED1,5",        "TABDMP1,5",
+        "RANDPS,1,1,1",      "DESVAR,1,A,1.",   "DVPREL1,1,PSOLID", "TOPVAR,1,A,PSOLID",
+        "DRESP1,1,W,WEIGHT", "DSCREEN,STRESS",  "DOPTPRM,DESMAX,3", "BSURF,1,1",
+        "BCBODY,1",          "BCRPARA,1",       "BCTPARM,1",        "CDAMP1,1,1,1,1",
+        "PDAMP,1,2.",        "PMASS,9,1.",      "ECHOOFF",          "PLOTEL,1,1,2",
+        "SPOINT,77",         "EPOINT,78",       "NLPARM,1",         "TSTEPNL,1,10,.1",
+        "EIGRL,1,,,10",      "RFORCE,1,1",      "PLOAD4,1,1,1.",    "ROTORG,1,1,2",
+        "BOLT,1,1",          "CBARAO,1,FR",     "CVISC,8,8,1,2",    "PGAP,1",
+        "PELAST,1,2",        "DTI,SPECSEL,1,2", "DMI,W2GJ,0,2",     "USETADD,1,2",
+        "MATS1,1,,PLASTIC",  "MATHP,9,1.",      "TEMPD,1,20.",      "CORD3G,9,E321,1,2,3",
+        "NLSTEP,1",          "echoon",          "SET2,1,2"}) {
+    EXPECT_EQ(passing_error(tetra + card + "\n"), "no error") << card;
+  }
+  for (const char* name : {"SOLLIB", "SPARSTOR", "EQCHECK", "RCONDK", "PRTSTIFF", "GRIDSEQ"}) {
+    EXPECT_EQ(passing_error(tetra + "PARAM," + name + ",1\n"), "no error") << name;
+  }
+}
+
+// Solution sequences are includes of the executive control that users do not have.
+TEST(NastranPassing, MissingIncludesOfTheExecutiveControl) {
+  const TemporaryFolder folder;
+  folder.write("control.dat", "METHOD = 1\n");
+  const std::string alter = "SOL 103\nINCLUDE '/dmap/alter.v9'\n",
+                    control = "include control.dat\n";
+  folder.write("arm.bdf", alter + "CEND\n" + control + "BEGIN BULK\n" + tetra + "ENDDATA\n");
+  const FeModel m = read_fe_file(folder / "arm.bdf");
+  const std::string note = (folder / "arm.bdf").string() +
+                           ": files that the executive control includes are missing and "
+                           "ignored: /dmap/alter.v9";
+  EXPECT_EQ(std::count(m.notes.begin(), m.notes.end(), note), 1);
+  folder.write("arm.bdf", "SOL 103\nCEND\nINCLUDE 'alter.v9'\nBEGIN BULK\n" + tetra);
+  EXPECT_NE(error_of([&] {
+              read_fe_file(folder / "arm.bdf");
+            }).find("arm.bdf:3: the include file 'alter.v9' does not exist in "),
+            std::string::npos);
+}
+
+TEST(NastranPassing, SentencesOfWhatIsRefused) {
+  const std::pair<const char*, const char*> refused[] = {
+      {"CBEND", "curved beams are not supported; divide the arc into CBAR elements"},
+      {"CBEAM3", "beams of three nodes are not supported; divide them into CBAR elements"},
+      {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
+      {"RSSCON", "connections of shells to solids are not supported; use RBE3 or MPC"},
+      {"RTRPLT1",
+       "rigid triangles with nodes that follow only in part are not supported; use RBE2"},
+      {"CGAP", "gaps are not linear; replace those that are closed with CELAS2 or RBE2"},
+      {"CBUSH2D", "bushings of two directions are not supported; give CBUSH"},
+      {"GENEL", "general elements are not supported"},
+      {"CFAST", "fasteners are not supported; replace them with RBE3 and CBUSH"},
+      {"CWELD", "welds are not supported; replace them with RBE3 and CBUSH"},
+      {"CSEAM", "seam welds are not supported; replace them with RBE3 and CBUSH"},
+      {"PBMSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBEAM"},
+      {"PBRSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBAR"},
+      {"TF", "transfer functions add stiffness and mass; take them out"},
+      {"CHACAB", "acoustic elements are not supported"},
+      {"CAABSF", "acoustic elements are not supported"},
+      {"CFLUID3", "acoustic elements are not supported"},
+      {"BGSET", "glued surfaces are not supported; tie them with RBE3 or MPC"},
+      {"SESET", "superelements are not supported; write one model without them"},
+      {"SECONCT", "superelements are not supported; write one model without them"},
+      {"CSUPER", "superelements are not supported; write one model without them"},
+      {"EXTRN", "superelements are not supported; write one model without them"},
+      {"CYJOIN", "cyclic symmetry is not supported; write the whole part"},
+      {"CCONEAX", "axisymmetric elements are not supported"},
+      {"CTRIAX6", "axisymmetric elements are not supported"},
+      {"CPLSTN4", "elements of plane stress and strain are not supported"},
+      {"BCONP", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
+      {"BCTSET", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
+      {"BCTABLE", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"}};
+  for (const auto& [card, why] : refused) {
+    EXPECT_EQ(passing_error(tetra + card + ",9,9,1,2\n"),
+              std::string("arm.bdf:8: ") + card + " is not read: " + why);
+  }
+  EXPECT_EQ(passing_error(tetra + "CGAP,9\nCGAP,10\n"),
+            "arm.bdf:8: CGAP is not read (2 cards in the file): gaps are not linear; replace those "
+            "that are closed with CELAS2 or RBE2");
+}
+
+// Matrices and nonstructural mass count only where the case control selects them.
+TEST(NastranPassing, WhatIsNotSelected) {
+  const std::string cards = "NSM1,3,PSOLID,.2,1\nDMIG,K1,1,1,1.\n";
+  EXPECT_EQ(passing_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
+  EXPECT_EQ(passing_error(tetra + cards),
+            "arm.bdf:9: DMIG is not read and may change stiffness or mass\n"
+            "arm.bdf:8: NSM1 is not read: put the mass into NSM of the properties or into CONM2");
+  EXPECT_EQ(
+      passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
+      "arm.bdf:2: the case control has NSM = 3, which adds stiffness or mass and is not read");
+}
+
+// Each would stand for cards that are not written out; an equation may hold the sign.
+TEST(NastranPassing, FieldsThatRepeatTheCardBefore) {
+  const std::string repeats =
+      "a field is '=', which repeats one of the card before and is not "
+      "read: write the cards out, as Nastran does with ECHO = PUNCH";
+  for (const char* card : {"GRID,5,=,*(1.),==", "GRID,5,,==", "=,*(1),==", "=3"})
+    EXPECT_EQ(passing_error(tetra + card + "\n"), "arm.bdf:8: " + repeats) << card;
+  EXPECT_EQ(passing_error(tetra + "DEQATN,1,F(A),=,A\n"), "no error");
+}
+
+// A line BEGIN BULK alone is no case control that could select something.
+TEST(NastranPassing, BeginBulkIsNoCaseControl) {
+  EXPECT_EQ(passing_error("BEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\n"),
+            "arm.bdf:9: NSM1 is not read: put the mass into NSM of the properties or into CONM2");
+  EXPECT_EQ(passing_deck("BEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.size(), 1u);
+  EXPECT_TRUE(
+      passing_deck("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());
+}
+
+TEST(NastranPassing, NotesSayWhatIsPassedOver) {
+  const FeModel m =
+      passing_deck("CEND\nBEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\nPBUSHT,9,K,3\n");
+  ASSERT_GE(m.notes.size(), 2u);
+  const auto has = [&](const std::string& note) {
+    return std::any_of(m.notes.begin(), m.notes.end(),
+                       [&](const std::string& n) { return n.find(note) != std::string::npos; });
+  };
+  EXPECT_TRUE(
+      has("tables of stiffness and damping over frequency or load are ignored, the part "
+          "has the constant ones: PBUSHT"));
+  EXPECT_TRUE(has("cards that the case control does not select are ignored: NSM1"));
+  EXPECT_FALSE(has("change neither stiffness nor mass"));
+}
+
+TEST(NastranPassing, MassesAndRigidElementsGivenTwice) {
+  for (const char* card : {"CONM2,9,1,,5.", "CMASS2,9,5.,1,1", "CONM1,9,1", "RBE2,9,1,123,2",
+                           "RBE3,9,,1,123,1.,123,2,3,4", "RBAR,9,1,2,123456"}) {
+    const std::string line = std::string(card) + "\n", name(card, std::string(card).find(','));
+    EXPECT_EQ(passing_error(tetra + line + line)
+                  .find("arm.bdf:9: " + name +
+                        " 9: this number is in "
+                        "the file twice, first in line 8"),
+              0u)
+        << passing_error(tetra + line + line);
+  }
+  // Masses and rigid elements have numbers of their own.
+  EXPECT_EQ(passing_error(tetra + "CONM2,9,1,,5.\nRBE2,9,1,123,2\n"), "no error");
+}
+
+TEST(NastranPassing, FormsOfCards) {
+  const FeModel plain = passing_deck(tetra + "SPC1,1,123,1\n");
+  const std::string spc[] = {"SPC1    1       1 2 3   1\n",  // blanks between components
+                             "spc1,1,321,1\nenddata\nwhatever\n",
+                             "SPC1,1,1 23,1,,,,,,,,\n",  // more commas than fields
+                             "SPC1\t1\t123\t1\n",
+                             "SPC1    1       123     1" + std::string(47, ' ') + "a, b\n"};
+  for (const std::string& card : spc) {
+    const FeModel model = passing_deck(tetra + card);
+    ASSERT_EQ(model.supports.size(), 1u) << card;
+    EXPECT_EQ(model.supports[0].mask, plain.supports[0].mask) << card;
+    EXPECT_EQ(model.supports[0].node, plain.supports[0].node) << card;
+  }
+}
+
+TEST(NastranPassing, MarksWhoseFirstCharacterDiffers) {
+  const auto conm = [](const std::string& mark, const std::string& follows) {
+    return passing_error(tetra + "RBE2,7,1,123,2\nCONM2   9       1               1.      " +
+                         std::string(32, ' ') + mark + "\n" + follows + "1.\n");
+  };
+  EXPECT_EQ(conm("+C1     ", "+C1     "), "no error");
+  EXPECT_EQ(conm(" C1     ", "+C1     "), "no error");
+  EXPECT_EQ(conm("AC1     ", "+C1     "), "no error");
+  EXPECT_EQ(conm("+C1     ", "+c1     "), "no error");
+  EXPECT_EQ(conm("+C1     ", "        "), "no error");
+  EXPECT_EQ(conm("+C1     ", "+D1     "),
+            "arm.bdf:10: the continuation '+D1' does not follow the card with this mark; the card "
+            "before (CONM2 in line 9) has '+C1'");
+}
+
+}  // namespace
+}  // namespace floatframe::test

@@ -1,0 +1,270 @@
+// Universal files: the same mesh as from Gmsh, in both forms of nodes and elements; groups; invalid
+// files with their whole sentence.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "floatframe/decks/unv/read_unv.hpp"
+#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/gmsh/read_gmsh.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+#include "formats/mesh_checks.hpp"
+
+namespace floatframe::test {
+namespace {
+
+FeModel unv_of(const std::string& text, const FeReadOptions& options = {}) {
+  TextSource source(text, "a.unv");
+  return read_unv(source, options);
+}
+
+std::string unv_dataset(int number, const std::string& content) {
+  return fmt::format("    -1\n{:6}\n{}    -1\n", number, content);
+}
+
+/// Corners and middles of edges in the order in which the format goes round an element.
+std::vector<int> unv_walk(ElementType type) {
+  switch (type) {
+    case ElementType::hex20:
+      return {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15};
+    case ElementType::wedge15:
+      return {0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11};
+    case ElementType::tet10:
+      return {0, 4, 1, 5, 2, 6, 7, 8, 9, 3};
+    default:
+      return {};
+  }
+}
+
+/// Layout of 2411, 2412 and 2467, or of the older 781 and 780.
+std::string unv_text(const FeModel& m, bool old) {
+  std::string nodes, elements, groups;
+  for (int i = 0; i < m.nodes(); ++i) {
+    const Vec3& p = m.positions[i];
+    nodes += fmt::format("{:10}{:10}{:10}{:10}\n", m.node_ids[i], 1, 1, 11);
+    std::string line = fmt::format("{:25.16E}{:25.16E}{:25.16E}\n", p.x(), p.y(), p.z());
+    std::replace(line.begin(), line.end(), 'E', 'D');
+    nodes += line;
+  }
+  for (const Element& e : m.elements) {
+    const std::vector<int> walk = unv_walk(e.type);
+    const int type = e.type == ElementType::hex20 ? 116 : e.type == ElementType::tet10 ? 118 : 113;
+    elements +=
+        old ? fmt::format("{:10}{:10}{:10}{:10}{:10}{:10}{:10}{:10}", e.id, type, 1, 2, 1, 7, 7,
+                          walk.size())
+            : fmt::format("{:10}{:10}{:10}{:10}{:10}{:10}", e.id, type, 2, 1, 7, walk.size());
+    for (std::size_t k = 0; k < walk.size(); ++k)
+      elements += fmt::format("{}{:10}", k % 8 == 0 ? "\n" : "", m.node_ids[e.nodes[walk[k]]]);
+    elements += '\n';
+  }
+  int number = 0;
+  const auto group = [&](const std::string& name, int kind, const std::vector<int>& labels) {
+    groups += fmt::format("{:10}{:10}{:10}{:10}{:10}{:10}{:10}{:10}\n{}\n", ++number, 0, 0, 0, 0, 0,
+                          0, labels.size(), name);
+    for (std::size_t k = 0; k < labels.size(); ++k)
+      groups += fmt::format("{:10}{:10}{:10}{:10}{}", kind, labels[k], 0, 0,
+                            k % 2 == 1 || k + 1 == labels.size() ? "\n" : "");
+  };
+  for (const auto& [name, set] : m.node_sets) {
+    std::vector<int> labels;
+    for (const int node : set) labels.push_back(m.node_ids[node]);
+    group(name, 7, labels);
+  }
+  for (const auto& [name, set] : m.element_sets) {
+    std::vector<int> labels;
+    for (const int e : set) labels.push_back(m.elements[e].id);
+    group(name, 8, labels);
+  }
+  return unv_dataset(old ? 781 : 2411, nodes) + unv_dataset(old ? 780 : 2412, elements) +
+         unv_dataset(2467, groups);
+}
+
+TEST(Unv, SameMeshAsFromGmsh) {
+  for (const char* name : {"bricks.msh", "aarm_coarse.msh.gz"}) {
+    SCOPED_TRACE(name);
+    FeReadOptions options;
+    options.material = Material{2.1e5, 0.3, 7.85e-9};
+    const FeModel from_gmsh = read_gmsh(std::string(FLOATFRAME_TEST_DATA) + "/fe/" + name, options);
+    for (const bool old : {false, true}) {
+      const std::string text = unv_text(from_gmsh, old);
+      EXPECT_TRUE(looks_like_unv(text));
+      const FeModel m = unv_of(text, options);
+      expect_same_mesh(from_gmsh, m, 1e-12);
+      expect_midside_nodes_near_edges(m);
+      EXPECT_EQ(m.element_sets, from_gmsh.element_sets);
+      ASSERT_EQ(m.node_sets.size(), from_gmsh.node_sets.size());
+      for (const auto& [set, nodes] : from_gmsh.node_sets)
+        EXPECT_EQ(as_set(nodes), as_set(m.node_sets.at(set))) << set;
+      EXPECT_TRUE(m.notes.empty());
+      const SparseMatrix K = assemble_stiffness(from_gmsh);
+      EXPECT_LE((assemble_stiffness(m) - K).norm(), 1e-12 * K.norm());
+    }
+  }
+}
+
+const std::string unv_four_nodes =
+    unv_dataset(2411, "1 1 1 11\n0 0 0\n2 1 1 11\n1.D+0 0 0\n3 1 1 11\n0 1 0\n4 1 1 11\n0 0 1\n");
+const std::string unv_tetrahedron = unv_dataset(2412, "1 111 2 1 7 4\n1 2 3 4\n");
+
+TEST(Unv, SkinsAndEdgesMakeNodeSets) {
+  const FeModel m = unv_of(
+      unv_dataset(151, "anything\n") + unv_dataset(164, "1 SI: Meter (newton)  2\n1. 1. 1.\n0.\n") +
+      unv_dataset(15,
+                  "1 0 0 11 0. 0. 0.\n2 0 0 11 1. 0. 0.\n3 0 0 11 0. 1. 0.\n"
+                  "4 0 0 11 0. 0. 1.\n") +
+      unv_dataset(2412,
+                  "1 111 2 1 7 4\n1 2 3 4\n2 91 2 1 7 3\n1 2 3\n3 21 2 1 7 2\n0 1 1\n1 4\n"
+                  "4 111 2 8 7 4\n1 3 2 4\n") +
+      unv_dataset(2477,
+                  "1 0 0 0 0 0 0 3\nSKIN\n8 2 0 0 8 1 0 0\n7 4 0 0\n"
+                  "2 0 0 0 0 0 0 2\nEDGE\n8 3 0 0 5 9 0 0\n") +
+      unv_dataset(2414, "1\nresults\n"));
+  EXPECT_EQ(m.elements.size(), 2u);
+  EXPECT_EQ(m.node_sets.at("SKIN"), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(m.element_sets.at("SKIN"), std::vector<int>{0});
+  EXPECT_EQ(m.node_sets.at("EDGE"), (std::vector<int>{0, 3}));
+  ASSERT_EQ(m.notes.size(), 5u);
+  EXPECT_EQ(m.notes[0],
+            "a.unv:7: the file says that its units are '1 SI: Meter (newton)  2'; the units given "
+            "with the file are taken");
+  EXPECT_EQ(m.notes[1],
+            "a.unv: 1 members of groups are neither nodes nor elements (kind 5) and are left out");
+  EXPECT_EQ(m.notes[3],
+            "a.unv: 2 shells, beams and rods are taken as skins and edges: they make "
+            "node sets and have no stiffness and no mass");
+  EXPECT_EQ(m.notes[4], "a.unv: dataset 2414 is ignored");
+}
+
+TEST(Unv, RigidElementsAndDampers) {
+  const FeModel m = unv_of(
+      unv_four_nodes +
+      unv_dataset(2411, "5 1 1 11\n2 0 0\n6 1 1 11\n3 0 0\n7 1 1 11\n4 0 0\n8 1 1 11\n5 0 0\n") +
+      unv_dataset(2412,
+                  "1 111 2 1 7 4\n1 2 3 4\n2 122 2 1 7 3\n5 2 3\n3 121 2 1 7 2\n6 4\n"
+                  "4 141 2 1 7 2\n1 2\n5 121 2 1 7 2\n7 8\n6 121 2 1 7 2\n6 5\n") +
+      unv_dataset(2467, "1 0 0 0 0 0 0 1\nRIGID\n8 2 0 0\n"));
+  ASSERT_EQ(m.spiders.size(), 2u);
+  EXPECT_EQ(m.spiders[0].name, "rigid element 2");
+  EXPECT_EQ(m.spiders[0].kind, Spider::Kind::rigid);
+  EXPECT_EQ(m.spiders[0].mask, 63u);
+  EXPECT_EQ(m.spiders[0].reference, 4);
+  EXPECT_EQ(m.spiders[0].nodes, (std::vector<int>{1, 2, 5, 3}));
+  EXPECT_EQ(m.spiders[1].reference, 6);
+  EXPECT_EQ(m.spiders[1].nodes, std::vector<int>{7});
+  EXPECT_EQ(m.node_sets.at("RIGID"), (std::vector<int>{1, 2, 4}));
+  ASSERT_EQ(m.notes.size(), 2u);
+  EXPECT_EQ(m.notes[1], "a.unv: 1 dampers are ignored: the part has modal damping");
+}
+
+TEST(Unv, FilledColumnsAreDivided) {
+  const std::string text =
+      unv_dataset(2411,
+                  "1000000001 0 0 1\n0 0 0\n1000000002 0 0 1\n1 0 0\n1000000003 0 0 1\n"
+                  "0 1 0\n1000000004 0 0 1\n0 0 1\n") +
+      unv_dataset(2412, "1 111 2 1 7 4\n1000000001100000000210000000031000000004\n");
+  EXPECT_EQ(unv_of(text).elements.at(0).nodes[3], 3);
+}
+
+TEST(Unv, FaultyFiles) {
+  struct Case {
+    std::string text, message;
+  };
+  const std::string& n = unv_four_nodes;
+  const std::string& t = unv_tetrahedron;
+  const auto elements = [&](const std::string& lines) { return n + unv_dataset(2412, lines); };
+  const auto system = [](const char* kind, const char* origin) {
+    return unv_dataset(
+        2420, fmt::format("1\nPart\n1 {} 8\nCS1\n1 0 0\n0 1 0\n0 0 1\n{}\n", kind, origin));
+  };
+  const Case cases[] = {
+      {"hello\n", "a.unv:1: a dataset begins with a line -1, found 'hello'"},
+      {"    -1\n", "a.unv:1: the file ends where the number of a dataset follows"},
+      {"    -1\nx\n", "a.unv:2: the number of a dataset is expected, found 'x'"},
+      {unv_dataset(4711, ""),
+       "a.unv:2: dataset 4711 is not known: whether it changes stiffness or mass is not clear; "
+       "remove it from the file if it does not"},
+      {"    -1\n  2411\n", "a.unv:2: the file ends within dataset 2411: a line -1 is expected"},
+      {unv_dataset(2411, "1 0 0 1\n"),
+       "a.unv:4: dataset 2411 ends where the coordinates of a node are expected"},
+      {unv_dataset(2411, "1 0 0\n"), "a.unv:3: the node has 3 numbers, at least 4 are expected"},
+      {unv_dataset(2411, "1.5 0 0 1\n"), "a.unv:3: the node: '1.5' is not a whole number"},
+      {unv_dataset(2411, "0 0 0 1\n0 0 0\n"),
+       "a.unv:3: a node has the number 0, expected is 1 or more"},
+      {unv_dataset(2411, "1 0 0 1\n0 0\n"), "a.unv:4: the node has 2 coordinates, 3 are expected"},
+      {unv_dataset(2411, "1 0 0 1\n0 0 a\n"), "a.unv:4: the node: 'a' is not a number"},
+      {n + unv_dataset(2411, "1 0 0 1\n0 0 0\n") + t,
+       "a.unv:14: node 1 is in the file twice, first in line 3"},
+      {n,
+       "a.unv: the file has 0 elements and none of them is solid; a part needs tetrahedra, "
+       "bricks or wedges, or shells to which a thickness is given (--thickness, key `thickness`)"},
+      {elements("1 91 2 1 7 3\n1 2 3\n"),
+       "a.unv: the file has 1 elements and none of them is solid; a part needs tetrahedra, bricks "
+       "or wedges, or shells to which a thickness is given (--thickness, key `thickness`)"},
+      {elements("1 161 2 1 7 1\n1\n"),
+       "a.unv:14: element 1 is a lumped mass, whose value is in a table of properties of the "
+       "format, which is not read; remove it and describe it in the model"},
+      {elements("1 136 2 1 7 2\n1 2\n"),
+       "a.unv:14: element 1 is a translational spring, whose value is in a table of properties of "
+       "the format, which is not read; remove it and describe it in the model"},
+      {elements("1 151 2 1 7 2\n1 2\n"),
+       "a.unv:14: element 1 has the descriptor 151, which is not supported; supported are solid "
+       "elements 111 to 113, 115, 116, 118, rigid ones 121, 122, and shells, beams and rods as "
+       "skins"},
+      {elements("1 121 2 1 7 3\n1 2 3\n"),
+       "a.unv:14: element 1 (rigid bar) has 3 nodes, 2 are expected"},
+      {elements("1 122 2 1 7 0\n1 2 3\n"),
+       "a.unv:14: element 1 (rigid element) has 0 nodes, 1 to 1000000 are expected"},
+      {elements("1 24 2 1 7 21\n"),
+       "a.unv:14: element 1 (parabolic beam) has 21 nodes, 3 are expected"},
+      {elements("1 122 2 1 7 1\n1\n"),
+       "a.unv:14: element 1 (rigid element) has one node, at least 2 are expected"},
+      {elements("1 122 2 1 7 3\n1 2 2\n"), "a.unv:14: element 1 (rigid element) has node 2 twice"},
+      {elements("1 122 2 1 7 3\n1 2 9\n"),
+       "a.unv:14: element 1 (rigid element) has node 9, which is not in the file"},
+      {elements("1 111 2 1 7 5\n1 2 3 4 5\n"),
+       "a.unv:14: element 1 (solid linear tetrahedron) has 5 nodes, 4 are expected"},
+      {elements("1 111 2 1 7 4\n1 2 3 4 5\n"),
+       "a.unv:15: element 1 (solid linear tetrahedron) has 5 nodes listed, 4 are expected"},
+      {elements("0 111 2 1 7 4\n1 2 3 4\n"),
+       "a.unv:14: an element has the number 0, expected is 1 or more"},
+      {elements("1 111 2 1 7 4\n1 2 3 9\n"),
+       "a.unv:14: element 1 (solid linear tetrahedron) has node 9, which is not in the file"},
+      {elements("1 111 2 1 7 4\n1 2 3 3\n"),
+       "a.unv:14: element 1 (solid linear tetrahedron) has node 3 twice"},
+      {n + t + t, "a.unv:19: element 1 is in the file twice, first in line 14"},
+      {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 1\nA\n7 9 0 0\n"),
+       "a.unv:19: group 'A' has node 9, which is not in the file"},
+      {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 1\nA\n8 9 0 0\n"),
+       "a.unv:19: group 'A' has element 9, which is not in the file"},
+      {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 1\nA\n7 1 0 0 7 2 0 0\n"),
+       "a.unv:21: group 'A' has 1 members in its first line, and another number of them is listed"},
+      {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 -1\nA\n"),
+       "a.unv:19: group 1 has -1 members, expected is 0 or more"},
+      {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 1\n"),
+       "a.unv:20: dataset 2467 ends where the name of a group is expected"},
+      {n + t + system("1", "0 0 0"),
+       "a.unv:3: node 1 is in coordinate system 1, which is turned, moved or round; only nodes in "
+       "global rectangular coordinates are read"},
+      {n + t + system("0", "0 0 2"),
+       "a.unv:3: node 1 is in coordinate system 1, which is turned, moved or round; only nodes in "
+       "global rectangular coordinates are read"},
+      {unv_dataset(2411, "1 7 0 1\n0 0 0\n2 0 0 1\n1 0 0\n3 0 0 1\n0 1 0\n4 0 0 1\n0 0 1\n") + t,
+       "a.unv:3: node 1 is in coordinate system 7, which is not in the file; only nodes in global "
+       "rectangular coordinates are read"},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    try {
+      unv_of(c.text);
+      ADD_FAILURE() << "no error, expected: " << c.message;
+    } catch (const InputError& e) {
+      ASSERT_FALSE(e.errors().empty());
+      EXPECT_EQ(std::string(e.what()).substr(0, c.message.size()), c.message);
+    }
+  }
+  EXPECT_EQ(unv_of(n + t).elements.size(), 1u);
+}
+
+}  // namespace
+}  // namespace floatframe::test
