@@ -32,7 +32,7 @@ class DecksComponent(unittest.TestCase):
             self.assertEqual(self.program("convert", DECK, mesh).returncode, 0)
             component.unlink()
             self.assertIn("2785", self.program("info", mesh).stdout)
-        for command in (("info", DECK), ("reduce", DECK, "--format", "abaqus", "--out", "x.ffb")):
+        for command in (("info", DECK), ("reduce", DECK, "--format", "abaqus", "--units", "mm-t-s", "--out", "x.ffb")):
             done = self.program(*command)
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertIn("decks (.inp, .bdf, .cdb, .unv, ...) need a build with FLOATFRAME_DECKS", done.stderr)
