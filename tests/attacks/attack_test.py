@@ -52,7 +52,8 @@ FREE = ("--units", "m-kg-s", "--method", "free_free", "--modes", "3")
 WITH_MATERIAL = ("--material", "2e11,0.3,7800", *FREE)
 DECKS = {"b33_shaft.inp": FREE, "two_bricks.inp": FREE, "bricks.msh": WITH_MATERIAL, "bricks_bin.msh.gz": WITH_MATERIAL,
          "bricks.bdf.gz": WITH_MATERIAL, "classical.SID_FEM": None,
-         "beam_superelement.pch": ("--units", "m-kg-s", "--interface", "a=node:1", "--interface", "b=node:2", "--modes", "0")}
+         **dict.fromkeys(("beam_superelement.pch", "beam_superelement.op4"),
+                         ("--units", "m-kg-s", "--interface", "a=node:1", "--interface", "b=node:2", "--modes", "0"))}
 OF_RESULTS = (("export", "run", "--csv", "x.csv"), ("export", "run", "--glb", "x.glb"), ("export", "run", "--vtk", "x"),
               ("export", "run", "--npz", "x.npz", "--stress"), ("stress", "run", "--out", "x"), ("compare", "run", "run"),
               ("outputs", "run", "--add", "e: {position: arm}", "--out", "x.csv"), ("rainflow", "run", "--out", "x"),
@@ -135,7 +136,9 @@ class Attacks(AttackCase):
         def one(random, folder):
             name = random.choice(sorted(DECKS))
             good = (DATA / "fe" / name).read_bytes()
-            packed = name.endswith(".gz")
+            packed = name.endswith((".gz", ".op4"))
+            if name.endswith(".op4"):  # its nodes
+                shutil.copy(DATA / "fe" / "beam_superelement.pch", folder)
             (folder / name).write_bytes(hostile.data(random, good) if packed or random.random() < 0.2 else
                                         hostile.text(random, good.decode("latin-1")).encode("utf-8"))
             command = random.choice(of_deck(name))
