@@ -26,17 +26,21 @@ FeModel nastran_nodes(const std::filesystem::path& file) {
   return read_nastran(source, has_control, {}, NastranPart::nodes);
 }
 
+// clang-format off
+const FeFormat readers[] = {
+    {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus, false,
+     abaqus_nodes},
+    {"ansys", "ANSYS deck (.cdb)", {".cdb"}, looks_like_ansys, read_ansys, false, ansys_nodes},
+    {"nastran", "Nastran bulk data (.bdf)", {".bdf", ".dat", ".nas", ".fem", ".blk"},
+     looks_like_nastran, read_nastran, false, nastran_nodes},
+    {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv, true}};
+// clang-format on
+const MeshFormat writer{"calculix", "CalculiX deck (.inp)", ".inp", calculix_deck};
+
 }  // namespace
 
 extern "C" const DeckComponent* floatframe_deck_component() {
-  static const DeckComponent component{
-      {{"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus, false,
-        abaqus_nodes},
-       {"ansys", "ANSYS deck (.cdb)", {".cdb"}, looks_like_ansys, read_ansys, false, ansys_nodes},
-       {"nastran", "Nastran bulk data (.bdf)", {".bdf", ".dat", ".nas", ".fem", ".blk"},
-        looks_like_nastran, read_nastran, false, nastran_nodes},
-       {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv, true}},
-      {{"calculix", "CalculiX deck (.inp)", ".inp", calculix_deck}}};
+  static const DeckComponent component{{std::begin(readers), std::end(readers)}, {writer}};
   return &component;
 }
 
