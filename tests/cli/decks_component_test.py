@@ -36,6 +36,13 @@ class DecksComponent(unittest.TestCase):
             done = self.program(*command)
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertIn("decks (.inp, .bdf, .cdb, .unv, ...) need a build with FLOATFRAME_DECKS", done.stderr)
+        for ending in ("pch", "op4"):  # their nodes are cards
+            shutil.copy(DECK.with_name(f"beam_superelement.{ending}"), self.folder)
+            done = self.program("info", f"beam_superelement.{ending}")
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("expected nodes as a table (.csv) or a mesh; decks", done.stderr)
+        (self.folder / "nodes.csv").write_text("node,x,y,z\n1,0,0,0\n2,2,0,0\n", encoding="utf-8")
+        self.assertIn("12 rows", self.program("info", "beam_superelement.pch", "--nodes", "nodes.csv").stdout)
         done = self.program("run", ROOT / "examples" / "iltis" / "iltis.yaml", "--duration", "0.1", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
 

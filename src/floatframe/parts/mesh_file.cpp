@@ -1,7 +1,6 @@
 #include "floatframe/parts/mesh_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/output_files.hpp"

@@ -86,7 +86,7 @@ ModelCounts check(const Model& model) {
   State start = relative_start(relative, Start::given, &c.start);
   // A singular mass matrix shows here.
   const double penalty_mass = default_penalty_mass(model, Coordinates::relative);
-  if (start_accelerations(relative, start, penalty_mass))
+  if (start_accelerations(relative, start, penalty_mass) && model.simulation.spectral_radius == 1.0)
     std::ranges::move(massless_notes(relative, start, penalty_mass),
                       std::back_inserter(c.start.notes));
   relative.positions(0.0, start.q);

@@ -43,10 +43,9 @@ bool lacks_mass(double growth);
 template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
 
-/// Spectral radius with which motions without mass follow by statics, where the trapezoidal rule
-/// was asked for. That turns an error of their rate over in each step, and constraints feed it into
-/// the rest.
-inline constexpr double forgets_statics = 0.7;
+/// Spectral radius in place of the trapezoidal rule, which turns an error of the rate of motions
+/// without mass over in each step.
+inline constexpr double massless_spectral_radius = 0.7;
 
 /// Sentences on flexible bodies with a motion that has no mass and that stiffness holds, at the
 /// state where `f` is. None if a pivot vanishes, or if a body without any mass has one: where these

@@ -65,7 +65,7 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
   double& spectral_radius = step_options_.spectral_radius;
   if (start_accelerations(f_, state_, step_options_.penalty_mass) && spectral_radius >= 1.0)
     for (std::string& note : massless_notes(f_, state_, step_options_.penalty_mass)) {
-      spectral_radius = forgets_statics;
+      spectral_radius = massless_spectral_radius;
       add_note(std::move(note));
     }
   note_linear_markers(model(), report_);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "floatframe/fe/element_faces.hpp"
+#include "floatframe/formats/deck_component.hpp"
 #include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
@@ -274,11 +275,12 @@ FeModel read_nodes(const std::filesystem::path& file) {
     return read_node_table(source);
   }
   const std::string beginning = read_beginning(file, std::size_t{1} << 20);
-  const bool matrices = looks_like_dmig(beginning);  // nodes may stand beside them
+  const std::string_view cards = looks_like_dmig(beginning) ? "nastran" : "";
   for (const FeFormat& f : fe_formats())
-    if (f.read_nodes &&
-        (f.recognise(beginning) || (matrices && f.name == std::string_view("nastran"))))
-      return f.read_nodes(file);
+    if (f.read_nodes && (f.recognise(beginning) || f.name == cards)) return f.read_nodes(file);
+  if (deck_component().readers.empty() && !name.ends_with(".msh"))
+    throw InputError({file.string()}, std::string("expected nodes as a table (.csv) or a mesh") +
+                                          deck_component_missing());
   FeModel model = read_fe_file(file);
   keep_nodes(model);
   return model;
