@@ -17,6 +17,10 @@ class ErrorEntry(NamedTuple):
     column: int
     """From 1; 0: not known."""
     message: str
+    code: str = "wrong_value"
+    """What is wrong, whatever the words: those of `floatframe::ErrorCode`, as "unknown_key"."""
+    path: str = ""
+    """Of the entity and key in the model, as "joints.knee.axis"; empty where there is none."""
 
     def __str__(self) -> str:
         place = ":".join(str(part) for part in self[:3] if part)
@@ -47,7 +51,14 @@ class UnknownNameError(InputError, KeyError):
 
 
 class RunError(Error, RuntimeError):
-    """What was asked for cannot be started, in one sentence."""
+    """What was asked for cannot be started, in one sentence; `code` as in `ErrorEntry`."""
+
+    def __init__(self, message: str, code: str = "") -> None:
+        super().__init__(message, code)
+        self.code = code
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class OutputError(Error):
@@ -81,11 +92,11 @@ def worded(message: str) -> str:
     return _OPTION.sub(lambda option: _NAMES.get(option[1], option[1].replace("-", "_")), message)
 
 
-def entry_of(file: str, line: int, column: int, message: str) -> ErrorEntry:
+def entry_of(file: str, line: int, column: int, message: str, code: str, path: str) -> ErrorEntry:
     """An error of the C++ library."""
     if line == 0 and file.startswith("--"):  # an option of the command line
         file, message = "", f"{file}: {message}"
-    return ErrorEntry(file, line, column, worded(message))
+    return ErrorEntry(file, line, column, worded(message), code, path)
 
 
 __all__: list[Any] = ["Error", "ErrorEntry", "InputError", "OutputError", "RunError", "StepError", "UnknownNameError"]

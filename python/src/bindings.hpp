@@ -68,7 +68,8 @@ T word_of(const char* name, const std::string& found,
     if (found == word) return value;
     expected += (expected.empty() ? "'" : ", '") + std::string(word) + "'";
   }
-  throw InputError(std::string(name) + ": found '" + found + "', expected one of " + expected);
+  throw InputError(ErrorCode::wrong_value,
+                   std::string(name) + ": found '" + found + "', expected one of " + expected);
 }
 
 Coordinates coordinates_of(const std::string& word);

@@ -18,7 +18,7 @@ using BodyPtr = std::shared_ptr<FlexibleBody>;
 using ProjectionPtr = std::shared_ptr<ProjectionData>;
 
 void require(bool holds, const std::string& sentence) {
-  if (!holds) throw InputError(sentence);
+  if (!holds) throw InputError(ErrorCode::wrong_value, sentence);
 }
 
 InvariantsPtr make_invariants(double m, const Vector3& m_u, const Matrix3& P_u, const AnyNumbers& S,
@@ -299,7 +299,8 @@ void bind_body(nb::module_& m) {
         out.emplace_back(mode.frequency, mode.fraction);
       return out;
     }
-    throw InputError("reference: found '" + reference + "', expected frame, free or mounted");
+    throw InputError(ErrorCode::wrong_value,
+                     "reference: found '" + reference + "', expected frame, free or mounted");
   });
   c.def_prop_ro("nodes", nodes_of);
   c.def("inertia", inertia);

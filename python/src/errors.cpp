@@ -15,13 +15,15 @@ nb::object entries_of(const InputError& error) {
   const nb::object worded = class_named("entry_of");
   nb::list list;
   for (const ErrorEntry& e : error.errors())
-    list.append(worded(e.mark.file, e.mark.line, e.mark.column, e.message));
+    list.append(worded(e.mark.file, e.mark.line, e.mark.column, e.message, error_code_name(e.code),
+                       e.path));
   return list;
 }
 
-void raise(const char* name, const nb::object& argument) {
+template <class... Arguments>
+void raise(const char* name, const Arguments&... arguments) {
   const nb::object type = class_named(name);
-  const nb::object error = type(argument);
+  const nb::object error = type(arguments...);
   PyErr_SetObject(type.ptr(), error.ptr());
 }
 
@@ -33,9 +35,9 @@ void translate(const std::exception_ptr& p, void*) {
   } catch (const InputError& error) {
     raise("InputError", entries_of(error));
   } catch (const RunError& error) {
-    raise("RunError", nb::cast(std::string(error.what())));
+    raise("RunError", error.what(), error_code_name(error.code()));
   } catch (const OutputError& error) {
-    raise("OutputError", nb::cast(std::string(error.what())));
+    raise("OutputError", error.what());
   }
 }
 

@@ -123,7 +123,8 @@ using Frequencies = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::dev
 std::vector<double> finite(const Frequencies& given) {
   std::vector<double> list(given.data(), given.data() + given.size());
   for (const double f : list)
-    if (!std::isfinite(f)) throw InputError("frequencies: found a number that is not finite");
+    if (!std::isfinite(f))
+      throw InputError(ErrorCode::not_finite, "frequencies: found a number that is not finite");
   return list;
 }
 

@@ -14,8 +14,9 @@ using Block = std::tuple<std::string, Connectivity, int, int, Vector3>;
 
 int node_index(std::int64_t k, std::size_t nodes, const std::string& where) {
   if (k < 0 || k >= static_cast<std::int64_t>(nodes))
-    throw InputError(where + ": found the node " + std::to_string(k) + ", expected 0 to " +
-                     std::to_string(static_cast<std::int64_t>(nodes) - 1));
+    throw InputError(ErrorCode::out_of_range,
+                     where + ": found the node " + std::to_string(k) + ", expected 0 to " +
+                         std::to_string(static_cast<std::int64_t>(nodes) - 1));
   return static_cast<int>(k);
 }
 
@@ -29,7 +30,7 @@ void add_block(FeModel& model, const Block& block) {
       known = true;
     }
   if (!known || connectivity.shape(1) > element.nodes.size())
-    throw InputError("cells: unknown element type '" + word + "'");
+    throw InputError(ErrorCode::not_found, "cells: unknown element type '" + word + "'");
   element.material = material;
   element.section = section;
   element.reference = vec3_of(reference);
@@ -48,7 +49,8 @@ std::shared_ptr<FeModel> make_mesh(const Points& points, const std::vector<Block
                                    const std::vector<double>& thicknesses,
                                    const std::vector<std::array<double, 4>>& sections) {
   if (points.shape(0) == 0 || points.shape(0) > std::numeric_limits<int>::max() / 6)
-    throw InputError("points: expected the shape (nodes, 3) with at least one node");
+    throw InputError(ErrorCode::out_of_range,
+                     "points: expected the shape (nodes, 3) with at least one node");
   auto model = std::make_shared<FeModel>();
   for (std::size_t k = 0; k < points.shape(0); ++k)
     model->positions.emplace_back(Eigen::Map<const Vec3>(points.data() + 3 * k));

@@ -11,7 +11,7 @@ namespace {
   if (!nb::try_cast(nb::repr(value), found) || found.size() > 100 ||
       found.find('\n') != std::string::npos)
     found = type_of(value);
-  throw InputError(name + ": found " + found + ", expected " + expected);
+  throw InputError(ErrorCode::wrong_value, name + ": found " + found + ", expected " + expected);
 }
 
 void set_start(SimulationOptions& o, const std::string& name, const nb::handle value) {

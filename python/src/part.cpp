@@ -15,7 +15,7 @@ using FilePtr = std::shared_ptr<BodyFile>;
 [[noreturn]] void refuse(const std::string& option, const nb::handle value,
                          const std::string& expected) {
   const auto found = nb::cast<std::string>(nb::repr(value));
-  throw InputError(option + ": found " + found + ", expected " + expected);
+  throw InputError(ErrorCode::wrong_value, option + ": found " + found + ", expected " + expected);
 }
 
 template <class T>
@@ -42,7 +42,8 @@ NodeChoice choice_of(const std::string& label, const nb::dict& place) {
   const auto ways = node_ways();
   const auto way =
       std::find_if(ways.begin(), ways.end(), [&](const NodeWay& w) { return w.word == word; });
-  if (way == ways.end()) throw InputError(label + ": unknown way '" + word + "'");
+  if (way == ways.end())
+    throw InputError(ErrorCode::not_found, label + ": unknown way '" + word + "'");
   NodeChoice c;
   c.by = way->by;
   c.tolerance = field<double>(place, "tolerance");
@@ -87,13 +88,15 @@ void add_places(PartJob& job, const std::string& key, const nb::dict& places) {
     const auto type = field<std::string>(place, "type");
     const auto tie = std::find(std::begin(tie_words), std::end(tie_words), type);
     if (tie == std::end(tie_words))
-      throw InputError(label + ": type: found '" + type + "', expected " + alternatives(tie_words));
+      throw InputError(ErrorCode::wrong_value,
+                       label + ": type: found '" + type + "', expected " + alternatives(tie_words));
     i.kind = static_cast<Spider::Kind>(tie - std::begin(tie_words));
     const auto dofs = field<std::string>(place, "dofs");
     const auto mask = dofs_of(dofs);
     if (!mask)
-      throw InputError(label + ": dofs: found '" + dofs +
-                       "', expected all, or directions such as xyz, x+z or xyz+rz");
+      throw InputError(ErrorCode::wrong_value,
+                       label + ": dofs: found '" + dofs +
+                           "', expected all, or directions such as xyz, x+z or xyz+rz");
     i.mask = *mask;
     job.options.interfaces.push_back(i);
   }
@@ -108,12 +111,14 @@ struct Given {
 
   void operator()(const O::Number& o) const {
     const auto x = need<double>(key, value, o.rule.expectation());
-    if (const auto complaint = o.rule.complaint(x)) throw InputError(key + ": " + *complaint);
+    if (const auto complaint = o.rule.complaint(x))
+      throw InputError(ErrorCode::out_of_range, key + ": " + *complaint);
     job.options.*o.at = x;
   }
   void operator()(const O::Count& o) const {
     const int n = need<int>(key, value, o.rule.expectation());
-    if (const auto complaint = o.rule.complaint(n)) throw InputError(key + ": " + *complaint);
+    if (const auto complaint = o.rule.complaint(n))
+      throw InputError(ErrorCode::out_of_range, key + ": " + *complaint);
     job.options.*o.at = n;
   }
   void operator()(const O::Word& o) const {
@@ -185,9 +190,10 @@ auto of_input(const std::string& name, const Work& work) {
   } catch (const RunError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw InputError({name, 0, 0}, error.what());
+    throw InputError(ErrorCode::wrong_file, {name, 0, 0}, error.what());
   } catch (const std::logic_error& error) {
-    throw InputError({name, 0, 0}, std::string("the file is damaged: ") + error.what());
+    throw InputError(ErrorCode::damaged, {name, 0, 0},
+                     std::string("the file is damaged: ") + error.what());
   }
 }
 
@@ -217,8 +223,9 @@ FilePtr reduce_file(const std::string& file, const Keywords& options, const nb::
     }
     std::string known;
     for (const std::string& name : unit_system_names()) known += name + ", ";
-    throw InputError("units is missing: the file does not state its units; known are " + known +
-                     "or any <length>-<mass>-<time>" + hint);
+    throw InputError(ErrorCode::missing,
+                     "units is missing: the file does not state its units; known are " + known +
+                         "or any <length>-<mass>-<time>" + hint);
   }
   return reduced(job, reduce_part_file, progress);
 }

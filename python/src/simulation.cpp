@@ -44,11 +44,10 @@ struct Stepper {
   /// Throws where the simulation is at work.
   Simulation& idle() {
     if (!busy) return simulation;
-    throw std::runtime_error(worker == std::this_thread::get_id()
-                                 ? "the simulation was called by its own callback, which may use "
-                                   "its arguments only"
-                                 : "the simulation is stepping in another thread; it belongs to "
-                                   "one thread at a time");
+    throw std::runtime_error(
+        worker == std::this_thread::get_id()
+            ? "the simulation was called by its own callback, which may use its arguments only"
+            : "the simulation is stepping in another thread; it belongs to one thread at a time");
   }
 };
 
@@ -104,8 +103,9 @@ void call_law(const Stepper& s, const Law& law, double time, std::span<const dou
   const nb::object value = law.function(*arguments);
   double x = 0.0;
   if (!nb::try_cast(value, x))
-    throw InputError("the law of the input '" + s.input_names[static_cast<std::size_t>(law.input)] +
-                     "' gave " + type_of(value) + ", expected a number");
+    throw InputError(ErrorCode::out_of_range,
+                     "the law of the input '" + s.input_names[static_cast<std::size_t>(law.input)] +
+                         "' gave " + type_of(value) + ", expected a number");
   inputs[static_cast<std::size_t>(law.input)] = x;
 }
 
@@ -131,8 +131,9 @@ void set_callback(Stepper& s) {
 void on_step(Stepper& s, const nb::object& function) {
   s.idle();
   if (!function.is_none() && !PyCallable_Check(function.ptr()))
-    throw InputError("on_step: found " + type_of(function) +
-                     ", expected a function of (time, outputs, inputs), or None");
+    throw InputError(ErrorCode::wrong_value,
+                     "on_step: found " + type_of(function) +
+                         ", expected a function of (time, outputs, inputs), or None");
   s.on_step = function.is_none() ? nb::object() : function;
   s.seen_numbers = std::make_shared<std::vector<double>>(s.output_names.size());
   s.changed_numbers = std::make_shared<std::vector<double>>(s.input_names.size());
@@ -146,8 +147,9 @@ void add_law(Stepper& s, const nb::object& input, const nb::object& function, co
   Law law{static_cast<std::ptrdiff_t>(input_of(s, input)), {}, function};
   for (const nb::handle name : of) law.outputs.push_back(output_of(s, name));
   if (!function.is_none() && !PyCallable_Check(function.ptr()))
-    throw InputError("law: found " + type_of(function) +
-                     ", expected a function of (time, *outputs), or None");
+    throw InputError(
+        ErrorCode::wrong_value,
+        "law: found " + type_of(function) + ", expected a function of (time, *outputs), or None");
   std::erase_if(s.laws, [&](const Law& l) { return l.input == law.input; });
   if (!function.is_none()) s.laws.push_back(std::move(law));
   set_callback(s);
@@ -253,9 +255,8 @@ void bind_simulation(nb::module_& m) {
       .def("step", step, nb::arg("size") = nb::none(),
            nb::sig("def step(self, size: float | None = None) -> StepReport"),
            "One step of the size of the options, or of `size` [s]. Raises StepError if it fails: "
-           "time and outputs stay "
-           "those of the last good step, and further steps fail until `restore`. What a callback "
-           "raises comes through.")
+           "time and outputs stay those of the last good step, and further steps fail until "
+           "`restore`. What a callback raises comes through.")
       .def_prop_ro("time", [](Stepper& s) { return s.idle().time(); })
       .def_prop_ro("step_size", [](Stepper& s) { return s.simulation.options().step; })
       .def_prop_ro("counters", counters)
@@ -289,14 +290,15 @@ void bind_simulation(nb::module_& m) {
           "restore",
           [](Stepper& s, const nb::object& state) {
             if (!nb::isinstance<SimulationState>(state) || !nb::inst_ready(state))
-              throw InputError("state: found " + type_of(state) +
-                               ", expected a floatframe.SimulationState");
+              throw InputError(
+                  ErrorCode::wrong_value,
+                  "state: found " + type_of(state) + ", expected a floatframe.SimulationState");
             s.idle().restore(nb::cast<const SimulationState&>(state));
           },
           nb::arg("state"), nb::sig("def restore(self, state: SimulationState) -> None"),
           "Back, or on, to a state of this simulation or of another one of the same model and "
-          "options: the same steps "
-          "follow, bit for bit. Raises InputError, and changes nothing, for any other state.")
+          "options: the same steps follow, bit for bit. Raises InputError, and changes nothing, "
+          "for any other state.")
       .def(
           "state", [](Stepper& s) { return s.idle().state(); },
           "Where the model is, by the names of joints and bodies.");

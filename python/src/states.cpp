@@ -12,7 +12,8 @@ nb::bytes bytes_of(const SimulationState& state) {
 
 SimulationState from_bytes(const nb::object& given) {
   if (!nb::isinstance<nb::bytes>(given))
-    throw InputError("data: found " + type_of(given) + ", expected bytes of a saved state");
+    throw InputError(ErrorCode::wrong_value,
+                     "data: found " + type_of(given) + ", expected bytes of a saved state");
   const auto bytes = nb::borrow<nb::bytes>(given);
   return SimulationState::from_bytes(
       {reinterpret_cast<const std::byte*>(bytes.c_str()), bytes.size()});
@@ -82,13 +83,13 @@ void bind_states(nb::module_& m) {
       .def("__deepcopy__", [](const SystemState& s, const nb::object&) { return s; })
       .def_ro("time", &SystemState::time, "[s]")
       .def_ro("model", &SystemState::model, "Name of the model it was taken of.")
-      .def_prop_ro("joints", joints,
-                   "By joint: `position` and `velocity` of its coordinates [m] or [rad], as in "
-                   "model files.")
+      .def_prop_ro(
+          "joints", joints,
+          "By joint: `position` and `velocity` of its coordinates [m] or [rad], as in model files.")
       .def_prop_ro("bodies", bodies,
-                   "By body: `position` of its origin (3,) [m], `orientation` (4,) as a "
-                   "quaternion (w, x, y, z), `velocity` (3,) [m/s], `angular_velocity` (3,) "
-                   "[rad/s], all in world axes; `amplitudes`, `amplitude_rates` (modes,).");
+                   "By body: `position` of its origin (3,) [m], `orientation` (4,) as a quaternion "
+                   "(w, x, y, z), `velocity` (3,) [m/s], `angular_velocity` (3,) [rad/s], all in "
+                   "world axes; `amplitudes`, `amplitude_rates` (modes,).");
 }
 
 }  // namespace floatframe::python

@@ -122,8 +122,9 @@ TEST(TextSource, ErrorsAreUtf8) {
   const auto error = [](bool stops) -> std::string {
     TextSource source("x\n", "a.inp");
     try {
-      if (stops) source.stop({0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
-      source.error({0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
+      if (stops)
+        source.stop(ErrorCode::not_found, {0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
+      source.error(ErrorCode::not_found, {0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
       source.throw_if_any();
     } catch (const InputError& e) {
       return e.what();
@@ -159,7 +160,7 @@ TEST(TextSource, LinesEndingsAndPlaces) {
 TEST(TextSource, ErrorsHaveAnEnd) {
   TextSource source("x\n", "a.inp");
   try {
-    for (int k = 0; k < 1000; ++k) source.error("again");
+    for (int k = 0; k < 1000; ++k) source.error(ErrorCode::duplicate, "again");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.errors().size(), TextSource::most_errors + 1);

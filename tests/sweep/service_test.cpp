@@ -11,7 +11,7 @@ ServiceAnswer some_answer() {
   ServiceAnswer answer;
   answer.kind = ServiceAnswer::Kind::errors;
   answer.text = std::string("a\0b:3:\n", 7);
-  answer.errors = {{{"file \xff.yaml", 3, 14}, "found 'x'"}, {{}, ""}};
+  answer.errors = {{{"file \xff.yaml", 3, 14}, ErrorCode::not_found, "found 'x'", 2, "a.b"}, {}};
   answer.files = {{"a.yaml", "0123"}, {"", ""}};
   return answer;
 }
@@ -24,6 +24,8 @@ TEST(ServiceAnswer, ComesBackAsItWas) {
   EXPECT_EQ(out.text, in.text);
   ASSERT_EQ(out.errors.size(), 2u);
   EXPECT_EQ(out.errors[0].text(), in.errors[0].text());
+  EXPECT_EQ(out.errors[0].code, ErrorCode::not_found);
+  EXPECT_EQ(out.errors[0].path, "a.b");
   EXPECT_EQ(out.files, in.files);
 }
 

@@ -40,7 +40,7 @@ std::vector<int> free_rows(const FeModel& model, const FeSystem& system) {
       if (row >= 0)
         held.insert(row);
       else if (turns || moves)
-        throw InputError(model.mark(s.source),
+        throw InputError(ErrorCode::dependent, model.mark(s.source),
                          fmt::format("the support of {} holds what depends on other nodes",
                                      model.node_label(s.node)));
     }
@@ -71,7 +71,7 @@ VecX values_about(const SparseMatrix& K, const SparseMatrix& M, double sigma, in
   const SparseMatrix A = K - sigma * M;
   const SparseFactors factors(A);
   if (factors.singular() >= 0)
-    throw InputError("a degree of freedom has neither stiffness nor mass");
+    throw InputError(ErrorCode::wrong_value, "a degree of freedom has neither stiffness nor mass");
   const int count = std::min(modes, static_cast<int>(K.rows()));
   return lowest_eigenpairs(A, factors, sigma, M, count).lambda;
 }
@@ -82,7 +82,8 @@ VecX values_about(const SparseMatrix& K, const SparseMatrix& M, double sigma, in
 double first_shift(const Arguments& a, const FeModel& model, const FeSystem& system,
                    const SparseMatrix& K, const SparseMatrix& M) {
   const double least = -1e-9 * K.diagonal().sum() / M.diagonal().sum();
-  if (!std::isfinite(least)) throw InputError("nothing that can move has a mass");
+  if (!std::isfinite(least))
+    throw InputError(ErrorCode::wrong_value, "nothing that can move has a mass");
   const double sigma = a.held ? 0.0 : -elastic_estimate(model, system);
   return sigma < least ? sigma : 1e3 * least;
 }

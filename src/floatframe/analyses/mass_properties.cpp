@@ -52,7 +52,8 @@ void add_up(ModelMass& whole) {
     whole.mass += b.mass;
     moment += b.mass * b.centre;
   }
-  if (!(whole.mass > 0.0)) throw InputError("found bodies without mass, expected one with mass");
+  if (!(whole.mass > 0.0))
+    throw InputError(ErrorCode::wrong_value, "found bodies without mass, expected one with mass");
   whole.centre = moment / whole.mass;
   Mat3 P = Mat3::Zero();
   for (const BodyMass& b : whole.bodies) {
@@ -103,8 +104,7 @@ std::string mass_text(const Model& model, const ModelMass& p) {
   return fmt::format("{}: mass {:.6g} kg, t = {:g} s\n\n", model.name, p.mass, p.time) +
          whole.text(2) + '\n' + principal.text(2) + '\n' + bodies.text(2) +
          "\nWorld axes. The inertia tensor is that about the centre of mass, with negative "
-         "products "
-         "off the diagonal;\nx, y, z of a body: its centre of mass.\n" +
+         "products off the diagonal;\nx, y, z of a body: its centre of mass.\n" +
          notes_text(p.start.notes);
 }
 
@@ -157,8 +157,7 @@ Analysis mass_properties_analysis() {
               "together",
           .json_help = "JSON on standard output (kg, m, kg m2)",
           .footer =
-              "Where a run of the model starts, with flexible bodies deformed as they are "
-              "there.\n"
+              "Where a run of the model starts, with flexible bodies deformed as they are there.\n"
               "Exit codes: 0 done, 1 the start cannot be found, 2 bad input.",
           .run = [](const Model& model) {
             const ModelMass p = mass_properties(model);

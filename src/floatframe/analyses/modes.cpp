@@ -162,19 +162,15 @@ std::string vibrations_text(const Model& model, const LinearSystem& system,
   text += table.text();
   text +=
       "\nvibration: decays while it swings, or not; unstable: grows while it swings; decay, "
-      "growth: "
-      "without swinging,\nundamped is the rate over 2 pi; rigid: nothing holds it. moves: part of "
-      "the "
-      "kinetic energy; is held by: part of the\npotential energy.\n";
+      "growth: without swinging,\nundamped is the rate over 2 pi; rigid: nothing holds it. moves: "
+      "part of the kinetic energy; is held by: part of the\npotential energy.\n";
   if (const std::string own = body_damping_text(model); !own.empty())
-    text +=
-        own +
-        "  free: nothing holds the body; mounted: its interfaces are held; frame held: what its "
-        "body frame follows.\n  The column damping is what the vibrations of the model get of it. "
-        "damping: {fraction: 0.02, reference: mounted} of a body gives its\n  mounted modes 2 %; "
-        "with "
-        "frequency: HZ of a vibration of the model, also this one where motions of the interfaces "
-        "decide it.\n";
+    text += own +
+            "  free: nothing holds the body; mounted: its interfaces are held; frame held: what "
+            "its body frame follows.\n  The column damping is what the vibrations of the model get "
+            "of it. damping: {fraction: 0.02, reference: mounted} of a body gives its\n  mounted "
+            "modes 2 %; with frequency: HZ of a vibration of the model, also this one where "
+            "motions of the interfaces decide it.\n";
   for (const std::string& note : system.notes) text += "Note: " + note + ".\n";
   return text;
 }
@@ -264,7 +260,8 @@ std::string place_text(const std::string& at, double time) {
 std::string page_of_modes(const Model& model, const LinearSystem& system,
                           const std::vector<ShownMotion>& modes, const MatX& rigid,
                           const std::string& at) {
-  if (page_template().empty()) throw InputError(page_is_missing("--report"));
+  if (page_template().empty())
+    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
   ModesPage page;
   page.state = model.simulation.coordinates == Coordinates::relative
                    ? linearised_state<RelativeFormulation>(model)
@@ -336,8 +333,7 @@ Analysis modes_analysis() {
   return {
       .name = "modes",
       .help =
-          "Natural vibrations of the whole model: frequencies [Hz], damping ratios, who takes "
-          "part",
+          "Natural vibrations of the whole model: frequencies [Hz], damping ratios, who takes part",
       .options = {operating_point_option(options->at),
                   whole_option("--number", options->number, 1, 1000,
                                "List the N slowest motions (default: all, or 40 of a model of more "

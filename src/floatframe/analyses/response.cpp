@@ -43,10 +43,10 @@ double roughness_of(const std::string& text) {
     if (text == road_classes::names[k]) return road_classes::roughness(k);
   const std::optional<double> value = number_in(text);
   if (!value || !(*value > 0.0))
-    throw InputError(fmt::format(
-        "--road-spectrum: found '{}', expected a class, A to H, or the roughness at 0.1 cycles/m "
-        "[m3]",
-        excerpt(text)));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("--road-spectrum: found '{}', expected a class, A to H, or the "
+                                 "roughness at 0.1 cycles/m [m3]",
+                                 excerpt(text)));
   return *value;
 }
 
@@ -63,8 +63,10 @@ HarmonicRequest harmonic_request(const std::string& text) {
     if (amplitude && frequency && *frequency >= 0.0)
       return {text.substr(0, equals), *amplitude, *frequency};
   }
-  throw InputError(fmt::format(
-      "--harmonic: found '{}', expected INPUT=AMPLITUDE@HERTZ, as road=0.01@1.5", excerpt(text)));
+  throw InputError(
+      ErrorCode::wrong_value,
+      fmt::format("--harmonic: found '{}', expected INPUT=AMPLITUDE@HERTZ, as road=0.01@1.5",
+                  excerpt(text)));
 }
 
 HarmonicResponse harmonic_of(const Model& model, const std::vector<std::string>& outputs,
@@ -101,13 +103,14 @@ void add_curves(const LinearModel& linear, ResponseResult& r) {
 
 AnalysisReport report_unbalance(const Model& model, const ResponseOptions& o) {
   if (o.rotor.empty() || o.unbalance.empty())
-    throw InputError(o.rotor.empty()
+    throw InputError(ErrorCode::incomplete,
+                     o.rotor.empty()
                          ? "--unbalance needs --rotor JOINT=FROM:TO:STEP, the speeds [rad/s]"
                          : "--rotor needs --unbalance BODY=KG_M, at least one");
   if (!o.ports.inputs.empty() || !o.harmonic.empty() || !o.spectrum.empty() || !o.at.empty())
-    throw InputError(
-        "--rotor goes through speeds under unbalance alone, expected none of --inputs, --harmonic, "
-        "--road-spectrum, --at beside it");
+    throw InputError(ErrorCode::exclusive,
+                     "--rotor goes through speeds under unbalance alone, expected none of "
+                     "--inputs, --harmonic, --road-spectrum, --at beside it");
   const SpeedRange range = speed_range("--rotor", o.rotor);
   UnbalanceOptions options{range.joint, range.from,      range.to,          range.step,
                            {},          o.ports.outputs, axis_named(o.axis)};
@@ -123,6 +126,7 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
   if (!o.rotor.empty() || !o.unbalance.empty()) return report_unbalance(given, o);
   if (!(o.to > o.from))
     throw InputError(
+        ErrorCode::out_of_range,
         fmt::format("--to: found {:g} Hz, expected more than --from, {:g} Hz", o.to, o.from));
   const Model model = counted_at_operating_point(given, o.at).model;
   const auto r = std::make_shared<ResponseResult>();
@@ -132,11 +136,12 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
     r->harmonics.push_back(harmonic_of(model, o.ports.outputs, harmonic_request(text)));
   if (!o.spectrum.empty()) {
     if (!(o.speed > 0.0))
-      throw InputError("--road-spectrum needs --speed, a positive number [m/s]");
+      throw InputError(ErrorCode::incomplete,
+                       "--road-spectrum needs --speed, a positive number [m/s]");
     r->loading = {roughness_of(o.spectrum), o.waviness, o.speed, o.from, o.to};
     r->road = road_response(model, o.ports.outputs, r->frequencies, r->loading);
   } else if (o.speed > 0.0) {
-    throw InputError("--speed is of --road-spectrum, which is not given");
+    throw InputError(ErrorCode::not_found, "--speed is of --road-spectrum, which is not given");
   }
   // Whoever asks for a road or a harmonic input has curves only of inputs that he names.
   const bool others = r->road || !r->harmonics.empty();
@@ -156,42 +161,41 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
 Analysis response_analysis() {
   const auto o = std::make_shared<ResponseOptions>();
   constexpr double largest = 1e9;
-  return {
-      .name = "response",
-      .help =
-          "Frequency response of outputs to inputs, also to random roads (Hz, SI units); "
-          "response of rotors to unbalance",
-      .options =
-          {word_list(
-               "--inputs", o->ports.inputs, {},
-               "Inputs of the model, 'motion of JOINT', 'road', 'road at TYRE'; default: all"),
-           word_list("--outputs", o->ports.outputs, {}, "Outputs of the model; default: all"),
-           operating_point_option(o->at),
-           number_option("--from", o->from, 1e-6, largest, "HERTZ", "Lowest frequency [Hz]"),
-           number_option("--to", o->to, 1e-6, largest, "HERTZ", "Highest frequency [Hz]"),
-           whole_option("--points", o->points, 1, 100'000,
-                        "Frequencies, evenly on a logarithmic axis"),
-           repeated_option("--harmonic", o->harmonic, "INPUT=AMPLITUDE@HERTZ",
-                           "Steady motion where an input swings; may be repeated"),
-           text_option("--road-spectrum", o->spectrum, "CLASS",
-                       "Spectra and rms on a random road (ISO 8608) of class A to H, or of this "
-                       "roughness at 0.1 cycles/m [m3]"),
-           number_option("--speed", o->speed, 0.0, 1e4, "M/S", "Along the road [m/s]"),
-           number_option("--waviness", o->waviness, 0.0, 10.0, "W",
-                         "Exponent of the road's spectrum"),
-           text_option("--rotor", o->rotor, "JOINT=FROM:TO:STEP",
-                       "Response to unbalance over the speed of a rotor [rad/s] instead"),
-           repeated_option("--unbalance", o->unbalance, "BODY[:NODE]=KG_M[@DEG]",
-                           "Unbalance on the axis of the rotor [kg m]; may be repeated"),
-           word_option("--axis", o->axis, {"x", "y", "z"}, axis_help)},
-      .json_help = "JSON on standard output",
-      .files = {{"--csv", "Write magnitude, phase, real and imaginary part, and densities"},
-                {"--svg", "Write Bode plots and densities"}},
-      .footer =
-          "Inputs are meant by their values: height of a road, angle of a prescribed motion.\n"
-          "Exit codes: 0 done, 1 the start cannot be found or the response has no bound, 2 "
-          "bad input.",
-      .run = [o](const Model& model) { return report_response(model, *o); }};
+  return {.name = "response",
+          .help =
+              "Frequency response of outputs to inputs, also to random roads (Hz, SI units); "
+              "response of rotors to unbalance",
+          .options =
+              {word_list(
+                   "--inputs", o->ports.inputs, {},
+                   "Inputs of the model, 'motion of JOINT', 'road', 'road at TYRE'; default: all"),
+               word_list("--outputs", o->ports.outputs, {}, "Outputs of the model; default: all"),
+               operating_point_option(o->at),
+               number_option("--from", o->from, 1e-6, largest, "HERTZ", "Lowest frequency [Hz]"),
+               number_option("--to", o->to, 1e-6, largest, "HERTZ", "Highest frequency [Hz]"),
+               whole_option("--points", o->points, 1, 100'000,
+                            "Frequencies, evenly on a logarithmic axis"),
+               repeated_option("--harmonic", o->harmonic, "INPUT=AMPLITUDE@HERTZ",
+                               "Steady motion where an input swings; may be repeated"),
+               text_option("--road-spectrum", o->spectrum, "CLASS",
+                           "Spectra and rms on a random road (ISO 8608) of class A to H, or of "
+                           "this roughness at 0.1 cycles/m [m3]"),
+               number_option("--speed", o->speed, 0.0, 1e4, "M/S", "Along the road [m/s]"),
+               number_option("--waviness", o->waviness, 0.0, 10.0, "W",
+                             "Exponent of the road's spectrum"),
+               text_option("--rotor", o->rotor, "JOINT=FROM:TO:STEP",
+                           "Response to unbalance over the speed of a rotor [rad/s] instead"),
+               repeated_option("--unbalance", o->unbalance, "BODY[:NODE]=KG_M[@DEG]",
+                               "Unbalance on the axis of the rotor [kg m]; may be repeated"),
+               word_option("--axis", o->axis, {"x", "y", "z"}, axis_help)},
+          .json_help = "JSON on standard output",
+          .files = {{"--csv", "Write magnitude, phase, real and imaginary part, and densities"},
+                    {"--svg", "Write Bode plots and densities"}},
+          .footer =
+              "Inputs are meant by their values: height of a road, angle of a prescribed motion.\n"
+              "Exit codes: 0 done, 1 the start cannot be found or the response has no bound, 2 bad "
+              "input.",
+          .run = [o](const Model& model) { return report_response(model, *o); }};
 }
 
 }  // namespace floatframe

@@ -12,6 +12,7 @@ namespace floatframe {
 SpeedRange speed_range(const std::string& option, const std::string& text) {
   const auto bad = [&] {
     return InputError(
+        ErrorCode::wrong_value,
         fmt::format("{}: found '{}', expected JOINT=FROM:TO:STEP [rad/s], as in motor=0:1200:40",
                     option, excerpt(text)));
   };

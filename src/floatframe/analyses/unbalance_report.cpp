@@ -57,10 +57,10 @@ Unbalance unbalance_of(const std::string& text) {
       return {place.substr(0, colon), colon == std::string::npos ? "" : place.substr(colon + 1),
               *moment, *angle / degrees_per_radian};
   }
-  throw InputError(fmt::format(
-      "--unbalance: found '{}', expected BODY=KG_M or BODY:NODE=KG_M, with @DEGREES if it is at an "
-      "angle, as disc=1e-4@90",
-      excerpt(text)));
+  throw InputError(ErrorCode::wrong_value,
+                   fmt::format("--unbalance: found '{}', expected BODY=KG_M or BODY:NODE=KG_M, "
+                               "with @DEGREES if it is at an angle, as disc=1e-4@90",
+                               excerpt(text)));
 }
 
 std::vector<double> amplitudes_of(const UnbalanceCurve& curve) {

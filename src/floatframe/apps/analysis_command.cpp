@@ -28,12 +28,12 @@ struct AnalysisArguments {
 /// Of an analysis that runs the model, perhaps many times.
 void require_steps(const SimulationDescription& simulation) {
   if (simulation.duration > 1e7 * simulation.step)
-    throw InputError(place_of_clock(simulation),
+    throw InputError(ErrorCode::too_large, place_of_clock(simulation),
                      fmt::format("a duration of {:g} s with a step of {:g} s takes more than 1e+07 "
                                  "steps; give a shorter --duration",
                                  simulation.duration, simulation.step));
   if (!(simulation.duration >= simulation.step))
-    throw InputError(place_of_clock(simulation),
+    throw InputError(ErrorCode::wrong_value, place_of_clock(simulation),
                      "the run is shorter than one step; give a --duration");
 }
 

@@ -153,7 +153,7 @@ StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds,
       const double before = thread_seconds();
       const bool good = stepper.advance(count);
       times[b].push_back(thread_seconds() - before);
-      if (!good) throw RunError(stepper.failure());
+      if (!good) throw RunError(ErrorCode::step_failed, stepper.failure());
       spent += times[b].back();
     }
     ++result.runs;

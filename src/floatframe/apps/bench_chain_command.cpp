@@ -31,15 +31,19 @@ ChainOptions checked(const ChainArguments& a) {
   if (!a.coordinates.empty()) o.coordinates = {coordinates_from(a.coordinates)};
   if (!a.inertia.empty()) o.inertia = {inertia_from(a.inertia)};
   if (o.duration < o.step)
-    throw InputError(fmt::format("--duration: found {:g} s, expected at least one step of {:g} s",
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("--duration: found {:g} s, expected at least one step of {:g} s",
                                  o.duration, o.step));
   if (o.duration / o.step > 1e7)
-    throw InputError(fmt::format(
-        "--step: found {:g} s, expected at most 10 million steps in {:g} s", o.step, o.duration));
+    throw InputError(
+        ErrorCode::out_of_range,
+        fmt::format("--step: found {:g} s, expected at most 10 million steps in {:g} s", o.step,
+                    o.duration));
   const int most = largest_chain_modes(o.elements);
   for (const int modes : o.modes) {
     if (modes > most)
-      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} per link", modes,
+      throw InputError(ErrorCode::out_of_range,
+                       fmt::format("--modes: found {}, expected at most {} with {} per link", modes,
                                    most, plural(o.elements, "element")));
   }
   return o;

@@ -28,7 +28,8 @@ std::string find_iltis() {
     if (fs::is_regular_file(place, error)) return place.string();
     tried += (tried.empty() ? "" : ", ") + place.string();
   }
-  throw InputError(fmt::format("the Iltis model was not found ({}); give it with --model", tried));
+  throw InputError(ErrorCode::unavailable,
+                   fmt::format("the Iltis model was not found ({}); give it with --model", tried));
 }
 
 double number_within(const std::string& option, const std::string& text, double low, double high) {
@@ -36,7 +37,8 @@ double number_within(const std::string& option, const std::string& text, double 
   const double value = std::strtod(text.c_str(), &end);
   const bool complete = end != text.c_str() && *end == '\0';
   if (!complete || !std::isfinite(value) || !(value > low) || value > high) {
-    throw InputError(fmt::format("{}: found '{}', expected a number above {:g} and up to {:g}",
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("{}: found '{}', expected a number above {:g} and up to {:g}",
                                  option, text, low, high));
   }
   return value;

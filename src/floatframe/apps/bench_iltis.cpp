@@ -42,6 +42,7 @@ BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
   const RunSummary summary = run(model, simulation, run_options).summary;
   if (summary.status != "completed") {
     throw RunError(
+        ErrorCode::step_failed,
         fmt::format("{} coordinates, inertia terms by {}, {} elements per bar: the run failed: {}",
                     word(row.coordinates), word(row.inertia), elements, summary.message));
   }
@@ -62,7 +63,8 @@ BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
 RunResult run_to_end(const Model& model, const SimulationDescription& simulation) {
   RunResult result = run(model, simulation);
   if (result.summary.status != "completed")
-    throw RunError(fmt::format("steps of {:g} ms: the run failed: {}", 1e3 * simulation.step,
+    throw RunError(ErrorCode::step_failed,
+                   fmt::format("steps of {:g} ms: the run failed: {}", 1e3 * simulation.step,
                                result.summary.message));
   return result;
 }

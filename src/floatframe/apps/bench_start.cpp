@@ -39,7 +39,7 @@ StartRow measured(StartKind kind, bool flexible, Coordinates coordinates, int co
     row.freedoms = stepper->freedoms();
     for (int k = 0; k < 5; ++k) {
       const double before = thread_seconds();
-      if (!stepper->advance(1)) throw RunError(stepper->failure());
+      if (!stepper->advance(1)) throw RunError(ErrorCode::step_failed, stepper->failure());
       row.step = std::min(row.step, thread_seconds() - before);
     }
   } catch (const RunError& e) {

@@ -51,7 +51,8 @@ ModelDescription described(const StepArguments& a) {
     }
     const int most = largest_chain_modes(a.elements);
     if (a.modes > most)
-      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} per link",
+      throw InputError(ErrorCode::out_of_range,
+                       fmt::format("--modes: found {}, expected at most {} with {} per link",
                                    a.modes, most, plural(a.elements, "element")));
     ModelDescription d = chain_model(a.links, a.modes, a.elements);
     d.simulation.spectral_radius = chain_spectral_radius;
@@ -78,12 +79,13 @@ int run_steps(const StepArguments& a) {
   check_inertia_method(description, o.inertia);
   const Model model = build_model(description);
   if (a.inputs_jump && model.inputs.empty())
-    throw InputError("--inputs-jump: found a model without inputs, expected one with some");
+    throw InputError(ErrorCode::wrong_value,
+                     "--inputs-jump: found a model without inputs, expected one with some");
   const std::unique_ptr<BenchStepper> stepper(floatframe_counted_start(&model, &o));
   if (a.inputs_jump) stepper->jump_inputs();
   const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));
   if (!floatframe_counted_steps(stepper.get(), steps, a.iterations))
-    throw RunError(stepper->failure());
+    throw RunError(ErrorCode::step_failed, stepper->failure());
   const StepCounters c = stepper->counts();
   if (!a.json_file.empty()) {
     const nlohmann::ordered_json json = {{"model", model.name},
@@ -120,8 +122,8 @@ Command bench_step_command() {
       .help = "Only the steps of a run, for a profiler or an instruction counter",
       .options =
           {text_position("MODEL", a->model,
-                         "chain (default), ladder or vehicles (rigid, as in bench start), "
-                         "iltis or a model file"),
+                         "chain (default), ladder or vehicles (rigid, as in bench start), iltis or "
+                         "a model file"),
            repeated_option("--set", a->settings, "NAME=VALUE",
                            "Change a parameter of the model file; may be repeated"),
            whole_option("--links", a->links, 1, 4096,

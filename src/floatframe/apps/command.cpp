@@ -23,12 +23,10 @@
 namespace floatframe {
 
 std::vector<Option> model_options(ModelArguments& arguments) {
-  return {
-      file_position("MODEL", arguments.path, "Model file (YAML)"),
-      repeated_option(
-          "--set", arguments.settings, "NAME=VALUE",
-          "Set a parameter of the model file, or else an option of its section simulation (step, "
-          "tolerance, ...); may be repeated")};
+  return {file_position("MODEL", arguments.path, "Model file (YAML)"),
+          repeated_option("--set", arguments.settings, "NAME=VALUE",
+                          "Set a parameter of the model file, or else an option of its section "
+                          "simulation (step, tolerance, ...); may be repeated")};
 }
 
 std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second) {
@@ -62,7 +60,8 @@ Settings settings_of(const ModelArguments& arguments) {
   for (const std::string& setting : arguments.settings) {
     const std::size_t equal = setting.find('=');
     if (equal == std::string::npos || equal == 0)
-      throw InputError(fmt::format("--set: found '{}', expected NAME=VALUE", setting));
+      throw InputError(ErrorCode::wrong_value,
+                       fmt::format("--set: found '{}', expected NAME=VALUE", setting));
     const std::string name = setting.substr(0, equal), value = setting.substr(equal + 1);
     if (name.starts_with(prefix) && is_among(known, name.substr(prefix.size()))) {
       settings.options.push_back({name.substr(prefix.size()), value});
@@ -81,10 +80,10 @@ void set_options(const std::vector<ParameterOverride>& options, SimulationDescri
   ErrorList errors;
   for (const auto& [name, value] : options)
     if (const std::string error = set_simulation_option(simulation, name, value); !error.empty())
-      errors.add({}, fmt::format("--set: {}: {}", name, error));
+      errors.add(ErrorCode::wrong_value, {}, fmt::format("--set: {}: {}", name, error));
   if (!options.empty())
     if (const std::string error = simulation_error(simulation); !error.empty())
-      errors.add({}, error);
+      errors.add(ErrorCode::wrong_value, {}, error);
   errors.throw_if_any();
 }
 
@@ -111,23 +110,23 @@ double number_in(const std::string& text) {
   return complete && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-[[noreturn]] void refuse(const std::string& option, const std::string& text,
+[[noreturn]] void refuse(ErrorCode code, const std::string& option, const std::string& text,
                          const std::string& expected) {
-  throw InputError(fmt::format("{}: found '{}', expected {}", option, text, expected));
+  throw InputError(code, fmt::format("{}: found '{}', expected {}", option, text, expected));
 }
 
 }  // namespace
 
 double option_number(const std::string& option, const std::string& text, const NumberRule& rule) {
   const double value = number_in(text);
-  if (!rule.holds(value)) refuse(option, text, rule.expectation());
+  if (!rule.holds(value)) refuse(ErrorCode::out_of_range, option, text, rule.expectation());
   return value;
 }
 
 int whole_option_number(const std::string& option, const std::string& text,
                         const WholeNumberRule& rule) {
   const double value = number_in(text);
-  if (!rule.holds(value)) refuse(option, text, rule.expectation());
+  if (!rule.holds(value)) refuse(ErrorCode::out_of_range, option, text, rule.expectation());
   return static_cast<int>(value);
 }
 
@@ -153,9 +152,9 @@ Option overwrite_option(bool& overwrite) {
 }
 
 void refuse_foreign(const std::string& option, const std::string& path) {
-  throw InputError(fmt::format(
-      "{}: the file '{}' was not written by this program; expected another name, or --overwrite",
-      option, path));
+  throw InputError(ErrorCode::exists, fmt::format("{}: the file '{}' was not written by this "
+                                                  "program; expected another name, or --overwrite",
+                                                  option, path));
 }
 
 void require_own(const OutputFile& output) {
@@ -171,7 +170,7 @@ void require_writable(const std::vector<OutputFile>& outputs,
       check_writable(output.path);
       if (!overwrite) require_own(output);
     } catch (const OutputError& error) {
-      throw InputError(error.what());
+      throw InputError(ErrorCode::wrong_value, error.what());
     }
   }
 }
@@ -180,7 +179,7 @@ void require_folder(const std::string& path) {
   try {
     make_output_folder(path);
   } catch (const OutputError& error) {
-    throw InputError(error.what());
+    throw InputError(ErrorCode::wrong_value, error.what());
   }
 }
 

@@ -40,7 +40,8 @@ std::string report_of(const ComparedResults& results, const ResultsReader& a,
 }
 
 int compare(const CompareArguments& a) {
-  if (!a.report.empty() && page_template().empty()) throw InputError(page_is_missing("--report"));
+  if (!a.report.empty() && page_template().empty())
+    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
   ComparedResults results;
   results.file_a = results_file(a.a);
   results.file_b = results_file(a.b);
@@ -63,22 +64,22 @@ Command compare_command() {
   return {
       .name = "compare",
       .help = "Show how far the results of two runs are apart, channel by channel",
-      .options = {file_position("A", a->a, "results.csv of a run, or the folder that holds it"),
-                  file_position("B", a->b, "The one that is compared with it"),
-                  text_option("--tolerance", a->tolerance, "NUMBER",
-                              "Exit code 1 if a channel differs by more than this part of its "
-                              "largest magnitude in A"),
-                  text_option("--absolute", a->absolute, "NUMBER",
-                              "Added to what --tolerance allows, in the unit of each channel"),
-                  repeated_option("--channel", a->channels, "NAME",
-                                  "Compare this channel only (repeatable)"),
-                  flag("--overlap", a->overlap,
-                       "Compare the span of time that both have; otherwise another span is a "
-                       "difference"),
-                  flag("--json", a->json, "JSON on standard output"),
-                  text_option("--report", a->report, "FILE",
-                              "Page with the curves of both over each other"),
-                  overwrite_option(a->overwrite)},
+      .options =
+          {file_position("A", a->a, "results.csv of a run, or the folder that holds it"),
+           file_position("B", a->b, "The one that is compared with it"),
+           text_option("--tolerance", a->tolerance, "NUMBER",
+                       "Exit code 1 if a channel differs by more than this part of its largest "
+                       "magnitude in A"),
+           text_option("--absolute", a->absolute, "NUMBER",
+                       "Added to what --tolerance allows, in the unit of each channel"),
+           repeated_option("--channel", a->channels, "NAME",
+                           "Compare this channel only (repeatable)"),
+           flag("--overlap", a->overlap,
+                "Compare the span of time that both have; otherwise another span is a difference"),
+           flag("--json", a->json, "JSON on standard output"),
+           text_option("--report", a->report, "FILE",
+                       "Page with the curves of both over each other"),
+           overwrite_option(a->overwrite)},
       .footer =
           "Instants: those that both have, if one has all of the other; else those of A, between\n"
           "which B is taken as linear. Any file with a header line and a first column `time` will "

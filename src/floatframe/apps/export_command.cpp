@@ -34,9 +34,11 @@ void require_own_series(const std::string& folder) {
 int export_motion(const ExportArguments& arguments) {
   if (arguments.vtk.empty() && arguments.glb.empty() && arguments.npz.empty() &&
       arguments.csv.empty())
-    throw InputError("found no file to write, expected --vtk, --glb, --npz or --csv");
+    throw InputError(ErrorCode::missing,
+                     "found no file to write, expected --vtk, --glb, --npz or --csv");
   if (arguments.stress && arguments.npz.empty())
-    throw InputError("found --stress without --npz, expected the file that is to hold it");
+    throw InputError(ErrorCode::incomplete,
+                     "found --stress without --npz, expected the file that is to hold it");
   const ExportSelection selection = arguments.selection.selection();
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--glb", arguments.glb}, {"--npz", arguments.npz}, {"--csv", arguments.csv}},
@@ -84,9 +86,9 @@ Command export_command() {
       .options = joined(
           joined(
               {recorded_result_position(a->run),
-               text_option("--vtk", a->vtk, "DIR",
-                           "Folder for a series of .vtu files and motion.pvd, which ParaView "
-                           "opens"),
+               text_option(
+                   "--vtk", a->vtk, "DIR",
+                   "Folder for a series of .vtu files and motion.pvd, which ParaView opens"),
                text_option("--glb", a->glb, "FILE",
                            "glTF 2.0 with animation, for Blender and viewers (.glb)"),
                text_option("--npz", a->npz, "FILE", "Arrays of NumPy (.npz)"),
@@ -98,8 +100,8 @@ Command export_command() {
           {recorded_model_option(a->run), overwrite_option(a->overwrite)}),
       .footer =
           "The model file and all that it refers to must be as they were in the run.\n"
-          "Exit codes: 0 done, 1 the model cannot be started or a file not be written, "
-          "2 bad input.",
+          "Exit codes: 0 done, 1 the model cannot be started or a file not be written, 2 bad "
+          "input.",
       .run = [a] { return export_motion(*a); }};
 }
 

@@ -18,7 +18,8 @@ struct OutputsArguments {
 
 int outputs(const OutputsArguments& arguments) {
   if (arguments.run.outputs.empty())
-    throw InputError("found no --add, expected a channel as a model file writes it");
+    throw InputError(ErrorCode::missing,
+                     "found no --add, expected a channel as a model file writes it");
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--out", arguments.out}}, run.inputs, arguments.overwrite);
   const Model model = build_model(run.description);

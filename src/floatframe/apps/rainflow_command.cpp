@@ -45,7 +45,7 @@ std::vector<std::size_t> chosen(const ResultsReader& reader,
   for (const std::string& channel : channels) {
     const auto it = std::find(names.begin(), names.end(), channel);
     if (it == names.end())
-      throw InputError({reader.file(), 0, 0},
+      throw InputError(ErrorCode::not_found, {reader.file(), 0, 0},
                        "unknown channel '" + channel + "'" + did_you_mean(channel, names));
     out.push_back(1 + static_cast<std::size_t>(it - names.begin()));
   }
@@ -143,7 +143,8 @@ int rainflow_of(const RainflowArguments& a) {
   ResultsReader reader(file);
   std::vector<CountedChannel> channels;
   if (reader.columns().size() < 2)
-    throw InputError({file, 1, 0}, "found no channel beside the time, expected one to count");
+    throw InputError(ErrorCode::missing, {file, 1, 0},
+                     "found no channel beside the time, expected one to count");
   const std::vector<std::size_t> columns = chosen(reader, a.channels);
   for (const std::size_t k : columns) channels.push_back({reader.columns()[k], {}, {}});
   std::vector<double> time;
@@ -152,13 +153,15 @@ int rainflow_of(const RainflowArguments& a) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const double value = reader.row()[columns[k]];
       if (!std::isfinite(value))
-        throw InputError({file, static_cast<int>(reader.rows()) + 1, 0},
+        throw InputError(ErrorCode::not_finite, {file, static_cast<int>(reader.rows()) + 1, 0},
                          fmt::format("channel '{}': found {} at {} s, expected a finite number",
                                      channels[k].column.name, value, reader.time()));
       channels[k].values.push_back(value);
     }
   }
-  if (time.empty()) throw InputError({file, 0, 0}, "found no rows, expected a history to count");
+  if (time.empty())
+    throw InputError(ErrorCode::missing, {file, 0, 0},
+                     "found no rows, expected a history to count");
   TextTable table({"channel", "unit", "cycles", "largest range", "equivalent range"});
   for (CountedChannel& c : channels) {
     c.cycles = rainflow(c.values);

@@ -74,7 +74,8 @@ UdpAddress listen_address(const RealTimeArguments& arguments, const UdpPortOptio
 /// An option without the one that it belongs to would do nothing.
 void refuse_alone(const char* option, const std::string& value, bool wanted, const char* other) {
   if (!value.empty() && !wanted)
-    throw InputError(fmt::format("{}: found without {}, expected both", option, other));
+    throw InputError(ErrorCode::exclusive,
+                     fmt::format("{}: found without {}, expected both", option, other));
 }
 
 std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Model& model) {
@@ -86,7 +87,8 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   if (!arguments.timeout.empty())
     options.timeout = option_number("--timeout", arguments.timeout, realtime_rules::timeout);
   if (options.lock_step && !(options.inputs && options.outputs))
-    throw InputError("--lockstep: found without --input udp and --output udp, expected both");
+    throw InputError(ErrorCode::exclusive,
+                     "--lockstep: found without --input udp and --output udp, expected both");
   refuse_alone("--listen", arguments.listen, options.inputs || options.outputs,
                "--input udp or --output udp");
   refuse_alone("--send", arguments.send, options.outputs, "--output udp");
@@ -96,12 +98,15 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   refuse_alone("--fallback", arguments.fallback, options.inputs, "--input udp");
   if (!options.inputs && !options.outputs) return nullptr;
   if (options.inputs && model.inputs.empty())
-    throw InputError(fmt::format(
-        "--input udp: found no inputs in the model '{}', expected a section 'inputs'", model.name));
+    throw InputError(
+        ErrorCode::missing,
+        fmt::format("--input udp: found no inputs in the model '{}', expected a section 'inputs'",
+                    model.name));
   options.send =
       parse_udp_address(arguments.send.empty() ? default_send : arguments.send, "--send");
   if (options.outputs && options.send.port() == 0)
     throw InputError(
+        ErrorCode::wrong_value,
         fmt::format("--send: found '{}', expected a port from 1 to 65535", arguments.send));
   // Heard is whom a name is given of; of those that are not named, who sends first.
   if (!arguments.peer.empty())
@@ -111,15 +116,16 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   options.listen = listen_address(arguments, options);
   if (options.outputs && options.listen.family() != options.send.family())
     throw InputError(
+        ErrorCode::exclusive,
         fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6",
                     options.listen.text(), options.send.text()));
   // A socket that is open to all addresses of IPv6 hears IPv4 as well.
   if (options.inputs && options.peer.known() && options.peer.family() != options.listen.family() &&
       !options.listen.text().starts_with("[::]"))
-    throw InputError(
-        fmt::format("--peer: found {}, from which no packet can come to {}, expected both IPv4 or "
-                    "both IPv6",
-                    options.peer.text(), options.listen.text()));
+    throw InputError(ErrorCode::exclusive,
+                     fmt::format("--peer: found {}, from which no packet can come to {}, expected "
+                                 "both IPv4 or both IPv6",
+                                 options.peer.text(), options.listen.text()));
   return std::make_unique<UdpPort>(model, options);
 }
 
@@ -136,9 +142,11 @@ std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
 
 int run_paced(const RealTimeArguments& arguments) {
   if (arguments.endless && !arguments.duration.empty())
-    throw InputError("--duration: found with --endless, expected one of the two");
+    throw InputError(ErrorCode::exclusive,
+                     "--duration: found with --endless, expected one of the two");
   if (arguments.json && !arguments.layout)
-    throw InputError("--json: found without --layout; a run writes JSON with --report FILE");
+    throw InputError(ErrorCode::exclusive,
+                     "--json: found without --layout; a run writes JSON with --report FILE");
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, false, &used);
   apply_arguments(arguments, description.simulation);
@@ -163,7 +171,7 @@ int run_paced(const RealTimeArguments& arguments) {
     try {
       log = std::make_unique<SignalLog>(model, arguments.log, arguments.no_pace);
     } catch (const OutputError& error) {
-      throw InputError(fmt::format("--log: {}", error.what()));
+      throw InputError(ErrorCode::wrong_value, fmt::format("--log: {}", error.what()));
     }
     options.log = log.get();
   }
@@ -208,8 +216,7 @@ std::vector<Option> options_of(RealTimeArguments& a) {
       text_option("--listen", a.listen, "HOST:PORT",
                   "Where inputs come in; default: port 47100 of the address that the partner sees"),
       text_option("--send", a.send, "HOST:PORT",
-                  "Where outputs go to, and the only sender accepted; default: "
-                  "127.0.0.1:47101"),
+                  "Where outputs go to, and the only sender accepted; default: 127.0.0.1:47101"),
       text_option("--peer", a.peer, "HOST[:PORT]",
                   "The only sender accepted; default: that of --send, or else the first to send"),
       flag("--lockstep", a.lock_step,
@@ -218,8 +225,7 @@ std::vector<Option> options_of(RealTimeArguments& a) {
       seconds("--input-timeout", a.input_timeout,
               "Report if no inputs arrive for so long; default: 1; 0: never"),
       word_option("--fallback", a.fallback, {"hold", "initial", "stop"},
-                  "Inputs from then on: hold the last values (default), initial values, or "
-                  "stop"),
+                  "Inputs from then on: hold the last values (default), initial values, or stop"),
       whole_option("--iterations", a.iterations, 1, realtime_rules::fixed_iterations.high,
                    "Fixed number of Newton iterations per step; default: to convergence"),
       seconds("--budget", a.budget,

@@ -19,7 +19,7 @@ std::string states_path(const std::string& given) {
   const std::filesystem::path states = std::filesystem::path(given) / "states.ffr";
   if (!std::filesystem::exists(states, ignored))
     throw InputError(
-        {states.string(), 0, 0},
+        ErrorCode::missing, {states.string(), 0, 0},
         "found no states, expected those of a run that records them (--record states)");
   return states.string();
 }
@@ -33,7 +33,7 @@ std::string model_path(const std::string& given, const StateHistory& history) {
   std::error_code ignored;
   if (!origin.from_here.empty() && std::filesystem::exists(beside, ignored)) return beside.string();
   if (std::filesystem::exists(origin.model_file, ignored)) return origin.model_file;
-  throw InputError({history.name(), 0, 0},
+  throw InputError(ErrorCode::not_found, {history.name(), 0, 0},
                    fmt::format("found no model file '{}' any more, expected its place with --model",
                                origin.model_file));
 }
@@ -49,7 +49,7 @@ void require_same_files(const StateHistory& history, const ModelFingerprint& use
     const auto now = files.find(file == before ? after : file);
     if (now == files.end() || now->second != hash)
       throw InputError(
-          {history.name(), 0, 0},
+          ErrorCode::mismatch, {history.name(), 0, 0},
           fmt::format("the states are of a run that was made before '{}' was changed", file));
   }
 }

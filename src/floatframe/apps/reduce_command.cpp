@@ -24,10 +24,10 @@ struct ReduceArguments {
 
 /// Nothing in most files says which units they are in; the material may give a hint.
 [[noreturn]] void units_are_missing(const PartJob& job) {
-  throw InputError(
-      fmt::format("--units is missing: the file does not state its units; known are {}, or any "
-                  "<length>-<mass>-<time>{}",
-                  fmt::join(unit_system_names(), ", "), hint_of_units(job)));
+  throw InputError(ErrorCode::missing,
+                   fmt::format("--units is missing: the file does not state its units; known are "
+                               "{}, or any <length>-<mass>-<time>{}",
+                               fmt::join(unit_system_names(), ", "), hint_of_units(job)));
 }
 
 PartJob job_of(const ReduceArguments& a) {
@@ -46,7 +46,8 @@ int reduce_file(const ReduceArguments& a) {
   if (name.extension() == ".gz") name = name.stem();
   const std::string out = a.out.empty() ? name.stem().string() + ".ffb" : a.out;
   const bool page = is_page_name(a.report);
-  if (page && page_template().empty()) throw InputError(page_is_missing("--report"));
+  if (page && page_template().empty())
+    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
   const PartJob job = job_of(a);
   const std::vector<OutputFile> outputs{{"-o", out}, {"--report", a.report}, {"--sid", a.sid}};
   std::vector<std::string> inputs{a.part};

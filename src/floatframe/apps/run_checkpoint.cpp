@@ -78,26 +78,29 @@ std::string checkpoint_bytes(const CheckpointFile& c) {
 }
 
 CheckpointFile read_checkpoint(const std::string& path) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("the checkpoint '{}' {}", path, what));
+  const auto refuse = [&](ErrorCode code, const std::string& what) {
+    throw InputError(code, fmt::format("the checkpoint '{}' {}", path, what));
   };
   std::string text;
   if (const std::string why = read_regular_file(path, largest_file_read, text); !why.empty())
-    throw InputError(fmt::format(
-        "--resume: '{}': {}; expected a checkpoint of this run, as --checkpoint-every writes it",
-        path, why));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("--resume: '{}': {}; expected a checkpoint of this run, as "
+                                 "--checkpoint-every writes it",
+                                 path, why));
   const std::size_t head = checkpoint_magic.size() + 8;
-  if (!text.starts_with(checkpoint_magic)) refuse("is not the checkpoint of a run");
-  if (text.size() < head + checkpoint_sum_size) refuse("is damaged: it ends too early");
+  if (!text.starts_with(checkpoint_magic))
+    refuse(ErrorCode::mismatch, "is not the checkpoint of a run");
+  if (text.size() < head + checkpoint_sum_size)
+    refuse(ErrorCode::damaged, "is damaged: it ends too early");
   const std::size_t end = text.size() - checkpoint_sum_size;
   const auto bytes = std::as_bytes(std::span(text));
   std::uint64_t version = 0;
   StateReader(bytes.subspan(checkpoint_magic.size()), "the checkpoint")(version);
   if (version != checkpoint_version)
-    refuse(
-        fmt::format("has version {}, this program reads version {}", version, checkpoint_version));
+    refuse(ErrorCode::mismatch, fmt::format("has version {}, this program reads version {}",
+                                            version, checkpoint_version));
   if (content_hash(std::string_view(text).substr(0, end)) != text.substr(end))
-    refuse("is damaged: its checksum does not fit its content");
+    refuse(ErrorCode::damaged, "is damaged: its checksum does not fit its content");
   StateReader in(bytes.subspan(head, end - head), "the checkpoint");
   CheckpointFile c;
   walk_file(in, c);
@@ -115,7 +118,7 @@ CheckpointFile read_checkpoint(const std::string& path) {
   in(value);
   const auto run = std::as_bytes(std::span(value));
   c.run.bytes.assign(run.begin(), run.end());
-  if (!in.at_end()) refuse("is damaged: it goes on after its end");
+  if (!in.at_end()) refuse(ErrorCode::damaged, "is damaged: it goes on after its end");
   return c;
 }
 

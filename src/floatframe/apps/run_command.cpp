@@ -70,8 +70,8 @@ std::string edges_text(const RunSummary& s) {
 
 std::string summary_text(const RunSummary& s) {
   return fmt::format(
-      "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time at steps of "
-      "{:g} ms){}\n"
+      "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time at steps of {:g} "
+      "ms){}\n"
       "  {} coordinates, inertia terms by {}, step {:g} s\n"
       "  {}, {} by halving, {}, {}\n"
       "{}  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
@@ -189,7 +189,8 @@ int complete_before(const RunArguments& arguments, const RunPaths& paths) {
   const std::string text =
       fmt::format("the run in '{}' is complete, there is nothing to continue", paths.folder);
   if (!arguments.write_state.empty())
-    throw InputError(fmt::format("--write-state: {}; its state at the end is not known", text));
+    throw InputError(ErrorCode::unknown_key,
+                     fmt::format("--write-state: {}; its state at the end is not known", text));
   say(text);
   return exit_code::done;
 }
@@ -285,19 +286,17 @@ Command run_command() {
            text_option("--out", a->out, "DIR", "Folder for the files; default: out/<model name>"),
            text_option("--write-state", a->write_state, "FILE",
                        "Write the state at the end, for start: {state: FILE}"),
-           text_option(
-               "--checkpoint-every", a->checkpoint_every, "SECONDS",
-               "Write a checkpoint to DIR/run.checkpoint every so many seconds of simulated "
-               "time [s]"),
+           text_option("--checkpoint-every", a->checkpoint_every, "SECONDS",
+                       "Write a checkpoint to DIR/run.checkpoint every so many seconds of "
+                       "simulated time [s]"),
            flag("--resume", a->resume,
                 "Continue from the checkpoint in DIR: same model, options and copy of the program"),
            flag("--overwrite", a->overwrite,
                 "Begin anew where a run in DIR is unfinished; replace files that were not written "
                 "by this program"),
-           word_option(
-               "--record", a->record, {"states", "none"},
-               "Keep the states of the run in DIR/states.ffr, or not; default: as the model "
-               "file says, else states"),
+           word_option("--record", a->record, {"states", "none"},
+                       "Keep the states of the run in DIR/states.ffr, or not; default: as the "
+                       "model file says, else states"),
            flag("--no-report", a->no_report, "Do not write report.html"),
            flag("--strict", a->strict, "Warnings count as errors: exit code 1, results are kept"),
            flag("--quiet", a->quiet,

@@ -52,13 +52,17 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
       streams_(is_replaceable(paths.results)) {
   remove_remains();
   if (!streams_ && (options_.resume || options_.checkpoint_every > 0.0))
-    throw InputError(fmt::format(
-        "'{}' is not a regular file, expected one that a run with checkpoints can continue",
-        paths_.results));
+    throw InputError(
+        ErrorCode::unreadable,
+        fmt::format(
+            "'{}' is not a regular file, expected one that a run with checkpoints can continue",
+            paths_.results));
   if (keeps_states() && !is_replaceable(paths_.states))
-    throw InputError(fmt::format(
-        "'{}' is not a regular file, expected one that states can be kept in, or --record none",
-        paths_.states));
+    throw InputError(
+        ErrorCode::unreadable,
+        fmt::format(
+            "'{}' is not a regular file, expected one that states can be kept in, or --record none",
+            paths_.states));
   if (!options_.overwrite && !options_.resume) require_own_files();
   holds_completed_ = holds_completed_run(paths_);
   if (options_.resume) {
@@ -72,10 +76,10 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
 
 void RunFiles::require_own_files() const {
   const auto refuse = [](const std::string& path) {
-    throw InputError(
-        fmt::format("the file '{}' was not written by this program; give another --out, or "
-                    "--overwrite to replace it",
-                    path));
+    throw InputError(ErrorCode::exists,
+                     fmt::format("the file '{}' was not written by this program; give another "
+                                 "--out, or --overwrite to replace it",
+                                 path));
   };
   for (const std::string& path : {paths_.summary, paths_.report, paths_.states})
     if (!is_own_file(path)) refuse(path);
@@ -85,9 +89,9 @@ void RunFiles::require_own_files() const {
 }
 
 void RunFiles::require_no_unfinished_run() const {
-  throw InputError(fmt::format(
-      "the folder '{}' holds an unfinished run{}: --resume continues it, --overwrite begins anew",
-      paths_.folder, progress_of(paths_.checkpoint)));
+  throw InputError(ErrorCode::exists, fmt::format("the folder '{}' holds an unfinished run{}: "
+                                                  "--resume continues it, --overwrite begins anew",
+                                                  paths_.folder, progress_of(paths_.checkpoint)));
 }
 
 void RunFiles::resume() {
@@ -100,13 +104,14 @@ void RunFiles::resume() {
     return;
   }
   if (earlier == EarlierRun::other && !std::filesystem::exists(paths_.checkpoint))
-    throw InputError(
-        fmt::format("--resume: the run in '{}' is complete, and of another model or with other "
-                    "options; expected one of these that has not ended",
-                    paths_.folder));
+    throw InputError(ErrorCode::mismatch,
+                     fmt::format("--resume: the run in '{}' is complete, and of another model or "
+                                 "with other options; expected one of these that has not ended",
+                                 paths_.folder));
   from_ = read_checkpoint(paths_.checkpoint);
   if (const std::string text = origin_difference(from_->origin, options_.origin); !text.empty())
-    throw InputError(fmt::format("the checkpoint '{}' {}", paths_.checkpoint, text));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("the checkpoint '{}' {}", paths_.checkpoint, text));
   if (!options_.overwrite) require_own_files();
   if (!(options_.checkpoint_every > 0.0)) options_.checkpoint_every = from_->every;
 }

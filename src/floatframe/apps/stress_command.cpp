@@ -37,10 +37,11 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
     if (knows_stress(body) && body.modes() > 0) {
       report.bodies.push_back({b, {}, {}, {}});
     } else if (!selection.bodies.empty()) {
-      throw InputError(
-          "--body: body '" + body.name +
-          (body.modes() == 0 ? "' is rigid and knows no stress" : "' does not know its stress") +
-          ", expected a flexible body with stress");
+      throw InputError(ErrorCode::wrong_value,
+                       "--body: body '" + body.name +
+                           (body.modes() == 0 ? "' is rigid and knows no stress"
+                                              : "' does not know its stress") +
+                           ", expected a flexible body with stress");
     } else if (body.modes() > 0) {
       report.without.push_back(body.name);
     }
@@ -48,10 +49,10 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
   if (!report.bodies.empty()) return report;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (knows_stress(model.bodies[b]) && run.history.header().bodies[b].pose < 0)
-      throw InputError({run.history.name(), 0, 0},
+      throw InputError(ErrorCode::missing, {run.history.name(), 0, 0},
                        "found no states of a body that knows its stress, those of '" +
                            model.bodies[b].name + "' were not recorded (record)");
-  throw InputError({run.history.name(), 0, 0},
+  throw InputError(ErrorCode::missing, {run.history.name(), 0, 0},
                    "found no body that knows its stress, expected a flexible body of bars, or a "
                    "part reduced with stresses");
 }
@@ -115,23 +116,24 @@ int stress(const StressArguments& arguments) {
 
 Command stress_command() {
   const auto a = std::make_shared<StressArguments>();
-  return {.name = "stress",
-          .help = "Where and when the parts of a run were stressed most",
-          .options =
-              joined(joined({recorded_result_position(a->run),
-                             whole_option("--top", a->top, 0, 1'000'000, "Hot spots of each body"),
-                             text_option("--out", a->out, "DIR",
-                                         "Folder for envelope.npz (every place), hot_spots.csv and "
-                                         "section_forces.csv"),
-                             flag("--json", a->json, "JSON on standard output"),
-                             overwrite_option(a->overwrite)},
-                            a->selection.table()),
-                     {recorded_model_option(a->run)}),
-          .footer =
-              "The model file and all that it refers to must be as they were in the run.\n"
-              "Exit codes: 0 done, 1 the model cannot be started or a file not be written, "
-              "2 bad input.",
-          .run = [a] { return stress(*a); }};
+  return {
+      .name = "stress",
+      .help = "Where and when the parts of a run were stressed most",
+      .options = joined(
+          joined(
+              {recorded_result_position(a->run),
+               whole_option("--top", a->top, 0, 1'000'000, "Hot spots of each body"),
+               text_option(
+                   "--out", a->out, "DIR",
+                   "Folder for envelope.npz (every place), hot_spots.csv and section_forces.csv"),
+               flag("--json", a->json, "JSON on standard output"), overwrite_option(a->overwrite)},
+              a->selection.table()),
+          {recorded_model_option(a->run)}),
+      .footer =
+          "The model file and all that it refers to must be as they were in the run.\n"
+          "Exit codes: 0 done, 1 the model cannot be started or a file not be written, 2 bad "
+          "input.",
+      .run = [a] { return stress(*a); }};
 }
 
 }  // namespace floatframe

@@ -52,7 +52,8 @@ double megabytes(const std::string& text) {
   if (text.empty()) return 0.0;
   const double value = option_number("--case-memory", text, positive_number("MB"));
   if (!(memory_of(::getpid()) > 0.0))
-    throw InputError("--case-memory: /proc does not tell how much memory a process uses");
+    throw InputError(ErrorCode::unavailable,
+                     "--case-memory: /proc does not tell how much memory a process uses");
   return value;
 }
 
@@ -79,13 +80,14 @@ SweepOptions options_from(const SweepArguments& a) {
     const std::filesystem::path file(a.model.path);
     std::string& text = o.text.emplace();
     if (const std::string error = read_regular_file(file, largest_file_read, text); !error.empty())
-      throw InputError({a.model.path, 0, 0}, error);
+      throw InputError(ErrorCode::wrong_value, {a.model.path, 0, 0}, error);
     o.model = (std::filesystem::path(a.files_in) / file.filename()).string();
   }
   for (const std::string& setting : a.model.settings) {
     const std::size_t equal = setting.find('=');
     if (equal == std::string::npos || equal == 0)
-      throw InputError(fmt::format("--set: found '{}', expected NAME=VALUE", setting));
+      throw InputError(ErrorCode::wrong_value,
+                       fmt::format("--set: found '{}', expected NAME=VALUE", setting));
     o.fixed.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
   }
   const auto fix = [&](const char* name, const std::string& value) {
@@ -98,7 +100,8 @@ SweepOptions options_from(const SweepArguments& a) {
   if (!a.duration.empty()) positive_number("--duration", a.duration);
   fix("duration", a.duration);
   if (a.vary.empty() == a.table.empty())
-    throw InputError(a.vary.empty() ? "expected --vary or --table: what changes from run to run"
+    throw InputError(ErrorCode::exclusive,
+                     a.vary.empty() ? "expected --vary or --table: what changes from run to run"
                                     : "found --vary and --table, expected one of the two");
   o.plan = a.table.empty() ? grid_plan(a.vary) : table_plan(a.table);
   for (const std::string& m : a.measures) o.measures.push_back(sweep_measure(m));
@@ -227,10 +230,9 @@ Command sweep_command() {
           {file_position("MODEL", a->model.path, "Model file (YAML)"),
            text_option("--files-in", a->files_in, "DIR",
                        "Where files are that the model names; default: beside the model file"),
-           repeated_option(
-               "--vary", a->vary, "NAME=VALUES",
-               "Values to vary: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all "
-               "combinations"),
+           repeated_option("--vary", a->vary, "NAME=VALUES",
+                           "Values to vary: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: "
+                           "all combinations"),
            text_option(
                "--table", a->table, "FILE",
                "Instead of --vary: CSV file, names in the first line, then one run per line"),
@@ -266,8 +268,7 @@ Command sweep_command() {
           "NAME is a parameter of the model file or else a simulation option: coordinates, "
           "inertia,\n"
           "start, step, duration, output_interval, spectral_radius, tolerance, ... "
-          "(simulation.step "
-          "if\n"
+          "(simulation.step if\n"
           "the file has a parameter of that name too).\n"
           "Files: DIR/sweep.csv, identical byte by byte whatever the number of threads and "
           "processes;\n"

@@ -76,9 +76,10 @@ int rows_per_node(const FeModel& model, const MatX& X) {
   const int n = model.nodes();
   if (X.rows() == 6 * n) return 6;
   if (X.rows() == 3 * n || X.cols() == 0) return 3;
-  throw InputError("the mode shapes have " + std::to_string(X.rows()) + " rows; " +
-                   std::to_string(n) + " nodes need " + std::to_string(3 * n) + " or " +
-                   std::to_string(6 * n));
+  throw InputError(ErrorCode::wrong_count, "the mode shapes have " + std::to_string(X.rows()) +
+                                               " rows; " + std::to_string(n) + " nodes need " +
+                                               std::to_string(3 * n) + " or " +
+                                               std::to_string(6 * n));
 }
 
 void add_isoparametric(const FeModel& model, const Element& element, const MatX& X, int rows,
@@ -189,7 +190,8 @@ InertiaInvariants invariants_hermite(const FeModel& model, const MatX& X, bool s
   const int nm = static_cast<int>(X.cols());
   const int rows = rows_per_node(model, X);
   if (model.has_beams() && nm > 0 && rows != 6) {
-    throw InputError("exact integrals of beams need mode shapes with six rows per node");
+    throw InputError(ErrorCode::wrong_count,
+                     "exact integrals of beams need mode shapes with six rows per node");
   }
   Gram gram(nm);
   MatX mass, Z;

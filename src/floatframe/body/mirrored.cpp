@@ -24,7 +24,7 @@ BodyShape mirrored_shape(const BodyShape& shape, const Vec3& s) {
 Vec3 signs_of(const Mat3& P) {
   const Vec3 s = P.diagonal();
   if (P != Mat3(s.asDiagonal()) || s.cwiseAbs() != Vec3::Ones()) {
-    throw InputError("a mirror must be a diagonal matrix of +1 and -1");
+    throw InputError(ErrorCode::wrong_value, "a mirror must be a diagonal matrix of +1 and -1");
   }
   return s;
 }

@@ -58,7 +58,9 @@ void append(const MatX& K, const MatX& Y, const MatX& M, ReferenceModes& modes) 
   const Eigen::Index n = Y.cols(), old = modes.mu.size();
   if (n == 0) return;
   const SymmetricEigen inverse = generalised_eigen(M, Y.transpose() * K * Y);
-  if (!inverse.found) throw InputError("modal damping needs a positive definite modal stiffness");
+  if (!inverse.found)
+    throw InputError(ErrorCode::incomplete,
+                     "modal damping needs a positive definite modal stiffness");
   modes.Y.conservativeResize(K.rows(), old + n);
   modes.mu.conservativeResize(old + n);
   for (Eigen::Index i = 0; i < n; ++i) {  // 1/w^2 descends
@@ -180,15 +182,15 @@ std::optional<std::string> damping_complaint(const ModalDamping& d) {
     if (auto complaint = damping_fraction.complaint(band.fraction)) return complaint;
     if (!(band.below > last))
       return fmt::format(
-          "found a band below {:g} Hz after one below {:g} Hz, expected ascending "
-          "frequencies above 0",
+          "found a band below {:g} Hz after one below {:g} Hz, expected ascending frequencies "
+          "above 0",
           band.below, last);
     last = band.below;
   }
   if (!d.bands.empty() && std::isfinite(last))
     return fmt::format(
-        "the last band ends at {:g} Hz, expected the fraction above it as the last "
-        "item of the list",
+        "the last band ends at {:g} Hz, expected the fraction above it as the last item of the "
+        "list",
         last);
   for (const double x : {d.alpha, d.beta})
     if (auto complaint = non_negative_number("1/s, s").complaint(x)) return complaint;
@@ -218,18 +220,20 @@ ReferenceModes reference_modes(const FlexibleBody& body, DampingReference refere
 }
 
 MatX damping_matrix(const FlexibleBody& body, const ModalDamping& damping) {
-  if (const auto complaint = damping_complaint(damping)) throw InputError("damping: " + *complaint);
+  if (const auto complaint = damping_complaint(damping))
+    throw InputError(ErrorCode::out_of_range, "damping: " + *complaint);
   const Eigen::Index nm = body.modes();
   MatX D = MatX::Zero(nm, nm);
   if (damping.none() || nm == 0) return D;
   if (damping.reference == DampingReference::mounted && body.interfaces.empty())
-    throw InputError(
-        "damping: the reference is mounted, but the body has no interface that could be held; give "
-        "an interface, or take the reference free");
+    throw InputError(ErrorCode::missing,
+                     "damping: the reference is mounted, but the body has no interface that could "
+                     "be held; give an interface, or take the reference free");
   const ReferenceModes modes = reference_modes(body, damping.reference);
   const auto count = modes.mu.size();
   if (static_cast<Eigen::Index>(damping.fractions.size()) > count)
-    throw InputError(fmt::format("damping: found {} fractions, but the body has {} mode{}",
+    throw InputError(ErrorCode::contradiction,
+                     fmt::format("damping: found {} fractions, but the body has {} mode{}",
                                  damping.fractions.size(), count, count == 1 ? "" : "s"));
   const bool rayleigh = damping.alpha != 0.0 || damping.beta != 0.0;
   const double slowest = modes.mu.maxCoeff();

@@ -11,6 +11,44 @@
 
 namespace floatframe {
 
+/// What is wrong, whatever the words. Programs and tests compare these; sentences may change.
+enum class ErrorCode : unsigned char {
+  unknown_key,    ///< a key, keyword, card or option that nothing reads
+  not_found,      ///< a name or number of something that is not there
+  missing,        ///< a value, line or part that must be there
+  incomplete,     ///< given without another that belongs to it
+  exclusive,      ///< given together with another that excludes it
+  duplicate,      ///< given twice, or a name that is taken
+  wrong_value,    ///< not one of those that are possible here
+  not_a_number,   ///< a text where a number must be
+  not_finite,     ///< or so large that its square overflows
+  out_of_range,   ///< a number outside of its limits
+  wrong_count,    ///< a list of another length
+  contradiction,  ///< two values that cannot both hold
+  geometry,       ///< points, axes or sections that span nothing or do not fit
+  dependent,      ///< a degree of freedom that depends twice
+  cycle,          ///< what refers to itself
+  singular,       ///< nothing holds a motion, or a motion has no mass
+  unsupported,    ///< known and not read, written or computed
+  unavailable,    ///< not part of this build or machine
+  wrong_file,     ///< a file of another kind
+  damaged,        ///< a file whose content is not what was written
+  mismatch,       ///< of another model, study or version
+  unreadable,     ///< a file or folder that cannot be opened
+  too_large,      ///< more than memory or a stated limit allows
+  in_use,         ///< a folder, file or address that another program uses
+  exists,         ///< a file that is not overwritten
+  not_assembled,  ///< loops that do not close, velocities that do not fit
+  no_equilibrium,
+  no_convergence,
+  step_failed,  ///< a run that ended early; StepStatus says more
+  not_steady,   ///< no steady state at a speed
+  resonance,    ///< a response without bound
+  worker_lost   ///< a process of a study that ended from outside
+};
+/// "unknown_key", ...
+const char* error_code_name(ErrorCode code) noexcept;
+
 /// A place in a file; line and column count from 1, 0 means unknown. Or, as the file, the option of
 /// the command line that gave a value: "--step".
 struct SourceMark {
@@ -18,6 +56,8 @@ struct SourceMark {
   int line = 0;
   int column = 0;
   bool is_option() const { return line == 0 && file.starts_with("--"); }
+  /// "file:line:column: " before the message, with what is known.
+  std::string before(const std::string& message) const;
 };
 
 /// Where an entity and its keys were written. Empty for models made in C++.
@@ -32,24 +72,22 @@ struct Origin {
 
 struct ErrorEntry {
   SourceMark mark;
+  ErrorCode code{};
   std::string message;
   std::size_t count = 1;  ///< of the errors it stands for: "... and 180 more unknown keys"
+  std::string path =
+      {};  ///< of the entity and key, where the message begins with it: "joints.a.axis"
   /// "file:line:column: message", with what is known of the mark.
-  std::string text() const {
-    if (mark.file.empty()) return message;
-    if (mark.line == 0) return mark.file + ": " + message;
-    if (mark.column == 0) return mark.file + ":" + std::to_string(mark.line) + ": " + message;
-    return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " +
-           message;
-  }
+  std::string text() const { return mark.before(message); }
 };
 
 class InputError : public std::exception {
  public:
   explicit InputError(std::vector<ErrorEntry> errors) : errors_(std::move(errors)) { compose(); }
-  InputError(SourceMark mark, std::string message)
-      : InputError(std::vector<ErrorEntry>{{std::move(mark), std::move(message)}}) {}
-  explicit InputError(std::string message) : InputError(SourceMark{}, std::move(message)) {}
+  InputError(ErrorCode code, SourceMark mark, std::string message)
+      : InputError(std::vector<ErrorEntry>{{std::move(mark), code, std::move(message)}}) {}
+  InputError(ErrorCode code, std::string message)
+      : InputError(code, SourceMark{}, std::move(message)) {}
   const std::vector<ErrorEntry>& errors() const noexcept { return errors_; }
   /// Of the errors that all messages stand for.
   std::size_t count() const noexcept {
@@ -74,9 +112,10 @@ class InputError : public std::exception {
 class ErrorList {
  public:
   /// `count`: of the errors that the message stands for.
-  void add(const SourceMark& mark, std::string message, std::size_t count = 1) {
-    errors_.push_back({mark, std::move(message), count});
+  void add(ErrorCode code, const SourceMark& mark, std::string message, std::size_t count = 1) {
+    add({mark, code, std::move(message), count});
   }
+  void add(ErrorEntry entry) { errors_.push_back(std::move(entry)); }
   bool empty() const noexcept { return errors_.empty(); }
   std::size_t size() const noexcept { return errors_.size(); }
   std::vector<ErrorEntry> take() { return std::move(errors_); }

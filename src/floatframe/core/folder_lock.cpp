@@ -50,8 +50,9 @@ bool is_lock(int file) {
 }
 
 [[noreturn]] void refuse_foreign(const std::string& path) {
-  throw InputError("the file '" + path +
-                   "' is not a lock of this program; remove it, or give another --out");
+  throw InputError(
+      ErrorCode::exists,
+      "the file '" + path + "' is not a lock of this program; remove it, or give another --out");
 }
 
 }  // namespace
@@ -67,8 +68,9 @@ FolderLock::FolderLock(const std::string& folder)
     if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       const std::string who = holder(file);
       ::close(file);
-      throw InputError("the folder '" + folder + "' is in use: a run of " + who +
-                       " writes there; give another --out, or wait for its end");
+      throw InputError(ErrorCode::in_use,
+                       "the folder '" + folder + "' is in use: a run of " + who +
+                           " writes there; give another --out, or wait for its end");
     }
     if (!is_lock(file)) {
       ::close(file);

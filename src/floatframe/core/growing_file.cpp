@@ -19,8 +19,8 @@ OutputError not_written(const std::string& path, int error) {
   return OutputError("the file '" + path + "' cannot be written: " + std::strerror(error));
 }
 
-InputError not_continued(const std::string& path, const std::string& what) {
-  return InputError("the file '" + path + "' cannot be continued: " + what);
+InputError not_continued(ErrorCode code, const std::string& path, const std::string& what) {
+  return InputError(code, "the file '" + path + "' cannot be continued: " + what);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ GrowingFile::GrowingFile(const std::string& path, bool hashed) : path_(path), ha
 GrowingFile::GrowingFile(const std::string& path, const Position& position, int flags)
     : path_(path), hashed_(true) {
   file_ = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (file_ < 0) throw not_continued(path, std::strerror(errno));
+  if (file_ < 0) throw not_continued(ErrorCode::unreadable, path, std::strerror(errno));
   try {
     read_up_to(position);
   } catch (...) {
@@ -55,7 +55,7 @@ void GrowingFile::require(const std::string& path, const Position& position) {
 GrowingFile::GrowingFile(const std::string& path, const Position& position)
     : path_(path), hashed_(true) {
   file_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (file_ < 0) throw not_continued(path, std::strerror(errno));
+  if (file_ < 0) throw not_continued(ErrorCode::unreadable, path, std::strerror(errno));
   try {
     read_up_to(position);
     if (::ftruncate(file_, static_cast<off_t>(position.bytes)) != 0 ||
@@ -72,20 +72,21 @@ GrowingFile::~GrowingFile() { ::close(file_); }
 void GrowingFile::read_up_to(const Position& position) {
   struct stat status {};
   if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode))
-    throw not_continued(path_, "this is not a regular file");
+    throw not_continued(ErrorCode::wrong_file, path_, "this is not a regular file");
   if (static_cast<std::uint64_t>(status.st_size) < position.bytes)
-    throw not_continued(path_, "found " + std::to_string(status.st_size) + " bytes, expected " +
-                                   std::to_string(position.bytes) + " or more");
+    throw not_continued(ErrorCode::wrong_value, path_,
+                        "found " + std::to_string(status.st_size) + " bytes, expected " +
+                            std::to_string(position.bytes) + " or more");
   std::vector<char> piece(std::size_t{1} << 20);
   for (std::uint64_t left = position.bytes; left > 0;) {
     const ssize_t n = ::read(file_, piece.data(), std::min<std::uint64_t>(left, piece.size()));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw not_continued(path_, "it cannot be read");
+    if (n <= 0) throw not_continued(ErrorCode::unreadable, path_, "it cannot be read");
     content_.append({piece.data(), static_cast<std::size_t>(n)});
     left -= static_cast<std::uint64_t>(n);
   }
   if (content_.text() != position.content)
-    throw not_continued(path_, "its content is not what was written");
+    throw not_continued(ErrorCode::damaged, path_, "its content is not what was written");
   bytes_ = position.bytes;
 }
 

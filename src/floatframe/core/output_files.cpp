@@ -41,10 +41,12 @@ void require_distinct(const std::vector<OutputFile>& outputs,
     const auto [at, is_new] = taken.emplace(key, &output);
     if (is_new) continue;
     if (at->second == nullptr)
-      throw InputError(output.option + ": found '" + output.path +
-                       "', which this command reads; expected another file");
-    throw InputError(at->second->option + " and " + output.option + ": found '" + output.path +
-                     "' for both, expected two files");
+      throw InputError(ErrorCode::wrong_value,
+                       output.option + ": found '" + output.path +
+                           "', which this command reads; expected another file");
+    throw InputError(ErrorCode::incomplete, at->second->option + " and " + output.option +
+                                                ": found '" + output.path +
+                                                "' for both, expected two files");
   }
 }
 

@@ -104,7 +104,7 @@ std::string read_regular_beginning(const std::filesystem::path& file, std::size_
 std::string regular_file(const std::filesystem::path& file, std::uint64_t largest) {
   std::string content;
   const std::string why = read_regular_file(file, largest, content);
-  if (!why.empty()) throw InputError({file.string(), 0, 0}, why);
+  if (!why.empty()) throw InputError(ErrorCode::unreadable, {file.string(), 0, 0}, why);
   return content;
 }
 

@@ -36,8 +36,8 @@ int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSour
   largest = largest == 0 ? *std::max_element(model.node_ids.begin(), model.node_ids.end())
                          : std::max(largest, model.node_ids.back());
   if (largest == std::numeric_limits<int>::max())
-    source.stop(at, fmt::format("a node of its own is needed here, but there is no number above {}",
-                                largest));
+    source.stop(ErrorCode::not_a_number, at,
+                "a node of its own is needed here, but there is no number above {}", largest);
   model.positions.push_back(p);
   model.node_ids.push_back(++largest);
   model.node_sources.push_back(at);
@@ -49,9 +49,10 @@ int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSour
 int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm,
                    const FeSource& at) {
   if (!std::isfinite(arm.squaredNorm()))  // stiffness about the node holds that square
-    source.stop(at, fmt::format("the end of a beam is ({:g}, {:g}, {:g}) from {}, expected numbers "
-                                "whose squares do not overflow",
-                                arm(0), arm(1), arm(2), model.node_label(node)));
+    source.stop(ErrorCode::not_finite, at,
+                "the end of a beam is ({:g}, {:g}, {:g}) from {}, expected numbers whose squares "
+                "do not overflow",
+                arm(0), arm(1), arm(2), model.node_label(node));
   const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
   if (!fresh) return it->second;
   it->second = add_own_node(model, source, model.positions[node] + arm, at, largest_id_);

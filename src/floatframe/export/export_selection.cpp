@@ -11,8 +11,9 @@
 namespace floatframe {
 namespace {
 
-[[noreturn]] void refuse_selection(const StateHistory& history, const std::string& what) {
-  throw InputError(SourceMark{history.name(), 0, 0}, what);
+[[noreturn]] void refuse_selection(ErrorCode code, const StateHistory& history,
+                                   const std::string& what) {
+  throw InputError(code, SourceMark{history.name(), 0, 0}, what);
 }
 
 std::string range_text(const ExportSelection& s) {
@@ -26,7 +27,9 @@ std::string range_text(const ExportSelection& s) {
 std::vector<std::size_t> selected_instants(const StateHistory& history,
                                            const ExportSelection& selection) {
   const std::size_t count = history.instants();
-  if (count == 0) refuse_selection(history, "found no recorded instant, expected one at least");
+  if (count == 0)
+    refuse_selection(ErrorCode::missing, history,
+                     "found no recorded instant, expected one at least");
   std::vector<double> row(history.header().columns);
   std::vector<std::size_t> out;
   double first = 0.0, last = 0.0;
@@ -39,9 +42,9 @@ std::vector<std::size_t> selected_instants(const StateHistory& history,
   }
   if (out.empty())
     refuse_selection(
-        history, fmt::format("found no recorded instant {}, expected some of the {} from {:g} to "
-                             "{:g} s",
-                             range_text(selection), count, first, last));
+        ErrorCode::missing, history,
+        fmt::format("found no recorded instant {}, expected some of the {} from {:g} to {:g} s",
+                    range_text(selection), count, first, last));
   const auto every = static_cast<std::size_t>(selection.every);
   std::size_t kept = 0;
   for (std::size_t k = 0; k < out.size(); k += every) out[kept++] = out[k];
@@ -53,7 +56,7 @@ std::vector<int> selected_bodies(const StateHistory& history, const Model& model
                                  const ExportSelection& selection) {
   const HistoryHeader& h = history.header();
   if (h.bodies.size() != model.bodies.size())
-    refuse_selection(history, "its states are not of this model");
+    refuse_selection(ErrorCode::mismatch, history, "its states are not of this model");
   std::vector<int> out;
   std::vector<std::string> known;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -63,16 +66,19 @@ std::vector<int> selected_bodies(const StateHistory& history, const Model& model
   for (const std::string& name : selection.bodies) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end())
-      throw InputError(fmt::format("--body: found '{}', expected a body of the model{}", name,
+      throw InputError(ErrorCode::not_found,
+                       fmt::format("--body: found '{}', expected a body of the model{}", name,
                                    did_you_mean(name, known)));
     const auto b = static_cast<std::size_t>(at - known.begin());
     if (h.bodies[b].pose < 0)
-      refuse_selection(history, fmt::format("the states of body '{}' were not recorded", name));
+      refuse_selection(ErrorCode::wrong_value, history,
+                       fmt::format("the states of body '{}' were not recorded", name));
     out.push_back(static_cast<int>(b));
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  if (out.empty()) refuse_selection(history, "found no body whose states were recorded");
+  if (out.empty())
+    refuse_selection(ErrorCode::missing, history, "found no body whose states were recorded");
   return out;
 }
 

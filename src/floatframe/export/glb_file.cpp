@@ -74,7 +74,8 @@ std::string GlbFile::bytes(GlbJson document) {
   buffer_.append((4 - buffer_.size() % 4) % 4, '\0');
   const std::size_t length = 12 + 8 + text.size() + 8 + buffer_.size();
   if (length > std::numeric_limits<std::uint32_t>::max())
-    throw InputError("the glTF file would be larger than 4 GB, expected fewer instants or bodies");
+    throw InputError(ErrorCode::too_large,
+                     "the glTF file would be larger than 4 GB, expected fewer instants or bodies");
   std::string out = "glTF";
   append_word(out, 2);
   append_word(out, static_cast<std::uint32_t>(length));

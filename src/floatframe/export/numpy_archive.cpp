@@ -22,13 +22,15 @@ class NumpyArchive : public ExportFile {
         numbers += 6.0 * static_cast<double>(tracks_[i].field.stress().places.size());
     }
     if (stress && !(numbers > 0.0))
-      throw InputError("--stress: none of the bodies whose states were recorded knows its stress");
+      throw InputError(ErrorCode::not_found,
+                       "--stress: none of the bodies whose states were recorded knows its stress");
     // A zip archive of this kind has 4 GB at most; to be known before they are gathered.
     const double size = 8.0 * numbers * static_cast<double>(bodies.instants);
     if (size > 4e9)
       throw InputError(
-          fmt::format("--npz: the stress of {} instants would take {:.1f} GB, expected "
-                      "4 GB at most: fewer instants (--every) or bodies (--body)",
+          ErrorCode::too_large,
+          fmt::format("--npz: the stress of {} instants would take {:.1f} GB, expected 4 GB at "
+                      "most: fewer instants (--every) or bodies (--body)",
                       bodies.instants, 1e-9 * size));
   }
 

@@ -37,21 +37,22 @@ class FrameBuilder {
   explicit FrameBuilder(const BarFrame& frame) : frame_(frame) {
     model_.materials.push_back(frame.material);
     for (const auto& [name, p] : frame.points) {
-      if (!points_.emplace(name, p).second) add("point '" + name + "' is given twice");
+      if (!points_.emplace(name, p).second)
+        add(ErrorCode::duplicate, "point '" + name + "' is given twice");
     }
   }
 
   FeModel build() {
     for (const Bar& bar : frame_.bars) this->bar(bar);
     for (const auto& [name, mass] : frame_.masses) point_mass(name, mass);
-    if (frame_.bars.empty()) add("the frame has no bars");
+    if (frame_.bars.empty()) add(ErrorCode::missing, "the frame has no bars");
     errors_.throw_if_any();
     validate(model_);
     return std::move(model_);
   }
 
  private:
-  void add(const std::string& text) { errors_.add({}, text); }
+  void add(ErrorCode code, const std::string& text) { errors_.add(code, {}, text); }
 
   int new_node(const Vec3& p, const std::string& name) {
     model_.positions.push_back(p);
@@ -65,7 +66,7 @@ class FrameBuilder {
     if (known != node_of_point_.end()) return known->second;
     const auto p = points_.find(name);
     if (p == points_.end()) {
-      add("bar '" + bar.name + "': there is no point '" + name + "'");
+      add(ErrorCode::wrong_value, "bar '" + bar.name + "': there is no point '" + name + "'");
       return -1;
     }
     const int node = new_node(p->second, name);
@@ -78,34 +79,39 @@ class FrameBuilder {
     if (bar.from_bar.empty()) return end_node(bar, bar.from);
     const auto other = nodes_of_bar_.find(bar.from_bar);
     if (other == nodes_of_bar_.end()) {
-      add(label + " starts at bar '" + bar.from_bar + "', which is not an earlier bar");
+      add(ErrorCode::wrong_value,
+          label + " starts at bar '" + bar.from_bar + "', which is not an earlier bar");
       return -1;
     }
     const int elements = static_cast<int>(other->second.size()) - 1;
     if (elements <= 0) return -1;  // that bar has an error of its own
     const int k = node_at(bar.from_fraction, elements);
     if (k >= 0) return other->second[k];
-    add(label + ": bar '" + bar.from_bar + "' with " + std::to_string(elements) +
-        " elements has no node at the fraction " + number(bar.from_fraction) +
-        "; the nearest are at " + nearest_fractions(bar.from_fraction, elements));
+    add(ErrorCode::not_found,
+        label + ": bar '" + bar.from_bar + "' with " + std::to_string(elements) +
+            " elements has no node at the fraction " + number(bar.from_fraction) +
+            "; the nearest are at " + nearest_fractions(bar.from_fraction, elements));
     return -1;
   }
 
   void bar(const Bar& bar) {
     const std::string label = "bar '" + bar.name + "'";
-    if (nodes_of_bar_.count(bar.name) != 0) add(label + " is given twice");
+    if (nodes_of_bar_.count(bar.name) != 0) add(ErrorCode::duplicate, label + " is given twice");
     const int first = first_node(bar, label);
     std::vector<int>& nodes = nodes_of_bar_[bar.name];
     if (bar.elements < 1)
-      return add(label + ": the number of elements must be at least 1, not " +
-                 std::to_string(bar.elements));
+      return add(ErrorCode::out_of_range, label +
+                                              ": the number of elements must be at least 1, not " +
+                                              std::to_string(bar.elements));
     // The end node exists already if an earlier bar ends there; a new one comes after the inner
     // nodes.
     const auto end = points_.find(bar.to);
-    if (end == points_.end()) return add(label + ": there is no point '" + bar.to + "'");
+    if (end == points_.end())
+      return add(ErrorCode::wrong_value, label + ": there is no point '" + bar.to + "'");
     if (first < 0) return;
     const Vec3 a = model_.positions[first], b = end->second;
-    if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm()))) return add(label + " has zero length");
+    if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm())))
+      return add(ErrorCode::geometry, label + " has zero length");
     const int section = static_cast<int>(model_.sections.size());
     model_.sections.push_back(bar.section);
     nodes.push_back(first);
@@ -127,7 +133,7 @@ class FrameBuilder {
     PointMass p;
     p.node = model_.find_node(name);
     p.mass = mass;
-    if (p.node < 0) return add("point mass: there is no node '" + name + "'");
+    if (p.node < 0) return add(ErrorCode::not_found, "point mass: there is no node '" + name + "'");
     model_.masses.push_back(p);
   }
 

@@ -44,9 +44,7 @@ class Resolver {
         sum[dof] += factor;
         continue;
       }
-      for (const auto& [inner, f] : reduce(out_.terms[dof])) {
-        sum[inner] += factor * f;
-      }
+      for (const auto& [inner, f] : reduce(out_.terms[dof])) sum[inner] += factor * f;
     }
     return {sum.begin(), sum.end()};
   }
@@ -57,7 +55,7 @@ class Resolver {
   void add(int owner, int node, int axis, const Terms& terms) {
     const std::size_t dof = table_.index(node, axis);
     if (out_.dependent[dof] != 0) {
-      return refuse(owner, node, axis,
+      return refuse(ErrorCode::duplicate, owner, node, axis,
                     " depends already on " + owners_[owner_[dof]] +
                         "; a degree of freedom can depend only once");
     }
@@ -65,7 +63,7 @@ class Resolver {
     const auto self = std::find_if(reduced.begin(), reduced.end(),
                                    [&](const auto& t) { return t.first == static_cast<int>(dof); });
     if (self != reduced.end()) {
-      return refuse(owner, node, axis,
+      return refuse(ErrorCode::cycle, owner, node, axis,
                     " would depend on itself, by a chain of spiders or equations");
     }
     out_.dependent[dof] = 1;
@@ -105,11 +103,8 @@ class Resolver {
     std::vector<char> there(out_.dependent.size(), 0);
     const auto place = [&](const Dof& d) { return table_.begin[d.node] + d.axis; };
     for (const Dof& d : present) there[place(d)] = 1;
-    for (const Spider& s : model_.spiders) {
-      for (int k = 0; k < 6; ++k) {
-        there[place({s.reference, k})] = 1;
-      }
-    }
+    for (const Spider& s : model_.spiders)
+      for (int k = 0; k < 6; ++k) there[place({s.reference, k})] = 1;
     const int owner = begin_owner("the matrices, which have no row for it", {});
     for (std::size_t i = 0; i < there.size(); ++i) {
       if (there[i] != 0) continue;
@@ -134,9 +129,8 @@ class Resolver {
   }
 
   DependentDofs finish() {
-    for (Terms& terms : out_.terms) {
+    for (Terms& terms : out_.terms)
       if (!terms.empty()) terms = reduce(terms);
-    }
     return std::move(out_);
   }
 
@@ -144,11 +138,11 @@ class Resolver {
 
  private:
   /// Once for a node, not for each of its dofs.
-  void refuse(int owner, int node, int axis, const std::string& what) {
-    if (refused_ != node || refused_owner_ != owner) {
-      errors_.add(mark_, owners_[owner] + ": " + node_dof_names[axis] + " of " +
-                             model_.node_label(node) + what);
-    }
+  void refuse(ErrorCode code, int owner, int node, int axis, const std::string& what) {
+    if (refused_ != node || refused_owner_ != owner)
+      errors_.add(
+          code, mark_,
+          owners_[owner] + ": " + node_dof_names[axis] + " of " + model_.node_label(node) + what);
     refused_ = node;
     refused_owner_ = owner;
   }
@@ -183,9 +177,8 @@ void add_rigid(const FeModel& model, const DofTable& table, const Spider& s, Res
         terms = {{table.index(s.reference, axis), 1.0}};
       } else {
         terms = {{table.index(s.reference, axis), 1.0}};
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 3; ++k)
           if (S(axis, k) != 0.0) terms.emplace_back(table.index(s.reference, 3 + k), S(axis, k));
-        }
       }
       resolver.add(owner, node, axis, terms);
     }
@@ -201,11 +194,9 @@ Mat6 mean_sums(const FeModel& model, const DofTable& table, const Spider& s, dou
     Eigen::Matrix<double, 3, 6> A;
     A << Mat3::Identity(), -skew(position(model, s.nodes[i]) - position(model, s.reference)) / size;
     normal += w * A.transpose() * A;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const auto& [dof, f] : resolver.reduce({{table.index(s.nodes[i], axis), 1.0}})) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const auto& [dof, f] : resolver.reduce({{table.index(s.nodes[i], axis), 1.0}}))
         columns.try_emplace(dof, Vec6::Zero()).first->second += w * f * A.row(axis).transpose();
-      }
-    }
   }
   return normal;
 }
@@ -227,11 +218,10 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
               ErrorList& errors) {
   const int owner = resolver.begin_owner(spider_label(model, s), s.source);
   double size = 0.0;
-  for (const int node : s.nodes) {
+  for (const int node : s.nodes)
     size = std::max(size, (position(model, node) - position(model, s.reference)).norm());
-  }
-  const auto refuse = [&](const std::string& what) {
-    errors.add(resolver.mark(), spider_label(model, s) + ": " + what);
+  const auto refuse = [&](ErrorCode code, const std::string& what) {
+    errors.add(code, resolver.mark(), spider_label(model, s) + ": " + what);
   };
   // Rotations times the size, so that all rows and columns are lengths.
   Vec6 scale;
@@ -242,11 +232,13 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   const double zero = 1e-9 * spread.values(5);
   const bool line = (s.mask & 56u) != 56u && !(spread.values(0) > zero);
   if (s.nodes.size() < (line ? 2u : 3u) || !(size > 0.0) || !(spread.values(line ? 1 : 0) > zero)) {
-    return refuse("its " + std::to_string(s.nodes.size()) +
-                  " nodes lie on a line or in a point and cannot define a rotation");
+    return refuse(ErrorCode::singular,
+                  "its " + std::to_string(s.nodes.size()) +
+                      " nodes lie on a line or in a point and cannot define a rotation");
   }
   if (line && spread.vectors.col(0).head<3>().norm() > 1e-6)
-    return refuse("its reference lies beside the line of its nodes, about which it turns freely");
+    return refuse(ErrorCode::singular,
+                  "its reference lies beside the line of its nodes, about which it turns freely");
   // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without the turn about it.
   const int m = line ? 5 : 6;
   const MatX chosen = line ? MatX(spread.vectors.rightCols(5)) : MatX(MatX::Identity(6, 6));
@@ -268,9 +260,9 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   }
   const PivotedQr qr = pivoted_qr(C);
   if (C.cols() < m || !(std::abs(qr.diagonal(m - 1)) > 1e-9 * std::abs(qr.diagonal(0)))) {
-    return refuse(
-        "too many of its nodes depend on other spiders or equations already; a mean spider needs "
-        "at least three free nodes that do not lie on a line");
+    return refuse(ErrorCode::duplicate,
+                  "too many of its nodes depend on other spiders or equations already; a mean "
+                  "spider needs at least three free nodes that do not lie on a line");
   }
   MatX pivots(m, m);
   std::vector<Dof> slaves(static_cast<std::size_t>(m));
@@ -290,9 +282,8 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
       if (std::abs(f(static_cast<int>(k))) > (line ? 1e-13 : 0.0))
         terms[k].emplace_back(dof, f(static_cast<int>(k)));
   }
-  for (std::size_t k = 0; k < slaves.size(); ++k) {
+  for (std::size_t k = 0; k < slaves.size(); ++k)
     resolver.add(owner, slaves[k].node, slaves[k].axis, terms[k]);
-  }
 }
 
 void add_equation(const FeModel& model, const DofTable& table, const LinearEquation& equation,
@@ -304,9 +295,9 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
   for (const LinearEquation::Term& t : equation.terms) {
     const int dof = table.index(t.node, t.axis);
     if (dof < 0) {
-      errors.add(resolver.mark(), "equation for " + model.node_label(first.node) + ": " +
-                                      model.node_label(t.node) + " has no degree of freedom " +
-                                      node_dof_names[t.axis]);
+      errors.add(ErrorCode::missing, resolver.mark(),
+                 "equation for " + model.node_label(first.node) + ": " + model.node_label(t.node) +
+                     " has no degree of freedom " + node_dof_names[t.axis]);
       return;
     }
     terms.emplace_back(dof, t.factor);
@@ -322,14 +313,11 @@ std::vector<int> dofs_without_springs(const FeModel& model) {
     int& c = count[node + 1];
     c = std::max(c, dofs);
   };
-  if (model.matrices) {
+  if (model.matrices)
     for (const Dof& d : model.matrices->dofs) need(d.node, d.axis < 3 ? 3 : 6);
-  }
   for (const Element& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
-    for (int a = 0; a < kernel.nodes; ++a) {
-      need(e.nodes[a], kernel.dofs_per_node);
-    }
+    for (int a = 0; a < kernel.nodes; ++a) need(e.nodes[a], kernel.dofs_per_node);
   }
   for (const PointMass& m : model.masses) need(m.node, m.J.isZero(0.0) ? 3 : 6);
   for (const Spider& s : model.spiders) {
@@ -384,15 +372,11 @@ DependentDofs resolve_dependences(const FeModel& model, const DofTable& table) {
     for (const Dof& dof : spring_system(model, table).condensed)
       resolver.add(owner, dof.node, dof.axis, {});
   }
-  for (const LinearEquation& e : model.equations) {
-    add_equation(model, table, e, resolver, errors);
-  }
-  for (const Spider& s : model.spiders) {
+  for (const LinearEquation& e : model.equations) add_equation(model, table, e, resolver, errors);
+  for (const Spider& s : model.spiders)
     if (s.kind == Spider::Kind::rigid) add_rigid(model, table, s, resolver);
-  }
-  for (const Spider& s : model.spiders) {
+  for (const Spider& s : model.spiders)
     if (s.kind == Spider::Kind::mean) add_mean(model, table, s, resolver, errors);
-  }
   errors.throw_if_any();
   return resolver.finish();
 }

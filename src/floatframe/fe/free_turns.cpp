@@ -278,10 +278,11 @@ std::vector<FreeTurn> line_turns(const FeModel& model) {
     const Vec3 size =
         turn.around.size() < 3 ? Vec3(0, 0, 1) : spread(model, turn.around).eigenvalues();
     if (!(size(1) > 1e-4 * size(2)))
-      throw InputError(fmt::format(
-          "{}: its {} nodes lie on a line, and there are no elements beside it that show how the "
-          "part turns about it; choose nodes that do not lie on a line",
-          turn.label, s.nodes.size()));
+      throw InputError(
+          ErrorCode::geometry,
+          fmt::format("{}: its {} nodes lie on a line, and there are no elements beside it that "
+                      "show how the part turns about it; choose nodes that do not lie on a line",
+                      turn.label, s.nodes.size()));
     out.push_back(std::move(turn));
   }
   return out;
@@ -328,13 +329,13 @@ void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns, bool not
   }
   if (!note) return;
   const FreeTurn& first = turns.front();
-  model.notes.push_back(ErrorEntry{
-      model.mark(first.source),
-      fmt::format("nothing resists the turn of {} of nodes about the line that holds them: "
-                  "nodes without rotations; it follows the elements there; first: {}, held at {}",
-                  plural(static_cast<long>(turns.size()), "rigid or straight group"), first.label,
-                  model.node_label(first.holder))}
-                            .text());
+  model.notes.push_back(
+      model.mark(first.source)
+          .before(fmt::format(
+              "nothing resists the turn of {} of nodes about the line that holds them: nodes "
+              "without rotations; it follows the elements there; first: {}, held at {}",
+              plural(static_cast<long>(turns.size()), "rigid or straight group"), first.label,
+              model.node_label(first.holder))));
 }
 
 }  // namespace floatframe

@@ -77,17 +77,20 @@ std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
     known.erase(std::unique(known.begin(), known.end()), known.end());
     const std::string hint = did_you_mean(name, known);
     if (known.empty()) {
-      throw InputError(fmt::format("there is no set '{}'; the model has no sets", name));
+      throw InputError(ErrorCode::not_found,
+                       fmt::format("there is no set '{}'; the model has no sets", name));
     }
     std::string list;
     for (std::size_t i = 0; i < known.size() && i < 12; ++i) {
       list += (i == 0 ? "'" : ", '") + known[i] + "'";
     }
     if (known.size() > 12) list += fmt::format(" and {} more", known.size() - 12);
-    throw InputError(fmt::format("there is no set '{}'{}{}", name,
+    throw InputError(ErrorCode::not_found,
+                     fmt::format("there is no set '{}'{}{}", name,
                                  hint.empty() ? "; the sets are " : hint + " The sets are ", list));
   }
-  if (nodes.empty()) throw InputError(fmt::format("the set '{}' is empty", name));
+  if (nodes.empty())
+    throw InputError(ErrorCode::missing, fmt::format("the set '{}' is empty", name));
   return nodes;
 }
 
@@ -140,11 +143,12 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   for (const int made : model.generated_nodes) used[made] = 0;
   const bool round = c.by == NodeChoice::By::cylinder || c.by == NodeChoice::By::sphere;
   if (round && !(c.radius > 0.0)) {
-    throw InputError(fmt::format("the radius must be positive, not {:.6g}", c.radius));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("the radius must be positive, not {:.6g}", c.radius));
   }
   Vec3 axis = Vec3::Zero();
   if (c.by == NodeChoice::By::plane || c.by == NodeChoice::By::cylinder) {
-    if (!(c.axis.norm() > 0.0)) throw InputError("the axis has zero length");
+    if (!(c.axis.norm() > 0.0)) throw InputError(ErrorCode::geometry, "the axis has zero length");
     axis = c.axis.normalized();
   }
   const double size = size_of(model, used);
@@ -158,10 +162,12 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
     if (d < (1.0 - 1e-9) * least) least = d, best = k;  // of equal ones the first
     if (d <= tolerance) nodes.push_back(k);
   }
-  if (best < 0) throw InputError("the model has no node that belongs to an element");
+  if (best < 0)
+    throw InputError(ErrorCode::missing, "the model has no node that belongs to an element");
   if (c.by == NodeChoice::By::nearest) return {best};
   if (nodes.empty()) {
     throw InputError(
+        ErrorCode::not_found,
         fmt::format("no node lies within {:.3g} m of {}; the nearest is {} at {:.3g} m", tolerance,
                     describe(c), model.node_label(best), least));
   }
@@ -196,10 +202,12 @@ unsigned mask_on_line(const InterfaceDescription& d, const Vec3& line, std::size
   for (unsigned k = 3; k < 6; ++k)
     if (d.mask & about & (1u << k))
       named += (named.empty() ? "" : ", ") + std::string(node_dof_words[k]);
-  throw InputError(fmt::format(
-      "its {} nodes lie on a line, about which nothing holds the rotation of the reference point; "
-      "choose nodes beside the line too, or type mean and dofs without {}",
-      nodes, named.empty() ? "the rotation about it" : named));
+  throw InputError(
+      ErrorCode::singular,
+      fmt::format(
+          "its {} nodes lie on a line, about which nothing holds the rotation of the reference "
+          "point; choose nodes beside the line too, or type mean and dofs without {}",
+          nodes, named.empty() ? "the rotation about it" : named));
 }
 
 Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vector<int>& nodes) {
@@ -262,19 +270,20 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
     if (theirs != sorted) continue;
     const Vec3& there = node_position(model, s.reference);
     if (d.at && (*d.at - there).norm() > 1e-6 * (size_of_used(model, table) + there.norm())) {
-      throw InputError(
-          fmt::format("{} ties these nodes to a reference at {} already; the reference "
-                      "point {} is another one",
-                      the_spider(model, s), vector_text(there), vector_text(*d.at)));
+      throw InputError(ErrorCode::duplicate,
+                       fmt::format("{} ties these nodes to a reference at {} already; the "
+                                   "reference point {} is another one",
+                                   the_spider(model, s), vector_text(there), vector_text(*d.at)));
     }
     return s.reference;
   }
   if (nodes.size() != 1) return std::nullopt;
   if (table.count(nodes[0]) == 3 && (d.mask & 56u) != 0) {
-    throw InputError(fmt::format(
-        "{} belongs to {} and has no rotations; an interface of one such node can only have ux uy "
-        "uz",
-        model.node_label(nodes[0]), elements_without_rotations(model, nodes[0])));
+    throw InputError(
+        ErrorCode::incomplete,
+        fmt::format("{} belongs to {} and has no rotations; an interface of one such node can only "
+                    "have ux uy uz",
+                    model.node_label(nodes[0]), elements_without_rotations(model, nodes[0])));
   }
   return nodes[0];
 }
@@ -285,7 +294,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   ErrorList errors;
   for (const int node : nodes) {
     if (table.count(node) > 0) continue;
-    errors.add({}, model.node_label(node) + " belongs to no element");
+    errors.add(ErrorCode::missing, {}, model.node_label(node) + " belongs to no element");
     break;
   }
   errors.throw_if_any();
@@ -293,7 +302,8 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
     for (const Spider& s : model.spiders) {
       if (s.kind == Spider::Kind::rigid && nodes.size() == 1 && s.reference != *node &&
           std::find(s.nodes.begin(), s.nodes.end(), *node) != s.nodes.end()) {
-        throw InputError(fmt::format("{} belongs to {} and cannot be an interface of its own",
+        throw InputError(ErrorCode::wrong_value,
+                         fmt::format("{} belongs to {} and cannot be an interface of its own",
                                      model.node_label(*node), the_spider(model, s)));
       }
     }
@@ -304,10 +314,11 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   unsigned mask = 63u;
   if (d.kind == Spider::Kind::mean || !rotations) {
     if (nodes.size() < 3) {
-      throw InputError(fmt::format(
-          "{} nodes are too few; an interface of solid elements needs three that do not "
-          "lie on a line, or one node with only ux uy uz",
-          nodes.size()));
+      throw InputError(
+          ErrorCode::incomplete,
+          fmt::format("{} nodes are too few; an interface of solid elements needs three that do "
+                      "not lie on a line, or one node with only ux uy uz",
+                      nodes.size()));
     }
     if (const auto line = line_of(model, nodes)) mask = mask_on_line(d, *line, nodes.size());
   }
@@ -315,8 +326,9 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
     if (d.kind == Spider::Kind::mean && s.kind == Spider::Kind::mean) continue;
     for (const int node : nodes) {
       if (std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end()) continue;
-      errors.add({}, model.node_label(node) + " belongs to " + the_spider(model, s) +
-                         " already; a node can follow only one reference");
+      errors.add(ErrorCode::duplicate, {},
+                 model.node_label(node) + " belongs to " + the_spider(model, s) +
+                     " already; a node can follow only one reference");
       break;
     }
   }
@@ -328,7 +340,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   spider.nodes = nodes;
   spider.mask = mask;
   const Vec3 at = d.at.value_or(reference_point(model, d.choice, nodes));
-  if (!at.allFinite()) throw InputError("the reference point is not finite");
+  if (!at.allFinite()) throw InputError(ErrorCode::not_finite, "the reference point is not finite");
   model.positions.push_back(at);
   if (!model.node_ids.empty()) {
     model.node_ids.push_back(*std::max_element(model.node_ids.begin(), model.node_ids.end()) + 1);
@@ -347,14 +359,15 @@ std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice) {
     const int id = model.node_ids.empty() ? k + 1 : model.node_ids[k];
     if (id == choice.number) return {k};
   }
-  throw InputError(fmt::format("there is no node {}", choice.number));
+  throw InputError(ErrorCode::not_found, fmt::format("there is no node {}", choice.number));
 }
 
 int add_interface(FeModel& model, const InterfaceDescription& d) {
   const std::string label = "interface '" + d.name + "': ";
   try {
-    if (model.find_node(d.name) >= 0) throw InputError("a node has this name already");
-    if ((d.mask & 63u) == 0) throw InputError("it has no degree of freedom");
+    if (model.find_node(d.name) >= 0)
+      throw InputError(ErrorCode::duplicate, "a node has this name already");
+    if ((d.mask & 63u) == 0) throw InputError(ErrorCode::missing, "it has no degree of freedom");
     const int node = add_unnamed(model, d);
     name_node(model, node, d.name);
     return node;

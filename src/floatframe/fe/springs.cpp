@@ -86,11 +86,11 @@ class Gathered {
     if (inner_.size() + outer_.size() > most_tied) {
       const Dof& at = (inner_.empty() ? outer_ : inner_).begin()->first;
       throw InputError(std::vector<ErrorEntry>{
-          {model_.mark(springs_.front()->source),
-           fmt::format("springs tie {} degrees of freedom together through {} and others that "
-                       "nothing else holds, at most {} can be; give it a mass, or tie it to the "
-                       "part",
-                       inner_.size() + outer_.size(), model_.node_label(at.node), most_tied)}});
+          {model_.mark(springs_.front()->source), ErrorCode::too_large,
+           fmt::format(
+               "springs tie {} degrees of freedom together through {} and others that nothing else "
+               "holds, at most {} can be; give it a mass, or tie it to the part",
+               inner_.size() + outer_.size(), model_.node_label(at.node), most_tied)}});
     }
     number(inner_, 0);
     number(outer_, static_cast<int>(inner_.size()));
@@ -238,23 +238,24 @@ std::vector<SpringError> spring_errors(const FeModel& model) {
   const auto known = [&](int node) { return node >= 0 && node < model.nodes(); };
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const Spring& s = model.springs[i];
-    const auto add = [&](const char* kind, const std::string& text) {
-      out.push_back({kind, s.source, model.spring_label(static_cast<int>(i)) + text});
+    const auto add = [&](ErrorCode code, const char* kind, const std::string& text) {
+      out.push_back({code, kind, s.source, model.spring_label(static_cast<int>(i)) + text});
     };
     if (!known(s.nodes[0]) || !(known(s.nodes[1]) || s.nodes[1] == -1)) {
-      add("springs", fmt::format(": node index {} or {} is out of range", s.nodes[0], s.nodes[1]));
+      add(ErrorCode::out_of_range, "springs",
+          fmt::format(": node index {} or {} is out of range", s.nodes[0], s.nodes[1]));
     } else if (s.nodes[1] < 0) {
-      add("springs to the ground",
+      add(ErrorCode::wrong_value, "springs to the ground",
           fmt::format(" ties {} to the ground, which a part that floats cannot be tied to: take it "
                       "out, end it at a node that becomes an interface, or leave all such springs "
                       "out (--grounded-springs ignore, key `grounded_springs`)",
                       model.node_label(s.nodes[0])));
     }
     if (!(s.stiffness >= 0.0) || !std::isfinite(s.stiffness))
-      add("springs",
+      add(ErrorCode::out_of_range, "springs",
           fmt::format(": found the stiffness {:g}, expected no negative number", s.stiffness));
     if (!s.directions[0].allFinite() || !s.directions[1].allFinite())
-      add("springs", " has a direction that is not finite");
+      add(ErrorCode::not_finite, "springs", " has a direction that is not finite");
   }
   return out;
 }

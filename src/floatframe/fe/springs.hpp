@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
 
 namespace floatframe {
@@ -41,6 +42,7 @@ void add_spring_dofs(const FeModel& model, std::vector<int>& count);
 
 /// What is wrong with the springs of a model.
 struct SpringError {
+  ErrorCode code;
   const char* kind = "";
   FeSource at;
   std::string text;

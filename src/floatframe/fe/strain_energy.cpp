@@ -77,12 +77,13 @@ void check_digits(const FeModel& model, const MatX& U, const MatX& Theta, const 
   for (Eigen::Index k = 0; k < error.size(); ++k)
     if (!(error(k) <= error(worst))) worst = k;
   if (error(worst) <= sixth_digit) return;
-  throw InputError(fmt::format(
-      "the {} elements are too many for double precision: the stiffness of the mode '{}' "
-      "and its strain energy differ by {:.1e}, at most {:.0e} is accepted (six digits of a "
-      "frequency; rounding grows with the fourth power of the number of elements in a row); use "
-      "fewer elements",
-      model.elements.size(), names[worst], error(worst), sixth_digit));
+  throw InputError(
+      ErrorCode::too_large,
+      fmt::format("the {} elements are too many for double precision: the stiffness of the mode "
+                  "'{}' and its strain energy differ by {:.1e}, at most {:.0e} is accepted (six "
+                  "digits of a frequency; rounding grows with the fourth power of the number of "
+                  "elements in a row); use fewer elements",
+                  model.elements.size(), names[worst], error(worst), sixth_digit));
 }
 
 void with_digits_hint(const FeModel& model, const std::function<void()>& factor) {

@@ -75,8 +75,9 @@ const FeFormat& by_name(const std::filesystem::path& file, const std::string& na
     if (same_word(f.name, name)) return f;
     names.emplace_back(f.name);
   }
-  throw InputError({file.string()}, fmt::format("there is no format '{}'{}; known are {}", name,
-                                                did_you_mean(name, names), known_formats()));
+  throw InputError(ErrorCode::wrong_value, {file.string()},
+                   fmt::format("there is no format '{}'{}; known are {}", name,
+                               did_you_mean(name, names), known_formats()));
 }
 
 /// The format whose ending and content fit; else the only one whose content fits; else the only
@@ -84,7 +85,7 @@ const FeFormat& by_name(const std::filesystem::path& file, const std::string& na
 const FeFormat& recognised(const std::filesystem::path& file) {
   const std::string beginning = read_beginning(file, std::size_t{1} << 16);
   if (beginning.empty() && read_whole_file(file).empty())  // or a damaged gzip file: that throws
-    throw InputError({file.string()}, "the file is empty");
+    throw InputError(ErrorCode::missing, {file.string()}, "the file is empty");
   std::vector<const FeFormat*> by_ending, by_content, by_both;
   for (const FeFormat& f : formats()) {
     const bool ending = has_ending(f, file.filename().string()), content = f.recognise(beginning);
@@ -99,13 +100,14 @@ const FeFormat& recognised(const std::filesystem::path& file) {
       for (const FeFormat* f : *found) {
         names += fmt::format("{}'{}'", names.empty() ? "" : " or ", f->name);
       }
-      throw InputError({file.string()}, "the format is not clear: name it, " + names);
+      throw InputError(ErrorCode::wrong_file, {file.string()},
+                       "the format is not clear: name it, " + names);
     }
   }
-  throw InputError({file.string()},
-                   fmt::format("neither the ending nor the content of the file is known; known "
-                               "are {}",
-                               known_formats()));
+  throw InputError(
+      ErrorCode::wrong_file, {file.string()},
+      fmt::format("neither the ending nor the content of the file is known; known are {}",
+                  known_formats()));
 }
 
 void choose(const FeReadOptions& options, FeModel& model) {
@@ -158,10 +160,10 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
   };
   for (const auto& [name, density] : options.densities) {
     if (missing.empty())
-      throw InputError({file.string()},
+      throw InputError(ErrorCode::exclusive, {file.string()},
                        "a density is given, but every material of the file has one: leave it out");
     if (!name.empty() && std::none_of(missing.begin(), missing.end(), is(utf8_text(name))))
-      throw InputError({file.string()},
+      throw InputError(ErrorCode::missing, {file.string()},
                        fmt::format("a density is given for the material '{}', but no material "
                                    "without a density has this name{}",
                                    name, did_you_mean(name, missing)));
@@ -207,13 +209,13 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
                      const std::string& format) {
   const FeFormat& chosen = format.empty() ? recognised(file) : by_name(file, format);
   if (options.dialect != DeckDialect::by_content && std::string_view(chosen.name) != "abaqus") {
-    throw InputError({file.string()},
+    throw InputError(ErrorCode::unsupported, {file.string()},
                      fmt::format("the dialect '{}' is given, but the file is no deck of Abaqus or "
                                  "CalculiX: it is read as '{}'",
                                  word(options.dialect), chosen.name));
   }
   if (!options.thicknesses.empty() && !chosen.without_sections)
-    throw InputError({file.string()},
+    throw InputError(ErrorCode::exclusive, {file.string()},
                      fmt::format("a thickness is given, but shells of the format '{}' have that of "
                                  "the file: leave it out",
                                  chosen.name));

@@ -24,8 +24,9 @@ class BodyInertia {
     if (body.modes() == 0) return;
     if (of_model.stiffens() && method == InertiaMethod::projection && body.projection &&
         body.projection->h.size() == 0)
-      throw InputError("bodies." + name +
-                       ": geometric_stiffening of a part needs inertia: preprocessing");
+      throw InputError(
+          ErrorCode::incomplete,
+          "bodies." + name + ": geometric_stiffening of a part needs inertia: preprocessing");
     second_order_ = second_order_on_masses(body, of_model.stiffens());
     if (second_order_ && method == InertiaMethod::preprocessing) {
       stiffening_ = StiffeningData(data_, *second_order_);
@@ -34,17 +35,19 @@ class BodyInertia {
     if (method == InertiaMethod::projection) {
       if (body.mass_model == MassModel::hermite || !body.projection)
         throw InputError(
+            ErrorCode::incomplete,
             "bodies." + name +
-            ": mass_model hermite has no nodal mass matrix, so it needs inertia: preprocessing; "
-            "use mass_model isoparametric or six_dof with inertia: projection");
+                ": mass_model hermite has no nodal mass matrix, so it needs inertia: "
+                "preprocessing; use mass_model isoparametric or six_dof with inertia: projection");
       projection_ = body.projection.get();
       special_ = true;
       projection_work_ = ProjectionWorkspace(*projection_, of_model.stiffens());
     } else if (body.mass_model == MassModel::six_dof) {
       throw InputError(
+          ErrorCode::incomplete,
           "bodies." + name +
-          ": mass_model six_dof is a nodal mass matrix, so it needs inertia: projection; "
-          "use mass_model isoparametric or hermite with inertia: preprocessing");
+              ": mass_model six_dof is a nodal mass matrix, so it needs inertia: projection; use "
+              "mass_model isoparametric or hermite with inertia: preprocessing");
     }
   }
 

@@ -72,22 +72,24 @@ HistoryWalk::HistoryWalk(HistoryBytes bytes, std::uint64_t size, std::string nam
   char start[history_start] = {};
   bytes_(0, start, static_cast<std::size_t>(std::min(size_, history_start)));
   if (size_ < history_start || std::string_view(start, history_magic.size()) != history_magic)
-    refuse("this is not a result file of a run (states.ffr): it does not begin as one");
+    refuse(ErrorCode::wrong_file,
+           "this is not a result file of a run (states.ffr): it does not begin as one");
   const auto version = number_at<std::uint32_t>(start + 8);
   if (version != history_version)
-    refuse(fmt::format("found version {} of result files, this program reads version {}", version,
+    refuse(ErrorCode::mismatch,
+           fmt::format("found version {} of result files, this program reads version {}", version,
                        history_version));
 }
 
-void HistoryWalk::refuse(const std::string& what) const {
-  throw InputError(SourceMark{name_, 0, 0}, what);
+void HistoryWalk::refuse(ErrorCode code, const std::string& what) const {
+  throw InputError(code, SourceMark{name_, 0, 0}, what);
 }
 
 /// What follows is not a block: the rest of one that was being written, if it is no more than that.
 bool HistoryWalk::torn(std::uint64_t longest) {
   const std::uint64_t left = size_ - at_;
   if (left > history_block_head + padded(longest))
-    refuse(fmt::format("the block at byte {} is damaged", at_));
+    refuse(ErrorCode::damaged, fmt::format("the block at byte {} is damaged", at_));
   dropped_ =
       fmt::format("the last {} bytes are a block that was not written to its end: left out", left);
   return false;
@@ -104,13 +106,14 @@ bool HistoryWalk::next(HistoryBlock& block, std::uint64_t longest) {
   if (kind == kind_words.end()) {
     const bool blank = std::all_of(head, head + sizeof head, [](char c) { return c == '\0'; });
     if (blank) return torn(longest);  // room that a failure of power left without content
-    refuse(fmt::format("the block at byte {} is damaged: it is of no known kind", at_));
+    refuse(ErrorCode::damaged,
+           fmt::format("the block at byte {} is damaged: it is of no known kind", at_));
   }
   if (length > longest)
-    refuse(
-        fmt::format("the block at byte {} is damaged: found a length of {} bytes, expected {} "
-                    "at most",
-                    at_, length, longest));
+    refuse(ErrorCode::damaged,
+           fmt::format(
+               "the block at byte {} is damaged: found a length of {} bytes, expected {} at most",
+               at_, length, longest));
   if (padded(length) > left - history_block_head) return torn(longest);
   std::uint32_t crc = crc_on(0, head, 12);
   std::vector<char> piece(static_cast<std::size_t>(std::min<std::uint64_t>(length, 1u << 20)));
@@ -124,6 +127,7 @@ bool HistoryWalk::next(HistoryBlock& block, std::uint64_t longest) {
   if (crc != number_at<std::uint32_t>(head + 12)) {
     if (content + padded(length) == size_) return torn(longest);
     refuse(
+        ErrorCode::damaged,
         fmt::format("the block at byte {} is damaged: its checksum does not fit its content", at_));
   }
   block = {static_cast<HistoryBlockKind>(kind - kind_words.begin()), content, length};

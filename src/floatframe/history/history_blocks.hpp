@@ -19,6 +19,8 @@
 #include <string>
 #include <string_view>
 
+#include "floatframe/core/diagnostics.hpp"
+
 namespace floatframe {
 
 inline constexpr std::string_view history_magic = "floatfr\n";
@@ -57,7 +59,7 @@ class HistoryWalk {
   bool next(HistoryBlock& block, std::uint64_t longest);
   /// What was left out at the end, in a sentence, or empty.
   const std::string& dropped() const noexcept { return dropped_; }
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void refuse(ErrorCode code, const std::string& what) const;
 
  private:
   bool torn(std::uint64_t longest);

@@ -47,13 +47,14 @@ class HeaderReader {
   explicit HeaderReader(const Json& object, std::string path = {})
       : object_(object), path_(std::move(path)) {
     if (!object.is_object())
-      refuse(path_, "found " + json_excerpt(object) + ", expected an object");
+      refuse(ErrorCode::wrong_value, path_,
+             "found " + json_excerpt(object) + ", expected an object");
   }
 
   bool has(const char* key) const { return object_.contains(key); }
   const Json& value(const char* key) const {
     const auto it = object_.find(key);
-    if (it == object_.end()) refuse(path_ + key, "it is missing");
+    if (it == object_.end()) refuse(ErrorCode::missing, path_ + key, "it is missing");
     return *it;
   }
   template <class T>
@@ -68,7 +69,9 @@ class HeaderReader {
   }
   const Json& items(const char* key) const {
     const Json& list = value(key);
-    if (!list.is_array()) refuse(path_ + key, "found " + json_excerpt(list) + ", expected a list");
+    if (!list.is_array())
+      refuse(ErrorCode::wrong_value, path_ + key,
+             "found " + json_excerpt(list) + ", expected a list");
     return list;
   }
   HeaderReader object(const char* key) const { return HeaderReader(value(key), path_ + key + '.'); }
@@ -85,21 +88,26 @@ class HeaderReader {
       return x.is_number_integer() && x.get<std::int64_t>() >= low;
     };
     if (!holds())
-      refuse(path, fmt::format("found {}, expected a whole number from {} to {}", json_excerpt(x),
-                               low, high));
+      refuse(ErrorCode::out_of_range, path,
+             fmt::format("found {}, expected a whole number from {} to {}", json_excerpt(x), low,
+                         high));
     return static_cast<int>(x.get<std::int64_t>());
   }
-  [[noreturn]] static void refuse(const std::string& path, const std::string& what) {
-    throw InputError(fmt::format("the header is not one of a result file: {}: {}", path, what));
+  [[noreturn]] static void refuse(ErrorCode code, const std::string& path,
+                                  const std::string& what) {
+    throw InputError(code,
+                     fmt::format("the header is not one of a result file: {}: {}", path, what));
   }
 
  private:
   template <class T>
   static T as(const Json& x, const std::string& path) {
     if constexpr (std::is_same_v<T, std::string>) {
-      if (!x.is_string()) refuse(path, "found " + json_excerpt(x) + ", expected a text");
+      if (!x.is_string())
+        refuse(ErrorCode::wrong_value, path, "found " + json_excerpt(x) + ", expected a text");
     } else {
-      if (!x.is_number()) refuse(path, "found " + json_excerpt(x) + ", expected a number");
+      if (!x.is_number())
+        refuse(ErrorCode::out_of_range, path, "found " + json_excerpt(x) + ", expected a number");
     }
     return x.get<T>();
   }
@@ -110,7 +118,8 @@ class HeaderReader {
 
 void require_word(const std::string& found, const char* key, std::span<const char* const> words) {
   if (std::find(words.begin(), words.end(), found) == words.end())
-    HeaderReader::refuse(key, "found '" + excerpt(found) + "', expected " + alternatives(words));
+    HeaderReader::refuse(ErrorCode::wrong_value, key,
+                         "found '" + excerpt(found) + "', expected " + alternatives(words));
 }
 
 /// Ascending, from 0 to below `limit`.
@@ -121,7 +130,8 @@ std::vector<int> coordinate_list(const HeaderReader& in, const char* key, int li
                                       static_cast<std::uint64_t>(limit)));
   if (!out.empty() && out.back() >= limit)
     HeaderReader::refuse(
-        key, fmt::format("found {}, expected a coordinate below {}", out.back(), limit));
+        ErrorCode::too_large, key,
+        fmt::format("found {}, expected a coordinate below {}", out.back(), limit));
   return out;
 }
 
@@ -132,19 +142,22 @@ void read_groups(const HeaderReader& in, HistoryHeader& h) {
                         static_cast<std::size_t>(g.whole("first", 0, most_coordinates)),
                         static_cast<std::size_t>(g.whole("count", 0, most_coordinates))});
     if (h.groups.back().first != h.columns)
-      HeaderReader::refuse("groups", "columns that do not follow each other");
+      HeaderReader::refuse(ErrorCode::wrong_value, "groups",
+                           "columns that do not follow each other");
     h.columns += h.groups.back().count;
-    if (h.columns > most_coordinates) HeaderReader::refuse("groups", "there are too many columns");
+    if (h.columns > most_coordinates)
+      HeaderReader::refuse(ErrorCode::wrong_count, "groups", "there are too many columns");
   }
   const auto expect = [&](const char* name, std::size_t count, bool needed) {
     const HistoryGroup* g = h.find(name);
     if (!g && !needed) return;
     if (!g || g->count != count)
-      HeaderReader::refuse("groups", fmt::format("found {} columns of '{}', expected {}",
-                                                 g ? g->count : 0, name, count));
+      HeaderReader::refuse(
+          ErrorCode::wrong_count, "groups",
+          fmt::format("found {} columns of '{}', expected {}", g ? g->count : 0, name, count));
   };
   if (h.groups.empty() || h.groups.front().name != "time")
-    HeaderReader::refuse("groups", "the first is not 'time'");
+    HeaderReader::refuse(ErrorCode::wrong_value, "groups", "the first is not 'time'");
   expect("time", 1, true);
   expect("q", h.q.size(), true);
   expect("v", h.v.size(), true);
@@ -157,7 +170,8 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
     if (first < 0) return;
     if (!g || static_cast<std::size_t>(first) < g->first ||
         static_cast<std::size_t>(first) + count > g->first + g->count)
-      HeaderReader::refuse("bodies", fmt::format("'{}' are columns outside of '{}'", what, group));
+      HeaderReader::refuse(ErrorCode::out_of_range, "bodies",
+                           fmt::format("'{}' are columns outside of '{}'", what, group));
   };
   for (const Json& item : in.items("bodies")) {
     const HeaderReader b = in.element("bodies", item);
@@ -171,9 +185,10 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
     body.rates = b.whole("rates", -1, most_coordinates);
     body.shape = b.whole("shape", -1, most_coordinates);
     if (body.frequencies.size() != body.modes.size())
-      HeaderReader::refuse("bodies.frequencies_Hz", "not one for each mode");
+      HeaderReader::refuse(ErrorCode::wrong_value, "bodies.frequencies_Hz",
+                           "not one for each mode");
     if (body.shape >= static_cast<int>(h.shapes.size()))
-      HeaderReader::refuse("bodies.shape", "there is no such shape");
+      HeaderReader::refuse(ErrorCode::wrong_value, "bodies.shape", "there is no such shape");
     inside("pose", "poses", body.pose, 7);
     inside("amplitudes", "q", body.amplitudes, body.modes.size());
     inside("rates", "v", body.rates, body.modes.size());
@@ -199,7 +214,8 @@ void read_health(const HeaderReader& in, HistoryHeader& h) {
   const HistoryGroup* g = h.find(health_group);
   if ((g ? g->count : 0) != h.health.size())
     HeaderReader::refuse(
-        "health", fmt::format("found {} columns, expected {}", h.health.size(), g ? g->count : 0));
+        ErrorCode::wrong_count, "health",
+        fmt::format("found {} columns, expected {}", h.health.size(), g ? g->count : 0));
 }
 
 void read_arrays(const HeaderReader& in, HistoryHeader& h) {
@@ -212,7 +228,7 @@ void read_arrays(const HeaderReader& in, HistoryHeader& h) {
     const HeaderReader a = in.element("arrays", item);
     HistoryArray array{a.get<std::string>("name"), a.get<std::string>("type"), {}};
     if (array.type != "f32" && array.type != "f64" && array.type != "u32")
-      HeaderReader::refuse("arrays.type",
+      HeaderReader::refuse(ErrorCode::wrong_value, "arrays.type",
                            "found '" + excerpt(array.type) + "', expected f32, f64 or u32");
     for (const Json& n : a.items("shape"))
       array.shape.push_back(
@@ -222,7 +238,7 @@ void read_arrays(const HeaderReader& in, HistoryHeader& h) {
             if (n == 0) return false;
           return true;
         }()))
-      HeaderReader::refuse("arrays.shape", "it is too large");
+      HeaderReader::refuse(ErrorCode::too_large, "arrays.shape", "it is too large");
     h.arrays.push_back(std::move(array));
   }
 }
@@ -284,10 +300,11 @@ std::string header_json(const HistoryHeader& h) {
 HistoryHeader header_from_json(std::string_view text) {
   std::string why;
   const Json json = read_json(text, why);
-  if (json.is_discarded()) throw InputError("the header is not JSON: " + why);
+  if (json.is_discarded())
+    throw InputError(ErrorCode::wrong_file, "the header is not JSON: " + why);
   const HeaderReader in(json);
   if (in.get<std::string>("format") != "floatframe states")
-    HeaderReader::refuse("format", "expected 'floatframe states'");
+    HeaderReader::refuse(ErrorCode::wrong_value, "format", "expected 'floatframe states'");
   HistoryHeader h;
   h.origin.program = in.get<std::string>("floatframe");
   h.origin.library = in.get<std::string>("library");
@@ -298,9 +315,11 @@ HistoryHeader header_from_json(std::string_view text) {
   h.origin.from_here = origin.get<std::string>("file_from_here");
   h.origin.settings = origin.list<std::string>("settings");
   h.origin.text = origin.get<std::string>("text");
-  if (!origin.value("files").is_object()) HeaderReader::refuse("origin.files", "not an object");
+  if (!origin.value("files").is_object())
+    HeaderReader::refuse(ErrorCode::wrong_value, "origin.files", "not an object");
   for (const auto& [file, hash] : origin.value("files").items()) {
-    if (!hash.is_string()) HeaderReader::refuse("origin.files", "expected texts");
+    if (!hash.is_string())
+      HeaderReader::refuse(ErrorCode::wrong_value, "origin.files", "expected texts");
     h.origin.files[file] = hash.get<std::string>();
   }
   h.coordinates = in.get<std::string>("coordinates");
@@ -315,7 +334,8 @@ HistoryHeader header_from_json(std::string_view text) {
   h.q = coordinate_list(in, "q", h.configurations);
   h.v = coordinate_list(in, "v", h.velocities);
   h.owners = in.list<std::string>("v_of");
-  if (h.owners.size() != h.v.size()) HeaderReader::refuse("v_of", "not one for each velocity");
+  if (h.owners.size() != h.v.size())
+    HeaderReader::refuse(ErrorCode::wrong_value, "v_of", "not one for each velocity");
   read_groups(in, h);
   read_arrays(in, h);
   read_bodies(in, h);

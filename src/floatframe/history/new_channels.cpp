@@ -11,8 +11,8 @@
 namespace floatframe {
 namespace {
 
-[[noreturn]] void refuse(const StateHistory& history, const std::string& what) {
-  throw InputError(SourceMark{history.name(), 0, 0}, what);
+[[noreturn]] void refuse(ErrorCode code, const StateHistory& history, const std::string& what) {
+  throw InputError(code, SourceMark{history.name(), 0, 0}, what);
 }
 
 /// What of a model an output looks at must have been recorded.
@@ -23,14 +23,16 @@ class RecordedParts {
 
   void require(const Output& output) const {
     if (output.type == OutputType::projection_impulse)
-      refuse(history_, fmt::format("output '{}': impulses of projections are not in the states of "
-                                   "a run, expected an output of its model file",
-                                   output.name));
+      refuse(ErrorCode::wrong_value, history_,
+             fmt::format("output '{}': impulses of projections are not in the states of a run, "
+                         "expected an output of its model file",
+                         output.name));
     if (history_.header().complete()) return;
     if (output_kind(output.type).terms == OutputTerms::reactions)
-      refuse(history_, fmt::format("output '{}': reactions need the states of all bodies, found "
-                                   "those of some",
-                                   output.name));
+      refuse(
+          ErrorCode::wrong_value, history_,
+          fmt::format("output '{}': reactions need the states of all bodies, found those of some",
+                      output.name));
     marker(output, output.marker);
     marker(output, output.to);
     body(output, output.body);
@@ -54,8 +56,9 @@ class RecordedParts {
   }
   void body(const Output& output, int body) const {
     if (body < 0 || history_.header().bodies[static_cast<std::size_t>(body)].pose >= 0) return;
-    refuse(history_, fmt::format("output '{}': the states of body '{}' were not recorded",
-                                 output.name, model_.bodies[body].name));
+    refuse(ErrorCode::wrong_value, history_,
+           fmt::format("output '{}': the states of body '{}' were not recorded", output.name,
+                       model_.bodies[body].name));
   }
 
   const StateHistory& history_;
@@ -67,13 +70,14 @@ class RecordedParts {
 void require_model(const StateHistory& history, const Model& model) {
   const std::string& library = history.header().origin.library;
   if (!library.empty() && library != build_description())
-    refuse(history, fmt::format("its states were made by another copy of the program (found {}, "
-                                "this is {})",
-                                library, build_description()));
+    refuse(ErrorCode::mismatch, history,
+           fmt::format("its states were made by another copy of the program (found {}, this is {})",
+                       library, build_description()));
   if (history.header().model_hash != model_hash(model))
-    refuse(history, fmt::format("its states are not of this model: it was changed, or another copy "
-                                "of the program ({}) made them",
-                                library));
+    refuse(ErrorCode::mismatch, history,
+           fmt::format("its states are not of this model: it was changed, or another copy of the "
+                       "program ({}) made them",
+                       library));
 }
 
 ResultTable new_channels(const StateHistory& history, const Model& model,

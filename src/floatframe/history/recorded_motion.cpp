@@ -17,7 +17,8 @@ struct RecordedMotion::Replay {
 namespace {
 
 [[noreturn]] void refuse_other_model(const StateHistory& history) {
-  throw InputError(SourceMark{history.name(), 0, 0}, "its states are not of this model");
+  throw InputError(ErrorCode::mismatch, SourceMark{history.name(), 0, 0},
+                   "its states are not of this model");
 }
 
 }  // namespace

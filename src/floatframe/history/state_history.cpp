@@ -39,8 +39,8 @@ struct StateHistory::Data {
     if (file >= 0) ::close(file);
   }
 
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError(SourceMark{name, 0, 0}, what);
+  [[noreturn]] void refuse(ErrorCode code, const std::string& what) const {
+    throw InputError(code, SourceMark{name, 0, 0}, what);
   }
   void open();
   void read(std::uint64_t at, char* out, std::size_t n) const;
@@ -53,10 +53,11 @@ struct StateHistory::Data {
 
 void StateHistory::Data::open() {
   file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (file < 0) refuse(std::strerror(errno));
+  if (file < 0) refuse(ErrorCode::unreadable, std::strerror(errno));
   struct stat status_of_file {};
   if (::fstat(file, &status_of_file) != 0 || !S_ISREG(status_of_file.st_mode))
-    refuse("this is not a regular file, expected the result file of a run (states.ffr)");
+    refuse(ErrorCode::wrong_file,
+           "this is not a regular file, expected the result file of a run (states.ffr)");
   size = static_cast<std::uint64_t>(status_of_file.st_size);
 }
 
@@ -68,8 +69,9 @@ void StateHistory::Data::read(std::uint64_t at, char* out, std::size_t n) const 
   while (n > 0) {
     const ssize_t got = ::pread(file, out, n, static_cast<off_t>(at));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) refuse(std::string("it cannot be read: ") + std::strerror(errno));
-    if (got == 0) refuse("it has become shorter while it was read");
+    if (got < 0)
+      refuse(ErrorCode::unreadable, std::string("it cannot be read: ") + std::strerror(errno));
+    if (got == 0) refuse(ErrorCode::mismatch, "it has become shorter while it was read");
     out += got;
     at += static_cast<std::uint64_t>(got);
     n -= static_cast<std::size_t>(got);
@@ -91,17 +93,20 @@ std::uint64_t StateHistory::Data::longest() const {
 void StateHistory::Data::index() {
   HistoryWalk walk([this](std::uint64_t at, char* out, std::size_t n) { read(at, out, n); }, size,
                    name);
-  const auto cut = [&] { refuse("it ends within its header: the run was ended at its start"); };
+  const auto cut = [&] {
+    refuse(ErrorCode::damaged, "it ends within its header: the run was ended at its start");
+  };
   HistoryBlock block;
   if (!walk.next(block, largest_history_head)) cut();
-  if (block.kind != HistoryBlockKind::head) refuse("it does not begin with a header");
+  if (block.kind != HistoryBlockKind::head)
+    refuse(ErrorCode::wrong_value, "it does not begin with a header");
   try {
     header = header_from_json(text(block));
   } catch (const InputError& error) {
-    refuse(error.errors().front().message);
+    refuse(ErrorCode::wrong_value, error.errors().front().message);
   }
   while (walk.next(block, longest())) {
-    if (status != "running") refuse("it goes on after its end");
+    if (status != "running") refuse(ErrorCode::damaged, "it goes on after its end");
     add(block);
   }
   if (arrays.size() < header.arrays.size()) cut();
@@ -112,7 +117,8 @@ void StateHistory::Data::add(const HistoryBlock& block) {
   if (arrays.size() < header.arrays.size()) {
     const HistoryArray& array = header.arrays[arrays.size()];
     if (block.kind != HistoryBlockKind::data || block.length != array_bytes(array))
-      refuse(fmt::format("found a block of {} bytes, expected the array '{}' of {} bytes",
+      refuse(ErrorCode::wrong_value,
+             fmt::format("found a block of {} bytes, expected the array '{}' of {} bytes",
                          block.length, excerpt(array.name), array_bytes(array)));
     arrays.push_back(block.at);
     return;
@@ -120,7 +126,8 @@ void StateHistory::Data::add(const HistoryBlock& block) {
   if (block.kind == HistoryBlockKind::done) return add_end(block);
   const std::uint64_t row = 8 * header.columns;
   if (block.kind != HistoryBlockKind::rows || block.length == 0 || block.length % row != 0)
-    refuse(fmt::format("found a block of {} bytes, expected rows of {} bytes each", block.length,
+    refuse(ErrorCode::wrong_count,
+           fmt::format("found a block of {} bytes, expected rows of {} bytes each", block.length,
                        row));
   blocks.push_back({block.at, block.length / row, instants});
   instants += block.length / row;
@@ -131,11 +138,12 @@ void StateHistory::Data::add_end(const HistoryBlock& block) {
   const auto end = read_json(text(block), why);
   if (!end.is_object() || !end.contains("status") || !end["status"].is_string() ||
       !end.contains("message") || !end["message"].is_string())
-    refuse("its end is not one of a result file");
+    refuse(ErrorCode::damaged, "its end is not one of a result file");
   status = end["status"].get<std::string>();
   message = end["message"].get<std::string>();
   if (status != "completed" && status != "failed" && status != "interrupted")
-    refuse(fmt::format("its end has the status '{}', expected completed, failed or interrupted",
+    refuse(ErrorCode::wrong_value,
+           fmt::format("its end has the status '{}', expected completed, failed or interrupted",
                        excerpt(status)));
 }
 
@@ -169,7 +177,8 @@ const std::vector<std::string>& StateHistory::notes() const noexcept { return da
 void StateHistory::instant(std::size_t k, std::span<double> row) const {
   const std::size_t columns = data_->header.columns;
   if (k >= data_->instants || row.size() != columns)
-    data_->refuse(fmt::format("found no instant {} with {} numbers, expected one below {} with {}",
+    data_->refuse(ErrorCode::missing,
+                  fmt::format("found no instant {} with {} numbers, expected one below {} with {}",
                               k, row.size(), data_->instants, columns));
   const auto after =
       std::upper_bound(data_->blocks.begin(), data_->blocks.end(), k,
@@ -179,13 +188,14 @@ void StateHistory::instant(std::size_t k, std::span<double> row) const {
               8 * columns);
   for (const double x : row)
     if (!std::isfinite(x))
-      data_->refuse(fmt::format("instant {} holds numbers that are not finite", k));
+      data_->refuse(ErrorCode::not_finite,
+                    fmt::format("instant {} holds numbers that are not finite", k));
 }
 
 std::vector<double> StateHistory::numbers(std::size_t array) const {
   if (array >= data_->arrays.size())
-    data_->refuse(
-        fmt::format("found no array {}, expected one below {}", array, data_->arrays.size()));
+    data_->refuse(ErrorCode::wrong_file, fmt::format("found no array {}, expected one below {}",
+                                                     array, data_->arrays.size()));
   const HistoryArray& a = data_->header.arrays[array];
   const std::string bytes =
       data_->text({HistoryBlockKind::data, data_->arrays[array], array_bytes(a)});
@@ -200,6 +210,7 @@ std::vector<double> StateHistory::numbers(std::size_t array) const {
     out[i] = a.type == "f64" ? as(0.0) : a.type == "f32" ? as(0.0f) : as(std::uint32_t{0});
     if (!std::isfinite(out[i]))
       data_->refuse(
+          ErrorCode::not_finite,
           fmt::format("the array '{}' holds numbers that are not finite", excerpt(a.name)));
   }
   return out;

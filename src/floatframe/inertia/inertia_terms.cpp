@@ -13,7 +13,8 @@ namespace {
 
 void require_size(const char* what, const auto& x, Eigen::Index rows, Eigen::Index columns) {
   if (x.rows() != rows || x.cols() != columns)
-    throw InputError(fmt::format("found {} of the size {} x {}, expected {} x {}", what, x.rows(),
+    throw InputError(ErrorCode::wrong_count,
+                     fmt::format("found {} of the size {} x {}, expected {} x {}", what, x.rows(),
                                  x.cols(), rows, columns));
 }
 
@@ -27,7 +28,8 @@ BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
   for (VecX* x : {&motion.y, &motion.ydot}) {
     if (x->size() == 0) *x = VecX::Zero(body.modes());
     if (x->size() != body.modes())
-      throw InputError(fmt::format("found {} modal amplitudes, expected {}: one for each mode",
+      throw InputError(ErrorCode::wrong_value,
+                       fmt::format("found {} modal amplitudes, expected {}: one for each mode",
                                    x->size(), body.modes()));
   }
   return motion;
@@ -39,9 +41,9 @@ InertiaTerms zero_terms(int n) { return {MatX::Zero(n, n), VecX::Zero(n)}; }
 std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
                                                    const BodyMotion& motion) {
   if (motion.geometric_stiffening && !body.second_order)
-    throw InputError(
-        "found a body without displacements of second order, expected one with SecondOrder for "
-        "geometric stiffening");
+    throw InputError(ErrorCode::wrong_value,
+                     "found a body without displacements of second order, expected one with "
+                     "SecondOrder for geometric stiffening");
   auto found = second_order_on_masses(body, motion.geometric_stiffening);
   if (!found) return found;
   const int nm = body.modes();
@@ -53,7 +55,8 @@ std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
 
 const ProjectionData& projection_data(const FlexibleBody& body) {
   if (!body.projection)
-    throw InputError("found a body without nodal masses, expected one that keeps ProjectionData");
+    throw InputError(ErrorCode::wrong_value,
+                     "found a body without nodal masses, expected one that keeps ProjectionData");
   const ProjectionData& data = *body.projection;
   const int n = data.nodes(), nm = body.modes();
   require_size("modal translations", data.X, 3 * n, nm);

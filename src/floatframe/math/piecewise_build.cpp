@@ -52,16 +52,18 @@ namespace {
 /// `jumps`: two points may have the same x.
 void require_ascending(const std::vector<TablePoint>& p, std::size_t least, bool jumps) {
   if (p.size() < least)
-    throw InputError("found " + std::to_string(p.size()) +
-                     " points of a table, expected at least " + std::to_string(least));
+    throw InputError(ErrorCode::out_of_range, "found " + std::to_string(p.size()) +
+                                                  " points of a table, expected at least " +
+                                                  std::to_string(least));
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!std::isfinite(p[i].x) || !std::isfinite(p[i].f))
-      throw InputError("point " + std::to_string(i + 1) +
-                       " of a table: found a number that is not finite");
+      throw InputError(ErrorCode::not_finite, "point " + std::to_string(i + 1) +
+                                                  " of a table: found a number that is not finite");
     if (i > 0 && !(jumps ? p[i].x >= p[i - 1].x : p[i].x > p[i - 1].x))
-      throw InputError("point " + std::to_string(i + 1) + " of a table: found an x that is " +
-                       (jumps ? "below" : "not above") +
-                       " the one before it, expected ascending x");
+      throw InputError(ErrorCode::contradiction, "point " + std::to_string(i + 1) +
+                                                     " of a table: found an x that is " +
+                                                     (jumps ? "below" : "not above") +
+                                                     " the one before it, expected ascending x");
   }
 }
 
@@ -114,8 +116,10 @@ PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation i
   require_ascending(p, 2, true);
   for (std::size_t i = 2; i < p.size(); ++i)
     if (p[i].x == p[i - 2].x)
-      throw InputError("point " + std::to_string(i + 1) +
-                       " of a table: found the same x a third time, expected two points at a jump");
+      throw InputError(
+          ErrorCode::wrong_count,
+          "point " + std::to_string(i + 1) +
+              " of a table: found the same x a third time, expected two points at a jump");
   std::vector<double> breaks;
   std::vector<PiecewisePolynomial::Piece> pieces{{p.front().x, {p.front().f, 0.0}}};
   for (std::size_t from = 0; from < p.size();) {

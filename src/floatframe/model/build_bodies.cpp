@@ -48,7 +48,7 @@ const char* remedy(const BodyDescription& body) {
 
 void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
   if (b.geometric_stiffening.value_or(false) && std::holds_alternative<RigidDescription>(b.kind))
-    errors.add(b.origin.of("geometric_stiffening"),
+    errors.add(ErrorCode::wrong_value, b.origin.of("geometric_stiffening"),
                "bodies." + b.name +
                    ".geometric_stiffening: found true on a rigid body, expected it on a flexible "
                    "one (or false)");
@@ -57,7 +57,8 @@ void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
   body.geometric_stiffening = body.modes() > 0 && given.value_or(false);
   body.stiffening_given = given.has_value();
   if (!body.geometric_stiffening || body.data->second_order) return;
-  errors.add(b.geometric_stiffening ? b.origin.of("geometric_stiffening")
+  errors.add(ErrorCode::contradiction,
+             b.geometric_stiffening ? b.origin.of("geometric_stiffening")
                                     : d.simulation.origin.of("geometric_stiffening"),
              "bodies." + b.name +
                  ".geometric_stiffening: found true, but the displacements of second order of its "
@@ -79,7 +80,7 @@ void ModelBuilder::bodies(FlexibleBuilder& flexible) {
     } else if (const auto* given = std::get_if<FlexibleBody>(&b.kind)) {
       if (given->modes() > 0)
         for (const InvariantError& f : check_invariants(*given, InvariantSource::parameters))
-          errors.add(b.origin.of("flexible"),
+          errors.add(ErrorCode::wrong_value, b.origin.of("flexible"),
                      "bodies." + b.name + ": " + f.quantity + ": " + f.sentence);
       body.data = std::make_shared<const FlexibleBody>(
           b.mirror == Mat3::Identity() ? *given : mirrored(*given, b.mirror));
@@ -116,7 +117,7 @@ void ModelBuilder::modal_masses() {
     s << "bodies." << b.name << ": found " << b.modes()
       << " modes of which a combination moves no mass (relative modal mass " << own
       << "), expected fewer modes" << remedy(d.bodies[i]);
-    errors.add(d.bodies[i].origin.of("flexible"), s.str());
+    errors.add(ErrorCode::wrong_value, d.bodies[i].origin.of("flexible"), s.str());
   }
 }
 
@@ -145,7 +146,7 @@ void ModelBuilder::finish() {
       const auto it = given.find(b.name);
       out.push_back(it == given.end() ? VecX() : it->second);
       if (it != given.end() && it->second.size() != b.modes())
-        errors.add(d.bodies[i].origin.of(key),
+        errors.add(ErrorCode::wrong_count, d.bodies[i].origin.of(key),
                    std::string(key) + "." + b.name + ": found a list of " +
                        std::to_string(it->second.size()) + ", expected a list of " +
                        std::to_string(b.modes()) + " amplitudes, one per mode");

@@ -170,7 +170,7 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
       plain = std::make_shared<const FlexibleBody>(std::move(reduced));
     } catch (const InputError& error) {
       for (const ErrorEntry& entry : error.errors())
-        errors.add(entry.mark.file.empty() ? body.origin.of("flexible") : entry.mark,
+        errors.add(entry.code, entry.mark.file.empty() ? body.origin.of("flexible") : entry.mark,
                    "bodies." + body.name + ": " + entry.message, entry.count);
       return nullptr;
     }

@@ -53,7 +53,8 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (nodes[k].name == *at.node && !is_surface_point(nodes[k])) m.node = static_cast<int>(k);
     if (m.node < 0) {
-      errors.add(mark, who + "." + node_key + ": " + no_node_named(b, *at.node));
+      errors.add(ErrorCode::not_found, mark,
+                 who + "." + node_key + ": " + no_node_named(b, *at.node));
       return -1;
     }
     X_BM.p = nodes[m.node].p;
@@ -73,7 +74,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
       Vec3 nearest = Vec3::Zero();
       if (m.node >= 0) nearest = b.X_WB * nodes[m.node].p;
       errors.add(
-          mark,
+          ErrorCode::not_found, mark,
           who + ".at: " + sentences::no_node_at(at.point, b.name, m.node < 0 ? nullptr : &nearest));
       return -1;
     }

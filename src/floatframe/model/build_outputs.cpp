@@ -41,7 +41,7 @@ void ModelBuilder::outputs() {
         built = o.component >= 0 && o.component < nm;
         if (!built) {
           const bool from_file = !o.origin.mark.file.empty();
-          errors.add(o.origin.mark,
+          errors.add(ErrorCode::out_of_range, o.origin.mark,
                      who + (from_file ? ".mode: " : ".component: ") +
                          sentences::number_of("the number of a mode", o.component, nm, from_file));
         }
@@ -92,7 +92,8 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
     const std::string place = mark.file + ":" + std::to_string(mark.line) + ":" +
                               std::to_string(mark.column) + ": " + found.error;
     if (mark.line > 0 && !wrong_gauges.insert(place).second) return false;
-    errors.add(o.origin.mark, who + "." + output_type_name(o.type) + ": " + found.error);
+    errors.add(ErrorCode::wrong_value, o.origin.mark,
+               who + "." + output_type_name(o.type) + ": " + found.error);
     return false;
   }
   Gauge g;

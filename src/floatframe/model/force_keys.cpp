@@ -111,7 +111,7 @@ bool ForceCheck::two_bodies(const std::string& a, const std::string& b) const {
   if (!good(a) || !good(b)) return false;
   const std::string body = place(a).body;
   if (body != place(b).body) return true;
-  error("", sentences::both_ends_on(written(body)));
+  error(ErrorCode::geometry, "", sentences::both_ends_on(written(body)));
   return false;
 }
 
@@ -126,7 +126,7 @@ void ForceCheck::some_law() const {
     if (given(k.name)) return;
     laws.push_back(k.name);
   }
-  error("", sentences::no_law(laws));
+  error(ErrorCode::missing, "", sentences::no_law(laws));
 }
 
 }  // namespace floatframe

@@ -137,7 +137,7 @@ struct ForceCheck : ForceView {
   std::set<std::string> wrong;  ///< keys
   bool from_file = false;       ///< places that name a node have its point
   /// A sentence about a key, or with "" about the force.
-  std::function<void(const std::string& key, const std::string& sentence)> error;
+  std::function<void(ErrorCode code, const std::string& key, const std::string& sentence)> error;
   /// The full name of an entity as the user has written it.
   std::function<std::string(const std::string&)> written;
   /// Of a joint that is right.

@@ -58,11 +58,12 @@ double road_variance(const RoadSpectrum& spectrum, double from, double to) noexc
 
 PiecewisePolynomial random_road(const RoadSpectrum& spectrum) {
   if (const auto complaint = rules::random_road_length.complaint(spectrum.length))
-    throw InputError("random road: length: " + *complaint);
+    throw InputError(ErrorCode::out_of_range, "random road: length: " + *complaint);
   if (const auto complaint = non_negative_number("m3").complaint(spectrum.roughness))
-    throw InputError("random road: roughness: " + *complaint);
+    throw InputError(ErrorCode::out_of_range, "random road: roughness: " + *complaint);
   if (!std::isfinite(spectrum.start))
-    throw InputError("random road: start: found a number that is not finite");
+    throw InputError(ErrorCode::not_finite,
+                     "random road: start: found a number that is not finite");
 
   const auto count = static_cast<std::size_t>(std::ceil(spectrum.length / spacing));
   const double h = spectrum.length / static_cast<double>(count);

@@ -39,11 +39,12 @@ struct Entity {
   const Origin& origin;
   std::string path;
 
-  void error(const std::string& key, const std::string& sentence) const;
+  void error(ErrorCode code, const std::string& key, const std::string& sentence) const;
   /// "path: sentence"
-  void error(const std::string& sentence) const;
-  void complain(const std::string& key, const std::optional<std::string>& complaint) const {
-    if (complaint) error(key, *complaint);
+  void error(ErrorCode code, const std::string& sentence) const;
+  void complain(ErrorCode code, const std::string& key,
+                const std::optional<std::string>& complaint) const {
+    if (complaint) error(code, key, *complaint);
   }
   /// Each: true if nothing is wrong.
   bool number(const std::string& key, double x, const NumberRule& rule) const;
@@ -51,7 +52,7 @@ struct Entity {
   template <class Enum, std::size_t n>
   bool word(const std::string& key, Enum value, const char* const (&words)[n]) const {
     const auto complaint = word_complaint(static_cast<int>(value), words);
-    complain(key, complaint);
+    complain(ErrorCode::out_of_range, key, complaint);
     return !complaint;
   }
   bool vector(const std::string& key, const Vec3& v, const char* unit) const;

@@ -11,18 +11,17 @@ void rigid(const RigidDescription& r, const Entity& body) {
   body.number("rigid.mass", r.mass, rules::mass);
   body.vector("rigid.centre_of_mass", r.p_BC, "m");
   if (!r.J_C.allFinite()) {
-    body.error("rigid.inertia",
-               "found numbers that are not finite, expected an inertia tensor "
-               "[kg m2]");
+    body.error(ErrorCode::not_finite, "rigid.inertia",
+               "found numbers that are not finite, expected an inertia tensor [kg m2]");
     return;
   }
   const double size = r.J_C.cwiseAbs().maxCoeff();
   if ((r.J_C - r.J_C.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size)
-    body.error("rigid.inertia",
-               "found a tensor that is not symmetric, expected equal products of "
-               "inertia on both sides of the diagonal [kg m2]");
+    body.error(ErrorCode::contradiction, "rigid.inertia",
+               "found a tensor that is not symmetric, expected equal products of inertia on both "
+               "sides of the diagonal [kg m2]");
   else
-    body.complain("rigid.inertia", sentences::inertia(r.J_C));
+    body.complain(ErrorCode::out_of_range, "rigid.inertia", sentences::inertia(r.J_C));
 }
 
 namespace {
@@ -52,7 +51,7 @@ class Arrays {
         size("invariants.Sij" + k + "[" + std::to_string(j) + "]", v.Sij[i][j], n, n);
     }
     if (!(v.m >= 0.0) || !std::isfinite(v.m))
-      body_.complain("invariants.m", rules::mass.complaint(v.m));
+      body_.complain(ErrorCode::out_of_range, "invariants.m", rules::mass.complaint(v.m));
     size("K", f_.K, n, n);
     size("D", f_.D, n, n);
     symmetric("K", f_.K);
@@ -75,34 +74,39 @@ class Arrays {
   template <class Matrix>
   void values(const std::string& what, const Matrix& m) {
     if (!m.allFinite())
-      body_.error(what, "found numbers that are not finite, expected finite ones");
+      body_.error(ErrorCode::not_finite, what,
+                  "found numbers that are not finite, expected finite ones");
   }
   template <class Matrix>
   void size(const std::string& what, const Matrix& m, Eigen::Index rows, Eigen::Index columns) {
     if (m.rows() != rows || m.cols() != columns)
-      body_.error(what, "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
-                            " numbers, expected " + std::to_string(rows) + " x " +
-                            std::to_string(columns) + " for " +
-                            std::to_string(f_.invariants.S.cols()) + " modes");
+      body_.error(ErrorCode::wrong_count, what,
+                  "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
+                      " numbers, expected " + std::to_string(rows) + " x " +
+                      std::to_string(columns) + " for " + std::to_string(f_.invariants.S.cols()) +
+                      " modes");
     else
       values(what, m);
   }
   void symmetric(const std::string& what, const MatX& m) {
     if (m.rows() != m.cols() || m.size() == 0 || !m.allFinite()) return;
     if ((m - m.transpose()).cwiseAbs().maxCoeff() > 1e-6 * m.cwiseAbs().maxCoeff())
-      body_.error(what, "found a matrix that is not symmetric, expected a symmetric one");
+      body_.error(ErrorCode::contradiction, what,
+                  "found a matrix that is not symmetric, expected a symmetric one");
   }
   template <class Sparse>
   void sparse(const std::string& what, const Sparse& m, Eigen::Index n) {
     if (m.rows() != n || m.cols() != n) {
-      body_.error(what, "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
-                            " numbers, expected " + std::to_string(n) + " x " + std::to_string(n));
+      body_.error(ErrorCode::wrong_count, what,
+                  "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
+                      " numbers, expected " + std::to_string(n) + " x " + std::to_string(n));
       return;
     }
     for (Eigen::Index k = 0; k < m.outerSize(); ++k)
       for (typename Sparse::InnerIterator it(m, k); it; ++it)
         if (!std::isfinite(it.value())) {
-          body_.error(what, "found numbers that are not finite, expected finite ones");
+          body_.error(ErrorCode::not_finite, what,
+                      "found numbers that are not finite, expected finite ones");
           return;
         }
   }
@@ -131,7 +135,8 @@ void flexible(const FlexibleBody& f, const Entity& body) {
 }
 
 void bodies(const ModelDescription& d, ErrorList& errors) {
-  if (d.bodies.empty()) errors.add({}, "bodies: found none, expected at least one body");
+  if (d.bodies.empty())
+    errors.add(ErrorCode::out_of_range, {}, "bodies: found none, expected at least one body");
   std::set<std::string> taken;
   for (const BodyDescription& b : d.bodies) {
     const Entity body{errors, b.origin, "bodies." + b.name};
@@ -139,7 +144,7 @@ void bodies(const ModelDescription& d, ErrorList& errors) {
     body.vector("position", b.X_WB.p, "m");
     body.rotation("orientation", b.X_WB.R);
     if (!is_mirror(b.mirror))
-      body.error("mirror",
+      body.error(ErrorCode::wrong_value, "mirror",
                  "found a matrix that is not diagonal with 1 and -1, expected a reflection at "
                  "planes normal to the axes");
     body.vector("template.position", b.X_WT.p, "m");
@@ -159,7 +164,7 @@ void amplitudes(const ModelDescription& d, const Names& names, ErrorList& errors
       if (!entity.reference(body_name, "body", body_name, names.bodies)) continue;
       const BodyDescription& b = d.bodies[*k];
       if (b.rigid || std::holds_alternative<RigidDescription>(b.kind)) {
-        entity.error(body_name, sentences::rigid_body_has_no_modes(b.rigid));
+        entity.error(ErrorCode::missing, body_name, sentences::rigid_body_has_no_modes(b.rigid));
         continue;
       }
       for (Eigen::Index i = 0; i < values.size(); ++i)

@@ -26,24 +26,24 @@ const SourceMark& mark_of(const Origin& origin, const std::string& key) {
 
 }  // namespace
 
-void Entity::error(const std::string& key, const std::string& sentence) const {
-  errors.add(mark_of(origin, key),
-             printable(path + (path.empty() ? "" : ".") + key + ": " + sentence));
+void Entity::error(ErrorCode code, const std::string& key, const std::string& sentence) const {
+  const std::string at = printable(path + (path.empty() ? "" : ".") + key);
+  errors.add({mark_of(origin, key), code, at + ": " + printable(sentence), 1, at});
 }
 
-void Entity::error(const std::string& sentence) const {
-  errors.add(origin.mark, printable(path + ": " + sentence));
+void Entity::error(ErrorCode code, const std::string& sentence) const {
+  errors.add({origin.mark, code, printable(path + ": " + sentence), 1, printable(path)});
 }
 
 bool Entity::number(const std::string& key, double x, const NumberRule& rule) const {
   const auto complaint = rule.complaint(x);
-  complain(key, complaint);
+  complain(ErrorCode::out_of_range, key, complaint);
   return !complaint;
 }
 
 bool Entity::whole(const std::string& key, int x, const WholeNumberRule& rule) const {
   const auto complaint = rule.complaint(x);
-  complain(key, complaint);
+  complain(ErrorCode::out_of_range, key, complaint);
   return !complaint;
 }
 
@@ -66,24 +66,25 @@ bool Entity::list(const std::string& key, const std::vector<double>& v) const {
 bool Entity::direction(const std::string& key, const Vec3& v) const {
   if (!vector(key, v, "")) return false;
   const auto complaint = sentences::direction(v);
-  complain(key, complaint);
+  complain(ErrorCode::out_of_range, key, complaint);
   return !complaint;
 }
 
 bool Entity::rotation(const std::string& key, const Mat3& R) const {
   if (!R.allFinite()) {
-    error(key, "found a matrix with numbers that are not finite, expected a rotation matrix");
+    error(ErrorCode::not_finite, key,
+          "found a matrix with numbers that are not finite, expected a rotation matrix");
     return false;
   }
   const double distance = (R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff();
   if (!(distance <= 1e-9)) {
-    error(key,
+    error(ErrorCode::wrong_value, key,
           "found a matrix R with |R^T R - 1| = " + number_text(std::round(distance * 1e12) / 1e12) +
               ", expected a rotation matrix: orthonormal axes");
     return false;
   }
   if (!(R.determinant() > 0.0)) {
-    error(key,
+    error(ErrorCode::wrong_value, key,
           "found a reflection (determinant -1), expected a rotation matrix: right-handed axes");
     return false;
   }
@@ -93,8 +94,9 @@ bool Entity::rotation(const std::string& key, const Mat3& R) const {
 bool Entity::reference(const std::string& key, const char* kind, const std::string& name,
                        const NameIndex& known) const {
   if (known.find(name)) return true;
-  error(key, std::string("unknown ") + kind + " '" + name + "'" +
-                 (errors.size() < most_suggestions ? did_you_mean(name, known.names()) : ""));
+  error(ErrorCode::not_found, key,
+        std::string("unknown ") + kind + " '" + name + "'" +
+            (errors.size() < most_suggestions ? did_you_mean(name, known.names()) : ""));
   return false;
 }
 
@@ -103,12 +105,12 @@ bool Entity::place(const std::string& key, const AttachmentDescription& at, cons
   const std::string inside = key.empty() ? "" : key + ".";
   bool good = true;
   if (at.body == ground_name && !ground) {
-    error(inside + "body", sentences::ground_is_no_body());
+    error(ErrorCode::missing, inside + "body", sentences::ground_is_no_body());
     good = false;
   } else if (at.body != ground_name) {
     good = reference(inside + "body", "body", at.body, names.bodies);
   } else if (at.node) {
-    error(inside + "node", sentences::node_on_ground());
+    error(ErrorCode::incomplete, inside + "node", sentences::node_on_ground());
     good = false;
   }
   return vector(inside + "at", at.point, "m") && good;
@@ -118,8 +120,9 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   const std::vector<double>& breaks = f.breaks();
   const std::size_t n = f.pieces().size();
   if (n != breaks.size() + 1) {
-    error(key, "found " + std::to_string(n) + " pieces and " + std::to_string(breaks.size()) +
-                   " breaks between them, expected one piece more than breaks");
+    error(ErrorCode::out_of_range, key,
+          "found " + std::to_string(n) + " pieces and " + std::to_string(breaks.size()) +
+              " breaks between them, expected one piece more than breaks");
     return false;
   }
   bool good = true;
@@ -131,9 +134,9 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
     if (!number(piece(k, ".below"), breaks[k], any_number(""))) {
       good = false;
     } else if (k > 0 && (may_jump ? breaks[k] < breaks[k - 1] : breaks[k] <= breaks[k - 1])) {
-      error(piece(k, ".below"), "found " + number_text(breaks[k]) +
-                                    ", expected a number above the previous one, " +
-                                    number_text(breaks[k - 1]));
+      error(ErrorCode::out_of_range, piece(k, ".below"),
+            "found " + number_text(breaks[k]) + ", expected a number above the previous one, " +
+                number_text(breaks[k - 1]));
       good = false;
     }
   }
@@ -141,8 +144,9 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
     const PiecewisePolynomial::Piece& p = f.pieces()[k];
     good = number(piece(k, ".about"), p.centre, any_number("")) && good;
     if (p.coefficients.empty() || p.coefficients.size() > rules::most_coefficients) {
-      error(piece(k, ".polynomial"), "found a list of " + std::to_string(p.coefficients.size()) +
-                                         ", expected " + rules::coefficients);
+      error(ErrorCode::wrong_count, piece(k, ".polynomial"),
+            "found a list of " + std::to_string(p.coefficients.size()) + ", expected " +
+                rules::coefficients);
       good = false;
     }
     for (std::size_t i = 0; i < p.coefficients.size(); ++i)
@@ -152,7 +156,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   }
   if (!good || may_jump) return good;
   const auto jump = sentences::jump(f);
-  if (jump) error(piece(jump->first, ""), jump->second);
+  if (jump) error(ErrorCode::wrong_value, piece(jump->first, ""), jump->second);
   return !jump;
 }
 
@@ -179,13 +183,13 @@ void name(const char* kind, const std::string& name, std::set<std::string>& take
   }
   if (!good) {
     const std::string shown = name.size() > 40 ? name.substr(0, 40) + "..." : name;
-    entity.errors.add(entity.origin.mark,
+    entity.errors.add(ErrorCode::wrong_value, entity.origin.mark,
                       kind + (": found the name '" + printable(shown)) +
                           "', expected letters, digits, _ and -, with a letter first");
   } else if (kind == std::string_view("bodies") && name == ground_name) {
-    entity.error("the name 'ground' is taken by the ground");
+    entity.error(ErrorCode::duplicate, "the name 'ground' is taken by the ground");
   } else if (!taken.insert(name).second) {
-    entity.error("the name is taken, expected a name used once");
+    entity.error(ErrorCode::duplicate, "the name is taken, expected a name used once");
   }
 }
 

@@ -39,9 +39,10 @@ class FlexibleCheck {
     group_.number("material.young", f_.young, rules::young);
     group_.number("material.poisson", f_.poisson, rules::poisson);
     group_.number("material.density", f_.density, rules::density);
-    if (const auto complaint = damping_complaint(f_.damping)) group_.error("damping", *complaint);
+    if (const auto complaint = damping_complaint(f_.damping))
+      group_.error(ErrorCode::out_of_range, "damping", *complaint);
     group_.word("mass_model", f_.mass_model, rules::mass_models);
-    group_.complain("section_inertia",
+    group_.complain(ErrorCode::out_of_range, "section_inertia",
                     sentences::section_inertia(f_.section_inertia, isoparametric()));
   }
 
@@ -60,7 +61,7 @@ class FlexibleCheck {
     } else if (const auto* h = std::get_if<HollowRound>(&s)) {
       const bool good = bar.number("section.tube[1]", h->outer, rules::section_length);
       if (bar.number("section.tube[2]", h->inner, rules::section_length) && good)
-        bar.complain("section.tube", sentences::tube(h->outer, h->inner));
+        bar.complain(ErrorCode::wrong_value, "section.tube", sentences::tube(h->outer, h->inner));
     } else if (const auto* q = std::get_if<Rectangle>(&s)) {
       bar.number("section.rectangle[1]", q->width, rules::section_length);
       bar.number("section.rectangle[2]", q->height, rules::section_length);
@@ -83,7 +84,7 @@ class FlexibleCheck {
   bool branch(const Entity& bar, const BarDescription& b, BarGeometry& g) {
     const auto it = geometry_.find(*b.from_bar);
     if (it == geometry_.end()) {
-      bar.error("from.bar",
+      bar.error(ErrorCode::not_found, "from.bar",
                 sentences::unknown_bar(*b.from_bar, did_you_mean(*b.from_bar, keys_of(geometry_))));
       return false;
     }
@@ -94,7 +95,7 @@ class FlexibleCheck {
   }
 
   void bars() {
-    if (f_.bars.empty()) group_.error("bars", sentences::no_bars());
+    if (f_.bars.empty()) group_.error(ErrorCode::missing, "bars", sentences::no_bars());
     for (const BarDescription& b : f_.bars) {
       const Entity bar{group_.errors, b.origin.mark.file.empty() ? group_.origin : b.origin,
                        group_.path + ".bars." + b.name};
@@ -118,13 +119,13 @@ class FlexibleCheck {
       g.good = g.good && g.from.allFinite() && g.to.allFinite();
       if (g.good) {
         if (const auto complaint = sentences::bar_length((g.to - g.from).norm())) {
-          bar.error(*complaint);
+          bar.error(ErrorCode::out_of_range, *complaint);
           g.good = false;
         } else if (directed) {
           if (const auto zero = sentences::direction(b.reference))
-            bar.error("reference", *zero);
+            bar.error(ErrorCode::wrong_value, "reference", *zero);
           else
-            bar.complain("reference",
+            bar.complain(ErrorCode::geometry, "reference",
                          sentences::bar_reference(g.to - g.from, b.reference.stableNormalized()));
         }
       }
@@ -156,7 +157,8 @@ class FlexibleCheck {
       if (!g.good) return;
     for (const BarDescription& b : f_.bars)
       if (leader(geometry_.at(b.name).index) != leader(0)) {
-        group_.error("bars." + b.name, sentences::bar_not_connected(f_.bars.front().name));
+        group_.error(ErrorCode::not_found, "bars." + b.name,
+                     sentences::bar_not_connected(f_.bars.front().name));
         return;
       }
   }
@@ -164,7 +166,8 @@ class FlexibleCheck {
   bool node(const std::string& key, const std::string& name) {
     if (bar_of_point_.contains(name)) return true;
     if (!geometry_good_) return false;  // a bar that is wrong makes no nodes
-    group_.error(key, sentences::no_end_point(name) + did_you_mean(name, keys_of(bar_of_point_)));
+    group_.error(ErrorCode::not_found, key,
+                 sentences::no_end_point(name) + did_you_mean(name, keys_of(bar_of_point_)));
     return false;
   }
 
@@ -182,14 +185,14 @@ class FlexibleCheck {
       const NodeDofs& d = given[i];
       const std::string item = std::string(key) + "[" + std::to_string(i + 1) + "]";
       if (d.mask == 0 || d.mask > 63u)
-        group_.error(item + ".dofs", "found the mask " + std::to_string(d.mask) +
-                                         ", expected directions: bits 0 to 5 = x, y, z, rx, ry, "
-                                         "rz");
+        group_.error(ErrorCode::wrong_value, item + ".dofs",
+                     "found the mask " + std::to_string(d.mask) +
+                         ", expected directions: bits 0 to 5 = x, y, z, rx, ry, rz");
       if (!node(item + ".point", d.node)) continue;
       for (unsigned k = 0; k < 6; ++k) {
         if (!(d.mask & (1u << k))) continue;
         if (!taken_dofs_.insert({d.node, k}).second)
-          group_.error(item, sentences::dof_twice(d.node, k));
+          group_.error(ErrorCode::duplicate, item, sentences::dof_twice(d.node, k));
         else if (places)
           places->emplace_back(f_.points.at(d.node), k);
       }
@@ -200,12 +203,14 @@ class FlexibleCheck {
     if (f_.analytic) {
       group_.whole("analytic.dynamic_per_plane", f_.analytic->dynamic_per_plane,
                    rules::analytic_shapes);
-      group_.complain("analytic", sentences::analytic_shapes(f_.bars.size(), f_.masses.size()));
+      group_.complain(ErrorCode::wrong_value, "analytic",
+                      sentences::analytic_shapes(f_.bars.size(), f_.masses.size()));
       return;
     }
     if (f_.basis) {
       if (!f_.basis->allFinite())
-        group_.error("basis", "found numbers that are not finite, expected finite ones");
+        group_.error(ErrorCode::not_finite, "basis",
+                     "found numbers that are not finite, expected finite ones");
       return;  // its rows are compared with the nodes when the body is reduced
     }
     if (!geometry_good_) return;
@@ -218,11 +223,13 @@ class FlexibleCheck {
     if (f_.max_frequency != 0.0)
       group_.number("normal_modes.below", f_.max_frequency, rules::mode_frequency);
     if (number)
-      group_.complain("normal_modes", sentences::more_modes_than_dofs(f_.normal_modes, nodes_ + 1,
-                                                                      isoparametric()));
+      group_.complain(
+          ErrorCode::wrong_value, "normal_modes",
+          sentences::more_modes_than_dofs(f_.normal_modes, nodes_ + 1, isoparametric()));
     if (f_.interfaces.empty() && f_.normal_modes == 0 && f_.max_frequency == 0.0)
-      group_.error(sentences::no_modes());
-    if (selection) group_.complain("clamped", sentences::body_reference(clamped));
+      group_.error(ErrorCode::missing, sentences::no_modes());
+    if (selection)
+      group_.complain(ErrorCode::wrong_value, "clamped", sentences::body_reference(clamped));
   }
 
   const FlexibleDescription& f_;

@@ -59,7 +59,7 @@ struct ForceValidation {
     const auto* text = std::get_if<std::string>(&value);
     auto complaint = word_complaint(k ? *k : -1, key.words);
     if (text) complaint = "found '" + *text + "', expected " + alternatives(key.words);
-    entity.complain(key.name, complaint);
+    entity.complain(ErrorCode::out_of_range, key.name, complaint);
     return !complaint;
   }
 
@@ -68,11 +68,13 @@ struct ForceValidation {
     using K = ForceKeyKind;
     const auto x = force_value(force, key);
     if (!x) {
-      if (key.required) entity.error(std::string("missing key '") + key.name + "'");
+      if (key.required)
+        entity.error(ErrorCode::missing, std::string("missing key '") + key.name + "'");
       return !key.required;
     }
     if (const char* what = other_type(key, *x)) {
-      entity.error(key.name, std::string("found a value of another type, expected ") + what);
+      entity.error(ErrorCode::wrong_value, key.name,
+                   std::string("found a value of another type, expected ") + what);
       return false;
     }
     const std::size_t before = entity.errors.size();
@@ -105,10 +107,12 @@ struct ForceValidation {
         break;
       case K::stiffness_matrix:
       case K::damping_matrix:
-        entity.complain(key.name, sentences::force_matrix(std::get<MatX>(*x)));
+        entity.complain(ErrorCode::wrong_value, key.name,
+                        sentences::force_matrix(std::get<MatX>(*x)));
         break;
       case K::speed_table:
-        entity.complain(key.name, sentences::speed_table(std::get<MatX>(*x)));
+        entity.complain(ErrorCode::wrong_value, key.name,
+                        sentences::speed_table(std::get<MatX>(*x)));
         break;
       case K::load:
       case K::target:
@@ -130,12 +134,13 @@ struct ForceValidation {
     for (const ForceKey& key : force_keys(force.type())) known.push_back(key.name);
     for (const auto& [key, value] : by_key->values)
       if (std::find(known.begin(), known.end(), key) == known.end())
-        entity.error("unknown key '" + key + "'" + did_you_mean(key, known));
+        entity.error(ErrorCode::unknown_key,
+                     "unknown key '" + key + "'" + did_you_mean(key, known));
   }
 
   void all() const {
     if (const auto complaint = word_complaint(static_cast<int>(force.type()), force_words)) {
-      entity.error("type", *complaint);
+      entity.error(ErrorCode::out_of_range, "type", *complaint);
       return;
     }
     unknown_keys();
@@ -143,8 +148,8 @@ struct ForceValidation {
     for (const ForceKey& key : force_keys(force.type()))
       if (!value(key)) check.wrong.insert(key.name);
     check.from_file = !force.origin.mark.file.empty();
-    check.error = [&](const std::string& key, const std::string& sentence) {
-      key.empty() ? entity.error(sentence) : entity.error(key, sentence);
+    check.error = [&](ErrorCode code, const std::string& key, const std::string& sentence) {
+      key.empty() ? entity.error(code, sentence) : entity.error(code, key, sentence);
     };
     check.written = [](const std::string& name) { return name; };
     check.joint_type = [&](const std::string& joint) -> std::optional<JointType> {

@@ -9,7 +9,7 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   const Origin none;
   const validation::Entity model{errors, none, ""};
   if (const auto complaint = sentences::model_name(d.name))
-    model.error("name", "found '" + d.name + "', " + *complaint);
+    model.error(ErrorCode::out_of_range, "name", "found '" + d.name + "', " + *complaint);
   model.vector("gravity", d.gravity, "m/s2");
   model.number("snap.angle", d.snap.angle, rules::snap_angle);
   model.number("snap.distance", d.snap.distance, rules::snap_distance);
@@ -32,9 +32,10 @@ void validate(const SimulationDescription& s, ErrorList& errors) {
   group.word("inertia", s.inertia, rules::inertia_methods);
   group.word("start", s.start, {"given", "equilibrium", "{state: file}"});
   if (s.start == Start::state && !s.state)
-    group.error("start", "found no state, expected the state to start from");
+    group.error(ErrorCode::wrong_value, "start",
+                "found no state, expected the state to start from");
   if (s.start == Start::given && !s.offset.empty())
-    group.error("start.offset", sentences::offset_alone());
+    group.error(ErrorCode::incomplete, "start.offset", sentences::offset_alone());
   for (const auto& [body, offset] : s.offset) {
     group.vector("start.offset." + body, offset.translation, "m");
     if (offset.rotation) group.vector("start.offset." + body, *offset.rotation, "rad");
@@ -47,7 +48,7 @@ void validate(const SimulationDescription& s, ErrorList& errors) {
   group.number("tolerance", s.tolerance, rules::tolerance);
   group.whole("max_iterations", s.max_iterations, rules::max_iterations);
   if (group.number("min_step", s.min_step, rules::min_step) && step)
-    group.complain("min_step", sentences::min_step(s.min_step, s.step));
+    group.complain(ErrorCode::wrong_value, "min_step", sentences::min_step(s.min_step, s.step));
   group.number("penalty", s.penalty, rules::penalty);
   group.number("position_tolerance", s.position_tolerance, rules::position_tolerance);
   group.number("velocity_tolerance", s.velocity_tolerance, rules::velocity_tolerance);
@@ -63,7 +64,7 @@ void require_valid(const SimulationDescription& s) {
 void require_valid_run(const SimulationDescription& s) {
   require_valid(s);
   if (const auto complaint = sentences::steps(s.duration, s.step))
-    throw InputError(place_of_clock(s), *complaint);
+    throw InputError(ErrorCode::out_of_range, place_of_clock(s), *complaint);
 }
 
 SourceMark place_of_clock(const SimulationDescription& s) {

@@ -19,10 +19,10 @@ void joint_output(const OutputDescription& o, const ModelDescription& d, const N
   if (word_complaint(static_cast<int>(type), joint_words)) return;
   const int n = joint_velocities(type);
   if (n == 0)
-    entity.error(output_type_name(o.type), sentences::weld_does_not_move());
+    entity.error(ErrorCode::wrong_value, output_type_name(o.type), sentences::weld_does_not_move());
   else if (o.component < 0 || o.component >= n) {
     const bool from_file = !o.origin.mark.file.empty();
-    entity.error(from_file ? "coordinate" : "component",
+    entity.error(ErrorCode::out_of_range, from_file ? "coordinate" : "component",
                  sentences::number_of("the number of a coordinate", o.component, n, from_file));
   }
 }
@@ -33,7 +33,7 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
   const ForceType type = d.forces[*names.forces.find(o.entity)].type();
   if (word_complaint(static_cast<int>(type), force_words)) return;
   if (!force_has(type, output_kind(o.type).needs))
-    entity.error(output_type_name(o.type),
+    entity.error(ErrorCode::incomplete, output_type_name(o.type),
                  sentences::load_without(force_type_name(type), output_type_name(o.type)));
 }
 
@@ -41,25 +41,26 @@ void reaction(const OutputDescription& o, const Names& names, const Entity& enti
   entity.reference(output_type_name(o.type), o.rod ? "rod" : "joint", o.entity,
                    o.rod ? names.rods : names.joints);
   if (o.about && o.type != OutputType::joint_torque)
-    entity.error("about", sentences::force_without_point());
+    entity.error(ErrorCode::incomplete, "about", sentences::force_without_point());
   else if (o.about)
     entity.place("about", o.at, names);
   if (!entity.word("in", o.in, rules::reaction_axes)) return;
   if (o.in == OutputAxes::place)
     entity.place("in", o.to, names);
   else if (o.rod && o.in != OutputAxes::world)
-    entity.error("in", sentences::rod_has_no_axes());
+    entity.error(ErrorCode::missing, "in", sentences::rod_has_no_axes());
 }
 
 void gauge(const OutputDescription& o, const Entity& entity) {
   const std::string what = output_type_name(o.type);
   if (o.gauge.node < 0)
-    entity.error(what, "found the node " + std::to_string(o.gauge.node) +
-                           ", expected the number of a node in its file, from 1");
+    entity.error(ErrorCode::out_of_range, what,
+                 "found the node " + std::to_string(o.gauge.node) +
+                     ", expected the number of a node in its file, from 1");
   if (!o.at.point.allFinite() || !o.gauge.toward.allFinite() || !o.gauge.along.allFinite())
-    entity.error(what, "found a number that is not finite");
+    entity.error(ErrorCode::not_finite, what, "found a number that is not finite");
   if (o.type == OutputType::strain)
-    entity.complain("direction", sentences::direction(o.gauge.direction));
+    entity.complain(ErrorCode::geometry, "direction", sentences::direction(o.gauge.direction));
 }
 
 void motion_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
@@ -67,7 +68,7 @@ void motion_output(const OutputDescription& o, const ModelDescription& d, const 
   const char* const word = output_type_name(o.type);
   if (!entity.reference(word, "joint", o.entity, names.joints)) return;
   if (!d.joints[*names.joints.find(o.entity)].motion)
-    entity.error(word, sentences::joint_without_motion());
+    entity.error(ErrorCode::incomplete, word, sentences::joint_without_motion());
 }
 
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,
@@ -75,7 +76,7 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
   const std::string what = output_type_name(o.type);
   const auto moving_body = [&] {
     if (o.at.body == ground_name)
-      entity.error(what, sentences::ground_is_no_body());
+      entity.error(ErrorCode::missing, what, sentences::ground_is_no_body());
     else
       entity.reference(what, "body", o.at.body, names.bodies);
   };
@@ -113,7 +114,8 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
       break;
   }
   if (kind.components.key)
-    entity.complain(kind.components.key, word_complaint(o.component, kind.components.words));
+    entity.complain(ErrorCode::out_of_range, kind.components.key,
+                    word_complaint(o.component, kind.components.words));
 }
 
 }  // namespace
@@ -123,12 +125,12 @@ void outputs(const ModelDescription& d, const Names& names, ErrorList& errors) {
   for (const OutputDescription& o : d.outputs) {
     const Entity entity{errors, o.origin, "outputs." + o.name};
     if (const auto complaint = sentences::column_name(o.name))
-      entity.error(*complaint);
+      entity.error(ErrorCode::out_of_range, *complaint);
     else if (const auto taken_by = sentences::column_taken(o.name, !taken.insert(o.name).second))
-      errors.add(o.origin.mark, "outputs: " + *taken_by);
+      errors.add(ErrorCode::wrong_value, o.origin.mark, "outputs: " + *taken_by);
     const auto kind = word_complaint(static_cast<int>(o.type), output_words);
     if (kind)
-      entity.error(*kind);
+      entity.error(ErrorCode::wrong_value, *kind);
     else
       output(o, d, names, entity);
   }

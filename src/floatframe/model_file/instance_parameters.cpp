@@ -50,15 +50,16 @@ std::string shown(const ParameterValue& v) {
 std::optional<GivenParameter> read_override(const ParameterOverride& o, const std::string& path,
                                             ReadErrors& errors) {
   const SourceMark mark{path, 0, 0};
-  const auto refuse = [&](const std::string& why) {
-    errors.add(mark, "--set " + o.name + "=" + o.value.substr(0, 100) + ": " + why);
+  const auto refuse = [&](ErrorCode code, const std::string& why) {
+    errors.add(code, mark, "--set " + o.name + "=" + o.value.substr(0, 100) + ": " + why);
     return std::nullopt;
   };
   if (o.value.size() > longest_text)
-    return refuse("found a text of " + std::to_string(o.value.size()) +
-                  " characters, expected at most " + std::to_string(longest_text));
+    return refuse(ErrorCode::out_of_range, "found a text of " + std::to_string(o.value.size()) +
+                                               " characters, expected at most " +
+                                               std::to_string(longest_text));
   if (printable(o.value) != o.value)
-    return refuse("expected UTF-8 text without control characters");
+    return refuse(ErrorCode::wrong_value, "expected UTF-8 text without control characters");
   GivenParameter given{o.name, {}, mark, "--set", {}, {}};
   const std::size_t n = o.value.size();
   if (n > 2 && (o.value[0] == '\'' || o.value[0] == '"') && o.value[n - 1] == o.value[0]) {
@@ -70,12 +71,12 @@ std::optional<GivenParameter> read_override(const ParameterOverride& o, const st
     try {
       given.value = substitute_parameters(o.value, {});
     } catch (const ExpressionError& error) {
-      return refuse(error.what());
+      return refuse(ErrorCode::wrong_value, error.what());
     }
     return given;
   }
   const PlainScalar p = classify_plain_scalar(o.value);
-  if (o.value.empty()) return refuse("found nothing, expected a value");
+  if (o.value.empty()) return refuse(ErrorCode::missing, "found nothing, expected a value");
   given.raw = o.value;
   given.value = given.raw;
   if (p.kind == PlainScalar::Kind::number) given.value = p.number;
@@ -100,18 +101,20 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
     }
     for (const auto& [name, value] : declared) {
       if (is_reserved_name(name)) {
-        value.entity_error("the name is used by the expression language");
+        value.entity_error(ErrorCode::duplicate, "the name is used by the expression language");
         continue;
       }
       if (!is_identifier(name)) {
-        value.entity_error("found a hyphen, expected letters, digits and _ in a parameter name");
+        value.entity_error(ErrorCode::wrong_value,
+                           "found a hyphen, expected letters, digits and _ in a parameter name");
         continue;
       }
       for (const std::string& later : hiding)
         if (value.is_scalar() && mentions(value.node().text, later))
-          value.error("found " + value.found() + ", but the parameter '" + later +
-                      "', which takes the place of the constant, is declared later; expected it "
-                      "before its uses");
+          value.error(ErrorCode::contradiction, "found " + value.found() + ", but the parameter '" +
+                                                    later +
+                                                    "', which takes the place of the constant, is "
+                                                    "declared later; expected it before its uses");
       hiding.erase(name);
       auto v = value.parameter();
       for (auto [it, end] = by_name.equal_range(name); it != end; ++it) {
@@ -120,11 +123,13 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
         if (v && v->index() == 2 && !g.raw.empty())
           v = g.raw;
         else if (!g.complaint.empty())
-          errors.add(g.mark, g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" +
-                                 g.complaint + ")");
+          errors.add(
+              ErrorCode::out_of_range, g.mark,
+              g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" + g.complaint + ")");
         else if (v && v->index() != g.value.index())
-          errors.add(g.mark, g.subject + "." + name + ": found " + shown(g.value) + ", expected " +
-                                 type_name(*v));
+          errors.add(
+              ErrorCode::wrong_value, g.mark,
+              g.subject + "." + name + ": found " + shown(g.value) + ", expected " + type_name(*v));
         else
           v = g.value;
       }
@@ -141,7 +146,7 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
     if (!used[i]) {
       std::string hint = errors.suggestion(given[i].name, [&] { return known; });
       if (hint.empty()) hint = ", expected " + parameters_there_are(known);
-      errors.add(given[i].mark,
+      errors.add(ErrorCode::unknown_key, given[i].mark,
                  given[i].subject + ": unknown parameter '" + given[i].name + "'" + hint);
     }
 }

@@ -8,7 +8,7 @@ void judge(const YamlSection& section, const Origin& origin,
   ErrorList found;
   check({found, origin, section.path()});
   for (ErrorEntry& e : found.take())
-    section.value().context().errors->add(e.mark, std::move(e.message), e.count);
+    section.value().context().errors->add(e.code, e.mark, std::move(e.message), e.count);
 }
 
 }  // namespace floatframe

@@ -35,7 +35,8 @@ class Loader {
             std::vector<std::string>& stack) {
     const YamlValue top(self.context, self.document->root, "");
     if (!top.is_map()) {
-      errors_.add({self.document->file, self.document->root.line, self.document->root.column},
+      errors_.add(ErrorCode::wrong_value,
+                  {self.document->file, self.document->root.line, self.document->root.column},
                   "found " + top.found() + ", expected a map of keys such as 'bodies'");
       return;
     }
@@ -49,7 +50,8 @@ class Loader {
     if (const auto version = root.require("floatframe")) {
       const auto v = version->number(any_number(""));
       if (v && *v != 1.0)
-        version->error("found version " + number_text(*v) + ", this program reads version 1");
+        version->error(ErrorCode::mismatch,
+                       "found version " + number_text(*v) + ", this program reads version 1");
     }
     read_parameters(self, given);
     if (const auto points = root.get("points")) {
@@ -75,7 +77,7 @@ class Loader {
           if (e.key == "when")
             active = YamlValue(self.context, e, value.path() + ".when").boolean().value_or(true);
       if (kind == 0 && name == ground_name) {
-        value.entity_error("the name 'ground' is taken by the ground");
+        value.entity_error(ErrorCode::duplicate, "the name 'ground' is taken by the ground");
         continue;
       }
       if (active && !errors_.take_of(entity_keys[kind], 1, limits::entities, value.entity_mark(),
@@ -113,8 +115,9 @@ class Loader {
       if (!file) continue;
       if (++instances_ > most_instances) {
         if (instances_ == most_instances + 1)
-          file_value->error("found more than " + std::to_string(most_instances) +
-                            " subsystems, expected fewer");
+          file_value->error(
+              ErrorCode::too_large,
+              "found more than " + std::to_string(most_instances) + " subsystems, expected fewer");
         continue;
       }
       const std::string full = (std::filesystem::path(self.document->file).parent_path() / *file)
@@ -125,7 +128,7 @@ class Loader {
       bool recursive = false;
       for (const std::string& s : stack) recursive = recursive || s == canonical;
       if (recursive) {
-        file_value->error("'" + full + "' includes itself");
+        file_value->error(ErrorCode::cycle, "'" + full + "' includes itself");
         continue;
       }
       const YamlDocument* document = files_.load(full, file_value->mark(), file_value->path());
@@ -177,8 +180,9 @@ class Loader {
     for (const auto& [name, value] : connections) {
       const auto target = value.text("the name of a body or road");
       if (!wanted.count(name)) {
-        value.entity_error("'" + child.document->file + "' has no external name '" + name + "'" +
-                           errors_.suggestion(name, [&] { return order; }));
+        value.entity_error(ErrorCode::missing, "'" + child.document->file +
+                                                   "' has no external name '" + name + "'" +
+                                                   errors_.suggestion(name, [&] { return order; }));
         continue;
       }
       given.insert(name);
@@ -196,9 +200,10 @@ class Loader {
         return out;
       };
       if (!exists && off)
-        value.error("'" + *target + "' is switched off by its 'when'");
+        value.error(ErrorCode::wrong_value, "'" + *target + "' is switched off by its 'when'");
       else if (!exists)
-        value.error("unknown name '" + *target + "'" + errors_.suggestion(*target, known));
+        value.error(ErrorCode::not_found,
+                    "unknown name '" + *target + "'" + errors_.suggestion(*target, known));
       child.external.emplace(name, exists ? *target : "");
     }
     std::vector<std::string> missing;
@@ -206,8 +211,8 @@ class Loader {
       if (!given.count(name)) missing.push_back(name);
     for (const std::string& name : missing) child.external.emplace(name, "");
     if (!missing.empty())
-      section.error("'" + child.document->file + "' needs " + joined(missing) +
-                    ", expected it in 'connect'");
+      section.error(ErrorCode::incomplete, "'" + child.document->file + "' needs " +
+                                               joined(missing) + ", expected it in 'connect'");
   }
 
   ModelFiles& files_;
@@ -263,10 +268,9 @@ std::unique_ptr<ModelInstance> load_instances(const std::string& path,
   if (top.is_map()) {
     root->root.emplace(top);
     if (const auto e = root->root->get("external")) {
-      errors.add(e->entity_mark(),
+      errors.add(ErrorCode::wrong_value, e->entity_mark(),
                  "external: this file is a subsystem, expected it to be used by a model file that "
-                 "connects its "
-                 "external names");
+                 "connects its external names");
       if (e->is_list())
         for (const YamlValue& item : e->list())
           if (item.is_scalar()) root->external.emplace(item.node().text, "");

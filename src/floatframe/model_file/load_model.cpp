@@ -22,7 +22,8 @@ ModelDescription read_with_source(const std::string& path,
 ModelDescription load_description(const std::string& path,
                                   const std::vector<ParameterOverride>& parameters,
                                   ModelSource* source) {
-  if (path.empty()) throw InputError("found an empty path, expected that of a model file");
+  if (path.empty())
+    throw InputError(ErrorCode::wrong_value, "found an empty path, expected that of a model file");
   return read_with_source(path, parameters, {}, source);
 }
 

@@ -65,7 +65,7 @@ std::optional<std::string> ModelInstance::reference(EntityKind kind, const YamlV
   const auto full = resolve(kind, *name, &off);
   if (full) return full;
   const std::string complaint = no_entity(kind, *name, off);
-  if (!complaint.empty()) value.error(complaint);
+  if (!complaint.empty()) value.error(ErrorCode::out_of_range, complaint);
   return std::nullopt;
 }
 
@@ -76,7 +76,7 @@ std::optional<std::string> ModelInstance::moving_body(const std::string& name,
   if (full && *full != ground_name) return full;
   const std::string complaint =
       full ? sentences::ground_is_no_body() : no_entity(EntityKind::body, name, off);
-  if (!complaint.empty()) entry.entity_error(complaint);
+  if (!complaint.empty()) entry.entity_error(ErrorCode::out_of_range, complaint);
   return std::nullopt;
 }
 
@@ -109,8 +109,9 @@ std::optional<Vec3> ModelInstance::read_point(const YamlValue& value) const {
   if (!name) return std::nullopt;
   const auto p = point(*name);
   if (!p) {
-    value.error("unknown point '" + *name + "'" +
-                context.errors->suggestion(*name, [&] { return known_points(); }));
+    value.error(ErrorCode::not_found,
+                "unknown point '" + *name + "'" +
+                    context.errors->suggestion(*name, [&] { return known_points(); }));
     return std::nullopt;
   }
   if (!p->allFinite()) return std::nullopt;  // a point that is wrong itself

@@ -54,7 +54,7 @@ void check_keys(const ModelInstance& self) {
     for (const char* key : whole_keys)
       if (const auto v = root.get(key))
         self.context.errors->add(
-            v->entity_mark(),
+            ErrorCode::wrong_value, v->entity_mark(),
             std::string(key) + ": found in a subsystem file, expected it in the model file only");
   }
   root.finish();
@@ -68,7 +68,7 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
     if (const auto name = v->text("the name of the model")) {
       const auto complaint = sentences::model_name(*name);
       if (complaint)
-        v->error("found " + v->found() + ", " + *complaint);
+        v->error(ErrorCode::out_of_range, "found " + v->found() + ", " + *complaint);
       else
         model.description.name = *name;
     }
@@ -76,7 +76,7 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
     if (const auto g = v->vector("m/s2")) model.description.gravity = *g;
   if (const auto v = root.get("snap")) read_snap(*v, model.description.snap);
   if (!root.has("bodies") && self.children.empty() && !root.has("subsystems"))
-    root.error("missing key 'bodies'");
+    root.error(ErrorCode::missing, "missing key 'bodies'");
 }
 
 /// Errors by file (in the order of loading), line and column, each once.
@@ -130,7 +130,8 @@ ModelDescription read_model(const std::string& path,
     if (model.description.outputs.empty()) default_outputs(model);
     read_added_outputs(*root, model);
     if (errors.empty() && model.description.bodies.empty())
-      errors.add({path, 1, 1}, "bodies: found none, expected at least one body");
+      errors.add(ErrorCode::out_of_range, {path, 1, 1},
+                 "bodies: found none, expected at least one body");
   }
   if (!errors.empty()) throw InputError(sorted(errors.take(), files));
   return std::move(model.description);

@@ -32,8 +32,9 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
     const auto at = named.find(name);
     const ModalNode* node = at == named.end() ? nullptr : at->second;
     if (!node)
-      point.entity_error("the part has no marker '" + name + "'" +
-                         self.context.errors->suggestion(name, [&] { return keys_of(named); }));
+      point.entity_error(ErrorCode::missing,
+                         "the part has no marker '" + name + "'" +
+                             self.context.errors->suggestion(name, [&] { return keys_of(named); }));
     const auto w = self.read_point(point);
     good = good && node && w;
     if (node && w) pairs.push_back({point, node->p, *w});
@@ -41,8 +42,9 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   if (!good || !value.is_map()) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(pairs.size());
   if (n < 3) {
-    value.error("found " + std::to_string(n) + (n == 1 ? " marker" : " markers") +
-                ", expected at least three that do not lie on a line");
+    value.error(ErrorCode::geometry, "found " + std::to_string(n) +
+                                         (n == 1 ? " marker" : " markers") +
+                                         ", expected at least three that do not lie on a line");
     return std::nullopt;
   }
   Points p(3, n), w(3, n);
@@ -55,8 +57,9 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   w.colwise() -= w_mean;
   for (const bool of_part : {true, false})
     if (on_a_line(of_part ? p : w)) {
-      value.error(std::string("found ") + (of_part ? "markers" : "points") +
-                  " on a line, expected at least three that do not lie on a line");
+      value.error(ErrorCode::geometry,
+                  std::string("found ") + (of_part ? "markers" : "points") +
+                      " on a line, expected at least three that do not lie on a line");
       return std::nullopt;
     }
   const Mat3 H = p * w.transpose();
@@ -69,9 +72,10 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   for (Eigen::Index k = 0; k < n; ++k) {
     const double distance = (X.R * p.col(k) - w.col(k)).norm();
     if (distance <= tolerance) continue;
-    pairs[k].value.error("the marker stays " + number_text(std::round(distance * 1e9) / 1e9) +
-                         " m away from its point, expected at most " + number_text(tolerance) +
-                         " m (align_tolerance)");
+    pairs[k].value.error(ErrorCode::out_of_range,
+                         "the marker stays " + number_text(std::round(distance * 1e9) / 1e9) +
+                             " m away from its point, expected at most " + number_text(tolerance) +
+                             " m (align_tolerance)");
     good = false;
   }
   return good ? std::optional<Pose>(X) : std::nullopt;

@@ -23,7 +23,7 @@ class BarReader {
   void read(YamlSection& section) {
     if (const auto bars = section.require("bars")) {
       const auto list = bars->named("a map of names to bars");
-      if (bars->is_map() && list.empty()) bars->error(sentences::no_bars());
+      if (bars->is_map() && list.empty()) bars->error(ErrorCode::missing, sentences::no_bars());
       for (const auto& [name, value] : list) bar(name, value);
     }
     out_.valid = valid_ && !geometry_.empty();
@@ -47,7 +47,7 @@ class BarReader {
       ++forms;
       const auto d = v->numbers(2, 2, rules::section_length, "outer and inner diameter [D, d] [m]");
       const auto complaint = d ? sentences::tube((*d)[0], (*d)[1]) : std::nullopt;
-      v->complain(complaint);
+      v->complain(ErrorCode::out_of_range, complaint);
       if (d && !complaint) result = HollowRound{(*d)[0], (*d)[1]};
     }
     if (const auto v = s->get("rectangle")) {
@@ -69,8 +69,9 @@ class BarReader {
     }
     s->finish();
     if (forms != 1)
-      s->error("found " + std::to_string(forms) +
-               " sections, expected one of round, tube, rectangle, or area, Iy, Iz, J");
+      s->error(ErrorCode::wrong_value,
+               "found " + std::to_string(forms) +
+                   " sections, expected one of round, tube, rectangle, or area, Iy, Iz, J");
     return result;
   }
 
@@ -81,7 +82,8 @@ class BarReader {
     const auto p = self_.points.find(*name);
     if (p == self_.points.end()) {
       const auto known = [&] { return keys_of(self_.points); };
-      value.error("unknown point '" + *name + "'" + self_.context.errors->suggestion(*name, known));
+      value.error(ErrorCode::not_found,
+                  "unknown point '" + *name + "'" + self_.context.errors->suggestion(*name, known));
       return std::nullopt;
     }
     if (!p->second.allFinite()) return std::nullopt;
@@ -140,12 +142,13 @@ class BarReader {
     if (good) {
       const Vec3 axis = g.to - g.from;
       if (const auto complaint = sentences::bar_length(axis.norm())) {
-        s->error(*complaint);
+        s->error(ErrorCode::out_of_range, *complaint);
         good = false;
       } else {
         b.reference = direction.value_or(
             sentences::parallel_to_bar(axis, Vec3::UnitZ()) ? Vec3::UnitX() : Vec3::UnitZ());
-        if (direction) reference->complain(sentences::bar_reference(axis, *direction));
+        if (direction)
+          reference->complain(ErrorCode::geometry, sentences::bar_reference(axis, *direction));
       }
     }
     g.elements = b.elements;
@@ -185,6 +188,7 @@ class BarReader {
     if (it == geometry_.end()) {
       const auto known = [&] { return keys_of(geometry_); };
       bar_value->error(
+          ErrorCode::not_found,
           sentences::unknown_bar(*name, self_.context.errors->suggestion(*name, known)));
       return false;
     }
@@ -194,10 +198,11 @@ class BarReader {
     const double nearest = std::round(position);
     if (std::abs(position - nearest) > 1e-6) {
       const double low = std::floor(position), high = std::ceil(position);
-      at_value->error("found " + number_text(at) + ", but bar '" + *name + "' has " +
-                      std::to_string(other.elements) +
-                      " elements and no node there; the nearest are at " +
-                      fraction(low, other.elements) + " and " + fraction(high, other.elements));
+      at_value->error(ErrorCode::wrong_value,
+                      "found " + number_text(at) + ", but bar '" + *name + "' has " +
+                          std::to_string(other.elements) +
+                          " elements and no node there; the nearest are at " +
+                          fraction(low, other.elements) + " and " + fraction(high, other.elements));
       return false;
     }
     b.from_bar = *name;
@@ -228,7 +233,8 @@ class BarReader {
   void connectivity() {
     for (const auto& [node, value] : links_)
       if (leader(node) != leader(links_.front().first)) {
-        value.entity_error(sentences::bar_not_connected(f().bars.front().name));
+        value.entity_error(ErrorCode::not_found,
+                           sentences::bar_not_connected(f().bars.front().name));
         return;
       }
   }

@@ -36,8 +36,9 @@ Mat3 read_orientation(const YamlValue& value, double* largest_angle) {
   }
   const Eigen::Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
   if (std::abs(q.norm() - 1.0) > 1e-6) {
-    value.error("found a quaternion of length " + number_text(std::round(q.norm() * 1e6) / 1e6) +
-                ", expected length 1");
+    value.error(ErrorCode::wrong_value, "found a quaternion of length " +
+                                            number_text(std::round(q.norm() * 1e6) / 1e6) +
+                                            ", expected length 1");
     return Mat3::Identity();
   }
   return q.normalized().toRotationMatrix();
@@ -102,12 +103,13 @@ PartChoice read_choice(YamlSection& s) {
     if (on)
       out.on = *on;
     else
-      flexible->error("found " + flexible->found() +
-                      " beside 'part', expected true or false (or one of the two keys)");
+      flexible->error(ErrorCode::wrong_value,
+                      "found " + flexible->found() +
+                          " beside 'part', expected true or false (or one of the two keys)");
   } else if (on) {
-    flexible->error("found " + flexible->found() +
-                    " without 'part', expected a part: bars, a finite-element file or the name "
-                    "of a body file");
+    flexible->error(ErrorCode::not_finite, "found " + flexible->found() +
+                                               " without 'part', expected a part: bars, a "
+                                               "finite-element file or the name of a body file");
     out.valid = false;
   } else {
     out.value = flexible;
@@ -121,14 +123,17 @@ void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
                 double tolerance, BodyDescription& body) {
   if (!part.body) {  // bars are written in the coordinates of the model file
     if (align && part.valid)
-      align->error("found with bars, which are in place already, expected a part from a file");
+      align->error(ErrorCode::duplicate,
+                   "found with bars, which are in place already, expected a part from a file");
     body.X_WB.p = position.value_or(part.first_point);
     return;
   }
   body.X_WB.p = position.value_or(Vec3::Zero());
   if (align) {
     for (const char* key : {"position", "orientation"})
-      if (s.has(key)) align->error(std::string("found with '") + key + "', expected one of them");
+      if (s.has(key))
+        align->error(ErrorCode::exclusive,
+                     std::string("found with '") + key + "', expected one of them");
     if (const auto X = read_alignment(self, *align, tolerance, *part.body))
       body.X_WB = *X;
     else
@@ -142,13 +147,14 @@ std::optional<std::size_t> read_use(YamlSection& s, bool rigid, bool part) {
   const auto v = s.get("use");
   if (!v) {
     if (rigid && part)
-      s.error("found both rigid and flexible, expected a key 'use' that says which");
+      s.error(ErrorCode::contradiction,
+              "found both rigid and flexible, expected a key 'use' that says which");
     return std::nullopt;
   }
   const auto use = v->word({"rigid", "flexible"});
   if (use && ((*use == 0 && !rigid) || (*use == 1 && !part)))
-    v->error("found " + std::string(*use == 0 ? "rigid" : "flexible") +
-             ", but the body has no such group");
+    v->error(ErrorCode::missing, "found " + std::string(*use == 0 ? "rigid" : "flexible") +
+                                     ", but the body has no such group");
   return use;
 }
 
@@ -160,9 +166,12 @@ void place_rigid(YamlSection& s, const YamlValue& group, RigidRead& rigid,
   if (!rigid.centre && !group.node().entries.empty() && !s.has("position")) {
     bool given = false;
     for (const YamlEntry& e : group.node().entries) given = given || e.key == "centre_of_mass";
-    if (!given) s.error("found neither position nor rigid.centre_of_mass, expected at least one");
+    if (!given)
+      s.error(ErrorCode::out_of_range,
+              "found neither position nor rigid.centre_of_mass, expected at least one");
   }
-  if (align) align->error("found on a rigid body, expected a part with markers");
+  if (align)
+    align->error(ErrorCode::wrong_value, "found on a rigid body, expected a part with markers");
   body.X_WB.p = position.value_or(centre);
   rigid.description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
   body.kind = rigid.description;
@@ -202,7 +211,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
             "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
   if (!rigid_value && !part.value) {
-    if (part.valid) s.error("missing key 'rigid' or 'flexible'");
+    if (part.valid) s.error(ErrorCode::missing, "missing key 'rigid' or 'flexible'");
     known.valid = false;
   }
 
@@ -226,7 +235,8 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     flexible = read_part(self, model, body.name, *part.value);
   }
   if (body.geometric_stiffening && !part.value && part.valid)
-    s.error("found geometric_stiffening on a rigid body, expected it with 'flexible' or 'part'");
+    s.error(ErrorCode::wrong_value,
+            "found geometric_stiffening on a rigid body, expected it with 'flexible' or 'part'");
   const bool take_part = part.value && (!rigid_value || (use && *use == 1));
   if (take_part) {
     known.flexible = part.on;

@@ -81,10 +81,11 @@ ModalDamping read_damping(const YamlValue& value) {
     out.interface_frequency = v->number(rules::mode_frequency).value_or(0.0);
   s->finish();
   if (ways != 1)
-    value.error("found " + std::to_string(ways) +
-                " of fraction, fractions, bands and rayleigh, expected one of them");
+    value.error(ErrorCode::exclusive,
+                "found " + std::to_string(ways) +
+                    " of fraction, fractions, bands and rayleigh, expected one of them");
   else if (value.context().errors->size() == before)
-    value.complain(damping_complaint(out));
+    value.complain(ErrorCode::out_of_range, damping_complaint(out));
   return out;
 }
 

@@ -52,7 +52,8 @@ class FlexibleReader {
     if (out_.named_nodes.count(*name)) return name;
     if (!out_.valid) return std::nullopt;
     const auto known = [&] { return keys_of(out_.named_nodes); };
-    value.error(sentences::no_end_point(*name) + value.context().errors->suggestion(*name, known));
+    value.error(ErrorCode::not_found,
+                sentences::no_end_point(*name) + value.context().errors->suggestion(*name, known));
     return std::nullopt;
   }
 
@@ -93,7 +94,8 @@ class FlexibleReader {
             for (const YamlValue& w : v->list())
               if (const auto k = w.word(dof_names)) bits.push_back(static_cast<unsigned>(*k));
             if (v->node().items.empty())
-              v->error("found an empty list, expected directions such as [x, y, z]");
+              v->error(ErrorCode::wrong_value,
+                       "found an empty list, expected directions such as [x, y, z]");
           } else if (const auto t = v->text("all or a list of x, y, z, rx, ry, rz")) {
             if (*t == "all")
               bits = {0, 1, 2, 3, 4, 5};
@@ -110,7 +112,7 @@ class FlexibleReader {
       if (!name) continue;
       for (unsigned k : bits) {
         const auto [it, fresh] = taken_.insert({*name, k});
-        if (!fresh) item.error(sentences::dof_twice(*name, k));
+        if (!fresh) item.error(ErrorCode::duplicate, sentences::dof_twice(*name, k));
         d.node = *name;
         d.mask = 1u << k;
         if (fresh) out.push_back(d);
@@ -125,7 +127,8 @@ class FlexibleReader {
     f().orthonormalise = section_.boolean("orthonormal", false);
     f().section_inertia = section_.boolean("section_inertia", false);
     if (const auto v = section_.get("section_inertia"))
-      v->complain(sentences::section_inertia(f().section_inertia,
+      v->complain(ErrorCode::out_of_range,
+                  sentences::section_inertia(f().section_inertia,
                                              f().mass_model == MassModel::isoparametric));
     if (const auto v = section_.get("damping")) f().damping = read_damping(*v);
     const std::size_t errors_before = self_.context.errors->size();
@@ -142,16 +145,19 @@ class FlexibleReader {
         s->finish();
         out_.modes = 2 * (1 + f().analytic->dynamic_per_plane);
       }
-      analytic->complain(sentences::analytic_shapes(f().bars.size(), f().masses.size()));
+      analytic->complain(ErrorCode::wrong_value,
+                         sentences::analytic_shapes(f().bars.size(), f().masses.size()));
     }
     for (const char* key : {"clamped", "static_modes", "normal_modes"}) {
       if (!section_.has(key) || (!analytic && !basis)) continue;
       if (analytic || std::string(key) != "clamped")
-        section_.get(key)->error(std::string("is not used with ") +
-                                 (analytic ? "analytic shapes" : "a given basis") +
-                                 "; remove this key");
+        section_.get(key)->error(ErrorCode::wrong_value,
+                                 std::string("is not used with ") +
+                                     (analytic ? "analytic shapes" : "a given basis") +
+                                     "; remove this key");
     }
-    if (analytic && basis) basis->error("found with analytic shapes, expected one of the two");
+    if (analytic && basis)
+      basis->error(ErrorCode::exclusive, "found with analytic shapes, expected one of the two");
     if (analytic) return;
     if (basis) {
       read_basis(*basis);
@@ -165,15 +171,16 @@ class FlexibleReader {
       const auto n = normal->integer(rules::normal_modes);
       f().normal_modes = n.value_or(0);
       if (n && out_.valid)
-        normal->complain(sentences::more_modes_than_dofs(
-            *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
+        normal->complain(ErrorCode::wrong_value,
+                         sentences::more_modes_than_dofs(
+                             *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
     }
     out_.modes =
         f().max_frequency > 0.0 ? -1 : static_cast<int>(f().interfaces.size()) + f().normal_modes;
     if (out_.modes == 0 && self_.context.errors->size() == errors_before)
-      section_.error(sentences::no_modes());
+      section_.error(ErrorCode::missing, sentences::no_modes());
     if (!section_.has("clamped"))
-      section_.error("missing key 'clamped'");
+      section_.error(ErrorCode::missing, "missing key 'clamped'");
     else if (out_.valid)
       reference_removes_rigid_motion();
   }
@@ -183,7 +190,7 @@ class FlexibleReader {
     std::vector<std::pair<Vec3, unsigned>> clamped;
     for (const NodeDofs& d : f().clamped)
       clamped.emplace_back(f().points.at(d.node), static_cast<unsigned>(std::countr_zero(d.mask)));
-    section_.get("clamped")->complain(sentences::body_reference(clamped));
+    section_.get("clamped")->complain(ErrorCode::wrong_value, sentences::body_reference(clamped));
   }
 
   /// A CSV file without header: 6 rows per node (ux uy uz rx ry rz), one column per mode, in the
@@ -198,8 +205,8 @@ class FlexibleReader {
     std::istringstream in(text);
     std::string line;
     int number = 0;
-    const auto complain = [&](const std::string& sentence) {
-      value.context().errors->add({file, number, 1}, sentence);
+    const auto complain = [&](ErrorCode code, const std::string& sentence) {
+      value.context().errors->add(code, {file, number, 1}, sentence);
     };
     while (std::getline(in, line)) {
       ++number;
@@ -213,19 +220,20 @@ class FlexibleReader {
         const std::string word = a == std::string::npos ? "" : cell.substr(a, b - a + 1);
         const PlainScalar p = classify_plain_scalar(word);
         if (p.kind != PlainScalar::Kind::number)
-          return complain("found '" + word.substr(0, 40) +
-                          "', expected numbers separated by commas");
+          return complain(ErrorCode::out_of_range, "found '" + word.substr(0, 40) +
+                                                       "', expected numbers separated by commas");
         row.push_back(p.number);
       }
       if (!rows.empty() && row.size() != rows.front().size())
-        return complain("found " + std::to_string(row.size()) + " columns, expected " +
-                        std::to_string(rows.front().size()) + " as in the first row");
+        return complain(ErrorCode::wrong_count,
+                        "found " + std::to_string(row.size()) + " columns, expected " +
+                            std::to_string(rows.front().size()) + " as in the first row");
       rows.push_back(std::move(row));
     }
     if (out_.valid && rows.size() != 6 * out_.nodes.size()) {
-      value.error("'" + file + "' has " + std::to_string(rows.size()) +
-                  " rows, expected 6 for each of the " + std::to_string(out_.nodes.size()) +
-                  " nodes");
+      value.error(ErrorCode::wrong_count, "'" + file + "' has " + std::to_string(rows.size()) +
+                                              " rows, expected 6 for each of the " +
+                                              std::to_string(out_.nodes.size()) + " nodes");
       return;
     }
     if (rows.empty() || rows.front().empty()) return;

@@ -22,12 +22,12 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
   const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
   const auto at = s.get("at");
   const auto node = s.get("node");
-  if (at && node) node->error("found with 'at', expected one of the two");
+  if (at && node) node->error(ErrorCode::exclusive, "found with 'at', expected one of the two");
   const auto point = at ? self.read_point(*at) : std::nullopt;
   if (!body || (at && !point)) return std::nullopt;
   a.body = *body;
   if (*body == ground_name) {
-    body_value->error(sentences::ground_is_no_body());
+    body_value->error(ErrorCode::missing, sentences::ground_is_no_body());
     return std::nullopt;
   }
   const auto it = model.bodies.find(*body);
@@ -63,9 +63,9 @@ class ForceReader {
       if (self_.context.errors->size() != before) check_.wrong.insert(key.name);
     }
     check_.from_file = true;
-    check_.error = [&](const std::string& key, const std::string& sentence) {
+    check_.error = [&](ErrorCode code, const std::string& key, const std::string& sentence) {
       const auto value = key.empty() ? std::nullopt : s_.get(key.c_str());
-      value ? value->error(sentence) : s_.error(sentence);
+      value ? value->error(code, sentence) : s_.error(code, sentence);
     };
     check_.written = [&](const std::string& name) { return self_.written(name); };
     check_.joint_type = [&](const std::string& joint) { return joint_type(joint); };
@@ -129,7 +129,7 @@ class ForceReader {
     const auto rows = value.list(what);
     const std::size_t n = rows.size() == 2 ? 2 : 6;
     if (rows.size() != n) {
-      value.error(sentences::force_matrix_rows(rows.size()));
+      value.error(ErrorCode::wrong_count, sentences::force_matrix_rows(rows.size()));
       return std::nullopt;
     }
     MatX M(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
@@ -231,17 +231,19 @@ class ForceReader {
 PiecewisePolynomial read_profile(const YamlValue& value) {
   const TableRows table = read_table_rows(value, any_number("m"), "a point [x, z] [m]");
   if (table.good && table.rows.empty())
-    value.error(value.is_list() ? "found an empty list, expected points [x, z]"
+    value.error(ErrorCode::missing,
+                value.is_list() ? "found an empty list, expected points [x, z]"
                                 : "found no rows in '" + table.file + "', expected points x, z");
   std::vector<TablePoint> points;
   for (const TableRow& row : table.rows) {
     const double x = row.point.x;
     const std::size_t n = points.size();
     if (n > 0 && x < points.back().x)
-      table.error(row, "found x = " + number_text(x) + " after " + number_text(points.back().x) +
-                           ", expected x that does not decrease [m]");
+      table.error(ErrorCode::wrong_value, row,
+                  "found x = " + number_text(x) + " after " + number_text(points.back().x) +
+                      ", expected x that does not decrease [m]");
     else if (n > 1 && x == points[n - 1].x && x == points[n - 2].x)
-      table.error(row,
+      table.error(ErrorCode::wrong_count, row,
                   "found x = " + number_text(x) + " a third time, expected two points at a jump");
     else
       points.push_back(row.point);
@@ -280,7 +282,7 @@ std::optional<RoadSpectrum> read_spectrum(const YamlValue& value) {
   const auto word = s->get("class");
   const auto number = s->get("roughness");
   if (word && number) {
-    number->error("found with 'class', expected one of the two");
+    number->error(ErrorCode::exclusive, "found with 'class', expected one of the two");
   } else if (number) {
     spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
   } else if (const auto found = s->require("class")) {

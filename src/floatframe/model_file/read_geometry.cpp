@@ -54,10 +54,10 @@ std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
   }
   const double reach = shape->positions.colwise().norm().maxCoeff();
   if (!(reach <= farthest_geometry)) {
-    file->error(
-        fmt::format("found a point {:.3g} m from the origin of the body, expected at most "
-                    "{:.0e} m (does 'scale' fit the units of the file?)",
-                    reach, farthest_geometry));
+    file->error(ErrorCode::out_of_range,
+                fmt::format("found a point {:.3g} m from the origin of the body, expected at most "
+                            "{:.0e} m (does 'scale' fit the units of the file?)",
+                            reach, farthest_geometry));
     return nullptr;
   }
   return shape;

@@ -13,7 +13,8 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
     const auto it = model.bodies.find(*body);
     if (it == model.bodies.end() || !it->second.valid) continue;
     if (!it->second.flexible) {
-      v.entity_error(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      v.entity_error(ErrorCode::missing,
+                     sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       continue;
     }
     const int n = it->second.modes;

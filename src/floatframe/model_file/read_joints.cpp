@@ -48,9 +48,9 @@ JointBodies read_sides(const ModelInstance& self, YamlSection& s, JointDescripti
   const auto child_value = s.require("child");
   if (child_value) out.child = self.reference(EntityKind::body, *child_value);
   if (out.child && *out.child == ground_name)
-    child_value->error(sentences::ground_as_child());
+    child_value->error(ErrorCode::wrong_value, sentences::ground_as_child());
   else if (out.parent && out.child && *out.parent == *out.child)
-    child_value->error(sentences::child_is_parent());
+    child_value->error(ErrorCode::wrong_value, sentences::child_is_parent());
   j.parent.body = out.parent.value_or(ground_name);
   j.child.body = out.child.value_or(ground_name);
   j.parent.origin = j.child.origin = j.origin;
@@ -75,7 +75,7 @@ void read_place(const ModelInstance& self, const ReadModel& model, YamlSection& 
       if (child) point = frame_origin(self, model, *child);
       if (point && parent) check_node(self, model, *parent, *point, s.value());
     } else {
-      s.error("missing key 'at'");
+      s.error(ErrorCode::missing, "missing key 'at'");
     }
   }
   j.parent.point = j.child.point = point.value_or(Vec3::Zero());
@@ -118,7 +118,8 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.type = *type;
   read_axes(s, j);
   const auto unused = [&](const char* key) {
-    if (const auto v = s.get(key)) v->error(sentences::not_used_by_joint(joint_words[*word]));
+    if (const auto v = s.get(key))
+      v->error(ErrorCode::wrong_value, sentences::not_used_by_joint(joint_words[*word]));
   };
   const JointAxes axes = joint_kind(j.type).axes;
   if (axes == JointAxes::none) unused("axis");
@@ -149,7 +150,7 @@ std::optional<Vec3> read_direction(const YamlValue& value) {
   }
   const auto v = value.vector("");
   const auto complaint = v ? sentences::direction(*v) : std::nullopt;
-  value.complain(complaint);
+  value.complain(ErrorCode::out_of_range, complaint);
   return complaint ? std::nullopt : v;
 }
 
@@ -173,6 +174,7 @@ bool check_node(const ModelInstance& self, const ReadModel& model, const std::st
   const Placement& w = self.world;
   const Vec3 there = nearest != nodes.end() ? Vec3(w.P * (*nearest - w.t)) : Vec3::Zero().eval();
   value.error(
+      ErrorCode::not_found,
       sentences::no_node_at(point, self.written(body), nearest != nodes.end() ? &there : nullptr));
   return false;
 }
@@ -181,18 +183,19 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
                       const std::string& node, const YamlValue& value) {
   const auto it = model.bodies.find(body);
   if (it == model.bodies.end()) {
-    if (body == ground_name) value.error(sentences::node_on_ground());
+    if (body == ground_name) value.error(ErrorCode::incomplete, sentences::node_on_ground());
     return false;
   }
   if (!it->second.valid) return false;
   if (!it->second.flexible && it->second.named_nodes.empty()) {
-    value.error(sentences::node_on_rigid_body(self.written(body)));
+    value.error(ErrorCode::incomplete, sentences::node_on_rigid_body(self.written(body)));
     return false;
   }
   if (it->second.named_nodes.count(node)) return true;
   const auto known = [&] { return keys_of(it->second.named_nodes); };
-  value.error(sentences::no_node_named(self.written(body), it->second.flexible, node) +
-              self.context.errors->suggestion(node, known));
+  value.error(ErrorCode::not_found,
+              sentences::no_node_named(self.written(body), it->second.flexible, node) +
+                  self.context.errors->suggestion(node, known));
   return false;
 }
 
@@ -206,7 +209,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
   const auto node = s.get("node");
   s.finish();
   if (at && node) {
-    node->error("found with 'at', expected one of the two");
+    node->error(ErrorCode::exclusive, "found with 'at', expected one of the two");
     return std::nullopt;
   }
   const auto point = at ? self.read_point(*at) : std::nullopt;
@@ -228,7 +231,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
   }
   const auto origin = frame_origin(self, model, *body);
   if (!origin) {
-    s.error("missing key 'at'");  // the ground has no frame origin of its own
+    s.error(ErrorCode::missing, "missing key 'at'");  // the ground has no frame origin of its own
     return std::nullopt;
   }
   a.point = *origin;
@@ -257,10 +260,10 @@ void read_rods(const ModelInstance& self, ReadModel& model) {
     r.a = *ends[0];
     r.b = *ends[1];
     if (r.a.body == r.b.body)
-      s.error(sentences::both_ends_on(self.written(r.a.body)));
+      s.error(ErrorCode::geometry, sentences::both_ends_on(self.written(r.a.body)));
     else if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point);
              complaint && !s.has("length"))
-      s.error(*complaint);
+      s.error(ErrorCode::out_of_range, *complaint);
     place(r, self.world);
     model.description.rods.push_back(std::move(r));
   }

@@ -34,7 +34,7 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
             good = false;
       breaks.push_back(x.value_or(breaks.empty() ? 0.0 : breaks.back() + 1.0));
     } else if (const auto below = piece->get("below")) {
-      below->error("the last piece has no upper end, expected no key 'below'");
+      below->error(ErrorCode::missing, "the last piece has no upper end, expected no key 'below'");
     }
     const auto p = piece->require("polynomial");
     good = good && p;
@@ -44,7 +44,8 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
   }
   if (!good) return {};
   const PiecewisePolynomial f(breaks, std::move(pieces));
-  if (const auto jump = sentences::jump(f)) items[jump->first].error(jump->second);
+  if (const auto jump = sentences::jump(f))
+    items[jump->first].error(ErrorCode::wrong_value, jump->second);
   return f;
 }
 
@@ -82,16 +83,17 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
     value.unexpected("a table of at least 2 points [x, f]");
     good = false;
   } else if (good && table.rows.size() < 2) {
-    value.error("found " + std::to_string(table.rows.size()) +
-                (table.rows.size() == 1 ? " row in '" : " rows in '") + table.file +
-                "', expected a table of at least 2 points");
+    value.error(ErrorCode::wrong_count, "found " + std::to_string(table.rows.size()) +
+                                            (table.rows.size() == 1 ? " row in '" : " rows in '") +
+                                            table.file +
+                                            "', expected a table of at least 2 points");
     good = false;
   }
   std::vector<TablePoint> points;
   for (const TableRow& row : table.rows) {
     if (const std::string text = table_point_error(points, row.point.x, of, x_unit);
         !text.empty()) {
-      table.error(row, text);
+      table.error(ErrorCode::wrong_value, row, text);
       good = false;
     }
     points.push_back(row.point);
@@ -106,10 +108,11 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
     ++piece;                                       // between points k - 1 and k
     for (const double c : f.pieces()[piece].coefficients)
       if (!std::isfinite(c)) {
-        table.error(table.rows[k], "found the step from " + number_text(points[k - 1].f) + " to " +
-                                       number_text(points[k].f) + " over " +
-                                       number_text(points[k].x - points[k - 1].x) + " [" + x_unit +
-                                       "], expected a slope that is a finite number");
+        table.error(ErrorCode::not_finite, table.rows[k],
+                    "found the step from " + number_text(points[k - 1].f) + " to " +
+                        number_text(points[k].f) + " over " +
+                        number_text(points[k].x - points[k - 1].x) + " [" + x_unit +
+                        "], expected a slope that is a finite number");
         return {};
       }
   }
@@ -149,8 +152,8 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
   }
   section.finish();
   if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
-    section.error("found " + std::to_string(laws) + " laws, expected " +
-                  (expected != nullptr ? expected : time_laws));
+    section.error(ErrorCode::wrong_value, "found " + std::to_string(laws) + " laws, expected " +
+                                              (expected != nullptr ? expected : time_laws));
   return f;
 }
 
@@ -205,7 +208,9 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
     f = read_table(*section, *v, Interpolation::linear, TableOf::measure, units.x);
   }
   section->finish();
-  if (laws != 1) section->error("found " + std::to_string(laws) + " laws, expected " + forms);
+  if (laws != 1)
+    section->error(ErrorCode::wrong_value,
+                   "found " + std::to_string(laws) + " laws, expected " + forms);
   return f;
 }
 
@@ -227,10 +232,10 @@ SignalDescription read_signal(const ModelInstance& self, const YamlValue& value,
   const auto input = section->get("input");
   if (input)
     if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
-  function = time_terms(*section, unit, table, TableOf::time,
-                        input ? nullptr
-                              : "a number or a map with input or one of polynomial, piecewise, "
-                                "table, and sine");
+  function = time_terms(
+      *section, unit, table, TableOf::time,
+      input ? nullptr
+            : "a number or a map with input or one of polynomial, piecewise, table, and sine");
   return signal;
 }
 

@@ -18,7 +18,7 @@ class OutputReader {
 
   void read(const std::string& name, const YamlValue& value) {
     if (const auto complaint = sentences::column_name(name)) {
-      value.entity_error(*complaint);
+      value.entity_error(ErrorCode::wrong_value, *complaint);
       return;
     }
     auto s = value.section("a quantity, for example {position: body, axis: z}");
@@ -29,10 +29,7 @@ class OutputReader {
     int found = 0;
     for (const OutputType type : output_types)
       if (s->get(output_type_name(type))) ++found, o.type = type;
-    if (found != 1) {
-      not_one_quantity(*s, found);
-      return;
-    }
+    if (found != 1) return not_one_quantity(*s, found);
     const OutputKind& kind = output_kind(o.type);
     o.origin = s->origin();
     const YamlValue what = *s->get(output_type_name(o.type));
@@ -67,8 +64,8 @@ class OutputReader {
           o.entity = *f;
           const auto type = model_.force_types.find(*f);
           if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
-            what.error(
-                sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
+            what.error(ErrorCode::incomplete, sentences::load_without(force_type_name(type->second),
+                                                                      output_type_name(o.type)));
           components(name, *s, o);
         }
         break;
@@ -101,7 +98,7 @@ class OutputReader {
     ReadErrors& errors = *self_.context.errors;
     const bool exists = !model_.columns.insert(o.name).second;
     if (const auto complaint = sentences::column_taken(o.name, exists)) {
-      errors.add(o.origin.mark, "outputs: " + *complaint);
+      errors.add(ErrorCode::out_of_range, o.origin.mark, "outputs: " + *complaint);
       return;
     }
     if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
@@ -115,8 +112,9 @@ class OutputReader {
       s.get(key);
     s.finish();
     if (found == 0 && misspelt_quantity(s)) return;  // that has been said
-    s.error("found " + std::to_string(found) + " quantities, expected one of " +
-            alternatives(output_words));
+    s.error(ErrorCode::wrong_value, "found " + std::to_string(found) +
+                                        " quantities, expected one of " +
+                                        alternatives(output_words));
   }
 
   /// A key of an output is near to a quantity, and so its "unknown key" says what is wrong.
@@ -150,7 +148,7 @@ class OutputReader {
   std::optional<std::string> moving_body(const YamlValue& value) {
     const auto body = self_.reference(EntityKind::body, value);
     if (body && *body == ground_name) {
-      value.error(sentences::ground_is_no_body());
+      value.error(ErrorCode::missing, sentences::ground_is_no_body());
       return std::nullopt;
     }
     return body;
@@ -197,7 +195,7 @@ class OutputReader {
     if (it == model_.joints.end()) return;
     const int n = joint_velocities(it->second);
     if (n == 0) {
-      what.error(sentences::weld_does_not_move());
+      what.error(ErrorCode::wrong_value, sentences::weld_does_not_move());
       return;
     }
     if (coordinate) {
@@ -205,7 +203,7 @@ class OutputReader {
       if (!k) return;
       o.component = *k - 1;
     } else if (n > 1) {
-      s.error("missing key 'coordinate'");
+      s.error(ErrorCode::missing, "missing key 'coordinate'");
       return;
     }
     add(name, o);
@@ -233,7 +231,7 @@ class OutputReader {
       good = at && good;
       if (at) o.at = *at;
       if (o.type != OutputType::joint_torque) {
-        about->error(sentences::force_without_point());
+        about->error(ErrorCode::incomplete, sentences::force_without_point());
         good = false;
       }
     }
@@ -256,7 +254,7 @@ class OutputReader {
     if (!word) return false;
     o.in = static_cast<OutputAxes>(*word);
     if (!o.rod || o.in == OutputAxes::world) return true;
-    in.error(sentences::rod_has_no_axes());
+    in.error(ErrorCode::missing, sentences::rod_has_no_axes());
     return false;
   }
 
@@ -291,8 +289,9 @@ class OutputReader {
     bool good = name.has_value();
     if (name) o.at.body = *name;
     if (node.has_value() == at.has_value()) {
-      place->error(node ? "found 'node' and 'at', expected one of the two"
-                        : "missing key 'node' or 'at'");
+      place->error(
+          node ? ErrorCode::exclusive : ErrorCode::missing,
+          node ? "found 'node' and 'at', expected one of the two" : "missing key 'node' or 'at'");
       good = false;
     } else if (at) {
       const auto point = self_.read_point(*at);
@@ -341,7 +340,8 @@ class OutputReader {
     const auto it = model_.bodies.find(*body);
     if (it == model_.bodies.end() || !it->second.valid) return;
     if (!it->second.flexible) {
-      what.error(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      what.error(ErrorCode::missing,
+                 sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       return;
     }
     const auto k =

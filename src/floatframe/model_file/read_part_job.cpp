@@ -100,7 +100,7 @@ class JobReader {
     try {
       unit_system(*name);
     } catch (const InputError& error) {
-      v->error(error.what());
+      v->error(ErrorCode::wrong_value, error.what());
     }
   }
 
@@ -165,8 +165,9 @@ class JobReader {
     }
     c.tolerance = s.number("tolerance", positive_number(""), 0.0);
     if (ways != 1)
-      s.error("found " + std::to_string(ways) + " ways to choose nodes, expected one of " +
-              joined(words, ", "));
+      s.error(ErrorCode::wrong_value, "found " + std::to_string(ways) +
+                                          " ways to choose nodes, expected one of " +
+                                          joined(words, ", "));
   }
 
   /// The map of a way with several values.
@@ -211,7 +212,8 @@ class JobReader {
   /// False and an error if the name is taken.
   bool name_is_new(const std::string& name, const YamlValue& value) {
     if (names_.insert(name).second) return true;
-    value.error("found the name twice in interfaces and markers, expected once");
+    value.error(ErrorCode::duplicate,
+                "found the name twice in interfaces and markers, expected once");
     return false;
   }
 
@@ -235,7 +237,8 @@ class JobReader {
       for (const YamlValue& item : value.list())
         if (const auto k = item.word(dof_words)) mask |= 1u << *k;
       if (value.node().items.empty())
-        value.error("found an empty list, expected directions such as [x, y, z]");
+        value.error(ErrorCode::wrong_value,
+                    "found an empty list, expected directions such as [x, y, z]");
       return mask;
     }
     const auto t = value.text("all or a list of x, y, z, rx, ry, rz");
@@ -269,8 +272,9 @@ class JobReader {
       for (const InterfaceDescription& i : o().interfaces) known.push_back(i.name);
       for (const std::string& k : known)
         if (k == *name) return;
-      node->error("unknown interface '" + *name + "'" +
-                  self_.context.errors->suggestion(*name, [&] { return known; }));
+      node->error(ErrorCode::not_found,
+                  "unknown interface '" + *name + "'" +
+                      self_.context.errors->suggestion(*name, [&] { return known; }));
     } else if (const auto w = v->word(reference_words)) {
       o().reference.kind = static_cast<BodyReference::Kind>(*w);
     }

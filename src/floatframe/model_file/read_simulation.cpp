@@ -38,7 +38,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   if (offset) d.origin.keys.emplace("offset", offset->mark());
   s->finish();
   if (equilibrium && state) {
-    state->error("found with 'equilibrium', expected one of the two");
+    state->error(ErrorCode::exclusive, "found with 'equilibrium', expected one of the two");
     return;
   }
   if (!equilibrium && !state && !offset) {
@@ -52,11 +52,12 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
     try {
       d.state = std::make_shared<const SystemState>(read_state(beside(self, *file)));
     } catch (const InputError& error) {
-      for (const ErrorEntry& f : error.errors()) state->error(f.text(), f.count);
+      for (const ErrorEntry& f : error.errors()) state->error(f.code, f.text(), f.count);
     }
   }
   if (!offset) return;
-  if (!state && !on.value_or(false)) offset->error(sentences::offset_alone());
+  if (!state && !on.value_or(false))
+    offset->error(ErrorCode::incomplete, sentences::offset_alone());
   read_offset(self, *offset, d);
 }
 

@@ -33,12 +33,13 @@ class StateReader {
     if (!read_text_file(file_, text, errors, {}, "")) errors.throw_if_any();
     std::string why;
     const Json json = read_json(text, why);
-    if (json.is_discarded()) fail("this is not a state file (" + why + ")");
+    if (json.is_discarded()) fail(ErrorCode::wrong_file, "this is not a state file (" + why + ")");
     if (!json.is_object() || !json.contains("floatframe_state"))
-      fail("this is not a state file (it has no key 'floatframe_state')");
+      fail(ErrorCode::wrong_file, "this is not a state file (it has no key 'floatframe_state')");
     const Json& number = json.at("floatframe_state");
     if (!number.is_number_integer() || number.get<long>() != state_version)
-      fail("floatframe_state: found " + json_excerpt(number) + ", this program reads version 1");
+      fail(ErrorCode::mismatch,
+           "floatframe_state: found " + json_excerpt(number) + ", this program reads version 1");
     SystemState s;
     s.file = file_;
     s.model = text_of(json, "model");
@@ -51,7 +52,8 @@ class StateReader {
       std::size_t k = 0;
       while (k < std::size(joint_words) && type != joint_words[k]) ++k;
       if (k == std::size(joint_words))
-        fail(path + ".type: found '" + excerpt(type) + "', expected " + alternatives(joint_words));
+        fail(ErrorCode::wrong_value,
+             path + ".type: found '" + excerpt(type) + "', expected " + alternatives(joint_words));
       j.type = static_cast<JointType>(k);
       j.position = list(value, "position", path);
       j.velocity = list(value, "velocity", path);
@@ -64,8 +66,9 @@ class StateReader {
       b.position = fixed<3>(value, "position", path);
       b.orientation = fixed<4>(value, "quaternion", path);
       if (std::abs(b.orientation.norm() - 1.0) > 1e-6)
-        fail(path + ".quaternion: found a quaternion of length " +
-             number_text(std::round(b.orientation.norm() * 1e6) / 1e6) + ", expected length 1");
+        fail(ErrorCode::wrong_value, path + ".quaternion: found a quaternion of length " +
+                                         number_text(std::round(b.orientation.norm() * 1e6) / 1e6) +
+                                         ", expected length 1");
       b.velocity = fixed<3>(value, "velocity", path);
       b.angular_velocity = fixed<3>(value, "angular_velocity", path);
       b.amplitudes = vector(value, "amplitudes", path);
@@ -76,36 +79,40 @@ class StateReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& sentence) const {
-    throw InputError({file_, 0, 0}, sentence);
+  [[noreturn]] void fail(ErrorCode code, const std::string& sentence) const {
+    throw InputError(code, {file_, 0, 0}, sentence);
   }
   const Json& member(const Json& object, const char* key, const std::string& path) const {
     const std::string who = path.empty() ? std::string() : path + ": ";
-    if (!object.is_object()) fail(who + "found no map, expected one with the key '" + key + "'");
+    if (!object.is_object())
+      fail(ErrorCode::missing, who + "found no map, expected one with the key '" + key + "'");
     const auto it = object.find(key);
-    if (it == object.end()) fail(who + "missing key '" + std::string(key) + "'");
+    if (it == object.end())
+      fail(ErrorCode::missing, who + "missing key '" + std::string(key) + "'");
     return *it;
   }
   std::string text_of(const Json& object, const char* key, const std::string& path = "") const {
     const Json& v = member(object, key, path);
-    if (!v.is_string()) fail(inside(path, key) + ": expected a text");
+    if (!v.is_string()) fail(ErrorCode::wrong_value, inside(path, key) + ": expected a text");
     return v.get<std::string>();
   }
   double number_of(const Json& v, const std::string& path) const {
     if (!v.is_number() || !std::isfinite(v.get<double>()))
-      fail(path + ": found " + json_excerpt(v) + ", expected a number");
+      fail(ErrorCode::out_of_range, path + ": found " + json_excerpt(v) + ", expected a number");
     return v.get<double>();
   }
   std::vector<std::pair<std::string, Json>> members(const Json& json, const char* key) const {
     const Json& v = member(json, key, "");
-    if (!v.is_object()) fail(std::string(key) + ": expected a map of names");
+    if (!v.is_object())
+      fail(ErrorCode::wrong_value, std::string(key) + ": expected a map of names");
     std::vector<std::pair<std::string, Json>> out;
     for (const auto& [name, value] : v.items()) out.emplace_back(name, value);
     return out;
   }
   std::vector<double> list(const Json& object, const char* key, const std::string& path) const {
     const Json& v = member(object, key, path);
-    if (!v.is_array()) fail(inside(path, key) + ": expected a list of numbers");
+    if (!v.is_array())
+      fail(ErrorCode::wrong_count, inside(path, key) + ": expected a list of numbers");
     std::vector<double> out;
     for (const Json& x : v) out.push_back(number_of(x, inside(path, key)));
     return out;
@@ -115,8 +122,9 @@ class StateReader {
                                     const std::string& path) const {
     const std::vector<double> v = list(object, key, path);
     if (v.size() != n)
-      fail(inside(path, key) + ": found a list of " + std::to_string(v.size()) +
-           ", expected a list of " + std::to_string(n) + " numbers");
+      fail(ErrorCode::wrong_count, inside(path, key) + ": found a list of " +
+                                       std::to_string(v.size()) + ", expected a list of " +
+                                       std::to_string(n) + " numbers");
     return Eigen::Map<const Eigen::Matrix<double, n, 1>>(v.data());
   }
   VecX vector(const Json& object, const char* key, const std::string& path) const {

@@ -13,10 +13,10 @@ namespace {
 
 [[noreturn]] void fail_damping(const std::string& text) {
   throw InputError(
+      ErrorCode::wrong_count,
       fmt::format("--damping: found '{}', expected a fraction of critical damping such as 0.02, a "
-                  "list of them, "
-                  "bands:usual, bands:100=0.01,1000=0.1,1 or rayleigh:ALPHA,BETA, and behind it "
-                  ",reference=frame, free or mounted, ,frequency=HZ",
+                  "list of them, bands:usual, bands:100=0.01,1000=0.1,1 or rayleigh:ALPHA,BETA, "
+                  "and behind it ,reference=frame, free or mounted, ,frequency=HZ",
                   text));
 }
 
@@ -101,7 +101,8 @@ ModalDamping damping_argument(const std::string& text) {
       else
         d.fractions.push_back(damping_number(value, text));
   }
-  if (const auto complaint = damping_complaint(d)) throw InputError("--damping: " + *complaint);
+  if (const auto complaint = damping_complaint(d))
+    throw InputError(ErrorCode::out_of_range, "--damping: " + *complaint);
   return d;
 }
 

@@ -144,7 +144,7 @@ std::string way_of(const InterfaceDescription& d) {
 /// Where the first invalid element stands and why it is; empty if there is none.
 std::string first_invalid(const FeFacts& f) {
   if (f.bad_elements.empty()) return "";
-  return ErrorEntry{f.bad_mark, fmt::format("{} {}", f.bad_elements.front(), f.bad_reason)}.text();
+  return f.bad_mark.before(fmt::format("{} {}", f.bad_elements.front(), f.bad_reason));
 }
 
 std::string invalid_text(const FeFacts& f) {
@@ -243,12 +243,12 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
                         f.matrix_damping ? ", with viscous damping" : "");
   if (f.point_masses > 0) text += fmt::format("  point masses  {}\n", f.point_masses);
   if (f.springs > 0)
-    text += fmt::format("  springs       {}{}\n", f.springs,
-                        f.grounded_springs == 0
-                            ? ""
-                            : fmt::format(", {} of them to the ground: `reduce` needs "
-                                          "--grounded-springs ignore",
-                                          f.grounded_springs));
+    text += fmt::format(
+        "  springs       {}{}\n", f.springs,
+        f.grounded_springs == 0
+            ? ""
+            : fmt::format(", {} of them to the ground: `reduce` needs --grounded-springs ignore",
+                          f.grounded_springs));
   if (f.equations > 0) text += fmt::format("  equations     {}\n", f.equations);
   if (f.arms > 0)
     text += fmt::format("  beam arms     at {}: ends of beams or bars beside them\n",

@@ -21,9 +21,9 @@ std::string info(const PartJob& job, bool json) {
   const std::string file = job.file.string();
   std::error_code error;
   if (!std::filesystem::exists(job.file, error))
-    throw InputError({file, 0, 0}, "the file does not exist");
+    throw InputError(ErrorCode::not_found, {file, 0, 0}, "the file does not exist");
   if (!std::filesystem::is_regular_file(job.file, error))
-    throw InputError({file, 0, 0}, "this is not a regular file");
+    throw InputError(ErrorCode::wrong_file, {file, 0, 0}, "this is not a regular file");
   if (job.format.empty() && is_body_file(job.file)) {
     const BodyFile content = read_body_file(job.file);
     return json ? body_info_json(file, content) : body_info_text(file, content);

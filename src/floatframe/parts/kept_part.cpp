@@ -15,7 +15,8 @@ BodyFile kept_part(const std::filesystem::path& file) {
   const std::string bytes = regular_file(file);
   BodyFile found = read_body_bytes(bytes, file.string());
   if (!is_sealed_archive(bytes))
-    throw InputError({file.string(), 0, 0}, "its content is not what was written");
+    throw InputError(ErrorCode::damaged, {file.string(), 0, 0},
+                     "its content is not what was written");
   return found;
 }
 

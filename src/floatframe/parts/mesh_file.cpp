@@ -13,7 +13,7 @@ ConvertedMesh convert_mesh_file(const PartJob& job, const std::filesystem::path&
   const MeshFormat& format = mesh_format_of(out);
   const FeModel model = read_fe_file(job.file, job.read, job.format);
   if (model.elements.empty())
-    throw InputError({job.file.string(), 0, 0},
+    throw InputError(ErrorCode::missing, {job.file.string(), 0, 0},
                      "the model has no elements, expected a mesh (matrices have none)");
   WrittenMesh written = format.write(model, {modes});
   ConvertedMesh converted;

@@ -50,9 +50,9 @@ UnitSystem unit_system(const std::string& name) {
   if (const auto units = find_unit_system(name)) return *units;
   const std::vector<std::string> known = unit_system_names();
   throw InputError(
-      fmt::format("unknown unit system '{}'{}; known are {}, or any "
-                  "<length>-<mass>-<time>",
-                  name, did_you_mean(name, known), fmt::join(known, ", ")));
+      ErrorCode::not_found,
+      fmt::format("unknown unit system '{}'{}; known are {}, or any <length>-<mass>-<time>", name,
+                  did_you_mean(name, known), fmt::join(known, ", ")));
 }
 
 std::string file_hash(const std::filesystem::path& file) {

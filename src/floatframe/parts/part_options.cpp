@@ -50,26 +50,28 @@ O::Word reading_word(std::vector<const char*> words) {
 
 /// "ignore", "tied", "tied:DISTANCE"
 Special contact() {
-  return {Special::What::contact,
-          [](const PartJob& job) {
-            const FeReadOptions& r = job.read;
-            if (r.contact == DeckContact::refuse) return Texts();
-            if (r.contact == DeckContact::ignore) return Texts{"ignore"};
-            return Texts{r.contact_distance > 0.0 ? fmt::format("tied:{}", r.contact_distance)
-                                                  : "tied"};
-          },
-          [](PartJob& job, const std::string& text) {
-            job.read.contact = text == "ignore" ? DeckContact::ignore : DeckContact::tied;
-            if (text == "ignore" || text == "tied") return;
-            char* end = nullptr;
-            const double distance = text.starts_with("tied:") && text.size() > 5
-                                        ? std::strtod(text.c_str() + 5, &end)
-                                        : 0.0;
-            if (end == nullptr || *end != '\0' || !(distance > 0.0) || !std::isfinite(distance))
-              throw InputError(fmt::format(
-                  "--contact: found '{}', expected ignore, tied or tied:DISTANCE", text));
-            job.read.contact_distance = distance;
-          }};
+  return {
+      Special::What::contact,
+      [](const PartJob& job) {
+        const FeReadOptions& r = job.read;
+        if (r.contact == DeckContact::refuse) return Texts();
+        if (r.contact == DeckContact::ignore) return Texts{"ignore"};
+        return Texts{r.contact_distance > 0.0 ? fmt::format("tied:{}", r.contact_distance)
+                                              : "tied"};
+      },
+      [](PartJob& job, const std::string& text) {
+        job.read.contact = text == "ignore" ? DeckContact::ignore : DeckContact::tied;
+        if (text == "ignore" || text == "tied") return;
+        char* end = nullptr;
+        const double distance = text.starts_with("tied:") && text.size() > 5
+                                    ? std::strtod(text.c_str() + 5, &end)
+                                    : 0.0;
+        if (end == nullptr || *end != '\0' || !(distance > 0.0) || !std::isfinite(distance))
+          throw InputError(
+              ErrorCode::wrong_value,
+              fmt::format("--contact: found '{}', expected ignore, tied or tied:DISTANCE", text));
+        job.read.contact_distance = distance;
+      }};
 }
 
 Special temperature() {
@@ -81,7 +83,8 @@ Special temperature() {
             char* end = nullptr;
             const double T = std::strtod(text.c_str(), &end);
             if (text.empty() || *end != '\0' || !std::isfinite(T))
-              throw InputError(fmt::format("--temperature: found '{}', expected a number", text));
+              throw InputError(ErrorCode::out_of_range,
+                               fmt::format("--temperature: found '{}', expected a number", text));
             job.read.temperature = T;
           }};
 }
@@ -130,9 +133,11 @@ Texts named_numbers(const PartJob& job) {
 void add_once(std::map<std::string, double>& numbers, const std::pair<std::string, double>& given,
               const char* twice, const char* all, const char* kind) {
   if (!numbers.insert(given).second)
-    throw InputError(fmt::format(
-        "{} for {}", twice,
-        given.first.empty() ? std::string(all) : fmt::format("the {} '{}'", kind, given.first)));
+    throw InputError(
+        ErrorCode::duplicate,
+        fmt::format("{} for {}", twice,
+                    given.first.empty() ? std::string(all)
+                                        : fmt::format("the {} '{}'", kind, given.first)));
 }
 
 Special densities() {

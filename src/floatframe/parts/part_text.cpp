@@ -37,7 +37,8 @@ class PlaceArgument {
     const std::size_t equal = text.find('=');
     const std::size_t colon = text.find(':', equal == std::string::npos ? 0 : equal);
     if (equal == std::string::npos || equal == 0 || colon == std::string::npos)
-      throw InputError(fmt::format("{}: found '{}', expected NAME=WAY:VALUE with one of {}",
+      throw InputError(ErrorCode::wrong_value,
+                       fmt::format("{}: found '{}', expected NAME=WAY:VALUE with one of {}",
                                    option_, text, ways_text));
     name = text.substr(0, equal);
     way_ = text.substr(equal + 1, colon - equal - 1);
@@ -62,7 +63,7 @@ class PlaceArgument {
     std::optional<std::string> out;
     for (auto it = pairs_.begin(); it != pairs_.end();)
       if (it->first == key) {
-        if (out) fail(fmt::format("found '{}' twice, expected it once", key));
+        if (out) fail(ErrorCode::duplicate, fmt::format("found '{}' twice, expected it once", key));
         out = it->second;
         it = pairs_.erase(it);
       } else {
@@ -72,21 +73,22 @@ class PlaceArgument {
   }
   std::string need(const std::string& key) {
     auto value = take(key);
-    if (!value) fail(fmt::format("'{}' is missing for a {}", key, way_));
+    if (!value) fail(ErrorCode::missing, fmt::format("'{}' is missing for a {}", key, way_));
     return *value;
   }
   double number(const std::string& key, const std::string& text, bool positive) const {
     char* end = nullptr;
     const double x = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(x) || (positive && !(x > 0.0)))
-      fail(fmt::format("{}: found '{}', expected a {}number", key, text,
-                       positive ? "positive " : ""));
+      fail(ErrorCode::out_of_range, fmt::format("{}: found '{}', expected a {}number", key, text,
+                                                positive ? "positive " : ""));
     return x;
   }
   Vec3 vector(const std::string& key, const std::string& text) const {
     const auto pieces = split(text, ',');
     if (pieces.size() != 3)
-      fail(fmt::format("{}: found '{}', expected three numbers x,y,z", key, text));
+      fail(ErrorCode::wrong_count,
+           fmt::format("{}: found '{}', expected three numbers x,y,z", key, text));
     Vec3 v;
     for (int i = 0; i < 3; ++i) v[i] = number(key, pieces[i], false);
     return v;
@@ -98,7 +100,7 @@ class PlaceArgument {
       return (minus ? -1.0 : 1.0) * Vec3::Unit(axis[0] - 'x');
     const Vec3 v = vector(key, text);
     if (!(v.stableNorm() > 0.0))
-      fail(key + ": found a vector of length zero, expected a direction");
+      fail(ErrorCode::wrong_value, key + ": found a vector of length zero, expected a direction");
     return v.stableNormalized();
   }
 
@@ -109,8 +111,8 @@ class PlaceArgument {
     if (way == ways.end()) {
       std::vector<std::string> names;
       for (const NodeWay& w : ways) names.emplace_back(w.word);
-      fail(fmt::format("unknown way '{}'{}; expected one of {}", way_, did_you_mean(way_, names),
-                       ways_text));
+      fail(ErrorCode::not_found, fmt::format("unknown way '{}'{}; expected one of {}", way_,
+                                             did_you_mean(way_, names), ways_text));
     }
     NodeChoice c;
     c.by = way->by;
@@ -133,12 +135,12 @@ class PlaceArgument {
 
   void finish() const {
     if (pairs_.empty()) return;
-    fail(fmt::format("unknown option '{}'{}", pairs_.front().first,
-                     did_you_mean(pairs_.front().first, known_)));
+    fail(ErrorCode::unknown_key, fmt::format("unknown option '{}'{}", pairs_.front().first,
+                                             did_you_mean(pairs_.front().first, known_)));
   }
 
-  [[noreturn]] void fail(const std::string& sentence) const {
-    throw InputError(fmt::format("{} {}: {}", option_, name, sentence));
+  [[noreturn]] void fail(ErrorCode code, const std::string& sentence) const {
+    throw InputError(code, fmt::format("{} {}: {}", option_, name, sentence));
   }
 
  private:
@@ -146,12 +148,14 @@ class PlaceArgument {
            const std::string& text) const {
     using V = NodeWayValue;
     if (const auto* name = std::get_if<V::Name>(&value.kind)) {
-      if (text.empty()) fail(key + ": found nothing, expected the name of a " + key);
+      if (text.empty())
+        fail(ErrorCode::missing, key + ": found nothing, expected the name of a " + key);
       c.*name->at = text;
     } else if (const auto* whole = std::get_if<V::Number>(&value.kind)) {
       const double x = number(key, text, true);
       if (x != std::floor(x) || x > 2147483647.0)
-        fail(fmt::format("{0}: found '{1}', expected the number of a {0}", key, text));
+        fail(ErrorCode::out_of_range,
+             fmt::format("{0}: found '{1}', expected the number of a {0}", key, text));
       c.*whole->at = static_cast<int>(x);
     } else if (const auto* point = std::get_if<V::Point>(&value.kind)) {
       c.*point->at = vector(key, text);
@@ -169,8 +173,10 @@ class PlaceArgument {
 
 unsigned dofs_mask(const PlaceArgument& argument, const std::string& text) {
   if (const auto mask = dofs_of(text)) return *mask;
-  argument.fail(fmt::format(
-      "dofs: found '{}', expected all, or directions such as xyz, x+z or xyz+rz", text));
+  argument.fail(
+      ErrorCode::wrong_value,
+      fmt::format("dofs: found '{}', expected all, or directions such as xyz, x+z or xyz+rz",
+                  text));
 }
 
 /// "xyz", "x+rz", "all"
@@ -259,7 +265,8 @@ InterfaceDescription interface_argument(const std::string& text) {
   if (const auto type = a.take("type")) {
     const auto word = std::find(std::begin(tie_words), std::end(tie_words), *type);
     if (word == std::end(tie_words))
-      a.fail(fmt::format("type: found '{}', expected {}", *type, alternatives(tie_words)));
+      a.fail(ErrorCode::wrong_count,
+             fmt::format("type: found '{}', expected {}", *type, alternatives(tie_words)));
     out.kind = static_cast<Spider::Kind>(word - std::begin(tie_words));
   }
   if (const auto dofs = a.take("dofs")) out.mask = dofs_mask(a, *dofs);
@@ -288,10 +295,10 @@ Material material_argument(const std::string& text) {
     good = !pieces[k].empty() && *end == '\0' && std::isfinite(x[k]);
   }
   if (!good || !(x[0] > 0.0) || !(x[1] > -1.0) || !(x[1] < 0.5) || !(x[2] > 0.0))
-    throw InputError(
-        fmt::format("--material: found '{}', expected young,poisson,density in the "
-                    "units of the file, such as 210000,0.3,7.85e-9",
-                    text));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("--material: found '{}', expected young,poisson,density in the "
+                                 "units of the file, such as 210000,0.3,7.85e-9",
+                                 text));
   return {x[0], x[1], x[2]};
 }
 
@@ -313,20 +320,20 @@ std::optional<std::pair<std::string, double>> named_number(const std::string& te
 std::pair<std::string, double> density_argument(const std::string& text) {
   const auto found = named_number(text);
   if (!found || found->second < 0.0)
-    throw InputError(
-        fmt::format("--density: found '{}', expected a density in the units of the "
-                    "file or MATERIAL=density, such as 7.85e-9 or STEEL=7.85e-9",
-                    text));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("--density: found '{}', expected a density in the units of the "
+                                 "file or MATERIAL=density, such as 7.85e-9 or STEEL=7.85e-9",
+                                 text));
   return *found;
 }
 
 std::pair<std::string, double> thickness_argument(const std::string& text) {
   const auto found = named_number(text);
   if (!found || !(found->second > 0.0))
-    throw InputError(
-        fmt::format("--thickness: found '{}', expected a thickness above 0 in the units of the "
-                    "file or GROUP=thickness, such as 2 or RIBS=2",
-                    text));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("--thickness: found '{}', expected a thickness above 0 in the "
+                                 "units of the file or GROUP=thickness, such as 2 or RIBS=2",
+                                 text));
   return *found;
 }
 
@@ -336,10 +343,10 @@ BodyReference reference_argument(const std::string& text) {
   if (word != std::end(reference_words))
     return {static_cast<Kind>(word - std::begin(reference_words)), ""};
   if (text.starts_with("node:") && text.size() > 5) return {Kind::node, text.substr(5)};
-  throw InputError(
-      fmt::format("--reference: found '{}', expected mean_axis, buckens or node:NAME "
-                  "with the name of an interface{}",
-                  text, did_you_mean(text, {reference_words[0], reference_words[1]})));
+  throw InputError(ErrorCode::wrong_value,
+                   fmt::format("--reference: found '{}', expected mean_axis, buckens or node:NAME "
+                               "with the name of an interface{}",
+                               text, did_you_mean(text, {reference_words[0], reference_words[1]})));
 }
 
 }  // namespace floatframe

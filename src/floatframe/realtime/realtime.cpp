@@ -58,7 +58,8 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
   report.priority = scheduling.has_priority();
   report.memory_locked = scheduling.memory_locked();
   report.refusals = scheduling.refusals();
-  if (options.strict && !report.refusals.empty()) throw RunError(report.refusals.front());
+  if (options.strict && !report.refusals.empty())
+    throw RunError(ErrorCode::unavailable, report.refusals.front());
   using End = typename RealTimeRunner<F>::End;
   End end = End::completed;
   {

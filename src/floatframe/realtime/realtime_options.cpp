@@ -14,14 +14,13 @@ namespace {
 void check_clock(const RealTimeOptions& o, const SimulationDescription& s, ErrorList& errors) {
   namespace rules = realtime_rules;
   if (o.paced && !(s.step >= rules::shortest_step && s.step <= rules::longest_step))
-    errors.add(s.origin.of("step"),
-               fmt::format("found a step of {:g} s, expected at least 1e-6 s and at most 1e6 s "
-                           "in step with the wall clock",
+    errors.add(ErrorCode::out_of_range, s.origin.of("step"),
+               fmt::format("found a step of {:g} s, expected at least 1e-6 s and at most 1e6 s in "
+                           "step with the wall clock",
                            s.step));
   if (!o.endless && s.duration > rules::most_steps * s.step)
-    errors.add(place_of_clock(s),
-               fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} "
-                           "steps",
+    errors.add(ErrorCode::too_large, place_of_clock(s),
+               fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} steps",
                            s.duration, s.step, rules::most_steps));
 }
 

@@ -48,7 +48,8 @@ UdpAddress resolve(const std::string& host, const std::string& port, const std::
   addrinfo* found = nullptr;
   const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
   if (error != 0)
-    throw InputError(fmt::format("{}: found the host '{}', expected one that is known ({})", option,
+    throw InputError(ErrorCode::unreadable,
+                     fmt::format("{}: found the host '{}', expected one that is known ({})", option,
                                  host, gai_strerror(error)));
   UdpAddress address;
   std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
@@ -99,7 +100,8 @@ bool UdpAddress::same_host(const UdpAddress& other) const noexcept {
 UdpAddress parse_udp_address(const std::string& text, const std::string& option) {
   std::string host, port;
   if (!split(text, host, port))
-    throw InputError(fmt::format("{}: found '{}', expected HOST:PORT, for example 127.0.0.1:47100",
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("{}: found '{}', expected HOST:PORT, for example 127.0.0.1:47100",
                                  option, text));
   return resolve(host, port, option);
 }
@@ -108,8 +110,10 @@ UdpAddress parse_udp_peer(const std::string& text, const std::string& option) {
   std::string host, port;
   // A host alone is one that becomes right with any port.
   if (!split(text, host, port) && !split(text + ":0", host, port))
-    throw InputError(fmt::format(
-        "{}: found '{}', expected HOST or HOST:PORT, for example 127.0.0.1:47101", option, text));
+    throw InputError(
+        ErrorCode::wrong_value,
+        fmt::format("{}: found '{}', expected HOST or HOST:PORT, for example 127.0.0.1:47101",
+                    option, text));
   return resolve(host, port, option);
 }
 
@@ -125,8 +129,8 @@ UdpAddress local_address_towards(const UdpAddress& to, const std::string& option
   if (probe >= 0) close(probe);
   if (!found)
     throw InputError(
-        fmt::format("{}: found no way to {} ({}); --listen names an address of this "
-                    "machine",
+        ErrorCode::unreadable,
+        fmt::format("{}: found no way to {} ({}); --listen names an address of this machine",
                     option, to.text(), std::strerror(error)));
   local.set_port(0);
   return local;

@@ -24,11 +24,12 @@ UdpPort::UdpPort(const Model& model, const UdpPortOptions& options)
       filter_(model.inputs.size(), input_layout(model).hash(), options.lock_step, options.peer),
       output_hash_(output_layout(model).hash()) {
   if (const auto complaint = realtime_rules::timeout.complaint(options.timeout))
-    throw InputError("timeout: " + *complaint);
+    throw InputError(ErrorCode::out_of_range, "timeout: " + *complaint);
   const std::size_t inputs = model.inputs.size(), outputs = model.outputs.size();
   for (const auto& [count, what] : {std::pair(inputs, "inputs"), std::pair(outputs, "outputs")})
     if (count > largest_count)
-      throw InputError(fmt::format("the model has {} {}, a UDP packet carries at most {}", count,
+      throw InputError(ErrorCode::out_of_range,
+                       fmt::format("the model has {} {}, a UDP packet carries at most {}", count,
                                    what, largest_count));
   incoming_.resize(packet_size(inputs));
   outgoing_.resize(packet_size(outputs));

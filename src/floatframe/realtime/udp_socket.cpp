@@ -22,8 +22,8 @@ UdpSocket::UdpSocket(const UdpAddress& local) {
   if (descriptor_ < 0 || bind(descriptor_, generic(local), local.size) != 0) {
     const int error = errno;
     if (descriptor_ >= 0) close(descriptor_);
-    throw RunError(fmt::format("UDP packets cannot be received at {}: {}", local.text(),
-                               std::strerror(error)));
+    throw RunError(ErrorCode::in_use, fmt::format("UDP packets cannot be received at {}: {}",
+                                                  local.text(), std::strerror(error)));
   }
 }
 

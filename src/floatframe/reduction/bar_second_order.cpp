@@ -153,10 +153,10 @@ void require_memory(const FeModel& model, Eigen::Index nm, bool all_nodes, bool 
   const std::string complaint =
       memory_complaint(8.0 * model.nodes() * modes * (of_mode + of_pairs * modes));
   if (!complaint.empty())
-    throw InputError(
-        fmt::format("the reduction of {} nodes to {} modes {}; fewer modes or elements "
-                    "are enough for nearly every body",
-                    model.nodes(), nm, complaint));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("the reduction of {} nodes to {} modes {}; fewer modes or "
+                                 "elements are enough for nearly every body",
+                                 model.nodes(), nm, complaint));
 }
 
 std::vector<SecondOrderNode> kept_nodes(const FeModel& model, Eigen::Index nm, bool all_nodes) {

@@ -125,17 +125,18 @@ void check_connected(const FeModel& model) {
     if (pieces.used(k)) of_root[pieces.root(k)].push_back(k);
   std::erase_if(of_root, [](const auto& nodes) { return nodes.empty(); });
   if (of_root.size() < 2) {
-    if (const std::string flat = flat_nodes(model); !flat.empty()) throw InputError(flat);
+    if (const std::string flat = flat_nodes(model); !flat.empty())
+      throw InputError(ErrorCode::wrong_value, flat);
     return;
   }
   std::stable_sort(of_root.begin(), of_root.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
   ErrorList errors;
   for (std::size_t i = 1; i < of_root.size() && i < 6; ++i) {
-    errors.add({}, fmt::format("the part is in {} pieces: {} {} not connected with the other {} "
-                               "nodes",
-                               of_root.size(), list_nodes(model, of_root[i]),
-                               of_root[i].size() == 1 ? "is" : "are", of_root[0].size()));
+    errors.add(ErrorCode::singular, {},
+               fmt::format("the part is in {} pieces: {} {} not connected with the other {} nodes",
+                           of_root.size(), list_nodes(model, of_root[i]),
+                           of_root[i].size() == 1 ? "is" : "are", of_root[0].size()));
   }
   errors.throw_if_any();
 }

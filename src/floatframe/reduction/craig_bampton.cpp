@@ -27,9 +27,10 @@ std::string direction_text(const Vec3& v) {
 int node_of(const FeModel& model, const NodeDofs& selection, const char* what, ErrorList& errors) {
   const int node = selection.node.empty() ? selection.index : model.find_node(selection.node);
   if (node < 0 || node >= model.nodes()) {
-    errors.add({}, std::string(what) + ": there is no node " +
-                       (selection.node.empty() ? std::to_string(selection.index)
-                                               : "'" + selection.node + "'"));
+    errors.add(ErrorCode::not_found, {},
+               std::string(what) + ": there is no node " +
+                   (selection.node.empty() ? std::to_string(selection.index)
+                                           : "'" + selection.node + "'"));
     return -1;
   }
   return node;
@@ -49,6 +50,7 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   }
   if (count == 0) {
     throw InputError(
+        ErrorCode::wrong_value,
         "the body reference clamps no degree of freedom, so the body is free to move rigidly");
   }
   for (const Vec3& p : model.positions) size = std::max(size, (p - centre).norm());
@@ -69,12 +71,14 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   if (motion(largest) < 0.0) motion = -motion;
   const Vec3 turn = motion.tail<3>();
   if (turn.norm() < 1e-6) {
-    throw InputError("the body reference does not remove the translation along " +
-                     direction_text(motion.head<3>().normalized()));
+    throw InputError(ErrorCode::wrong_value,
+                     "the body reference does not remove the translation along " +
+                         direction_text(motion.head<3>().normalized()));
   }
-  throw InputError("the body reference does not remove the rotation about the direction " +
-                   direction_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
-                   (count > 1 ? " and others)" : ")"));
+  throw InputError(ErrorCode::wrong_value,
+                   "the body reference does not remove the rotation about the direction " +
+                       direction_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
+                       (count > 1 ? " and others)" : ")"));
 }
 
 SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
@@ -130,9 +134,10 @@ ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const 
     return mode_set(*fixed, options, std::move(names));
   } catch (const EigenIterationError& error) {
     if (options.section_inertia || options.mass_model == MassModel::isoparametric) throw;
-    throw InputError(std::string(error.what()) +
-                     ", or section_inertia: true, which gives turns of bars about their axes "
-                     "inertia");
+    throw InputError(
+        ErrorCode::out_of_range,
+        std::string(error.what()) +
+            ", or section_inertia: true, which gives turns of bars about their axes inertia");
   }
 }
 
@@ -166,23 +171,27 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const int node = node_of(model, c, "the interface", errors);
     if (node < 0) continue;
     if (c.mask == 0)
-      errors.add({}, "the interface at " + model.node_label(node) + " names no degree of freedom");
+      errors.add(ErrorCode::wrong_value, {},
+                 "the interface at " + model.node_label(node) + " names no degree of freedom");
     for (int axis = 0; axis < 6; ++axis) {
       if (((c.mask >> axis) & 1u) == 0) continue;
       if (axis >= d) {
-        errors.add({}, "the interface asks for " + dof_text(node, axis) +
-                           ", but the nodes of solid elements have no rotations");
+        errors.add(ErrorCode::contradiction, {},
+                   "the interface asks for " + dof_text(node, axis) +
+                       ", but the nodes of solid elements have no rotations");
         continue;
       }
       Role& role = roles[node * d + axis];
       if (role == Role::clamped) {
-        errors.add({},
+        errors.add(ErrorCode::duplicate, {},
                    dof_text(node, axis) + " is both clamped and an interface degree of freedom");
       } else if (role == Role::interface) {
-        errors.add({}, dof_text(node, axis) + " is given twice as an interface degree of freedom");
+        errors.add(ErrorCode::duplicate, {},
+                   dof_text(node, axis) + " is given twice as an interface degree of freedom");
       } else if (role == Role::inactive) {
-        errors.add({}, dof_text(node, axis) +
-                           " has no stiffness and cannot be an interface degree of freedom");
+        errors.add(ErrorCode::missing, {},
+                   dof_text(node, axis) +
+                       " has no stiffness and cannot be an interface degree of freedom");
       } else {
         role = Role::interface;
         interface_dofs.push_back(node * d + axis);

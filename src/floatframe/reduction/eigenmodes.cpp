@@ -174,10 +174,12 @@ Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int 
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
-    throw EigenIterationError(fmt::format(
-        "the iteration for the {} lowest modes fails: equal parts have equal frequencies, and "
-        "directions without mass leave nothing to tell their modes apart; take fewer normal modes",
-        count));
+    throw EigenIterationError(
+        ErrorCode::wrong_value,
+        fmt::format("the iteration for the {} lowest modes fails: equal parts have equal "
+                    "frequencies, and directions without mass leave nothing to tell their modes "
+                    "apart; take fewer normal modes",
+                    count));
   }
 }
 

@@ -66,11 +66,12 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
   const int row = factors_.singular();
   if (row >= 0 || factors_.negative_pivots() > 0) {
     if (row < 0)
-      throw InputError("the stiffness is not positive: an element or a matrix has negative energy");
-    throw InputError(fmt::format(
-        "the stiffness is singular: {} can move without resistance (a part that is not connected, "
-        "or a mechanism)",
-        label(inner_[row])));
+      throw InputError(ErrorCode::out_of_range,
+                       "the stiffness is not positive: an element or a matrix has negative energy");
+    throw InputError(ErrorCode::singular,
+                     fmt::format("the stiffness is singular: {} can move without resistance (a "
+                                 "part that is not connected, or a mechanism)",
+                                 label(inner_[row])));
   }
 }
 
@@ -108,19 +109,22 @@ MatX FixedInterface::inner_response(const MatX& forces) const {
 
 Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,
                        bool at_most) {
-  if (count < 0) throw InputError("the number of normal modes must not be negative");
+  if (count < 0)
+    throw InputError(ErrorCode::out_of_range, "the number of normal modes must not be negative");
   if (at_most) count = std::min(count, inner);
   if (count > inner) {
-    throw InputError(fmt::format(
-        "{} normal modes are requested, but only {} degrees of freedom are left inside the "
-        "interface",
-        count, inner));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("{} normal modes are requested, but only {} degrees of freedom "
+                                 "are left inside the interface",
+                                 count, inner));
   }
   Eigenmodes modes = solve(count);
   if (modes.omega.size() < count && !at_most) {
-    throw InputError(fmt::format(
-        "{} normal modes are requested, but the mass inside the interface allows only {}", count,
-        modes.omega.size()));
+    throw InputError(
+        ErrorCode::too_large,
+        fmt::format(
+            "{} normal modes are requested, but the mass inside the interface allows only {}",
+            count, modes.omega.size()));
   }
   return modes;
 }

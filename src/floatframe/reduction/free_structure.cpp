@@ -101,15 +101,17 @@ FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX 
       A_(K - sigma_ * M),
       factors_(A_, solver) {
   if (!(estimate > 0.0))
-    throw InputError(
-        "there are no free modes: what the part can do beside moving rigidly moves no mass, or "
-        "nothing resists it (a mechanism)");
+    throw InputError(ErrorCode::singular,
+                     "there are no free modes: what the part can do beside moving rigidly moves no "
+                     "mass, or nothing resists it (a mechanism)");
   if (factors_.singular() >= 0)
     throw InputError(
+        ErrorCode::singular,
         "neither the stiffness nor the mass of the free part holds " +
-        (label ? label(static_cast<int>(factors_.singular())) : std::string("some motion")));
+            (label ? label(static_cast<int>(factors_.singular())) : std::string("some motion")));
   if (factors_.negative_pivots() > 0)
-    throw InputError("the stiffness or the mass is not positive: an energy is negative");
+    throw InputError(ErrorCode::out_of_range,
+                     "the stiffness or the mass is not positive: an energy is negative");
 }
 
 Eigenpairs FreeStructure::modes(int count) const {

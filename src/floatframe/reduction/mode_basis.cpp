@@ -78,20 +78,26 @@ void append_modes(ModeBasis& basis, const MatX& X, const MatX& K,
 
 void check_options(const PartOptions& options) {
   ErrorList errors;
-  const auto add = [&](std::string text) { errors.add({}, std::move(text)); };
+  const auto add = [&](ErrorCode code, std::string text) { errors.add(code, {}, std::move(text)); };
   const bool free = options.method != ModeMethod::craig_bampton;
-  if (options.modes && *options.modes < 0) add("the number of normal modes must not be negative");
+  if (options.modes && *options.modes < 0)
+    add(ErrorCode::out_of_range, "the number of normal modes must not be negative");
   if (!(options.max_frequency >= 0.0) || !std::isfinite(options.max_frequency))
-    add("the highest frequency must be positive");
+    add(ErrorCode::out_of_range, "the highest frequency must be positive");
   if (!(options.effective_mass >= 0.0 && options.effective_mass <= 1.0))
-    add("the effective mass to be reached must be a fraction between 0 and 1");
+    add(ErrorCode::out_of_range,
+        "the effective mass to be reached must be a fraction between 0 and 1");
   if (free && options.effective_mass > 0.0)
-    add("free modes have no effective mass; select them by number or by frequency");
-  if (const auto complaint = damping_complaint(options.damping)) add("damping: " + *complaint);
+    add(ErrorCode::wrong_value,
+        "free modes have no effective mass; select them by number or by frequency");
+  if (const auto complaint = damping_complaint(options.damping))
+    add(ErrorCode::out_of_range, "damping: " + *complaint);
   if (options.interfaces.empty() && options.method == ModeMethod::craig_bampton)
-    add("the Craig-Bampton method needs an interface; give one, or take free_free");
+    add(ErrorCode::incomplete,
+        "the Craig-Bampton method needs an interface; give one, or take free_free");
   if (options.interfaces.empty() && options.method == ModeMethod::craig_chang)
-    add("the Craig-Chang method needs an interface; give one, or take free_free");
+    add(ErrorCode::incomplete,
+        "the Craig-Chang method needs an interface; give one, or take free_free");
   if (options.reference.kind == BodyReference::Kind::node) {
     const auto it = std::find_if(
         options.interfaces.begin(), options.interfaces.end(),
@@ -100,10 +106,12 @@ void check_options(const PartOptions& options) {
       std::string list;
       for (const InterfaceDescription& d : options.interfaces)
         list += (list.empty() ? "'" : ", '") + d.name + "'";
-      add(fmt::format("the body reference is the interface '{}', which does not exist; there {}",
+      add(ErrorCode::not_found,
+          fmt::format("the body reference is the interface '{}', which does not exist; there {}",
                       options.reference.node, list.empty() ? "are none" : "are " + list));
     } else if ((it->mask & 63u) != 63u) {
-      add(fmt::format("the body reference needs all six degrees of freedom of the interface '{}'",
+      add(ErrorCode::incomplete,
+          fmt::format("the body reference needs all six degrees of freedom of the interface '{}'",
                       it->name));
     }
   }

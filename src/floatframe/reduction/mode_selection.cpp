@@ -101,11 +101,12 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
     if (solved == most_modes) {
       Eigen::Index worst = 0;
       (sum.array() / reachable.array()).minCoeff(&worst);
-      throw InputError(fmt::format(
-          "{} fixed-interface modes reach only {:.1f} % of the effective mass in {}, not {:.1f} %; "
-          "ask for less, or for a number of modes",
-          most_modes, 100.0 * sum(worst) / reachable(worst), node_dof_words[worst],
-          100.0 * options.effective_mass));
+      throw InputError(
+          ErrorCode::too_large,
+          fmt::format("{} fixed-interface modes reach only {:.1f} % of the effective mass in {}, "
+                      "not {:.1f} %; ask for less, or for a number of modes",
+                      most_modes, 100.0 * sum(worst) / reachable(worst), node_dof_words[worst],
+                      100.0 * options.effective_mass));
     }
     solved = std::min({count, 2 * solved, most_modes});
     modes = modes_and_next(fixed, solved, false);
@@ -131,10 +132,10 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
   const int most = std::max(system.size() - 6, 0);
   if (!options.modes) count = std::min(count, most);
   if (count > most) {
-    throw InputError(fmt::format(
-        "{} normal modes are requested, but of the {} degrees of freedom of the free part only {} "
-        "are left beside its six rigid motions",
-        count, system.size(), most));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("{} normal modes are requested, but of the {} degrees of freedom "
+                                 "of the free part only {} are left beside its six rigid motions",
+                                 count, system.size(), most));
   }
   // One at least is looked at: a mechanism is refused however few are kept.
   // One more than kept shows a pair that is cut.
@@ -145,6 +146,7 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
   if (!options.modes) count = std::min(count, found);
   if (count > found) {
     throw InputError(
+        ErrorCode::too_large,
         fmt::format("{} normal modes are requested, but the mass allows only {}", count, found));
   }
   const auto elastic_of = [](const Eigenpairs& pairs, Eigen::Index n) {

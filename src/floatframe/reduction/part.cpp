@@ -130,7 +130,8 @@ void check_body(const FlexibleBody& body, bool rotary) {
   for (const InvariantError& f :
        check_invariants(body, rotary ? InvariantSource::rotary : InvariantSource::integrals))
     errors.add(
-        {}, fmt::format("the reduced part has no valid inertia: {}: {}", f.quantity, f.sentence));
+        ErrorCode::missing, {},
+        fmt::format("the reduced part has no valid inertia: {}: {}", f.quantity, f.sentence));
   errors.throw_if_any();
 }
 
@@ -148,9 +149,10 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
   health.rigid_eigenvalues = full->lambda.head<6>() / full->lambda(6);
   const double worst = health.rigid_eigenvalues->cwiseAbs().maxCoeff();
   if (worst > 1e-3)
-    throw InputError(fmt::format(
-        "a rigid motion has an eigenvalue of {:.1e} of the first elastic one instead of zero: {}",
-        worst, hold_text(model, health.rigid_residual)));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("a rigid motion has an eigenvalue of {:.1e} of the first elastic "
+                                 "one instead of zero: {}",
+                                 worst, hold_text(model, health.rigid_residual)));
 }
 
 /// What the model weighs, and whether its stiffness lets it move freely.
@@ -202,7 +204,7 @@ ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
                                 const ModeBasis& basis, const InertiaInvariants& raw) {
   ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
   if (free.lambda.size() > 0 && !(free.stiffness > least_stiffness))
-    throw InputError(mechanism_text(model, system, basis.X * free.C.col(0)));
+    throw InputError(ErrorCode::singular, mechanism_text(model, system, basis.X * free.C.col(0)));
   return free;
 }
 
@@ -213,16 +215,16 @@ ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const Iner
   ElasticModes modes =
       elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
   if (modes.mass < least_modal_mass)
-    throw InputError(
-        "a combination of the modes moves as a rigid body and has no inertia of its own; use fewer "
-        "modes or a finer mesh");
+    throw InputError(ErrorCode::missing,
+                     "a combination of the modes moves as a rigid body and has no inertia of its "
+                     "own; use fewer modes or a finer mesh");
   fix_signs(basis.X, modes.C);
   health.modal_mass_condition = modes.condition;
   if (modes.without_mass > 0)
-    health.notes.push_back(fmt::format(
-        "of the modes {} combined motions move no mass and are left out: there are more "
-        "interface degrees of freedom and modes than the mesh has ways to move",
-        modes.without_mass));
+    health.notes.push_back(
+        fmt::format("of the modes {} combined motions move no mass and are left out: there are "
+                    "more interface degrees of freedom and modes than the mesh has ways to move",
+                    modes.without_mass));
   return modes;
 }
 

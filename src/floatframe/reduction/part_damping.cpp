@@ -43,10 +43,11 @@ MatX given_damping(const FeMatrices& given, const FeSystem& system, const MatX& 
   const SymmetricEigen own = symmetric_eigen(D);
   const double top = own.values.cwiseAbs().maxCoeff();
   if (own.values(0) < -given_rounding * top)
-    throw InputError(fmt::format(
-        "the damping matrix gives energy to a deformation (smallest eigenvalue in the modes {:.3g} "
-        "beside {:.3g}), expected none below zero",
-        own.values(0), top));
+    throw InputError(
+        ErrorCode::wrong_value,
+        fmt::format("the damping matrix gives energy to a deformation (smallest eigenvalue in the "
+                    "modes {:.3g} beside {:.3g}), expected none below zero",
+                    own.values(0), top));
   // Rounding must not give energy either.
   D = own.vectors * own.values.cwiseMax(0.0).asDiagonal() * own.vectors.transpose();
   const MatX R_rows = at_rows(system, given.dofs, R);

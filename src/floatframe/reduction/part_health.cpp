@@ -30,7 +30,8 @@ MassProperties mass_properties(const InertiaInvariants& invariants) {
 void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
                                  const MassProperties& properties) {
   if (!(properties.mass > 0.0))
-    throw InputError("the part has no mass: every density is zero, and there is no point mass");
+    throw InputError(ErrorCode::missing,
+                     "the part has no mass: every density is zero, and there is no point mass");
   double rounding = 0.0;  // what is left of springs within a rigid body
   if (model.elements.empty())
     for (const Spring& s : model.springs) rounding = std::max(rounding, 1e-12 * s.stiffness);
@@ -38,6 +39,7 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   const VecX diagonal = system.K.diagonal();
   if ((diagonal.array() <= rounding).all())
     throw InputError(
+        ErrorCode::out_of_range,
         "the part has mass but no elasticity: no element or spring resists what its nodes can do");
 }
 
@@ -55,6 +57,7 @@ void require_inertia(const FeModel& model, const FeSystem& system, const PartOpt
   const bool point = !(J_i(2) > 1e-12 * properties.J_origin.norm()) || J_i(2) == 0.0;
   const Vec3 axis = inertia.vectors.col(0);
   throw InputError(
+      ErrorCode::missing,
       point ? "the part has no inertia about its centre of mass, since all mass is at one point; "
               "give point masses their inertia"
             : fmt::format("the part has no inertia about the axis {} through its centre of mass, "
@@ -77,18 +80,18 @@ void warn_of_interfaces(HealthReport& health) {
                       h.name, h.nodes));
     }
     if (h.condition > 30.0) {
-      health.warnings.push_back(fmt::format(
-          "interface '{}': its nodes lie almost on a line (condition {:.0f}); one rotation is "
-          "hardly held",
-          h.name, h.condition));
+      health.warnings.push_back(
+          fmt::format("interface '{}': its nodes lie almost on a line (condition {:.0f}); one "
+                      "rotation is hardly held",
+                      h.name, h.condition));
     }
   }
   for (const InterfaceHealth& h : health.interfaces) {
     if (h.static_error > 0.01)
-      health.warnings.push_back(fmt::format(
-          "interface '{}' is too stiff in the reduced body: its displacements under unit loads "
-          "are wrong by {:.1f} %",
-          h.name, 100.0 * h.static_error));
+      health.warnings.push_back(
+          fmt::format("interface '{}' is too stiff in the reduced body: its displacements under "
+                      "unit loads are wrong by {:.1f} %",
+                      h.name, 100.0 * h.static_error));
   }
 }
 
@@ -130,23 +133,23 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
           fmt::format("volume times density is {:+.2f} % off the assembled mass", 100.0 * off));
   }
   if (points.anisotropy > least_anisotropy)
-    list.push_back(fmt::format(
-        "the mass in the matrices differs between directions by up to {:.2g} of its largest entry "
-        "(rotary inertia of another program): the mass matrix of the undeformed body is that of "
-        "the file, but how its rotary part changes with the deformation is unknown, which matters "
-        "where the body spins",
-        points.anisotropy));
+    list.push_back(
+        fmt::format("the mass in the matrices differs between directions by up to {:.2g} of its "
+                    "largest entry (rotary inertia of another program): the mass matrix of the "
+                    "undeformed body is that of the file, but how its rotary part changes with the "
+                    "deformation is unknown, which matters where the body spins",
+                    points.anisotropy));
   if (model.matrices && !model.matrices->scalars.empty())
-    list.push_back(fmt::format(
-        "the file has {} amplitudes of modes (scalar points) without shapes: its matrices are "
-        "kept, "
-        "but how these modes change the inertia is unknown, which matters where the body spins",
-        model.matrices->scalars.size()));
+    list.push_back(
+        fmt::format("the file has {} amplitudes of modes (scalar points) without shapes: its "
+                    "matrices are kept, but how these modes change the inertia is unknown, which "
+                    "matters where the body spins",
+                    model.matrices->scalars.size()));
   if (health.rigid_residual > 1e-9) {
-    list.push_back(fmt::format(
-        "rigid motions cause forces of {:.1e} of the largest stiffness: a support, a spring to "
-        "ground or a wrong linear equation is in the model",
-        health.rigid_residual));
+    list.push_back(
+        fmt::format("rigid motions cause forces of {:.1e} of the largest stiffness: a support, a "
+                    "spring to ground or a wrong linear equation is in the model",
+                    health.rigid_residual));
   }
   if (health.rigid_eigenvalues && health.rigid_eigenvalues->cwiseAbs().maxCoeff() > 1e-6) {
     list.push_back(fmt::format(

@@ -50,7 +50,8 @@ std::string number_label(const FeModel& model, int node) {
 }
 
 void append_errors(ErrorList& errors, const InputError& error) {
-  for (const ErrorEntry& entry : error.errors()) errors.add(entry.mark, entry.message, entry.count);
+  for (const ErrorEntry& entry : error.errors())
+    errors.add(entry.code, entry.mark, entry.message, entry.count);
 }
 
 void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
@@ -58,12 +59,13 @@ void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
   const std::vector<FreeTurn> turns = free_turns(model);
   ErrorList errors;
   for (const FreeTurn& turn : turns) {
-    const auto refuse = [&](const char* kind, const std::string& name, const std::string& advice) {
-      errors.add(model.mark(turn.source),
-                 fmt::format("{} '{}': {} is held by nodes without rotations {}, so nothing "
-                             "resists its turn; {}",
-                             kind, name, turn.label,
-                             turn.every_way ? "in one point" : "on one line", advice));
+    const auto refuse = [&](ErrorCode code, const char* kind, const std::string& name,
+                            const std::string& advice) {
+      errors.add(
+          code, model.mark(turn.source),
+          fmt::format(
+              "{} '{}': {} is held by nodes without rotations {}, so nothing resists its turn; {}",
+              kind, name, turn.label, turn.every_way ? "in one point" : "on one line", advice));
     };
     const auto beside = [&](int node) {
       return fmt::format("a force at {}, beside {}, would turn it", model.node_label(node),
@@ -71,16 +73,16 @@ void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
     };
     for (const InterfacePlace& place : interfaces) {
       if (is_beside(model, turn, place.node))
-        refuse("interface", place.name, beside(place.node));
+        refuse(ErrorCode::wrong_value, "interface", place.name, beside(place.node));
       else if ((place.mask & 56u) != 0 &&
                std::binary_search(turn.group.begin(), turn.group.end(), place.node))
-        refuse("interface", place.name, "give the interface only ux uy uz");
+        refuse(ErrorCode::wrong_value, "interface", place.name, "give the interface only ux uy uz");
     }
     for (const MarkerPlace& marker : markers) {
       const auto node = std::find_if(marker.nodes.begin(), marker.nodes.end(),
                                      [&](int k) { return is_beside(model, turn, k); });
       if (marker.residual && node != marker.nodes.end())
-        refuse("residual marker", marker.name, beside(*node));
+        refuse(ErrorCode::wrong_value, "residual marker", marker.name, beside(*node));
     }
   }
   errors.throw_if_any();
@@ -96,7 +98,7 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
   std::vector<InterfacePlace> places;
   for (const InterfaceDescription& d : options.interfaces) {
     if (d.name.empty()) {
-      errors.add({}, "an interface has no name");
+      errors.add(ErrorCode::missing, {}, "an interface has no name");
       continue;
     }
     try {
@@ -109,6 +111,7 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
       for (const InterfacePlace& other : places) {
         if (other.node == place.node)
           throw InputError(
+              ErrorCode::duplicate,
               fmt::format("the interfaces '{}' and '{}' are the same node", other.name, d.name));
       }
       InterfaceHealth& h = place.health;
@@ -139,19 +142,21 @@ std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& 
   for (const InterfaceDescription& d : options.interfaces) names.insert(d.name);
   for (const MarkerDescription& d : options.markers) {
     const std::string label = "marker '" + d.name + "': ";
-    if (d.name.empty()) errors.add({}, "a marker has no name");
-    if (!names.insert(d.name).second) errors.add({}, label + "the name is given twice");
+    if (d.name.empty()) errors.add(ErrorCode::missing, {}, "a marker has no name");
+    if (!names.insert(d.name).second)
+      errors.add(ErrorCode::duplicate, {}, label + "the name is given twice");
     try {
       MarkerPlace place;
       place.name = d.name;
       place.residual = d.residual;
       place.nodes = choose_nodes(model, d.choice);
       place.p = d.at.value_or(centre_of(model, place.nodes));
-      if (!place.p.allFinite()) throw InputError("its position is not finite");
+      if (!place.p.allFinite())
+        throw InputError(ErrorCode::not_finite, "its position is not finite");
       places.push_back(std::move(place));
     } catch (const InputError& error) {
       for (const ErrorEntry& entry : error.errors())
-        errors.add(entry.mark, label + entry.message, entry.count);
+        errors.add(entry.code, entry.mark, label + entry.message, entry.count);
     }
   }
   errors.throw_if_any();
@@ -170,8 +175,9 @@ void find_rows(const FeModel& model, const FeSystem& system,
       if (((place.mask >> axis) & 1u) == 0) continue;
       const int row = system.row(place.node, axis);
       if (row < 0) {
-        errors.add({}, fmt::format("interface '{}': {} has no degree of freedom {} of its own",
-                                   place.name, model.node_label(place.node), node_dof_names[axis]));
+        errors.add(ErrorCode::missing, {},
+                   fmt::format("interface '{}': {} has no degree of freedom {} of its own",
+                               place.name, model.node_label(place.node), node_dof_names[axis]));
         continue;
       }
       place.rows.push_back(row);
@@ -182,9 +188,10 @@ void find_rows(const FeModel& model, const FeSystem& system,
     }
     // As an inner node would be refused: the reference of a coupling of some directions only.
     if (!loose.empty())
-      errors.add({}, fmt::format("interface '{}': {} can move without resistance in {}: nothing of "
-                                 "the part follows it there",
-                                 place.name, number_label(model, place.node), loose));
+      errors.add(ErrorCode::wrong_value, {},
+                 fmt::format("interface '{}': {} can move without resistance in {}: nothing of the "
+                             "part follows it there",
+                             place.name, number_label(model, place.node), loose));
   }
   errors.throw_if_any();
 }

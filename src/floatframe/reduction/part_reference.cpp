@@ -13,9 +13,9 @@ namespace {
 /// Points of the model with unit density and without point masses: integrals over the volume.
 PointModel volume_points(FeModel model, Integration integration) {
   if (model.matrices) {
-    throw InputError(
-        "the Buckens reference weighs by volume, which a part given by matrices does not have; "
-        "take mean_axis");
+    throw InputError(ErrorCode::geometry,
+                     "the Buckens reference weighs by volume, which a part given by matrices does "
+                     "not have; take mean_axis");
   }
   for (Material& m : model.materials) m.density = 1.0;
   for (ShellSection& s : model.shells) s.mass = 0.0;

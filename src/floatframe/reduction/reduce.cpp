@@ -32,7 +32,8 @@ void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeS
       M.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
   const VecX masses = symmetric_eigenvalues(s.asDiagonal() * M * s.asDiagonal());
   if (!(masses(0) > 1e-14 * masses(M.rows() - 1))) {
-    throw InputError("the modes cannot be orthonormalised: a combination of them has no mass");
+    throw InputError(ErrorCode::missing,
+                     "the modes cannot be orthonormalised: a combination of them has no mass");
   }
   const SymmetricEigen modes = generalised_eigen(set.K, M);
   MatX X = set.X * modes.vectors;
@@ -48,10 +49,12 @@ void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeS
 ModeSet user_basis(const FeModel& model, const MatX& X) {
   const int rows = model.dofs_per_node() * model.nodes();
   if (X.rows() != rows) {
-    throw InputError("the given basis has " + std::to_string(X.rows()) + " rows; " +
-                     std::to_string(model.nodes()) + " nodes need " + std::to_string(rows));
+    throw InputError(ErrorCode::wrong_count, "the given basis has " + std::to_string(X.rows()) +
+                                                 " rows; " + std::to_string(model.nodes()) +
+                                                 " nodes need " + std::to_string(rows));
   }
-  if (!X.allFinite()) throw InputError("the given basis has entries that are not finite");
+  if (!X.allFinite())
+    throw InputError(ErrorCode::not_finite, "the given basis has entries that are not finite");
   ModeSet set;
   set.X = X;
   const bool rotations = model.dofs_per_node() == 6;
@@ -108,6 +111,7 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
     const bool shear = e.type == ElementType::beam2 && model.sections[e.section].has_shear();
     if (shear || e.mass_form != MassForm::consistent)
       throw InputError(
+          ErrorCode::wrong_value,
           fmt::format("{} has {}, which bodies of bars do not have: reduce it as a part",
                       model.element_label(static_cast<int>(&e - model.elements.data())),
                       shear ? "a shear area" : "lumped mass"));
@@ -115,15 +119,15 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
   if (options.mass_model == MassModel::isoparametric) {
     for (const PointMass& p : model.masses) {
       if (p.J.cwiseAbs().maxCoeff() > 0.0) {
-        throw InputError("the point mass on " + model.node_label(p.node) +
-                         " has rotary inertia, which the isoparametric mass model with three rows "
-                         "per node leaves "
-                         "out; use six_dof or hermite");
+        throw InputError(ErrorCode::wrong_count,
+                         "the point mass on " + model.node_label(p.node) +
+                             " has rotary inertia, which the isoparametric mass model with three "
+                             "rows per node leaves out; use six_dof or hermite");
       }
     }
   }
   if (const auto complaint = damping_complaint(options.damping))
-    throw InputError("damping: " + *complaint);
+    throw InputError(ErrorCode::out_of_range, "damping: " + *complaint);
   ModeSet set = options.basis      ? user_basis(model, *options.basis)
                 : options.analytic ? analytic_bar_modes(model, options.analytic->dynamic_per_plane)
                                    : craig_bampton_modes(model, options);

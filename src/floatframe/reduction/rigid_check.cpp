@@ -68,19 +68,20 @@ double check_rigid_motions(const FeModel& model, const FeSystem& system) {
   const double residual = force.maxCoeff() / largest;
   if (residual <= largest_rigid_residual) return residual;
   if (!std::isfinite(residual))
-    throw InputError(
-        fmt::format("the stiffness has entries of {:.1e}, too large to compute with: a "
-                    "size or a material is in other units or mistyped",
-                    largest));
+    throw InputError(ErrorCode::too_large,
+                     fmt::format("the stiffness has entries of {:.1e}, too large to compute with: "
+                                 "a size or a material is in other units or mistyped",
+                                 largest));
   VecX of_node = VecX::Zero(model.nodes());
   for (int row = 0; row < system.size(); ++row) {
     double& f = of_node(system.dofs[row].node);
     f = std::max(f, force(row));
   }
-  throw InputError(fmt::format(
-      "rigid motions cause forces of {:.1e} of the largest stiffness at {}: a support, a spring to "
-      "ground or a wrong linear equation is in the model",
-      residual, largest_nodes(model, of_node)));
+  throw InputError(
+      ErrorCode::wrong_value,
+      fmt::format("rigid motions cause forces of {:.1e} of the largest stiffness at {}: a support, "
+                  "a spring to ground or a wrong linear equation is in the model",
+                  residual, largest_nodes(model, of_node)));
 }
 
 std::string mechanism_text(const FeModel& model, const FeSystem& system, const VecX& shape) {
@@ -128,7 +129,7 @@ void check_stiffness_of(const FeModel& model, const FeSystem& system, const MatX
     const double energy = shapes.col(k).dot(force.col(k));
     const double rounding = shapes.col(k).cwiseAbs().dot(magnitude.col(k));
     if (!(energy > least_strain_energy * rounding))
-      throw InputError(mechanism_text(model, system, shapes.col(k)));
+      throw InputError(ErrorCode::singular, mechanism_text(model, system, shapes.col(k)));
   }
 }
 

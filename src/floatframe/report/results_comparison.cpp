@@ -54,7 +54,8 @@ class Merge {
 
   void run(ResultsComparison& out) {
     for (ResultsReader* r : {&a_, &b_})
-      if (!r->next()) throw InputError({r->file(), 0, 0}, "there is no row of results");
+      if (!r->next())
+        throw InputError(ErrorCode::wrong_value, {r->file(), 0, 0}, "there is no row of results");
     out.start_a = a_.time();
     out.start_b = out.end_b = b_.time();
     do {
@@ -122,7 +123,7 @@ class Merge {
 
   void finish(ResultsComparison& out) const {
     if (rows_a_ == 0)
-      throw InputError({b_.file(), 0, 0},
+      throw InputError(ErrorCode::out_of_range, {b_.file(), 0, 0},
                        fmt::format("found results from {:g} to {:g} s, expected some at the times "
                                    "of '{}' from {:g} to {:g} s",
                                    out.start_b, out.end_b, a_.file(), out.start_a, out.end_a));
@@ -162,7 +163,7 @@ void require_channels(const ResultsReader& r, const std::vector<std::string>& na
   const std::set<std::string> have(known.begin(), known.end());
   for (const std::string& name : names)
     if (!have.contains(name))
-      throw InputError({r.file(), 1, 0},
+      throw InputError(ErrorCode::wrong_value, {r.file(), 1, 0},
                        fmt::format("there is no channel '{}'{}", name, did_you_mean(name, known)));
 }
 
@@ -182,9 +183,8 @@ InputError nothing_in_common(const ResultsReader& a, const ResultsReader& b,
   const std::string units =
       found.other_units.empty() ? "" : "; of other units: " + some_names(found.other_units);
   return InputError(
-      {b.file(), 1, 0},
-      fmt::format("found no channel that '{}' has too, expected one or more (here {}, "
-                  "there {}{})",
+      ErrorCode::missing, {b.file(), 1, 0},
+      fmt::format("found no channel that '{}' has too, expected one or more (here {}, there {}{})",
                   a.file(), some_names(found.only_b), some_names(found.only_a), units));
 }
 

@@ -83,31 +83,34 @@ bool read_numbers(const std::string& line, std::vector<double>& row, std::size_t
 ResultsReader::ResultsReader(const std::string& file) : file_(file) {
   std::string beginning;
   if (const std::string why = read_regular_beginning(file, 1, beginning); !why.empty())
-    throw InputError({file_, 0, 0}, why);
+    throw InputError(ErrorCode::wrong_value, {file_, 0, 0}, why);
   in_.reset(std::fopen(file.c_str(), "rb"));
-  if (!in_) throw InputError({file_, 0, 0}, "the file cannot be opened");
+  if (!in_) throw InputError(ErrorCode::unreadable, {file_, 0, 0}, "the file cannot be opened");
   read_header();
 }
 
-void ResultsReader::refuse(std::size_t at, const std::string& message) const {
-  throw InputError({file_, number_, static_cast<int>(at) + 1}, message);
+void ResultsReader::refuse(ErrorCode code, std::size_t at, const std::string& message) const {
+  throw InputError(code, {file_, number_, static_cast<int>(at) + 1}, message);
 }
 
 void ResultsReader::read_header() {
-  if (!read_line()) throw InputError({file_, 0, 0}, "the file is empty, expected results");
+  if (!read_line())
+    throw InputError(ErrorCode::missing, {file_, 0, 0}, "the file is empty, expected results");
   std::set<std::string> names;
   std::size_t at = line_.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the mark of spreadsheets
   while (true) {
     const std::size_t begin = at;
     std::string title;
-    if (!read_title(line_, at, title)) refuse(begin, "found a quote that is not closed");
+    if (!read_title(line_, at, title))
+      refuse(ErrorCode::wrong_value, begin, "found a quote that is not closed");
     columns_.push_back(column_of(csv_text(title)));
     const std::string& name = columns_.back().name;
     if (columns_.size() == 1 && name != "time")
-      refuse(begin, fmt::format("found '{}' as the first column, expected 'time [s]'",
-                                name.substr(0, 40)));
+      refuse(
+          ErrorCode::wrong_value, begin,
+          fmt::format("found '{}' as the first column, expected 'time [s]'", name.substr(0, 40)));
     if (!names.insert(name).second)
-      refuse(begin,
+      refuse(ErrorCode::duplicate, begin,
              fmt::format("found a second column '{}', expected each once", name.substr(0, 100)));
     if (at >= line_.size()) break;
     ++at;
@@ -126,10 +129,12 @@ bool ResultsReader::read_line() {
       return true;
     }
     if (line_.size() == longest_line)
-      refuse(0, "found a line of more than 1 MiB, expected comma-separated numbers");
+      refuse(ErrorCode::too_large, 0,
+             "found a line of more than 1 MiB, expected comma-separated numbers");
     line_ += static_cast<char>(c);
   }
-  if (std::ferror(in_.get()) != 0) throw InputError({file_, 0, 0}, "the file cannot be read");
+  if (std::ferror(in_.get()) != 0)
+    throw InputError(ErrorCode::unreadable, {file_, 0, 0}, "the file cannot be read");
   return !line_.empty();
 }
 
@@ -143,14 +148,16 @@ bool ResultsReader::next() {
     row_.front() = before;
     torn_ = !ended_;
     if (torn_) return false;
-    refuse(at, fmt::format("found {}, expected a number for '{}'{}", found_at(line_, at),
-                           columns_[c].name.substr(0, 100),
-                           c + 1 == columns_.size() ? " and the end of the line" : ""));
+    refuse(ErrorCode::out_of_range, at,
+           fmt::format("found {}, expected a number for '{}'{}", found_at(line_, at),
+                       columns_[c].name.substr(0, 100),
+                       c + 1 == columns_.size() ? " and the end of the line" : ""));
   }
   if (!std::isfinite(time()) || (rows_ > 0 && !(time() > before)))
-    refuse(0, fmt::format("found the time {:g}{}, expected {}", time(),
-                          rows_ > 0 ? fmt::format(" after {:g}", before) : "",
-                          rows_ > 0 ? "a later one" : "a number of seconds"));
+    refuse(ErrorCode::wrong_count, 0,
+           fmt::format("found the time {:g}{}, expected {}", time(),
+                       rows_ > 0 ? fmt::format(" after {:g}", before) : "",
+                       rows_ > 0 ? "a later one" : "a number of seconds"));
   ++rows_;
   return true;
 }

@@ -41,7 +41,7 @@ class ResultsReader {
   };
   bool read_line();
   void read_header();
-  [[noreturn]] void refuse(std::size_t at, const std::string& message) const;
+  [[noreturn]] void refuse(ErrorCode code, std::size_t at, const std::string& message) const;
 
   std::string file_, line_;
   std::unique_ptr<std::FILE, Close> in_;

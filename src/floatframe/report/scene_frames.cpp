@@ -46,7 +46,9 @@ SceneFrames scene_frames(const Model& model, const StateHistory& history) {
   for (std::size_t b = 0; same && b < h.bodies.size(); ++b)
     same = h.bodies[b].name == model.bodies[b].name &&
            h.bodies[b].modes.size() == static_cast<std::size_t>(model.bodies[b].modes());
-  if (!same) throw InputError({history.name(), 0, 0}, "its states are not of this model");
+  if (!same)
+    throw InputError(ErrorCode::mismatch, {history.name(), 0, 0},
+                     "its states are not of this model");
   SceneFrames out;
   for (const HistoryBody& b : h.bodies) out.known.push_back(b.pose >= 0);
   const std::size_t modes = mode_count(model), instants = history.instants();

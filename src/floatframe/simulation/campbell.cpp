@@ -16,13 +16,16 @@ namespace {
 
 void check_options(const CampbellOptions& o) {
   if (o.axis && (!o.axis->allFinite() || !(o.axis->stableNorm() > 0.0)))
-    throw InputError(fmt::format("the axis of '{}' is ({:g}, {:g}, {:g}), expected a direction",
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("the axis of '{}' is ({:g}, {:g}, {:g}), expected a direction",
                                  o.joint, o.axis->x(), o.axis->y(), o.axis->z()));
   if (o.modes < 1)
-    throw InputError(fmt::format("found {} modes to follow, expected at least 1", o.modes));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("found {} modes to follow, expected at least 1", o.modes));
   for (const double order : o.orders)
     if (!(order > 0.0) || !std::isfinite(order))
-      throw InputError(fmt::format("found the order {:g}, expected a positive number", order));
+      throw InputError(ErrorCode::out_of_range,
+                       fmt::format("found the order {:g}, expected a positive number", order));
 }
 
 }  // namespace
@@ -47,10 +50,10 @@ CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
         "the rotor is not quite symmetric: eigenvalues change by up to {:.2g} % with its angle",
         100.0 * d.dependence_on_angle));
   if (turning.eccentricity() > 1e-9 * turning.rotor().length)
-    d.notes.push_back(fmt::format(
-        "the centre of mass of the rotor is {:.3g} m from its axis: unbalance is no part of the "
-        "steady state",
-        turning.eccentricity()));
+    d.notes.push_back(
+        fmt::format("the centre of mass of the rotor is {:.3g} m from its axis: unbalance is no "
+                    "part of the steady state",
+                    turning.eccentricity()));
   ModeFollower follower(turning, 64 + 4 * static_cast<int>(d.speeds.size()));
   const TurningModes& first = follower.at(d.speeds.front());
   for (std::size_t k = 0; k < first.size(); ++k)

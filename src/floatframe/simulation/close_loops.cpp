@@ -184,16 +184,18 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
       const std::string gap =
           open.size() > 0 ? open_loops_text(f, open, false) : "start values contradict each other";
       if (!kept_positions.empty() && close_to_values(f, path, q = q_start, false))
-        throw RunError(fmt::format(
-            "the model cannot be assembled while {}: {} at the start ({}); the loops close if "
-            "these values may move",
-            kept_positions, gap, way));
-      throw RunError(fmt::format("the model cannot be assembled: {} at the start ({}){}", gap, way,
+        throw RunError(ErrorCode::not_assembled,
+                       fmt::format("the model cannot be assembled while {}: {} at the start ({}); "
+                                   "the loops close if these values may move",
+                                   kept_positions, gap, way));
+      throw RunError(ErrorCode::not_assembled,
+                     fmt::format("the model cannot be assembled: {} at the start ({}){}", gap, way,
                                  locked_text(f.model())));
     }
     const double violation = close_from(f, q, v, t);
     if (!(violation < closed))
-      throw RunError(fmt::format("the model cannot be assembled: {} at the start",
+      throw RunError(ErrorCode::not_assembled,
+                     fmt::format("the model cannot be assembled: {} at the start",
                                  open_loops_text(f, f.constraint_values(), false)));
   }
   const auto closed = [&](double violation) { return violation < 1e-8 * (1.0 + largest(v)); };
@@ -204,14 +206,15 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
     v = v_start;
     violation = close_rates(f, q, v, false, t);
     if (closed(violation))
-      throw RunError(fmt::format(
-          "the start velocities do not fit while {}: the loops open at {:.3g} m/s or rad/s; they "
-          "fit if these values may change",
-          kept_rates, open));
+      throw RunError(ErrorCode::not_assembled,
+                     fmt::format("the start velocities do not fit while {}: the loops open at "
+                                 "{:.3g} m/s or rad/s; they fit if these values may change",
+                                 kept_rates, open));
   }
   VecX rate(f.constraints());
   f.constraint_rates(rate);
-  throw RunError(fmt::format("the start velocities do not fit: {}{}",
+  throw RunError(ErrorCode::not_assembled,
+                 fmt::format("the start velocities do not fit: {}{}",
                              open_loops_text(f, rate, true), locked_text(f.model())));
 }
 

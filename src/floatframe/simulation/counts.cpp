@@ -26,8 +26,7 @@ void note_wheel_heights(const RelativeFormulation& f, std::vector<std::string>& 
     const double gap = height - tyre.radius;
     notes.push_back(
         fmt::format("tyre '{}': its wheel centre is {:.4g} m above the road and its radius is "
-                    "{:.4g} m, so that "
-                    "at the start {}",
+                    "{:.4g} m, so that at the start {}",
                     tyre.name, height, tyre.radius,
                     gap > 0.0 ? fmt::format("the wheel hangs {:.4g} m in the air", gap)
                               : fmt::format("the road presses {:.4g} m into it with {:.4g} N", -gap,
@@ -166,7 +165,7 @@ StaticsResult statics(const Model& model) {
     s.redundant = analysis.redundant();
   }
   if (!singular.empty() && out_of_proportion(model, s))
-    throw RunError("no equilibrium: " + singular);
+    throw RunError(ErrorCode::singular, "no equilibrium: " + singular);
   state.v = zero;
   JointFollower joints(model);
   s.state = std::make_shared<SystemState>(system_state(f, state, joints));

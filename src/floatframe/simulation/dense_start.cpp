@@ -92,7 +92,7 @@ VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, c
   if (massless > 0) {
     const MatX Z = (m.N * V.leftCols(massless)).colwise().normalized();
     const MatX loose = loose_directions(mass, J, force, m.N, half_inverse, Z, neighbour);
-    if (loose.cols() > 0) throw RunError(sentence(loose));
+    if (loose.cols() > 0) throw RunError(ErrorCode::singular, sentence(loose));
   }
   // Massless but stiff: the minimum-norm solution.
   return half_inverse * (half_inverse.transpose() * (m.N.transpose() * (force - mass * m.a_p)));
@@ -103,29 +103,31 @@ VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, c
 void check_numbers(const Model& model, const std::string& overflow, double t) {
   for (const Body& b : model.bodies)
     if (const double m = b.data->invariants.m; m > 0.0 && m < smallest_mass)
-      throw RunError(fmt::format(
-          "the numbers of the model overflow: the mass of body '{}' is {:g} kg, expected 0 or at "
-          "least {:g}",
-          b.name, m, smallest_mass));
-  if (!overflow.empty()) throw RunError(overflow_sentence(overflow, t, largest_magnitude));
+      throw RunError(ErrorCode::not_finite,
+                     fmt::format("the numbers of the model overflow: the mass of body '{}' is {:g} "
+                                 "kg, expected 0 or at least {:g}",
+                                 b.name, m, smallest_mass));
+  if (!overflow.empty())
+    throw RunError(ErrorCode::not_finite, overflow_sentence(overflow, t, largest_magnitude));
 }
 
 void check_magnitudes(const VecX& force, const std::function<std::string(int)>& owner) {
   const int i = out_of_range(force);
   if (i < 0) return;
-  throw RunError(fmt::format(
-      "the numbers of the model overflow: the generalised force on {} at the start is {} [N, N m], "
-      "expected less than {:g}; look at masses, inertias, gravity, forces and start velocities",
-      owner(i), magnitude_text(force[i]), largest_magnitude));
+  throw RunError(ErrorCode::not_finite,
+                 fmt::format("the numbers of the model overflow: the generalised force on {} at "
+                             "the start is {} [N, N m], expected less than {:g}; look at masses, "
+                             "inertias, gravity, forces and start velocities",
+                             owner(i), magnitude_text(force[i]), largest_magnitude));
 }
 
 void check_masses(const VecX& diagonal, const std::function<std::string(int)>& owner) {
   const int i = out_of_range(diagonal);
   if (i < 0) return;
-  throw RunError(
-      fmt::format("the numbers of the model overflow: the mass or inertia that {} moves is {} [kg, "
-                  "kg m2], expected less than {:g}",
-                  owner(i), magnitude_text(diagonal[i]), largest_magnitude));
+  throw RunError(ErrorCode::not_finite,
+                 fmt::format("the numbers of the model overflow: the mass or inertia that {} moves "
+                             "is {} [kg, kg m2], expected less than {:g}",
+                             owner(i), magnitude_text(diagonal[i]), largest_magnitude));
 }
 
 std::string named_text(const char* one, const char* many, const std::vector<std::string>& names) {
@@ -159,8 +161,7 @@ std::string loose_sentence(const Model& model, const std::vector<std::size_t>& b
   else if (bars)
     remedy +=
         " (a straight bar has no inertia about its own axis unless mass_model is hermite or "
-        "six_dof "
-        "with section_inertia)";
+        "six_dof with section_inertia)";
   return fmt::format(
       "the mass matrix is singular where nothing holds it: {} can move without mass, stiffness or "
       "constraint; {}, or remove the freedom",

@@ -251,10 +251,10 @@ constexpr long largest_equilibrium = 10'000;
 void check_size(const RelativeFormulation& f) {
   const long nv = f.velocities(), nc = f.constraints();
   if (nv + nc > largest_equilibrium)
-    throw RunError(fmt::format(
-        "the static equilibrium of the model '{}' is not computed: found {} coordinates "
-        "and {} constraints, expected at most {} together",
-        f.model().name, nv, nc, largest_equilibrium));
+    throw RunError(ErrorCode::too_large,
+                   fmt::format("the static equilibrium of the model '{}' is not computed: found {} "
+                               "coordinates and {} constraints, expected at most {} together",
+                               f.model().name, nv, nc, largest_equilibrium));
 }
 
 }  // namespace
@@ -283,12 +283,14 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   e.residual = largest(r);
   if (!best.accepted()) {
     Eigen::Index worst = 0;
-    if (r.size() == 0) throw RunError("no static equilibrium found: nothing can move");
+    if (r.size() == 0)
+      throw RunError(ErrorCode::no_equilibrium, "no static equilibrium found: nothing can move");
     r.cwiseAbs().maxCoeff(&worst);
-    throw RunError(fmt::format(
-        "no static equilibrium found: after {} iterations {} is out of balance by {:.3g} N "
-        "(or N m)",
-        e.iterations, f.coordinate_owner(static_cast<int>(worst)), r[worst]));
+    throw RunError(
+        ErrorCode::no_equilibrium,
+        fmt::format("no static equilibrium found: after {} iterations {} is out of balance by "
+                    "{:.3g} N (or N m)",
+                    e.iterations, f.coordinate_owner(static_cast<int>(worst)), r[worst]));
   }
   return e;
 }

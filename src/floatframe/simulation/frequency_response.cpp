@@ -18,10 +18,10 @@ Eigen::MatrixXcd FrequencyResponse::at(std::complex<double> s) const {
   };
   Eigen::MatrixXcd z;
   if (!resolvent_.solve(s, in_powers(linear_.B), z))
-    throw RunError(fmt::format(
-        "the response at {:.6g} Hz has no bound: a motion without damping is in resonance there, "
-        "or nothing holds it",
-        std::abs(s) / (2.0 * std::numbers::pi)));
+    throw RunError(ErrorCode::resonance,
+                   fmt::format("the response at {:.6g} Hz has no bound: a motion without damping "
+                               "is in resonance there, or nothing holds it",
+                               std::abs(s) / (2.0 * std::numbers::pi)));
   return linear_.C * z + in_powers(linear_.D);
 }
 

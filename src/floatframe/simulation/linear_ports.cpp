@@ -28,7 +28,8 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>&
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end()) {
       const std::string none = fmt::format("; the model has no {}s", kind);
-      throw InputError(fmt::format("unknown {} '{}'{}", kind, excerpt(name),
+      throw InputError(ErrorCode::not_found,
+                       fmt::format("unknown {} '{}'{}", kind, excerpt(name),
                                    known.empty() ? none : did_you_mean(name, known)));
     }
     found.push_back(all[static_cast<std::size_t>(at - known.begin())]);
@@ -128,10 +129,10 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   for (int k = 0; k < 3; ++k) linear.B[k] = moved.B[k];
   find_output_columns(shaken, steps, moved, linear);
   for (const std::string& name : shaken.open_outputs())
-    linear.system.notes.push_back(fmt::format(
-        "output {} is not unique, since constraints are redundant: of the reactions that are "
-        "possible those of least norm are given",
-        name));
+    linear.system.notes.push_back(
+        fmt::format("output {} is not unique, since constraints are redundant: of the reactions "
+                    "that are possible those of least norm are given",
+                    name));
   return linear;
 }
 

@@ -15,8 +15,7 @@ namespace {
 
 constexpr const char* held_by_nothing =
     "a motion has neither mass nor damping nor stiffness where the system was linearised; give "
-    "mass "
-    "or inertia, or remove the freedom";
+    "mass or inertia, or remove the freedom";
 
 /// Which coordinates are free, and what follows from them (linear_system.hpp).
 struct FreeCoordinates {
@@ -170,7 +169,8 @@ void follow_statics(SecondOrderSystem& s, Eigen::Index without) {
   const MatX K_uu = s.K.bottomRightCorner(without, without);
   const Singular values = singular_values(K_uu);
   const double stiffest = s.K.cwiseAbs().maxCoeff();
-  if (!(values.values[without - 1] > 1e-12 * stiffest)) throw RunError(held_by_nothing);
+  if (!(values.values[without - 1] > 1e-12 * stiffest))
+    throw RunError(ErrorCode::singular, held_by_nothing);
   MatX Y = MatX::Zero(n + without, s.turned.cols());
   if (Y.cols() > 0) Y.bottomRows(without) = -lu_solve(K_uu, s.F[0].bottomRows(without));
   take_out(s, Y);
@@ -300,13 +300,13 @@ constexpr Eigen::Index all_in_minutes = 1000;
 LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int count) {
   const MatX damping = s.C - s.M * s.Gamma, stiffness = s.K - s.C * s.Gamma;
   const LowestMotions low = lowest_motions(s.M, damping, stiffness, count);
-  if (low.singular) throw RunError(held_by_nothing);
+  if (low.singular) throw RunError(ErrorCode::singular, held_by_nothing);
   if (!low.converged && s.M.rows() <= all_in_minutes) return {};
   if (!low.converged)
-    throw RunError(
-        fmt::format("the {} slowest of {} motions do not converge: too many frequencies lie close "
-                    "together for the search among so many",
-                    count, s.M.rows()));
+    throw RunError(ErrorCode::no_convergence,
+                   fmt::format("the {} slowest of {} motions do not converge: too many frequencies "
+                               "lie close together for the search among so many",
+                               count, s.M.rows()));
   LinearSystem out;
   const MatX w = low.rate - s.Gamma * low.X;
   out.A = low.A;

@@ -94,19 +94,19 @@ LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inpu
   const double speed = largest(state.v);
   constexpr bool relative = std::is_same_v<F, RelativeFormulation>;
   if (!relative && speed > 1e-6)
-    throw RunError(
-        "the state moves: its linear system needs relative coordinates, since those of the "
-        "absolute formulation turn with the bodies");
+    throw RunError(ErrorCode::unsupported,
+                   "the state moves: its linear system needs relative coordinates, since those of "
+                   "the absolute formulation turn with the bodies");
   const SmallMotions m = small_motions(f, state);
   LinearSystem system = reduced_system(m, coordinate_owners(f), inputs, response, slowest);
   if (!inputs) describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);
   if (system.acceleration > 1e-3)
-    system.notes.push_back(fmt::format(
-        "the state is no {}: coordinates accelerate by up to {:.3g} [m/s2, rad/s2]; the linear "
-        "system holds for a short time only",
-        speed > 1e-6 ? "steady motion" : "equilibrium", system.acceleration));
+    system.notes.push_back(
+        fmt::format("the state is no {}: coordinates accelerate by up to {:.3g} [m/s2, rad/s2]; "
+                    "the linear system holds for a short time only",
+                    speed > 1e-6 ? "steady motion" : "equilibrium", system.acceleration));
   std::vector<std::string> owners;
   for (const int k : m.kinks) {
     std::string owner = f.coordinate_owner(k);
@@ -148,7 +148,9 @@ void say_counted(const CountedStiffening& counted, LinearSystem& system) {
 
 std::vector<LinearMode> linear_modes(const LinearSystem& system) {
   const GeneralEigen e = general_eigen(system.A);
-  if (!e.found) throw RunError("the eigenvalues of the linear system do not converge");
+  if (!e.found)
+    throw RunError(ErrorCode::no_convergence,
+                   "the eigenvalues of the linear system do not converge");
   std::vector<LinearMode> modes;
   for (Eigen::Index k = 0; k < e.values.size(); ++k)
     if (e.values[k].imag() >= 0.0) modes.push_back({e.values[k], e.vectors.col(k)});

@@ -186,11 +186,11 @@ std::vector<std::string> massless_notes(F& f, const State& state, double penalty
       break;
     }
     if (bends(all[i]))
-      notes.push_back(fmt::format(
-          "body '{}' has a motion without mass that stiffness holds (the spin of a bar about its "
-          "axis): the trapezoidal rule gives way to a spectral radius of {:g}; mass_model: "
-          "hermite with section_inertia: true gives it inertia",
-          all[i].name, massless_spectral_radius));
+      notes.push_back(
+          fmt::format("body '{}' has a motion without mass that stiffness holds (the spin of a bar "
+                      "about its axis): the trapezoidal rule gives way to a spectral radius of "
+                      "{:g}; mass_model: hermite with section_inertia: true gives it inertia",
+                      all[i].name, massless_spectral_radius));
   }
   f.positions(state.t, state.q);
   f.velocities(state.v);

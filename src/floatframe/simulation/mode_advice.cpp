@@ -64,28 +64,31 @@ namespace {
 void require_modes(const Model& model, const std::vector<std::vector<int>>& keep) {
   if (keep.size() != model.bodies.size())
     throw InputError(
+        ErrorCode::wrong_value,
         fmt::format("found lists of modes for {} bodies, expected {}: one for each body",
                     keep.size(), model.bodies.size()));
   for (std::size_t i = 0; i < keep.size(); ++i)
     for (std::size_t k = 0; k < keep[i].size(); ++k)
       if (keep[i][k] < 0 || keep[i][k] >= model.bodies[i].modes() ||
           (k > 0 && keep[i][k] <= keep[i][k - 1]))
-        throw InputError(
-            fmt::format("body '{}': found mode {} to be kept, expected ascending indices "
-                        "from 0 below its {} modes",
-                        model.bodies[i].name, keep[i][k], model.bodies[i].modes()));
+        throw InputError(ErrorCode::wrong_value,
+                         fmt::format("body '{}': found mode {} to be kept, expected ascending "
+                                     "indices from 0 below its {} modes",
+                                     model.bodies[i].name, keep[i][k], model.bodies[i].modes()));
 }
 
 void require_valid(const AdviceOptions& o) {
   const auto share = [](const char* name, double x) {
     if (!(x >= 0.0 && std::isfinite(x)))
-      throw InputError(fmt::format("{}: found {:g}, expected a number of at least 0", name, x));
+      throw InputError(ErrorCode::out_of_range,
+                       fmt::format("{}: found {:g}, expected a number of at least 0", name, x));
   };
   share("drop_share", o.drop_share);
   share("static_ratio", o.static_ratio);
   share("tolerance", o.tolerance);
   if (o.repeat < 1)
-    throw InputError(fmt::format("repeat: found {}, expected at least 1 run", o.repeat));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("repeat: found {}, expected at least 1 run", o.repeat));
 }
 
 }  // namespace
@@ -290,7 +293,8 @@ ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
     full = run(watched(model), simulation);
   }
   if (full.summary.status != "completed")
-    throw RunError("the model does not run to its end: " + full.summary.message);
+    throw RunError(ErrorCode::step_failed,
+                   "the model does not run to its end: " + full.summary.message);
   report.tolerance = simulation.tolerance;
 
   judge_bodies(model, full.table, simulation.step, report);

@@ -153,10 +153,10 @@ void warn_of_missing_modes(const Model& model, const ModelOrderOptions& options,
           "body '{}' has no normal modes: whether it would need some up to {:g} Hz cannot be told",
           b.name, options.below));
     else if (b.own < enough_above * options.below)
-      order.warnings.push_back(fmt::format(
-          "body '{}' has normal modes up to {:.4g} Hz only, expected {:g} times the {:g} "
-          "Hz of the range: more of them may be needed",
-          b.name, b.own, enough_above, options.below));
+      order.warnings.push_back(
+          fmt::format("body '{}' has normal modes up to {:.4g} Hz only, expected {:g} times the "
+                      "{:g} Hz of the range: more of them may be needed",
+                      b.name, b.own, enough_above, options.below));
   }
   if (order.full.empty())
     order.warnings.push_back(
@@ -168,9 +168,11 @@ void warn_of_missing_modes(const Model& model, const ModelOrderOptions& options,
 ModelOrder model_order(const Model& model, const ModelOrderOptions& options) {
   if (!(options.below > 0.0) || !std::isfinite(options.below))
     throw InputError(
+        ErrorCode::out_of_range,
         fmt::format("below: found {:g}, expected a frequency above 0 [Hz]", options.below));
   if (!(options.tolerance >= 0.0) || !(options.tolerance <= 1.0))
     throw InputError(
+        ErrorCode::out_of_range,
         fmt::format("tolerance: found {:g}, expected a number from 0 to 1", options.tolerance));
   ModelOrder order;
   const LinearSystem system = linear_system(model);

@@ -20,9 +20,11 @@ double time_of(const std::string& at) {
   const char* end = at.data() + at.size();
   const auto [read, error] = std::from_chars(at.data(), end, time);
   if (error != std::errc() || read != end || !std::isfinite(time) || time < 0.0)
-    throw InputError(fmt::format(
-        "--at: expected 'start', 'equilibrium' or a time [s] that is not negative, found '{}'",
-        excerpt(at)));
+    throw InputError(
+        ErrorCode::out_of_range,
+        fmt::format(
+            "--at: expected 'start', 'equilibrium' or a time [s] that is not negative, found '{}'",
+            excerpt(at)));
   return time;
 }
 
@@ -31,20 +33,23 @@ SystemState state_after(const Model& model, double time) {
   const double size = s.options().step, begin = s.time();
   if (time < begin)
     throw InputError(
-        fmt::format("--at: expected a time of at least {:g} s, at which the model starts, found "
-                    "{:g}",
-                    begin, time));
+        ErrorCode::out_of_range,
+        fmt::format(
+            "--at: expected a time of at least {:g} s, at which the model starts, found {:g}",
+            begin, time));
   if (time - begin > rules::most_steps * size)
     throw InputError(
+        ErrorCode::too_large,
         fmt::format("--at {:g}: a run to that time takes more than {:g} steps of {:g} s", time,
                     rules::most_steps, size));
   // Whole steps from the start, so that the run is that of `floatframe run`; then the rest.
   const double steps = std::floor((time - begin) / size * (1.0 + 1e-12) + 1e-9);
   for (double k = 0.0; k < steps; k += 1.0)
-    if (!s.step()) throw RunError(fmt::format("--at {:g}: {}", time, s.failure()));
+    if (!s.step())
+      throw RunError(ErrorCode::step_failed, fmt::format("--at {:g}: {}", time, s.failure()));
   const double rest = time - s.time();
   if (rest > 1e-9 * size && !s.step(rest))
-    throw RunError(fmt::format("--at {:g}: {}", time, s.failure()));
+    throw RunError(ErrorCode::step_failed, fmt::format("--at {:g}: {}", time, s.failure()));
   return s.state();
 }
 

@@ -14,7 +14,8 @@ std::size_t ResultTable::column(std::string_view name) const {
     if (columns[k].name == name) return k;
     names.push_back(columns[k].name);
   }
-  throw InputError(fmt::format("unknown column '{}'{}", excerpt(name), did_you_mean(name, names)));
+  throw InputError(ErrorCode::not_found,
+                   fmt::format("unknown column '{}'{}", excerpt(name), did_you_mean(name, names)));
 }
 
 }  // namespace floatframe

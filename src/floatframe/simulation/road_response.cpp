@@ -61,28 +61,35 @@ RoadResponse road_response(const Model& model, const std::vector<std::string>& o
     ports.inputs.push_back(input.name);
     road_of_input.push_back(model.forces[static_cast<std::size_t>(input.wheels[0])].road);
   }
-  if (ports.inputs.empty()) throw InputError("the model has no tyres, and so nothing of a road");
+  if (ports.inputs.empty())
+    throw InputError(ErrorCode::missing, "the model has no tyres, and so nothing of a road");
   if (!(loading.speed > 0.0))
-    throw InputError(fmt::format("found a speed of {:g} m/s on a road, expected a positive number",
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("found a speed of {:g} m/s on a road, expected a positive number",
                                  loading.speed));
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   if (!positive(loading.roughness))
     throw InputError(
+        ErrorCode::out_of_range,
         fmt::format("found a roughness of {:g} m3, expected a positive number", loading.roughness));
   if (!(loading.waviness >= 0.0 && loading.waviness <= 10.0))
     throw InputError(
+        ErrorCode::out_of_range,
         fmt::format("found a waviness of {:g}, expected a number from 0 to 10", loading.waviness));
   if (!(loading.from >= 0.0) || !positive(loading.to))
-    throw InputError(fmt::format("found a band from {:g} to {:g} Hz, expected positive numbers",
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("found a band from {:g} to {:g} Hz, expected positive numbers",
                                  loading.from, loading.to));
   RoadResponse r;
   r.from = std::max(loading.from, road_classes::low * loading.speed);
   r.to = std::min(loading.to, road_classes::high * loading.speed);
   if (!(r.to > r.from))
-    throw InputError(fmt::format(
-        "at {:g} m/s the road has waves from {:.4g} to {:.4g} Hz, none from {:g} to {:g} Hz",
-        loading.speed, road_classes::low * loading.speed, road_classes::high * loading.speed,
-        loading.from, loading.to));
+    throw InputError(
+        ErrorCode::out_of_range,
+        fmt::format(
+            "at {:g} m/s the road has waves from {:.4g} to {:.4g} Hz, none from {:g} to {:g} Hz",
+            loading.speed, road_classes::low * loading.speed, road_classes::high * loading.speed,
+            loading.from, loading.to));
   const LinearModel linear = linear_model(model, ports, options);
   const FrequencyResponse response(linear);
   r.notes = linear.system.notes;

@@ -22,8 +22,8 @@ int joint_named(const Model& model, const std::string& name) {
     if (model.joints[k].name == name) return static_cast<int>(k);
     names.push_back(model.joints[k].name);
   }
-  throw InputError(
-      fmt::format("unknown joint '{}' of a rotor{}", excerpt(name), did_you_mean(name, names)));
+  throw InputError(ErrorCode::not_found, fmt::format("unknown joint '{}' of a rotor{}",
+                                                     excerpt(name), did_you_mean(name, names)));
 }
 
 /// The bodies that hang on `root` in the tree, itself first.
@@ -40,9 +40,9 @@ void require_one_piece(const Model& model, const TreeKinematics& tree, const Rot
   for (const int i : bodies)
     if (i != rotor.body && tree.body(i).nj > 0)
       throw InputError(
+          ErrorCode::wrong_value,
           fmt::format("rotor on joint '{}': body '{}' moves on the rotor by joint '{}', expected "
-                      "bodies of a rotor that "
-                      "are welded to each other",
+                      "bodies of a rotor that are welded to each other",
                       rotor.name, model.bodies[i].name, model.joints[tree.body(i).joint].name));
 }
 
@@ -215,9 +215,10 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   const Joint& joint = model.joints[rotor.joint];
   rotor.body = tree.body_of_joint(rotor.joint);
   if (rotor.body < 0)
-    throw InputError(fmt::format(
-        "rotor on joint '{}': the joint is cut to open a loop, expected one that a rotor hangs on",
-        name));
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("rotor on joint '{}': the joint is cut to open a loop, expected "
+                                 "one that a rotor hangs on",
+                                 name));
   const TreeBody& b = tree.body(rotor.body);
   rotor.free = joint.type == JointType::free;
   rotor.driven = joint.motion.has_value();
@@ -228,9 +229,11 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   } else if (rotor.free) {
     rotor.coordinate = b.iv + 3;
   } else {
-    throw InputError(fmt::format(
-        "rotor on joint '{}': found a {} joint, expected a revolute, cylindrical or free one", name,
-        joint_type_name(joint.type)));
+    throw InputError(
+        ErrorCode::wrong_value,
+        fmt::format(
+            "rotor on joint '{}': found a {} joint, expected a revolute, cylindrical or free one",
+            name, joint_type_name(joint.type)));
   }
   const std::vector<int> bodies = bodies_below(tree, rotor.body);
   require_one_piece(model, tree, rotor, bodies);

@@ -18,16 +18,18 @@ constexpr double most_speed = 1e9;
 
 std::vector<double> rotor_speeds(const std::string& joint, double from, double to, double step) {
   if (std::max(std::abs(from), std::abs(to)) > most_speed)
-    throw InputError(fmt::format("speeds of '{}': found {:g} to {:g} rad/s, expected at most {:g}",
+    throw InputError(ErrorCode::too_large,
+                     fmt::format("speeds of '{}': found {:g} to {:g} rad/s, expected at most {:g}",
                                  joint, from, to, most_speed));
   if (!(step > 0.0) || !(to > from) || !std::isfinite(from) || !std::isfinite(to) ||
       !std::isfinite(step))
-    throw InputError(fmt::format(
-        "speeds of '{}': found {:g} to {:g} in steps of {:g} rad/s, expected an ascending range "
-        "and a positive step",
-        joint, from, to, step));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("speeds of '{}': found {:g} to {:g} in steps of {:g} rad/s, "
+                                 "expected an ascending range and a positive step",
+                                 joint, from, to, step));
   if ((to - from) / step > static_cast<double>(most_speeds))
     throw InputError(
+        ErrorCode::too_large,
         fmt::format("speeds of '{}': more than {} speeds; take a larger step", joint, most_speeds));
   std::vector<double> speeds;
   const auto n = static_cast<std::size_t>(std::floor((to - from) / step + 1e-9));

@@ -123,9 +123,9 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
   if (found.empty() && !across.symmetric())
     found.push_back(
         across.product > 1e-3 * across.high
-            ? fmt::format("its axis is no principal axis of its inertia (product of inertia {:.4g} "
-                          "kg m2)",
-                          across.product)
+            ? fmt::format(
+                  "its axis is no principal axis of its inertia (product of inertia {:.4g} kg m2)",
+                  across.product)
             : fmt::format("its moments of inertia across the axis are {:.6g} and {:.6g} kg m2",
                           across.low, across.high));
   for (const RotorBody& r : rotor.bodies) {
@@ -139,8 +139,8 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
     } else if (n > 0 && !bars && (n == 1 || !equal_frequency(f[n - 2], f[n - 1]))) {
       // Files of bodies do not say what was left out.
       found.push_back(
-          fmt::format("body '{}': its last mode ({:.6g} Hz) may be one of a pair that "
-                      "'modes: {}' cuts (the report of its reduction says so)",
+          fmt::format("body '{}': its last mode ({:.6g} Hz) may be one of a pair that 'modes: {}' "
+                      "cuts (the report of its reduction says so)",
                       b.name, f[n - 1], n));
     }
   }
@@ -152,14 +152,16 @@ void require_symmetry(const Model& model, const Rotor& rotor, double dependence)
   std::string reasons;
   for (const std::string& text : asymmetries(model, rotor))
     reasons += (reasons.empty() ? ": " : "; ") + text;
-  throw RunError(fmt::format(
-      "'{}': the linear system depends on the angle of the rotor (eigenvalues change by {:.2g} %), "
-      "so that no eigenvalues tell of its vibrations{}{}{}",
-      rotor.name, 100.0 * dependence, reasons,
-      reasons.empty() ? "; expected a rotor that is symmetric about its axis, with modes in equal "
-                        "pairs"
-                      : "",
-      rotor.other_axis));
+  throw RunError(
+      ErrorCode::not_steady,
+      fmt::format(
+          "'{}': the linear system depends on the angle of the rotor (eigenvalues change by {:.2g} "
+          "%), so that no eigenvalues tell of its vibrations{}{}{}",
+          rotor.name, 100.0 * dependence, reasons,
+          reasons.empty()
+              ? "; expected a rotor that is symmetric about its axis, with modes in equal pairs"
+              : "",
+          rotor.other_axis));
 }
 
 int fitting_axis(const Model& model, const std::string& joint, const std::vector<int>& bodies,
@@ -175,12 +177,13 @@ int fitting_axis(const Model& model, const std::string& joint, const std::vector
     }
   if (symmetric.size() == 1) return symmetric.front();
   throw InputError(
+      ErrorCode::not_found,
       symmetric.empty()
-          ? fmt::format("the rotor on the free joint '{}' is symmetric about none of the "
-                        "joint's axes x, y, z; name the one that it turns about with --axis",
+          ? fmt::format("the rotor on the free joint '{}' is symmetric about none of the joint's "
+                        "axes x, y, z; name the one that it turns about with --axis",
                         joint)
-          : fmt::format("the rotor on the free joint '{}' is symmetric about {}; name the "
-                        "one that it turns about with --axis",
+          : fmt::format("the rotor on the free joint '{}' is symmetric about {}; name the one that "
+                        "it turns about with --axis",
                         joint, names));
 }
 

@@ -3,16 +3,20 @@
 #include <string>
 #include <utility>
 
+#include "floatframe/core/diagnostics.hpp"
+
 namespace floatframe {
 
 /// A run that cannot start or go on: cannot be assembled, singular mass matrix, loop that cannot
 /// close. Exit code 1.
 class RunError : public std::exception {
  public:
-  explicit RunError(std::string message) : message_(std::move(message)) {}
+  RunError(ErrorCode code, std::string message) : code_(code), message_(std::move(message)) {}
+  ErrorCode code() const noexcept { return code_; }
   const char* what() const noexcept override { return message_.c_str(); }
 
  private:
+  ErrorCode code_;
   std::string message_;
 };
 

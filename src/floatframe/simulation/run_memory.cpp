@@ -78,18 +78,19 @@ RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const Stepped
     s(name);
     s(value);
   }
-  const auto refuse = [](const std::string& text) {
-    throw InputError(std::string(checkpoint_name) + " " + text);
+  const auto refuse = [](ErrorCode code, const std::string& text) {
+    throw InputError(code, std::string(checkpoint_name) + " " + text);
   };
-  if (const std::string text = difference(found, identity); !text.empty()) refuse(text);
+  if (const std::string text = difference(found, identity); !text.empty())
+    refuse(ErrorCode::wrong_value, text);
   RunMemory memory;
   walk_run(s, memory);
   if (const std::string text = memory_complaint(memory.steps, own, step); !text.empty())
-    refuse(text);
+    refuse(ErrorCode::wrong_value, text);
   if (memory.made != memory.steps.since_base || memory.made >= planned ||
       memory.joints.size() != joints || !all_finite(memory.joints) || !(memory.cpu >= 0.0) ||
       !memory.step_times.holds(static_cast<std::uint64_t>(memory.made)))
-    refuse("is damaged: times or counters that do not fit together");
+    refuse(ErrorCode::damaged, "is damaged: times or counters that do not fit together");
   return memory;
 }
 

@@ -62,7 +62,8 @@ RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& id
   RunMemory memory = walk_memory(in, identity, own, step, joints, planned);
   if (watch) watch->walk(in);
   if (!in.at_end())
-    throw InputError(std::string(checkpoint_name) + " is damaged: it goes on after its end");
+    throw InputError(ErrorCode::damaged,
+                     std::string(checkpoint_name) + " is damaged: it goes on after its end");
   return memory;
 }
 

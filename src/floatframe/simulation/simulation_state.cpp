@@ -39,7 +39,9 @@ void walk(Stream& s, Data& d) {
 double SimulationState::time() const noexcept { return data_ ? data_->steps.state.t : 0.0; }
 
 std::vector<std::byte> SimulationState::to_bytes() const {
-  if (!data_) throw InputError("found a saved state that is empty, expected one of a simulation");
+  if (!data_)
+    throw InputError(ErrorCode::missing,
+                     "found a saved state that is empty, expected one of a simulation");
   StateWriter out;
   out.raw(state_magic);
   out(state_version);
@@ -51,21 +53,25 @@ std::vector<std::byte> SimulationState::to_bytes() const {
 SimulationState SimulationState::from_bytes(std::span<const std::byte> bytes) {
   if (bytes.size() < state_magic.size() ||
       std::memcmp(bytes.data(), state_magic.data(), state_magic.size()) != 0)
-    throw InputError("this is not the saved state of a simulation: expected bytes of to_bytes()");
+    throw InputError(ErrorCode::wrong_value,
+                     "this is not the saved state of a simulation: expected bytes of to_bytes()");
   if (bytes.size() < state_magic.size() + 8 + checksum_size)
-    throw InputError("the saved state is damaged: it ends too early");
+    throw InputError(ErrorCode::damaged, "the saved state is damaged: it ends too early");
   std::uint64_t version = 0;
   StateReader(bytes.subspan(state_magic.size()), saved_state)(version);
   if (version != state_version)
-    throw InputError(fmt::format("the saved state has version {}, this program reads version {}",
+    throw InputError(ErrorCode::mismatch,
+                     fmt::format("the saved state has version {}, this program reads version {}",
                                  version, state_version));
   const auto content = bytes.first(bytes.size() - checksum_size);
   if (std::memcmp(bytes.last(checksum_size).data(), checksum(content).data(), checksum_size) != 0)
-    throw InputError("the saved state is damaged: its checksum does not fit its content");
+    throw InputError(ErrorCode::damaged,
+                     "the saved state is damaged: its checksum does not fit its content");
   auto data = std::make_shared<Data>();
   StateReader in(content.subspan(state_magic.size() + 8), saved_state);
   walk(in, *data);
-  if (!in.at_end()) throw InputError("the saved state is damaged: it goes on after its end");
+  if (!in.at_end())
+    throw InputError(ErrorCode::damaged, "the saved state is damaged: it goes on after its end");
   return SimulationState(std::move(data));
 }
 

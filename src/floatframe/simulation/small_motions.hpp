@@ -136,9 +136,10 @@ SmallMotions small_motions(F& f, const State& s) {
   // These matrices, their columns before they are taken apart, and what is made of them.
   const double numbers = nv * (14.0 * nv + 6.0 * nc);
   if (const std::string complaint = memory_complaint(8.0 * numbers); !complaint.empty())
-    throw RunError(fmt::format("the linear system of {} coordinates and {} constraints {}{}", nv,
-                               nc, complaint,
-                               nc > nv / 2 ? "; relative coordinates are fewer" : ""));
+    throw RunError(
+        ErrorCode::too_large,
+        fmt::format("the linear system of {} coordinates and {} constraints {}{}", nv, nc,
+                    complaint, nc > nv / 2 ? "; relative coordinates are fewer" : ""));
   SmallMotions m;
   m.scale = possible_masses(f, s);
 

@@ -26,8 +26,9 @@ class OffsetGoal {
       if (t.body < 0) {
         std::vector<std::string> known;
         for (const Body& b : f.model().bodies) known.push_back(b.name);
-        throw InputError("simulation.start.offset." + name + ": unknown body '" + name + "'" +
-                         did_you_mean(name, known));
+        throw InputError(ErrorCode::not_found, "simulation.start.offset." + name +
+                                                   ": unknown body '" + name + "'" +
+                                                   did_you_mean(name, known));
       }
       t.position = f.body_position(t.body) + offset.translation;
       t.rotation = rotation_exp(offset.rotation.value_or(Vec3::Zero())) * f.body_rotation(t.body);
@@ -131,10 +132,11 @@ void apply_offsets(RelativeFormulation& f, const std::map<std::string, StartOffs
   q = from;
   const double left = move_to(f, goal, t, false, q);
   if (left < met) return;
-  throw RunError(fmt::format(
-      "the offset at the start is not possible: with loops closed body '{}'{} stays {:.3g} "
-      "(m or rad) away from its place; its joints do not let it move there",
-      goal.first(), offsets.size() > 1 ? " or another one" : "", left));
+  throw RunError(
+      ErrorCode::not_assembled,
+      fmt::format("the offset at the start is not possible: with loops closed body '{}'{} stays "
+                  "{:.3g} (m or rad) away from its place; its joints do not let it move there",
+                  goal.first(), offsets.size() > 1 ? " or another one" : "", left));
 }
 
 }  // namespace floatframe

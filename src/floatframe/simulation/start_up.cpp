@@ -40,7 +40,8 @@ void note_linear_markers(const Model& model, StartReport& report) {
 const Model& movable(const Model& model) {
   for (const LockedLoops& locked : model.hints.locked)
     if (locked.driven)
-      throw RunError("the prescribed motion contradicts the constraints: " + locked.sentence);
+      throw RunError(ErrorCode::contradiction,
+                     "the prescribed motion contradicts the constraints: " + locked.sentence);
   return model;
 }
 

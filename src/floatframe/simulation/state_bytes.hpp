@@ -100,7 +100,7 @@ class StateReader {
 
  private:
   [[noreturn]] void short_of() const {
-    throw InputError(std::string(what_) + " is damaged: it ends too early");
+    throw InputError(ErrorCode::damaged, std::string(what_) + " is damaged: it ends too early");
   }
   std::uint64_t number() {
     std::uint64_t n = 0;

@@ -59,8 +59,8 @@ void StateSampler<F>::keep_bodies(const RecordDescription& record) {
     if (i == static_cast<int>(bodies.size())) {
       std::vector<std::string> known;
       for (const Body& b : bodies) known.push_back(b.name);
-      throw InputError("simulation.record.states.bodies: unknown body '" + name + "'" +
-                       did_you_mean(name, known));
+      throw InputError(ErrorCode::not_found, "simulation.record.states.bodies: unknown body '" +
+                                                 name + "'" + did_you_mean(name, known));
     }
     if constexpr (in_joint_coordinates<F>)
       for (; i >= 0; i = f_.tree().body(i).parent) kept_[i] = 1;

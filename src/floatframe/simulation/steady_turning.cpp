@@ -73,10 +73,10 @@ void require_motion(RelativeFormulation& f, const Rotor& rotor, const SteadyTurn
   f.constraint_rates(rate);
   f.constraint_accelerations(s.state.a, acceleration);
   if (largest(rate) > 1e-6 * std::abs(s.speed) || largest(acceleration) > 1e-6 * s.speed * s.speed)
-    throw RunError(fmt::format(
-        "'{}' at {:g} rad/s: other joints move when the rotor turns, so that there is no steady "
-        "state",
-        rotor.name, s.speed));
+    throw RunError(ErrorCode::not_steady,
+                   fmt::format("'{}' at {:g} rad/s: other joints move when the rotor turns, so "
+                               "that there is no steady state",
+                               rotor.name, s.speed));
 }
 
 }  // namespace
@@ -129,7 +129,8 @@ SteadyTurning steady_turning(RelativeFormulation& f, const Rotor& rotor, const V
     VecX step = equations.step(s.state.q, s.state.lambda, tau);
     const double length = largest(step.head(nv));
     if (!std::isfinite(length) || k > 60)
-      throw RunError(fmt::format("'{}' at {:g} rad/s: no steady state was found{}", rotor.name,
+      throw RunError(ErrorCode::not_steady,
+                     fmt::format("'{}' at {:g} rad/s: no steady state was found{}", rotor.name,
                                  speed, rotor.other_axis));
     s.state.lambda += step.segment(nv, nc);  // linear in these: right at the first step already
     if (!rotor.driven) tau += step[nv + nc];

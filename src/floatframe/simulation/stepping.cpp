@@ -98,8 +98,8 @@ template <class Entity>
 std::size_t place_of(const std::vector<Entity>& list, const char* kind, std::string_view name) {
   for (std::size_t k = 0; k < list.size(); ++k)
     if (list[k].name == name) return k;
-  throw InputError(
-      fmt::format("unknown {} '{}'{}", kind, excerpt(name), did_you_mean(name, names_of(list))));
+  throw InputError(ErrorCode::not_found, fmt::format("unknown {} '{}'{}", kind, excerpt(name),
+                                                     did_you_mean(name, names_of(list))));
 }
 
 template <class Entity>
@@ -108,8 +108,10 @@ std::size_t place_of(const std::vector<Entity>& list, const char* kind, std::ptr
   if (index >= 0 && index < n) return index;
   if (n == 0)
     throw InputError(
+        ErrorCode::missing,
         fmt::format("found index {} of an {}, but the model has no {}s", index, kind, kind));
-  throw InputError(fmt::format("found index {} of an {}, expected 0 to {}", index, kind, n - 1));
+  throw InputError(ErrorCode::out_of_range,
+                   fmt::format("found index {} of an {}, expected 0 to {}", index, kind, n - 1));
 }
 
 }  // namespace

@@ -52,10 +52,10 @@ Simulation::Engine::Engine(const Model& model, const SimulationDescription& opti
 
 void Simulation::Engine::require_idle(const char* what) const {
   if (busy_)
-    throw InputError(
-        fmt::format("found a call of {} by the force callback, expected it outside of "
-                    "a step: the callback may change the inputs it is given",
-                    what));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("found a call of {} by the force callback, expected it outside of "
+                                 "a step: the callback may change the inputs it is given",
+                                 what));
 }
 
 StepReport Simulation::Engine::refused(StepStatus status, std::string_view where) noexcept {
@@ -131,8 +131,8 @@ std::string Simulation::Engine::failure() {
       return {};
     case StepStatus::invalid_step:
       return fmt::format(
-          "found a step of {:g} s at t = {:.9g} s, expected a positive number [s] of at least "
-          "{:g} that is not lost in the rounding of the time",
+          "found a step of {:g} s at t = {:.9g} s, expected a positive number [s] of at least {:g} "
+          "that is not lost in the rounding of the time",
           refused_value_, last_.time, smallest_part * o_.step);
     case StepStatus::invalid_input:
       for (std::size_t k = 0; k < input_owners_.size(); ++k)
@@ -157,7 +157,8 @@ std::string Simulation::Engine::failure() {
 void Simulation::Engine::set_input(std::size_t k, double value) {
   const auto accepted = accepted_value(model_.inputs[k], value);
   if (!accepted)
-    throw InputError(fmt::format("{}: found {:g}, expected {}", input_owners_[k], value,
+    throw InputError(ErrorCode::dependent,
+                     fmt::format("{}: found {:g}, expected {}", input_owners_[k], value,
                                  input_expectation(model_.inputs[k])));
   inputs_[k] = *accepted;
   inputs_to_formulation();

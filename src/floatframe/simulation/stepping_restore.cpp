@@ -52,9 +52,9 @@ std::shared_ptr<SimulationState::Data> Simulation::Engine::present() {
 SimulationState Simulation::Engine::save() {
   require_idle("save");
   if (failed_)
-    throw InputError(
-        "found a simulation whose last step failed, expected one that can go on: save "
-        "before, or restore an earlier state");
+    throw InputError(ErrorCode::wrong_value,
+                     "found a simulation whose last step failed, expected one that can go on: save "
+                     "before, or restore an earlier state");
   return SimulationState(present());
 }
 
@@ -104,10 +104,11 @@ std::string Simulation::Engine::complaint(const SimulationState::Data& d,
 void Simulation::Engine::restore(const SimulationState& state) {
   require_idle("restore");
   if (state.empty())
-    throw InputError("found a saved state that is empty, expected one of a simulation");
+    throw InputError(ErrorCode::missing,
+                     "found a saved state that is empty, expected one of a simulation");
   const SimulationState::Data& given = *state.data_;
   if (const std::string text = complaint(given, *present()); !text.empty())
-    throw InputError("the saved state " + text);
+    throw InputError(ErrorCode::wrong_value, "the saved state " + text);
   inputs_ = given.inputs;
   row_ = given.row;
   apply(given);

@@ -17,8 +17,9 @@ namespace floatframe {
 namespace {
 
 /// One sentence about a state that is not one of this model.
-[[noreturn]] void refuse(const Model& model, const SystemState& state, const std::string& what) {
-  throw InputError({state.file, 0, 0},
+[[noreturn]] void refuse(ErrorCode code, const Model& model, const SystemState& state,
+                         const std::string& what) {
+  throw InputError(code, {state.file, 0, 0},
                    fmt::format("{} (the state was taken of model '{}', the model is '{}')", what,
                                excerpt(state.model), model.name));
 }
@@ -32,7 +33,7 @@ void same_names(const Model& model, const SystemState& state, const char* kind,
     int found = 0;
     for (const std::string& n : names) found += n == e.name ? 1 : 0;
     if (found == 0)
-      refuse(model, state,
+      refuse(ErrorCode::wrong_value, model, state,
              fmt::format("found {} '{}' in the state, which the model does not have{}", kind,
                          excerpt(e.name), did_you_mean(e.name, names)));
   }
@@ -40,7 +41,7 @@ void same_names(const Model& model, const SystemState& state, const char* kind,
     int found = 0;
     for (const Entity& e : kept) found += e.name == n ? 1 : 0;
     if (found != 1)
-      refuse(model, state,
+      refuse(ErrorCode::duplicate, model, state,
              fmt::format("found {} '{}' {} in the state, expected it once", kind, n,
                          found == 0 ? "nowhere" : "twice"));
   }
@@ -64,7 +65,7 @@ void check_time(const SystemState& state, double step) {
   constexpr double digits = 1e-9;
   if (step >= digits * std::abs(state.time)) return;
   throw InputError(
-      {state.file, 0, 0},
+      ErrorCode::out_of_range, {state.file, 0, 0},
       fmt::format("found the time {:g} s, at which steps of {:g} s get lost in rounding, expected "
                   "at most {:g} s: steps of at least {:g} of the time",
                   state.time, step, step / digits, digits));
@@ -86,11 +87,11 @@ void compare_bodies(const RelativeFormulation& f, const SystemState& state) {
     if (!(away <= close * (1.0 + b.position.norm())) || !(turned <= close) ||
         !(v <= close * (1.0 + b.velocity.norm())) ||
         !(w <= close * (1.0 + b.angular_velocity.norm())))
-      refuse(f.model(), state,
-             fmt::format("the joints of the state put body '{}' {:.3g} m, {:.3g} rad, {:.3g} m/s "
-                         "and {:.3g} rad/s away from where the state has it, expected no "
-                         "difference",
-                         b.name, away, turned, v, w));
+      refuse(
+          ErrorCode::contradiction, f.model(), state,
+          fmt::format("the joints of the state put body '{}' {:.3g} m, {:.3g} rad, {:.3g} m/s and "
+                      "{:.3g} rad/s away from where the state has it, expected no difference",
+                      b.name, away, turned, v, w));
   }
 }
 
@@ -99,20 +100,22 @@ void compare_bodies(const RelativeFormulation& f, const SystemState& state) {
 Model with_start_values(const Model& model, const SystemState& state) {
   same_names(model, state, "joint", state.joints, model.joints);
   same_names(model, state, "body", state.bodies, model.bodies);
-  if (!std::isfinite(state.time)) refuse(model, state, "found a time that is not finite");
+  if (!std::isfinite(state.time))
+    refuse(ErrorCode::not_finite, model, state, "found a time that is not finite");
   Model out = model;
   out.simulation.velocity.setZero();  // the state holds all velocities
   for (Joint& j : out.joints) {
     const SystemState::Joint& kept = named(state.joints, j.name);
     const std::size_t n = joint_velocities(j.type);
     if (kept.type != j.type || kept.position.size() != n || kept.velocity.size() != n)
-      refuse(model, state,
+      refuse(ErrorCode::wrong_count, model, state,
              fmt::format("found joint '{}' of another type or with {} coordinates and {} "
                          "velocities in the state, expected {} for a {} joint",
                          j.name, kept.position.size(), kept.velocity.size(), n,
                          joint_type_name(j.type)));
     if (!finite(kept.position) || !finite(kept.velocity))
-      refuse(model, state, fmt::format("found numbers that are not finite at joint '{}'", j.name));
+      refuse(ErrorCode::not_finite, model, state,
+             fmt::format("found numbers that are not finite at joint '{}'", j.name));
     j.position = kept.position;
     j.velocity = kept.velocity;
     j.keep = false;  // all of them are given, to the tolerances of the run
@@ -121,12 +124,12 @@ Model with_start_values(const Model& model, const SystemState& state) {
     const SystemState::Body& kept = named(state.bodies, out.bodies[i].name);
     const int modes = out.bodies[i].modes();
     if (kept.amplitudes.size() != modes || kept.amplitude_rates.size() != modes)
-      refuse(model, state,
+      refuse(ErrorCode::wrong_count, model, state,
              fmt::format("found {} amplitudes and {} rates of body '{}' in the state, expected {}",
                          kept.amplitudes.size(), kept.amplitude_rates.size(), out.bodies[i].name,
                          modes));
     if (!kept.amplitudes.allFinite() || !kept.amplitude_rates.allFinite())
-      refuse(model, state,
+      refuse(ErrorCode::not_finite, model, state,
              fmt::format("found numbers that are not finite at body '{}'", out.bodies[i].name));
     out.amplitudes[i] = kept.amplitudes;
     out.amplitude_rates[i] = kept.amplitude_rates;

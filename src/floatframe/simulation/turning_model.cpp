@@ -126,16 +126,16 @@ TurningModel::Impl::InWorld TurningModel::Impl::in_world(double speed, double an
   InWorld w = in_world(s);
   if (massless == 0 || speed == 0.0 || !bent(s)) return w;
   if (!(model.gravity.norm() > 0.0))
-    throw RunError(fmt::format(
-        "'{}' at {:g} rad/s: the rotor turns bent by loads, and {} of its motions have no mass; "
-        "give all of its bodies inertia (bars: mass_model: hermite, section_inertia: true)",
-        rotor.name, speed, massless));
+    throw RunError(ErrorCode::singular,
+                   fmt::format("'{}' at {:g} rad/s: the rotor turns bent by loads, and {} of its "
+                               "motions have no mass; give all of its bodies inertia (bars: "
+                               "mass_model: hermite, section_inertia: true)",
+                               rotor.name, speed, massless));
   model.gravity.setZero();
   f = std::make_unique<RelativeFormulation>(model, model.simulation.inertia);
   notes.push_back(
       fmt::format("without weight: {} motions have no mass, and would meet a shape that sags "
-                  "(bars: mass_model: "
-                  "hermite, section_inertia: true)",
+                  "(bars: mass_model: hermite, section_inertia: true)",
                   massless));
   return in_world(speed, angle, s);
 }
@@ -158,7 +158,8 @@ std::vector<TurningMode> TurningModel::modes(double speed) {
   const Impl::InWorld w = impl_->in_world(speed, 0.0, s);
   const GeneralEigen e = general_eigen(least_squares(w.T, w.rate));
   if (!e.found)
-    throw RunError(fmt::format("'{}' at {:g} rad/s: the eigenvalues do not converge",
+    throw RunError(ErrorCode::no_convergence,
+                   fmt::format("'{}' at {:g} rad/s: the eigenvalues do not converge",
                                impl_->rotor.name, speed));
   std::vector<TurningMode> modes;
   for (Eigen::Index k = 0; k < e.values.size(); ++k) {

@@ -155,9 +155,11 @@ TurningResponse TurningModel::response(double speed, const std::vector<AxisForce
   Eigen::VectorXcd b = both(moved.B[0]) + iW * both(moved.B[1]) + iW * iW * both(moved.B[2]);
   Eigen::MatrixXcd z;
   if (!Resolvent(least_squares(here.T, here.rate)).solve(iW, b, z))
-    throw RunError(fmt::format(
-        "'{}' at {:g} rad/s: a critical speed without damping, the response has no bound",
-        impl_->rotor.name, speed));
+    throw RunError(
+        ErrorCode::resonance,
+        fmt::format(
+            "'{}' at {:g} rad/s: a critical speed without damping, the response has no bound",
+            impl_->rotor.name, speed));
   if (angle != 0.0) {
     s = impl_->steady(speed, angle);
     system = linear_at(s, moved);

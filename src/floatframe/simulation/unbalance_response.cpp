@@ -27,10 +27,12 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
     if (names.back() == u.body) on = &r;
   }
   if (!on)
-    throw InputError(fmt::format("unbalance: the rotor on joint '{}' has no body '{}'{}",
+    throw InputError(ErrorCode::missing,
+                     fmt::format("unbalance: the rotor on joint '{}' has no body '{}'{}",
                                  rotor.name, excerpt(u.body), did_you_mean(u.body, names)));
   if (!std::isfinite(u.moment) || !std::isfinite(u.angle))
     throw InputError(
+        ErrorCode::not_finite,
         fmt::format("unbalance on body '{}': found a number that is not finite", u.body));
   const FlexibleBody& body = *model.bodies[on->body].data;
   AxisForce force;
@@ -50,12 +52,13 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
     if (!name.empty() && name == u.node) force.node = k;
   }
   if (force.node < 0)
-    throw InputError(fmt::format(
-        "unbalance on body '{}': found {}, expected BODY:NODE with a node on the axis of the "
-        "rotor{}",
-        u.body, u.node.empty() ? "no node" : "the node '" + excerpt(u.node) + "'",
-        nodes.empty() ? "; the body has none with a name"
-                      : ": " + fmt::format("{}", fmt::join(nodes, ", "))));
+    throw InputError(
+        ErrorCode::missing,
+        fmt::format("unbalance on body '{}': found {}, expected BODY:NODE with a node on the axis "
+                    "of the rotor{}",
+                    u.body, u.node.empty() ? "no node" : "the node '" + excerpt(u.node) + "'",
+                    nodes.empty() ? "; the body has none with a name"
+                                  : ": " + fmt::format("{}", fmt::join(nodes, ", "))));
   return force;
 }
 
@@ -68,9 +71,10 @@ std::vector<int> chosen_outputs(const Model& model, const std::vector<std::strin
   for (const std::string& name : names) {
     const auto at = std::find(known.begin(), known.end(), name);
     if (at == known.end())
-      throw InputError(fmt::format(
-          "unknown output '{}'{}", excerpt(name),
-          known.empty() ? std::string("; the model has no outputs") : did_you_mean(name, known)));
+      throw InputError(ErrorCode::not_found,
+                       fmt::format("unknown output '{}'{}", excerpt(name),
+                                   known.empty() ? std::string("; the model has no outputs")
+                                                 : did_you_mean(name, known)));
     found.push_back(static_cast<int>(at - known.begin()));
   }
   return found;
@@ -134,6 +138,7 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
   r.speeds = rotor_speeds(o.joint, o.from, o.to, o.step);
   if (o.unbalances.empty())
     throw InputError(
+        ErrorCode::out_of_range,
         fmt::format("rotor on joint '{}': no unbalance is given, expected at least one", o.joint));
   std::vector<int> outputs = chosen_outputs(model, o.outputs);
   const CountedStiffening counted = stiffened_rotor(built(model), o.joint);

@@ -120,10 +120,10 @@ class Coordinator {
     long& credit = credit_[message.from];
     if (word == "hello") {
       if (rest_of(message.text) != study_)
-        throw RunError(fmt::format(
-            "process {} runs another build of the program, sees another model file or was "
-            "given other arguments",
-            message.from));
+        throw RunError(ErrorCode::mismatch,
+                       fmt::format("process {} runs another build of the program, sees another "
+                                   "model file or was given other arguments",
+                                   message.from));
     } else if (word == "want") {
       credit += std::stol(rest_of(message.text));
     } else if (word == "done") {
@@ -131,7 +131,8 @@ class Coordinator {
     } else if (word == "interrupted") {
       return false;
     } else {
-      throw RunError(fmt::format("process {}: {}", message.from, rest_of(message.text)));
+      throw RunError(ErrorCode::worker_lost,
+                     fmt::format("process {}: {}", message.from, rest_of(message.text)));
     }
     for (; credit > 0; --credit) {
       const auto run = queue_.take();
@@ -192,7 +193,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   try {
     make_output_folder(o.folder);
   } catch (const OutputError& error) {
-    throw InputError(error.what());
+    throw InputError(ErrorCode::wrong_value, error.what());
   }
   const std::string journal_path = (std::filesystem::path(o.folder) / "sweep.journal").string();
   const std::string table_path = (std::filesystem::path(o.folder) / "sweep.csv").string();
@@ -202,7 +203,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   try {
     check_writable(table_path);
   } catch (const OutputError& error) {
-    throw InputError(error.what());
+    throw InputError(ErrorCode::wrong_value, error.what());
   }
   SweepJournal journal(journal_path, identity_of(o), o.plan.runs.size(), o.fresh,
                        relative_to_model(o.model, workers.files()));
@@ -229,10 +230,12 @@ namespace {
 /// With an origin for each run. Throws InputError for a plan whose parts do not belong together.
 SweepOptions completed(SweepOptions options) {
   SweepPlan& plan = options.plan;
-  if (plan.runs.empty()) throw InputError("found a plan without runs, expected at least one");
+  if (plan.runs.empty())
+    throw InputError(ErrorCode::out_of_range, "found a plan without runs, expected at least one");
   for (std::size_t k = 0; k < plan.runs.size(); ++k)
     if (plan.runs[k].size() != plan.names.size())
       throw InputError(
+          ErrorCode::wrong_value,
           fmt::format("run {} of the plan: found {} values, expected {}: one for each name", k + 1,
                       plan.runs[k].size(), plan.names.size()));
   if (plan.origins.empty())
@@ -240,10 +243,12 @@ SweepOptions completed(SweepOptions options) {
       plan.origins.push_back(fmt::format("run {} of the plan", k + 1));
   if (plan.origins.size() != plan.runs.size())
     throw InputError(
+        ErrorCode::wrong_value,
         fmt::format("found {} origins in a plan of {} runs, expected one for each run or none",
                     plan.origins.size(), plan.runs.size()));
   if (options.threads < 1)
-    throw InputError(fmt::format("threads: found {}, expected at least 1", options.threads));
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("threads: found {}, expected at least 1", options.threads));
   return options;
 }
 

@@ -55,7 +55,8 @@ SweepCaseReader::SweepCaseReader(std::string model, const std::optional<std::str
     const bool table = origin != "--vary";
     targets_.push_back(target(name, table ? origin.substr(0, origin.rfind(':')) : origin, errors));
     for (const SweepSetting& s : fixed_)
-      if (s.name == name) errors.add({}, fmt::format("'{}' is both fixed and varied", name));
+      if (s.name == name)
+        errors.add(ErrorCode::duplicate, {}, fmt::format("'{}' is both fixed and varied", name));
   }
   errors.throw_if_any();
 }
@@ -69,8 +70,9 @@ SweepCaseReader::Target SweepCaseReader::target(const std::string& name, const s
   if (contains(simulation_option_names(), option)) return {true, option};
   std::vector<std::string> known = parameters_;
   known.insert(known.end(), simulation_option_names().begin(), simulation_option_names().end());
-  errors.add({}, fmt::format("{}: '{}' is neither a parameter of {} nor a simulation option{}",
-                             subject, name, model_, did_you_mean(option, known)));
+  errors.add(ErrorCode::unknown_key, {},
+             fmt::format("{}: '{}' is neither a parameter of {} nor a simulation option{}", subject,
+                         name, model_, did_you_mean(option, known)));
   return {};
 }
 
@@ -79,7 +81,8 @@ void SweepCaseReader::apply(const Target& target, const std::string& value,
                             SweepCase& out, ErrorList& errors) const {
   if (!target.option) return;
   const std::string error = set_simulation_option(simulation, target.name, value);
-  if (!error.empty()) errors.add({}, fmt::format("{}: {}: {}", subject, target.name, error));
+  if (!error.empty())
+    errors.add(ErrorCode::wrong_value, {}, fmt::format("{}: {}: {}", subject, target.name, error));
   out.fingerprint.simulation =
       ContentHash().add(out.fingerprint.simulation).add(target.name).add(value).text();
 }
@@ -104,7 +107,7 @@ SweepCase SweepCaseReader::read(std::size_t run) const {
   for (std::size_t k = 0; k < values.size(); ++k)
     apply(targets_[k], values[k], plan_.origins[run], simulation, out, errors);
   const std::string error = simulation_error(simulation);
-  if (!error.empty()) errors.add({}, error);
+  if (!error.empty()) errors.add(ErrorCode::wrong_value, {}, error);
   errors.throw_if_any();
   check_inertia_method(out.description, simulation.inertia);
   return out;

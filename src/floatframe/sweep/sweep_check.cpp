@@ -38,7 +38,8 @@ class Checker {
     const auto answer = workers_.ask(0, {What::open, 0}, stop_);
     if (!answer) return !(out_.stopped = true);
     if (!answer->lost.empty())
-      throw RunError(fmt::format("{}: reading it {}", options_.model, answer->lost));
+      throw RunError(ErrorCode::worker_lost,
+                     fmt::format("{}: reading it {}", options_.model, answer->lost));
     if (!answer->errors.empty()) throw InputError(answer->errors);
     return true;
   }
@@ -87,7 +88,8 @@ class Checker {
       std::size_t more = 0;
       for (std::size_t k = most_shown; k < all.size(); ++k) more += all[k].count;
       all.resize(most_shown);
-      all.push_back({{}, fmt::format("and {} more errors of other runs", more), more});
+      all.push_back(
+          {{}, all.back().code, fmt::format("and {} more errors of other runs", more), more});
     }
     if (!all.empty()) throw InputError(std::move(all));
   }

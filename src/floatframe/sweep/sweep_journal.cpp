@@ -97,10 +97,12 @@ bool row_of(const Json& json, std::size_t& run, SweepRow& row) {
   return true;
 }
 
-InputError another_study(const std::string& path, const std::string& difference) {
-  return InputError(fmt::format(
-      "'{}' holds another study ({}); give another --out to keep it, or --fresh to replace it",
-      path, difference));
+InputError another_study(ErrorCode code, const std::string& path, const std::string& difference) {
+  return InputError(
+      code,
+      fmt::format(
+          "'{}' holds another study ({}); give another --out to keep it, or --fresh to replace it",
+          path, difference));
 }
 
 }  // namespace
@@ -131,9 +133,11 @@ SweepJournal::SweepJournal(const std::string& path, const SweepIdentity& identit
     // A pipe would be waited for, a device read without end.
     struct stat status {};
     if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode))
-      throw InputError(fmt::format("'{}' is not a regular file; give another --out", path));
+      throw InputError(ErrorCode::unreadable,
+                       fmt::format("'{}' is not a regular file; give another --out", path));
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-      throw InputError(fmt::format("'{}' is in use: this study is running already", path));
+      throw InputError(ErrorCode::in_use,
+                       fmt::format("'{}' is in use: this study is running already", path));
     if (fresh) create(header);
     load(header, identity, runs);
     agree_on_files(files);
@@ -167,16 +171,18 @@ void SweepJournal::load(const std::string& header, const SweepIdentity& identity
     // not a beginning of such a line is somebody else's.
     if (header.compare(0, text.size(), text) != 0 && json_of(text).is_discarded() &&
         text.size() > 17)
-      throw InputError(fmt::format("'{}' is not the journal of a study", path_));
+      throw InputError(ErrorCode::mismatch,
+                       fmt::format("'{}' is not the journal of a study", path_));
     create(header);
     return add_files(json_of(header), files_);
   }
   const Json found = json_of(text.substr(0, end_of_header));
   if (found.is_discarded() || !found.is_object() || !found.contains("floatframe_sweep"))
     throw InputError(
+        ErrorCode::mismatch,
         fmt::format("'{}' is not the journal of a study; give another --out, or --fresh", path_));
   const std::string other = difference(found, identity, runs);
-  if (!other.empty()) throw another_study(path_, other);
+  if (!other.empty()) throw another_study(ErrorCode::wrong_value, path_, other);
   add_files(found, files_);
   // Lines: the last one may be torn; what is after the last line break goes.
   const std::size_t whole = text.rfind('\n') + 1;
@@ -205,7 +211,8 @@ void SweepJournal::agree_on_files(const Files& files) {
     if (known == files_.end())
       more[file] = hash;
     else if (known->second != hash)
-      throw another_study(path_, fmt::format("the file '{}' has changed", file));
+      throw another_study(ErrorCode::mismatch, path_,
+                          fmt::format("the file '{}' has changed", file));
   }
   if (more.empty()) return;
   write(line_of({{"files", std::move(more)}}));

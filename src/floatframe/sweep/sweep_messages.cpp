@@ -27,7 +27,8 @@ std::optional<std::string> first_run_files(const SweepOptions& options, SweepWor
   const auto answer = workers.ask(0, {ServiceRequest::What::files, 0}, stop);
   if (!answer) return std::nullopt;
   if (!answer->lost.empty())
-    throw RunError(fmt::format("{}: reading it {}", options.model, answer->lost));
+    throw RunError(ErrorCode::worker_lost,
+                   fmt::format("{}: reading it {}", options.model, answer->lost));
   if (!answer->errors.empty()) throw InputError(answer->errors);
   return answer->text;
 }

@@ -37,24 +37,29 @@ std::optional<double> number(const std::string& text) {
   return scalar.number;
 }
 
-[[noreturn]] void refuse(const std::string& variation, const std::string& why) {
-  throw InputError(fmt::format("--vary {}: {}", variation, why));
+[[noreturn]] void refuse(ErrorCode code, const std::string& variation, const std::string& why) {
+  throw InputError(code, fmt::format("--vary {}: {}", variation, why));
 }
 
 std::vector<std::string> range(const std::string& variation,
                                const std::vector<std::string>& parts) {
   const bool logarithmic = parts.size() == 4 && parts[3] == "log";
   if (parts.size() != 3 && !logarithmic)
-    refuse(variation, "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C");
+    refuse(ErrorCode::wrong_value, variation,
+           "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C");
   const auto lo = number(parts[0]), hi = number(parts[1]), n = number(parts[2]);
   if (!lo || !hi)
-    refuse(variation, fmt::format("found '{}', expected a number", parts[lo ? 1 : 0]));
+    refuse(ErrorCode::out_of_range, variation,
+           fmt::format("found '{}', expected a number", parts[lo ? 1 : 0]));
   if (!n || *n < 1.0 || *n != std::floor(*n) || *n > static_cast<double>(most_sweep_runs))
-    refuse(variation, fmt::format("found '{}', expected a number of values from 1 to {}", parts[2],
-                                  most_sweep_runs));
-  if (*lo == *hi && *n > 1.0) refuse(variation, "both ends are the same, expected different ones");
+    refuse(ErrorCode::too_large, variation,
+           fmt::format("found '{}', expected a number of values from 1 to {}", parts[2],
+                       most_sweep_runs));
+  if (*lo == *hi && *n > 1.0)
+    refuse(ErrorCode::contradiction, variation, "both ends are the same, expected different ones");
   if (logarithmic && !(*lo * *hi > 0.0))
-    refuse(variation, "equal ratios need two ends of the same sign, neither of them zero");
+    refuse(ErrorCode::wrong_value, variation,
+           "equal ratios need two ends of the same sign, neither of them zero");
   std::vector<std::string> values;
   const std::size_t count = *n;
   if (count == 1) return {number_text(*lo)};
@@ -74,7 +79,8 @@ std::vector<std::string> values_of(const std::string& variation, const std::stri
   std::vector<std::string> values;
   for (const std::string& part : split(text, ',')) {
     values.push_back(trimmed(part));
-    if (values.back().empty()) refuse(variation, "found nothing, expected a value");
+    if (values.back().empty())
+      refuse(ErrorCode::missing, variation, "found nothing, expected a value");
   }
   return values;
 }
@@ -118,10 +124,12 @@ void check_names(const std::vector<std::string>& names, const SourceMark& mark,
                  const std::string& subject) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (names[k].empty())
-      throw InputError(mark, subject + "found nothing, expected the name of a parameter");
+      throw InputError(ErrorCode::missing, mark,
+                       subject + "found nothing, expected the name of a parameter");
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k), names[k]) !=
         names.begin() + static_cast<std::ptrdiff_t>(k))
-      throw InputError(mark, fmt::format("{}'{}' is varied twice", subject, names[k]));
+      throw InputError(ErrorCode::duplicate, mark,
+                       fmt::format("{}'{}' is varied twice", subject, names[k]));
   }
 }
 
@@ -134,14 +142,16 @@ SweepPlan grid_plan(const std::vector<std::string>& variations) {
   for (const std::string& variation : variations) {
     const std::size_t equal = variation.find('=');
     if (equal == std::string::npos || equal == 0)
-      refuse(variation, "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C");
+      refuse(ErrorCode::wrong_value, variation,
+             "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C");
     plan.names.push_back(trimmed(variation.substr(0, equal)));
     values.push_back(values_of(variation, trimmed(variation.substr(equal + 1))));
     count *= static_cast<double>(values.back().size());
   }
   check_names(plan.names, {}, "--vary: ");
   if (count > static_cast<double>(most_sweep_runs))
-    throw InputError(fmt::format("--vary: found {:.6g} combinations, expected at most {}", count,
+    throw InputError(ErrorCode::too_large,
+                     fmt::format("--vary: found {:.6g} combinations, expected at most {}", count,
                                  most_sweep_runs));
   std::vector<std::size_t> at(values.size(), 0);
   for (bool more = !values.empty(); more;) {
@@ -164,7 +174,7 @@ SweepPlan table_plan(const std::string& file) {
   if (!read_text_file(file, text, errors, {}, "")) throw InputError(errors.take());
   if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
   if (text.find('\0') != std::string::npos)
-    throw InputError({file, 1, 1}, "this is not a text file");
+    throw InputError(ErrorCode::wrong_file, {file, 1, 1}, "this is not a text file");
   SweepPlan plan;
   std::vector<std::string> fields;
   std::vector<int> columns;
@@ -174,7 +184,8 @@ SweepPlan table_plan(const std::string& file) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (trimmed(line).empty()) continue;
     if (!fields_of(line, fields, columns)) {
-      errors.add({file, number_of_line, columns.back()}, "a quoted field does not end here");
+      errors.add(ErrorCode::out_of_range, {file, number_of_line, columns.back()},
+                 "a quoted field does not end here");
       continue;
     }
     if (plan.names.empty()) {
@@ -183,24 +194,25 @@ SweepPlan table_plan(const std::string& file) {
       continue;
     }
     if (fields.size() != plan.names.size()) {
-      errors.add({file, number_of_line, 1},
+      errors.add(ErrorCode::out_of_range, {file, number_of_line, 1},
                  fmt::format("found {} fields, expected {}: one for each name in the first line",
                              fields.size(), plan.names.size()));
       continue;
     }
     for (std::size_t k = 0; k < fields.size(); ++k)
       if (fields[k].empty())
-        errors.add({file, number_of_line, columns[k]},
+        errors.add(ErrorCode::missing, {file, number_of_line, columns[k]},
                    fmt::format("found nothing, expected a value of '{}'", plan.names[k]));
     plan.runs.push_back(fields);
     plan.origins.push_back(fmt::format("{}:{}", file, number_of_line));
     if (plan.runs.size() > most_sweep_runs)
-      throw InputError({file, number_of_line, 1},
+      throw InputError(ErrorCode::too_large, {file, number_of_line, 1},
                        fmt::format("expected at most {} runs", most_sweep_runs));
   }
   errors.throw_if_any();
   if (plan.runs.empty())
-    throw InputError({file, 1, 1}, "expected a line of names and at least one line of values");
+    throw InputError(ErrorCode::out_of_range, {file, 1, 1},
+                     "expected a line of names and at least one line of values");
   return plan;
 }
 

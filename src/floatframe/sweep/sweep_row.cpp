@@ -56,10 +56,11 @@ SweepMeasure sweep_measure(const std::string& text) {
                          sweep_statistics.end();
   if (!known || m.output.empty())
     throw InputError(
-        fmt::format("--measure: found '{}', expected the name of an output, or name:statistic with "
-                    "{}{}",
-                    text, fmt::join(sweep_statistics, ", "),
-                    known ? "" : did_you_mean(m.statistic, sweep_statistics)));
+        ErrorCode::wrong_value,
+        fmt::format(
+            "--measure: found '{}', expected the name of an output, or name:statistic with {}{}",
+            text, fmt::join(sweep_statistics, ", "),
+            known ? "" : did_you_mean(m.statistic, sweep_statistics)));
   return m;
 }
 

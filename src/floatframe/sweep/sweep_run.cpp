@@ -111,7 +111,8 @@ SweepCase SweepRunner::read(std::size_t run) {
   SweepCase c = reader_.read(run);
   for (const auto& [file, hash] : c.fingerprint.files)
     if (files_.emplace(file, hash).first->second != hash)
-      throw RunError(fmt::format("'{}' was changed while the study was running", file));
+      throw RunError(ErrorCode::mismatch,
+                     fmt::format("'{}' was changed while the study was running", file));
   return c;
 }
 
@@ -121,7 +122,8 @@ SweepCase SweepRunner::read_checked(std::size_t run) {
     std::vector<std::string> names;
     for (const OutputDescription& o : c.description.outputs) names.push_back(o.name);
     if (std::find(names.begin(), names.end(), m.output) == names.end())
-      throw InputError(fmt::format("--measure: {} has no output '{}'{}", options_.model, m.output,
+      throw InputError(ErrorCode::not_found,
+                       fmt::format("--measure: {} has no output '{}'{}", options_.model, m.output,
                                    did_you_mean(m.output, names)));
   }
   return c;

@@ -74,7 +74,9 @@ std::string encode(const ServiceAnswer& answer) {
     put(text, error.mark.file);
     put(text, error.mark.line);
     put(text, error.mark.column);
+    put(text, index_of(error.code));
     put(text, error.message);
+    put(text, error.path);
     put(text, error.count);
   }
   put(text, answer.files.size());
@@ -97,7 +99,11 @@ bool decode(const std::string& text, ServiceAnswer& answer) {
     error.mark.file = fields.text();
     error.mark.line = static_cast<int>(fields.number());
     error.mark.column = static_cast<int>(fields.number());
+    const std::size_t code = fields.number();
+    if (code > index_of(ErrorCode::worker_lost)) return false;
+    error.code = static_cast<ErrorCode>(code);
     error.message = fields.text();
+    error.path = fields.text();
     error.count = fields.number();
     answer.errors.push_back(std::move(error));
   }

@@ -47,8 +47,10 @@ SweepWorkers::Answer SweepWorkers::understood(ProcessPool::Answer&& raw) {
   answer.seconds = raw.seconds;
   for (const auto& [file, hash] : answer.files)
     if (files_.emplace(file, hash).first->second != hash)
-      throw RunError(fmt::format("'{}' was changed while the study was running", file));
-  if (answer.kind == ServiceAnswer::Kind::error) throw RunError(answer.text);
+      throw RunError(ErrorCode::mismatch,
+                     fmt::format("'{}' was changed while the study was running", file));
+  if (answer.kind == ServiceAnswer::Kind::error)
+    throw RunError(ErrorCode::worker_lost, answer.text);
   return answer;
 }
 

@@ -34,17 +34,16 @@ std::string skeleton(std::string_view message) {
   return out;
 }
 
-ErrorEntry more(const SourceMark& first, std::size_t n, const char* what) {
-  return {first, "... and " + std::to_string(n) + " more of " + what, n};
+ErrorEntry more(ErrorCode code, const SourceMark& first, std::size_t n, const char* what) {
+  return {first, code, "... and " + std::to_string(n) + " more of " + what, n};
 }
 
 }  // namespace
 
-void ReadErrors::add(const SourceMark& mark, std::string message, std::size_t count) {
+void ReadErrors::add(ErrorEntry entry) {
   ++added_;
-  const std::string_view sentence = without_suggestion(message);
-  const ErrorEntry same{mark, std::string(sentence)};
-  if (!seen_.insert(hash(same.text())).second) return;
+  const std::string_view sentence = without_suggestion(entry.message);
+  if (!seen_.insert(hash(entry.mark.before(std::string(sentence)))).second) return;
   Kind* kind = &others_;
   const std::uint64_t key = hash(skeleton(sentence));
   if (const auto it = kinds_.find(key); it != kinds_.end())
@@ -54,26 +53,28 @@ void ReadErrors::add(const SourceMark& mark, std::string message, std::size_t co
   if (kind != &others_ && kind->kept < limits::errors_of_a_kind &&
       errors_.size() < limits::errors) {
     ++kind->kept;
-    std::string text = printable(message);
+    std::string text = printable(entry.message);
     if (text.size() > longest_message) {
       std::size_t end = longest_message;
       while ((static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
       text.resize(end);
       text += " ...";
     }
-    errors_.push_back({mark, std::move(text), count});
+    entry.message = std::move(text);
+    errors_.push_back(std::move(entry));
     return;
   }
   if (kind->kept == 0) kind = &others_;  // of a kind that is not shown
-  if (kind->passed_over == 0) kind->first = mark;
-  kind->passed_over += count;
+  if (kind->passed_over == 0) kind->first = entry.mark, kind->code = entry.code;
+  kind->passed_over += entry.count;
 }
 
 std::vector<ErrorEntry> ReadErrors::take() {
   for (const auto& [key, kind] : kinds_)
-    if (kind.passed_over > 0) errors_.push_back(more(kind.first, kind.passed_over, "this kind"));
+    if (kind.passed_over > 0)
+      errors_.push_back(more(kind.code, kind.first, kind.passed_over, "this kind"));
   if (others_.passed_over > 0)
-    errors_.push_back(more(others_.first, others_.passed_over, "other kinds"));
+    errors_.push_back(more(others_.code, others_.first, others_.passed_over, "other kinds"));
   return std::move(errors_);
 }
 
@@ -85,8 +86,9 @@ bool ReadErrors::take_of(const char* what, std::size_t amount, std::size_t most,
   if (taken <= most) return true;
   exhausted_ = true;
   if (before)
-    add(mark, (path.empty() ? "" : path + ": ") + "found more than " + std::to_string(most) + " " +
-                  what + ", expected fewer");
+    add(ErrorCode::too_large, mark,
+        (path.empty() ? "" : path + ": ") + "found more than " + std::to_string(most) + " " + what +
+            ", expected fewer");
   return false;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
@@ -34,7 +35,10 @@ class ReadErrors {
   /// Kept unless it was added before (a file may be used many times) or enough of its kind are
   /// there: sentences that differ only in names, numbers and places are of one kind.
   /// `count`: of the errors that the message stands for.
-  void add(const SourceMark& mark, std::string message, std::size_t count = 1);
+  void add(ErrorCode code, const SourceMark& mark, std::string message, std::size_t count = 1) {
+    add({mark, code, std::move(message), count});
+  }
+  void add(ErrorEntry entry);
   bool empty() const noexcept { return added_ == 0; }
   /// Number of messages added, kept or not.
   std::size_t size() const noexcept { return added_; }
@@ -60,6 +64,7 @@ class ReadErrors {
  private:
   struct Kind {
     std::size_t kept = 0, passed_over = 0;
+    ErrorCode code{};
     SourceMark first;  ///< ignored
   };
   std::vector<ErrorEntry> errors_;

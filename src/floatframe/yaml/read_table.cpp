@@ -58,8 +58,9 @@ class TableFile {
     };
     if (header && std::all_of(words.begin(), words.end(), is_name)) return true;
     if (words.size() != 2) {
-      out_.error(place, "found " + std::to_string(words.size()) +
-                            (words.size() == 1 ? " column" : " columns") + ", expected two");
+      out_.error(ErrorCode::wrong_count, place,
+                 "found " + std::to_string(words.size()) +
+                     (words.size() == 1 ? " column" : " columns") + ", expected two");
       stop_ = true;  // the other rows have as many
       return false;
     }
@@ -68,15 +69,17 @@ class TableFile {
       const PlainScalar p = classify_plain_scalar(words[k]);
       x[k] = p.number;
       if (p.kind == PlainScalar::Kind::number) continue;
-      out_.error(place, "found '" + std::string(words[k].substr(0, 40)) +
-                            "', expected a number with a decimal point" +
-                            (p.complaint.empty() ? "" : " (" + p.complaint + ")") +
-                            (header ? ", or names in both columns of the first line" : ""));
+      out_.error(ErrorCode::out_of_range, place,
+                 "found '" + std::string(words[k].substr(0, 40)) +
+                     "', expected a number with a decimal point" +
+                     (p.complaint.empty() ? "" : " (" + p.complaint + ")") +
+                     (header ? ", or names in both columns of the first line" : ""));
       return false;
     }
     for (const double v : x)
       if (!rule_.holds(v)) {
-        out_.error(place, "found " + number_text(v) + ", expected " + rule_.expectation());
+        out_.error(ErrorCode::out_of_range, place,
+                   "found " + number_text(v) + ", expected " + rule_.expectation());
         return false;
       }
     stop_ = !out_.errors->take_of("rows in all CSV files of tables", 1, limits::table_rows,
@@ -93,9 +96,9 @@ class TableFile {
 
 }  // namespace
 
-void TableRows::error(const TableRow& row, const std::string& sentence) const {
+void TableRows::error(ErrorCode code, const TableRow& row, const std::string& sentence) const {
   const std::string who = path.empty() ? "" : path + "[" + std::to_string(row.number) + "]: ";
-  errors->add({file, row.line, row.column}, who + sentence);
+  errors->add(code, {file, row.line, row.column}, who + sentence);
 }
 
 TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point) {

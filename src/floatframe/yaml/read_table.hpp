@@ -20,7 +20,7 @@ struct TableRows {
   std::string file, path;
   std::vector<TableRow> rows;
   ReadErrors* errors = nullptr;
-  void error(const TableRow& row, const std::string& sentence) const;
+  void error(ErrorCode code, const TableRow& row, const std::string& sentence) const;
 };
 
 /// Reads a list of points, or the CSV file that `value` names relative to the file it is written

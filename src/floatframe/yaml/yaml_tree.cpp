@@ -83,7 +83,7 @@ class TreeBuilder final : public YAML::EventHandler {
     scalar(std::move(n));
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    error(mark, "aliases (*name) are not allowed, use parameters");
+    error(ErrorCode::wrong_value, mark, "aliases (*name) are not allowed, use parameters");
     count(mark);
     YamlNode n;
     place(n, mark);
@@ -126,8 +126,8 @@ class TreeBuilder final : public YAML::EventHandler {
     std::map<std::string, int> keys;  // key -> line
   };
 
-  void error(const YAML::Mark& mark, std::string message) {
-    errors_.add({file_, mark.line + 1, mark.column + 1}, std::move(message));
+  void error(ErrorCode code, const YAML::Mark& mark, std::string message) {
+    errors_.add(code, {file_, mark.line + 1, mark.column + 1}, std::move(message));
   }
   void place(YamlNode& n, const YAML::Mark& mark) {
     n.line = mark.line + 1;
@@ -135,36 +135,41 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void count(const YAML::Mark& mark) {
     if (++values_ <= limits::file_values) return;
-    error(mark, "found more than " + std::to_string(limits::file_values) +
-                    " values in one file, expected fewer (tables may stand in CSV files)");
+    error(ErrorCode::too_large, mark,
+          "found more than " + std::to_string(limits::file_values) +
+              " values in one file, expected fewer (tables may stand in CSV files)");
     throw GaveUp{};
   }
   bool check_characters(const YAML::Mark& mark, std::string& text) {
     if (text.size() > longest_text) {
-      error(mark, "found a text of " + std::to_string(text.size()) +
-                      " characters, expected at most " + std::to_string(longest_text));
+      error(ErrorCode::out_of_range, mark,
+            "found a text of " + std::to_string(text.size()) + " characters, expected at most " +
+                std::to_string(longest_text));
       text.resize(100);
       while (!text.empty() && utf8_length(text, text.size() - 1) == 0) text.pop_back();
       return false;
     }
     for (std::size_t k = 0; k < text.size(); ++k)
       if (is_control(text, k) && text[k] != '\n' && text[k] != '\t') {
-        error(mark, "found the text '" + printable(text.substr(0, 40)) +
-                        "', expected no control characters");
+        error(ErrorCode::wrong_value, mark,
+              "found the text '" + printable(text.substr(0, 40)) +
+                  "', expected no control characters");
         return false;
       }
     return true;
   }
   void refuse(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
-    if (anchor != 0) error(mark, "anchors (&name) are not allowed, use parameters");
-    if (!tag.empty() && tag != "?" && tag != "!") error(mark, "tags (!name) are not allowed");
+    if (anchor != 0)
+      error(ErrorCode::wrong_value, mark, "anchors (&name) are not allowed, use parameters");
+    if (!tag.empty() && tag != "?" && tag != "!")
+      error(ErrorCode::wrong_value, mark, "tags (!name) are not allowed");
   }
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
             YamlNode::Kind kind) {
     refuse(mark, tag, anchor);
     count(mark);
     if (stack_.size() >= static_cast<std::size_t>(deepest_nesting)) {
-      error(mark, too_deep());
+      error(ErrorCode::too_large, mark, too_deep());
       throw GaveUp{};
     }
     Level level;
@@ -205,16 +210,18 @@ class TreeBuilder final : public YAML::EventHandler {
     top.entry = YamlEntry{n.text, n.line, n.column, {}};
     const SourceMark mark{file_, n.line, n.column};
     if (compound || n.kind != YamlNode::Kind::scalar) {
-      errors_.add(mark, "a key must be a name");
+      errors_.add(ErrorCode::wrong_value, mark, "a key must be a name");
       top.skip = true;
     } else if (n.text == "<<" && !n.quoted) {
-      errors_.add(mark, "merge keys (<<) are not allowed, use parameters or subsystems");
+      errors_.add(ErrorCode::wrong_value, mark,
+                  "merge keys (<<) are not allowed, use parameters or subsystems");
       top.skip = true;
     } else {
       const auto [it, fresh] = top.keys.emplace(n.text, n.line);
       if (!fresh) {
-        errors_.add(mark, "duplicate key '" + n.text + "', first used in line " +
-                              std::to_string(it->second));
+        errors_.add(
+            ErrorCode::duplicate, mark,
+            "duplicate key '" + n.text + "', first used in line " + std::to_string(it->second));
         top.skip = true;
       }
     }
@@ -242,25 +249,24 @@ bool check_text(const std::string& file, const std::string& text, ReadErrors& er
     const auto mark = [&] { return SourceMark{file, line, static_cast<int>(k - start) + 1}; };
     const auto u = static_cast<unsigned char>(c);
     if (n == 0 || u == 0x7F || (u < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
-      errors.add(mark(), "this is not a text file (UTF-8)");
+      errors.add(ErrorCode::wrong_file, mark(), "this is not a text file (UTF-8)");
       return false;
     }
     if (c == '\r' && k + 1 < text.size() && text[k + 1] != '\n') {
-      errors.add(mark(),
-                 "a carriage return without a line feed, expected lines that end with LF "
-                 "or CRLF");
+      errors.add(ErrorCode::wrong_value, mark(),
+                 "a carriage return without a line feed, expected lines that end with LF or CRLF");
       return false;
     }
     if ((c == '[' || c == '{') && ++brackets == deepest_nesting) deep = mark();
     if ((c == ']' || c == '}') && brackets > 0) --brackets;
     if (brackets > most_open_brackets) {
-      errors.add(deep, too_deep());
+      errors.add(ErrorCode::too_large, deep, too_deep());
       return false;
     }
     if (c == '\t' && indentation) {
       const std::size_t next = text.find_first_not_of(" \t\r", k);
       if (next != std::string::npos && text[next] != '\n' && text[next] != '#') {
-        errors.add(mark(), "a tab in the indentation, use spaces");
+        errors.add(ErrorCode::wrong_value, mark(), "a tab in the indentation, use spaces");
         return false;
       }
       indentation = false;  // the line is blank
@@ -310,12 +316,12 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder) || builder.empty()) {
-      errors.add({file, 1, 1}, "the file is empty");
+      errors.add(ErrorCode::missing, {file, 1, 1}, "the file is empty");
       return document;
     }
     document.values = builder.values();
     if (const YAML::Mark& last = builder.last_quoted(); !last.is_null() && !is_closed(text, last)) {
-      errors.add({file, last.line + 1, last.column + 1},
+      errors.add(ErrorCode::wrong_value, {file, last.line + 1, last.column + 1},
                  "the text in quotes that begins here is not closed");
       return YamlDocument{file, {}, 0};
     }
@@ -323,16 +329,18 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
     ReadErrors ignored;
     TreeBuilder more(file, second, ignored);
     if (parser.HandleNextDocument(more))
-      errors.add({file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
+      errors.add(ErrorCode::duplicate,
+                 {file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
                  "a second document starts here, a model file holds one");
   } catch (const GaveUp&) {
   } catch (const YAML::Exception& e) {
     SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
     if (e.mark.is_null()) mark.line = mark.column = 1;
     const bool open = e.msg == "illegal EOF in scalar";
-    errors.add(mark, open ? "a text in quotes is not closed" : "YAML syntax: " + revealed(e.msg));
+    errors.add(ErrorCode::wrong_file, mark,
+               open ? "a text in quotes is not closed" : "YAML syntax: " + revealed(e.msg));
   } catch (const std::exception& e) {  // the parser's own limit on recursion
-    errors.add({file, 1, 1}, std::string("YAML syntax: ") + e.what());
+    errors.add(ErrorCode::wrong_file, {file, 1, 1}, std::string("YAML syntax: ") + e.what());
   }
   return document;
 }
@@ -342,15 +350,15 @@ namespace {
 template <class AnyErrors>
 bool read_text(const std::string& file, std::string& text, AnyErrors& errors,
                const SourceMark& where, const std::string& subject) {
-  const auto fail = [&](const std::string& why) {
+  const auto fail = [&](ErrorCode code, const std::string& why) {
     if (where.file.empty())
-      errors.add({file, 0, 0}, why);
+      errors.add(code, {file, 0, 0}, why);
     else
-      errors.add(where, subject + ": '" + file + "': " + why);
+      errors.add(code, where, subject + ": '" + file + "': " + why);
     return false;
   };
   const std::string why = read_regular_file(file, largest_file, text);
-  if (!why.empty()) return fail(why);
+  if (!why.empty()) return fail(ErrorCode::unreadable, why);
   note_file_read(file, content_hash(text));
   return true;
 }

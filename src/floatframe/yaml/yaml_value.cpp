@@ -35,8 +35,8 @@ bool has_expression(const YamlNode& n) {
 YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) const {
   Scalar s;
   if (node_->refused) return s;
-  const auto complain = [&](const std::string& sentence) {
-    if (!quiet) error(sentence);
+  const auto complain = [&](ErrorCode code, const std::string& sentence) {
+    if (!quiet) error(code, sentence);
   };
   switch (node_->kind) {
     case YamlNode::Kind::null:
@@ -44,7 +44,7 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
       return s;
     case YamlNode::Kind::sequence:
     case YamlNode::Kind::map:
-      complain("found " + found() + ", expected " + expected);
+      complain(ErrorCode::wrong_value, "found " + found() + ", expected " + expected);
       return s;
     case YamlNode::Kind::scalar:
       break;
@@ -63,7 +63,7 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
       try {  // once more for the sentence
         substitute_parameters(node_->text, *context_->scope, context_->errors->suggest());
       } catch (const ExpressionError& error) {
-        complain("in " + shortened(node_->text) + ": " + error.what());
+        complain(ErrorCode::wrong_value, "in " + shortened(node_->text) + ": " + error.what());
       }
     }
     return s;
@@ -90,11 +90,12 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
       s.kind = Scalar::Kind::text;
       break;
     case PlainScalar::Kind::bad_number:
-      complain("found " + node_->text + ", expected " + expected + " (" + p.complaint + ")");
+      complain(ErrorCode::out_of_range,
+               "found " + node_->text + ", expected " + expected + " (" + p.complaint + ")");
       break;
     case PlainScalar::Kind::bad_boolean:
-      complain("found " + node_->text + ", expected " + expected + " (" + p.complaint +
-               ", or put a text in quotes)");
+      complain(ErrorCode::out_of_range, "found " + node_->text + ", expected " + expected + " (" +
+                                            p.complaint + ", or put a text in quotes)");
       break;
   }
   return s;
@@ -178,7 +179,7 @@ std::optional<std::size_t> YamlValue::word(std::span<const char* const> words) c
   const auto it = std::find(words.begin(), words.end(), *t);
   if (it != words.end()) return it - words.begin();
   const std::string hint = did_you_mean(*t, {words.begin(), words.end()});
-  error("found " + found() + ", expected " + expected + hint);
+  error(ErrorCode::wrong_value, "found " + found() + ", expected " + expected + hint);
   return std::nullopt;
 }
 
@@ -256,20 +257,20 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what
   const std::string prefix = path_.empty() ? "" : path_ + ".";
   for (const YamlEntry& e : node_->entries) {
     if (e.key.size() > limits::name_length) {
-      context_->errors->add({*context_->file, e.line, e.column},
+      context_->errors->add(ErrorCode::too_large, {*context_->file, e.line, e.column},
                             prefix + shortened(e.key) + ": found a name of " +
                                 std::to_string(e.key.size()) + " characters, expected at most " +
                                 std::to_string(limits::name_length));
       continue;
     }
     if (free_names && e.key.find("${") != std::string::npos) {
-      context_->errors->add({*context_->file, e.line, e.column},
+      context_->errors->add(ErrorCode::wrong_value, {*context_->file, e.line, e.column},
                             path_ + ": found the name " + short_in_quotes(e.key) +
                                 ", but expressions stand for values, not in names");
       continue;
     }
     if (!free_names && !is_identifier(e.key, true)) {
-      context_->errors->add({*context_->file, e.line, e.column},
+      context_->errors->add(ErrorCode::wrong_value, {*context_->file, e.line, e.column},
                             path_ + ": found the name '" + shortened(e.key) +
                                 "', expected letters, digits, _ and -, with a letter first");
       continue;
@@ -307,7 +308,7 @@ std::optional<YamlValue> YamlSection::get(const char* key) {
 
 std::optional<YamlValue> YamlSection::require(const char* key) {
   auto v = get(key);
-  if (!v) error("missing key '" + std::string(key) + "'");
+  if (!v) error(ErrorCode::missing, "missing key '" + std::string(key) + "'");
   return v;
 }
 
@@ -333,10 +334,11 @@ void YamlSection::finish(const std::vector<std::string>& elsewhere) {
       const std::string* best = errors.suggest() ? nearest(e.key, last) : nullptr;
       if (best) hint = ", did you mean '" + elsewhere[best - last.data()] + "'?";
     }
-    errors.add(place(e), path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
+    errors.add(ErrorCode::unknown_key, place(e),
+               path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
   }
   if (const std::size_t more = unknown.size() - shown; more > 0)
-    errors.add(place(*unknown[shown]),
+    errors.add(ErrorCode::unknown_key, place(*unknown[shown]),
                path_prefix() + "... and " + std::to_string(more) +
                    (more == 1 ? " more unknown key" : " more unknown keys"),
                more);

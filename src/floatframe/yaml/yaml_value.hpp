@@ -55,19 +55,19 @@ class YamlValue {
   bool is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
 
   /// Adds the error "path: sentence" at this value.
-  void error(const std::string& sentence, std::size_t count = 1) const {
-    context_->errors->add(mark(), path_ + ": " + sentence, count);
+  void error(ErrorCode code, const std::string& sentence, std::size_t count = 1) const {
+    context_->errors->add({mark(), code, path_ + ": " + sentence, count, path_});
   }
   /// The same at the key of the value.
-  void entity_error(const std::string& sentence) const {
-    context_->errors->add(entity_mark(), path_ + ": " + sentence);
+  void entity_error(ErrorCode code, const std::string& sentence) const {
+    context_->errors->add({entity_mark(), code, path_ + ": " + sentence, 1, path_});
   }
-  void complain(const std::optional<std::string>& complaint) const {
-    if (complaint) error(*complaint);
+  void complain(ErrorCode code, const std::optional<std::string>& complaint) const {
+    if (complaint) error(code, *complaint);
   }
   /// "found ..., expected `what`".
   void unexpected(const std::string& what) const {
-    error("found " + found() + ", expected " + what);
+    error(ErrorCode::wrong_value, "found " + found() + ", expected " + what);
   }
   /// What is written here, for sentences: -3, 'abc', a list of 2, a map, nothing.
   std::string found() const;
@@ -130,8 +130,8 @@ class YamlSection {
   const std::string& path() const { return value_.path(); }
   const SourceMark& mark() const { return mark_; }
   const YamlValue& value() const { return value_; }
-  void error(const std::string& sentence) const {
-    value_.context().errors->add(mark_, path_prefix() + sentence);
+  void error(ErrorCode code, const std::string& sentence) const {
+    value_.context().errors->add({mark_, code, path_prefix() + sentence, 1, path()});
   }
   /// Mark of the value of `key`, or of the entity if it is absent.
   SourceMark mark_of(const char* key) const;

@@ -61,13 +61,14 @@ bool next_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, std::size_
   while (out.size() < count) {
     if (!lines.next_fields(fields)) {
       if (!out.empty())
-        lines.error(keyword, fmt::format("has {} constants, expected {}", out.size(), count));
+        lines.error(ErrorCode::wrong_count, keyword, "has {} constants, expected {}", out.size(),
+                    count);
       return false;
     }
     const std::size_t here = std::min<std::size_t>(8, count - out.size());
     if (fields.size() < here) {
-      lines.error(keyword, fmt::format("has no constant {} of {}: eight stand in a line",
-                                       out.size() + fields.size() + 1, count));
+      lines.error(ErrorCode::missing, keyword, "has no constant {} of {}: eight stand in a line",
+                  out.size() + fields.size() + 1, count);
       return false;
     }
     for (std::size_t k = 0; k < here; ++k) {
@@ -102,7 +103,7 @@ void use_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMat
     error = elasticity_error(D, false, constant_name);
     if (error.empty()) material.elasticity = D;
   }
-  if (!error.empty()) lines.error(keyword, fmt::format("TYPE={}: {}", type.name, error));
+  if (!error.empty()) lines.error(ErrorCode::wrong_value, keyword, "TYPE={}: {}", type.name, error);
   material.young = c[0];
 }
 
@@ -118,14 +119,17 @@ void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const ElasticType& type = elastic_type(keyword);
   const std::size_t before = lines.source().errors();
   if (keyword.has("DEPENDENCIES") && !same_word(keyword.value("DEPENDENCIES"), "0"))
-    lines.error(keyword, "depends on field variables (DEPENDENCIES), which is not supported");
+    lines.error(ErrorCode::unsupported, keyword,
+                "depends on field variables (DEPENDENCIES), which is not supported");
   std::vector<TemperatureRow> rows;
   for (TemperatureRow row; next_constants(lines, keyword, type.constants, row); row = {})
     rows.push_back(row);
-  if (rows.empty() && lines.source().errors() == before) lines.error(keyword, "has no data line");
+  if (rows.empty() && lines.source().errors() == before)
+    lines.error(ErrorCode::missing, keyword, "has no data line");
   lines.skip_data();
   if (material == nullptr || lines.source().errors() != before) return;
-  if (material->young) return lines.error(keyword, "is given a second time for its material");
+  if (material->young)
+    return lines.error(ErrorCode::duplicate, keyword, "is given a second time for its material");
   take_abaqus_constants(lines, keyword, content, *material, rows, use_anisotropic);
 }
 
@@ -158,19 +162,20 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     if (!content.clues.axes)
       content.clues.axes = {"*ORIENTATION, SYSTEM=Z RECTANGULAR", keyword.at};
   } else if (!system.empty() && system != "RECTANGULAR") {
-    lines.error(keyword, fmt::format("has the system {}, expected RECTANGULAR, Z RECTANGULAR or "
-                                     "CYLINDRICAL",
-                                     shown(keyword.value("SYSTEM"))));
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has the system {}, expected RECTANGULAR, Z RECTANGULAR or CYLINDRICAL",
+                shown(keyword.value("SYSTEM")));
   }
   if (!definition.empty() && definition != "COORDINATES")
-    lines.error(keyword, fmt::format("has the definition {}, expected COORDINATES",
-                                     shown(keyword.value("DEFINITION"))));
+    lines.error(ErrorCode::wrong_value, keyword, "has the definition {}, expected COORDINATES",
+                shown(keyword.value("DEFINITION")));
   std::vector<std::string_view> fields;
   if (lines.source().errors() != before) return lines.skip_data();
-  if (!lines.next_fields(fields)) return lines.error(keyword, "has no data line");
+  if (!lines.next_fields(fields))
+    return lines.error(ErrorCode::missing, keyword, "has no data line");
   if (fields.size() < 6)
-    lines.error(keyword, fmt::format("has {} coordinates, expected those of the points a and b",
-                                     fields.size()));
+    lines.error(ErrorCode::wrong_count, keyword,
+                "has {} coordinates, expected those of the points a and b", fields.size());
   Vec3* const points[] = {&o.a, &o.b, &o.c};
   for (std::size_t k = 0; k < 9; ++k)
     (*points[k / 3])(static_cast<Eigen::Index>(k % 3)) =
@@ -178,8 +183,8 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (lines.next_fields(fields)) {
     const std::optional<int> axis = fields[0].empty() ? 1 : parse_integer(fields[0]);
     if (!axis || *axis < 1 || *axis > 3)
-      lines.error(keyword, fmt::format("turns about axis {}, expected 1, 2 or 3",
-                                       axis ? std::to_string(*axis) : shown(fields[0])));
+      lines.error(ErrorCode::out_of_range, keyword, "turns about axis {}, expected 1, 2 or 3",
+                  axis ? std::to_string(*axis) : shown(fields[0]));
     o.axis = axis.value_or(1);
     o.axis_given = !fields[0].empty();
     o.angle = lines.real_or(fields, 1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
@@ -189,12 +194,12 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusOrientation without_c = o;
   without_c.c.setZero();
   if (lines.source().errors() == before && o.points_on_a_line() && without_c.points_on_a_line())
-    lines.error(keyword, o.wrong_points());
+    lines.error(ErrorCode::wrong_value, keyword, o.wrong_points());
   const auto [it, added] = content.orientations.emplace(std::pair{o.scope, name}, o);
   if (added || lines.source().errors() != before) return;
   const SourceMark mark = lines.source().mark(it->second.at);
-  lines.error(keyword, fmt::format("names the orientation {} a second time ({}:{})", shown(name),
-                                   mark.file, mark.line));
+  lines.error(ErrorCode::duplicate, keyword, "names the orientation {} a second time ({}:{})",
+              shown(name), mark.file, mark.line);
 }
 
 }  // namespace floatframe

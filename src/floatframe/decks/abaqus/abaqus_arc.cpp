@@ -13,14 +13,15 @@ std::optional<AbaqusArc> abaqus_arc(AbaqusLines& lines, const Vec3& centre, cons
   const double r = ra.norm();
   if (std::abs(rb.norm() - r) > 1e-3 * r || !(r > 0.0)) {
     lines.source().error(
-        fmt::format("the ends are {:.6g} and {:.6g} from the centre of the arc, "
-                    "expected the same",
-                    r, rb.norm()));
+        ErrorCode::geometry,
+        "the ends are {:.6g} and {:.6g} from the centre of the arc, expected the same", r,
+        rb.norm());
     return std::nullopt;
   }
   const double angle = std::atan2(n.norm(), ra.dot(rb));
   if (!(n.norm() > 1e-9 * r * r) || angle > 0.999 * std::numbers::pi) {
-    lines.source().error("the arc is half a turn or has no length; arcs of less are read");
+    lines.source().error(ErrorCode::unsupported,
+                         "the arc is half a turn or has no length; arcs of less are read");
     return std::nullopt;
   }
   return AbaqusArc{centre, a, n.normalized(), angle};

@@ -24,8 +24,8 @@ void open_block(const AbaqusKeyword& keyword, AbaqusContent& content) {
 void close_last(AbaqusContent& content, TextSource& source, const std::string& where) {
   const AbaqusOpenBlock block = std::move(content.open.back());
   content.open.pop_back();
-  source.error(block.at, fmt::format("*{} {} has no end, expected *END {} {}", block.keyword,
-                                     shown(block.name), block.keyword, where));
+  source.error(ErrorCode::missing, block.at, "*{} {} has no end, expected *END {} {}",
+               block.keyword, shown(block.name), block.keyword, where);
 }
 
 /// Those inside of it that are still open have no end; an error if it has not begun.
@@ -34,7 +34,8 @@ void close_block(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent
   const bool begun = std::any_of(content.open.begin(), content.open.end(),
                                  [&](const AbaqusOpenBlock& b) { return b.keyword == begin; });
   if (!begun)
-    return lines.error(keyword, fmt::format("ends no *{}, expected one before it", begin));
+    return lines.error(ErrorCode::wrong_value, keyword, "ends no *{}, expected one before it",
+                       begin);
   while (content.open.back().keyword != begin)
     close_last(content, lines.source(), "before " + keyword.shown);
   content.open.pop_back();
@@ -54,16 +55,17 @@ void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
   if (lines.next_fields(fields)) place.t = vector(0, "translation of the instance");
   if (!lines.next_fields(fields)) return;
   if (fields.size() < 7 || fields[6].empty())
-    return lines.source().error(fmt::format(
-        "the rotation of the instance has {} numbers, expected seven: two points of the "
-        "axis and the angle",
-        std::min<std::size_t>(fields.size(), 6)));
+    return lines.source().error(ErrorCode::wrong_count,
+                                "the rotation of the instance has {} numbers, expected seven: two "
+                                "points of the axis and the angle",
+                                std::min<std::size_t>(fields.size(), 6));
   place.a = vector(0, "axis of the instance's rotation");
   const Vec3 axis = vector(3, "axis of the instance's rotation") - place.a;
   const double degrees = lines.real_or(fields, 6, 0.0, "angle of the instance's rotation");
   if (lines.misread()) return;
   if (!(axis.stableNorm() > 0.0) || !std::isfinite(axis.stableNorm())) {
-    lines.source().error("the two points of the axis of the instance's rotation are one");
+    lines.source().error(ErrorCode::geometry,
+                         "the two points of the axis of the instance's rotation are one");
     return;
   }
   place.R = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis.stableNormalized())
@@ -90,8 +92,8 @@ void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
   const auto [it, fresh] = content.parts.emplace(content.part, part);
   if (!fresh) {
     const SourceMark first = lines.source().mark(it->second.at);
-    lines.source().stop(keyword.at, fmt::format("*PART {} is there already ({}:{})", shown(name),
-                                                first.file, first.line));
+    lines.source().stop(ErrorCode::duplicate, keyword.at, "*PART {} is there already ({}:{})",
+                        shown(name), first.file, first.line);
   }
   content.scope = part.scope;
   lines.skip_data();
@@ -137,22 +139,23 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (it == content.parts.end()) {
     std::vector<std::string> known;
     for (const auto& [k, p] : content.parts) known.push_back(k);
-    lines.source().stop(keyword.at,
-                        fmt::format("*INSTANCE {} is of the part {}, which does not exist{}",
-                                    shown(name), shown(part), did_you_mean(part, known)));
+    lines.source().stop(ErrorCode::not_found, keyword.at,
+                        "*INSTANCE {} is of the part {}, which does not exist{}", shown(name),
+                        shown(part), did_you_mean(part, known));
   }
   if (content.scope_of_instance.contains(name))
-    lines.source().stop(keyword.at, fmt::format("*INSTANCE {} is there already", shown(name)));
+    lines.source().stop(ErrorCode::duplicate, keyword.at, "*INSTANCE {} is there already",
+                        shown(name));
   AbaqusPart& of = it->second;
   const bool meshed = of.end[0] > of.begin[0] || of.end[1] > of.begin[1];
   if (content.instances.size() == most_instances)
-    lines.source().stop(keyword.at,
-                        fmt::format("the deck has more than {} instances", most_instances));
+    lines.source().stop(ErrorCode::too_large, keyword.at, "the deck has more than {} instances",
+                        most_instances);
   if (of.used && of.grown && meshed)
-    lines.source().stop(keyword.at,
-                        fmt::format("*INSTANCE {} is a second one of the part {}, whose first one "
-                                    "has nodes or elements of its own; give each a part",
-                                    shown(name), shown(part)));
+    lines.source().stop(ErrorCode::missing, keyword.at,
+                        "*INSTANCE {} is a second one of the part {}, whose first one has nodes or "
+                        "elements of its own; give each a part",
+                        shown(name), shown(part));
   const AbaqusScope scope = of.used ? new_scope(content) : of.scope;
   if (of.used && meshed) copy_abaqus_part(content, of, scope, lines.source());
   of.used = true;
@@ -182,9 +185,8 @@ void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
   close_abaqus_blocks(content, source, "before the end of the deck");
   if (content.parts.size() > 1 && content.instances.empty())
-    source.error(std::next(content.parts.begin())->second.at,
-                 fmt::format("the deck has {} parts and no instance of any (*INSTANCE)",
-                             content.parts.size()));
+    source.error(ErrorCode::wrong_value, std::next(content.parts.begin())->second.at,
+                 "the deck has {} parts and no instance of any (*INSTANCE)", content.parts.size());
   if (content.instances.empty()) return;
   std::set<AbaqusScope> unused;
   for (const auto& [name, part] : content.parts) {

@@ -26,8 +26,8 @@ Eigen::Vector2d offsets_of(AbaqusLines& lines, const AbaqusKeyword& keyword) {
     if (number && std::isfinite(*number)) {
       value = *number;
     } else {
-      lines.error(keyword,
-                  fmt::format("has {}={}, expected a number", name, shown(keyword.value(name))));
+      lines.error(ErrorCode::out_of_range, keyword, "has {}={}, expected a number", name,
+                  shown(keyword.value(name)));
     }
   }
   return out;
@@ -44,11 +44,11 @@ bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Abaqus
   const bool calculix = shape.calculix != 0 && n == shape.calculix;
   if (n != shape.numbers && !(calculix && dialect != DeckDialect::abaqus)) {
     const bool both = shape.calculix != 0 && dialect != DeckDialect::abaqus;
-    lines.error(keyword,
-                fmt::format("has {} dimension{}, expected {}", n, n == 1 ? "" : "s",
-                            both ? fmt::format("{} or {}", std::min(shape.numbers, shape.calculix),
-                                               std::max(shape.numbers, shape.calculix))
-                                 : std::to_string(shape.numbers)));
+    lines.error(ErrorCode::wrong_count, keyword, "has {} dimension{}, expected {}", n,
+                n == 1 ? "" : "s",
+                both ? fmt::format("{} or {}", std::min(shape.numbers, shape.calculix),
+                                   std::max(shape.numbers, shape.calculix))
+                     : std::to_string(shape.numbers));
     lines.skip_data();
     return false;
   }
@@ -67,8 +67,8 @@ bool read_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, BeamSectio
   std::vector<std::string_view> fields;
   lines.next_fields(fields);
   if (fields.size() < 5) {
-    lines.error(keyword, fmt::format("has {} constants, expected A, I11, I12, I22, J",
-                                     fields.size() == 1 && fields[0].empty() ? 0 : fields.size()));
+    lines.error(ErrorCode::wrong_count, keyword, "has {} constants, expected A, I11, I12, I22, J",
+                fields.size() == 1 && fields[0].empty() ? 0 : fields.size());
     return false;
   }
   const std::size_t before = lines.source().errors();
@@ -76,14 +76,14 @@ bool read_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, BeamSectio
   beam.Iy = positive_real(lines, fields[1], "moment I11");
   if (const double I12 = lines.real_or(fields, 2, 0.0, "moment I12"); I12 != 0.0)
     lines.source().error(
-        fmt::format("I12 is {:g}, expected 0: give the moments and direction 1 "
-                    "of the principal axes",
-                    I12));
+        ErrorCode::out_of_range,
+        "I12 is {:g}, expected 0: give the moments and direction 1 of the principal axes", I12);
   beam.Iz = positive_real(lines, fields[3], "moment I22");
   beam.J = positive_real(lines, fields[4], "torsion constant J");
   for (std::size_t k = 5; k < fields.size(); ++k)
     if (lines.real_or(fields, k, 0.0, "sectorial constant") != 0.0)
-      lines.source().error("sectorial moment and warping constant are not read: expected 0");
+      lines.source().error(ErrorCode::unsupported,
+                           "sectorial moment and warping constant are not read: expected 0");
   return lines.source().errors() == before;
 }
 
@@ -95,11 +95,12 @@ void read_direction(AbaqusLines& lines, const std::vector<std::string_view>& fie
     if (fields[k].empty()) continue;
     const std::optional<double> value = parse_real(fields[k]);
     if (!value)
-      return lines.source().error(at, "direction 1 of the section: " + not_a_real(fields[k]));
+      return lines.source().error(ErrorCode::not_a_number, at,
+                                  "direction 1 of the section: " + not_a_real(fields[k]));
     section.n1[static_cast<Eigen::Index>(k)] = *value;
   }
   if (!(section.n1.stableNorm() > 0.0))
-    lines.source().error(at, "direction 1 of the section is zero");
+    lines.source().error(ErrorCode::out_of_range, at, "direction 1 of the section is zero");
 }
 
 /// E, G: the material of a section that has none.
@@ -113,16 +114,17 @@ void add_material(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusConten
   if (keyword.has("DENSITY")) {
     const auto density = parse_real(keyword.value("DENSITY"));
     if (!density || !(*density >= 0.0) || !std::isfinite(*density))
-      lines.error(keyword, fmt::format("has the density {}, expected a number from 0",
-                                       shown(keyword.value("DENSITY"))));
+      lines.error(ErrorCode::out_of_range, keyword, "has the density {}, expected a number from 0",
+                  shown(keyword.value("DENSITY")));
     material.density = density;
   }
   if (lines.source().errors() > before) return;
   material.poisson = *material.young / (2.0 * G) - 1.0;
   if (!(*material.poisson > -1.0 && *material.poisson < 0.5))
-    lines.error(keyword, fmt::format("has E = {:g} and G = {:g}, which no isotropic material has: "
-                                     "expected G from E/3 on",
-                                     *material.young, G));
+    lines.error(
+        ErrorCode::contradiction, keyword,
+        "has E = {:g} and G = {:g}, which no isotropic material has: expected G from E/3 on",
+        *material.young, G);
   if (content.materials.emplace(name, material).second) content.material_order.push_back(name);
 }
 
@@ -137,9 +139,10 @@ void read_direction_and_material(AbaqusLines& lines, const AbaqusKeyword& keywor
     if (texts.size() < 3) texts.emplace_back(line);
   }
   if (texts.empty() || texts.size() > 2) {
-    lines.error(keyword, texts.empty() ? "has no line with E and G behind its dimensions"
-                                       : "depends on temperature or fields (a second line of E and "
-                                         "G), which is not supported");
+    lines.error(ErrorCode::unsupported, keyword,
+                texts.empty() ? "has no line with E and G behind its dimensions"
+                              : "depends on temperature or fields (a second line of E and G), "
+                                "which is not supported");
     return;
   }
   std::vector<std::string_view> fields;
@@ -149,7 +152,8 @@ void read_direction_and_material(AbaqusLines& lines, const AbaqusKeyword& keywor
   }
   split_commas(texts.back(), fields);
   if (fields.size() < 2) {
-    lines.error(keyword, "has one number in its last line, expected E and G");
+    lines.error(ErrorCode::wrong_count, keyword,
+                "has one number in its last line, expected E and G");
     return;
   }
   add_material(lines, keyword, content, fields, section.material);
@@ -173,28 +177,31 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const Eigen::Vector2d offsets = offsets_of(lines, keyword);
   section.calculix_offset = !offsets.isZero(0.0);
   if (keyword.has("LUMPED") && !same_word(keyword.value("LUMPED"), "YES"))
-    lines.error(keyword, fmt::format("has LUMPED={}, expected YES: leave it out, and read the deck "
-                                     "with --mass-form consistent",
-                                     shown(keyword.value("LUMPED"))));
+    lines.error(
+        ErrorCode::exclusive, keyword,
+        "has LUMPED={}, expected YES: leave it out, and read the deck with --mass-form consistent",
+        shown(keyword.value("LUMPED")));
   const bool own_material = keyword.name == "BEAMGENERALSECTION" && !keyword.has("MATERIAL");
   if (own_material) {
     section.material = fmt::format("{}, line {}", keyword.shown, keyword.at.line);
     content.clues.add(DeckDialect::abaqus, keyword.shown + " without MATERIAL", keyword.at);
   } else if (keyword.has("DENSITY")) {
-    lines.error(keyword, "has MATERIAL and DENSITY: leave the density to the material");
+    lines.error(ErrorCode::exclusive, keyword,
+                "has MATERIAL and DENSITY: leave the density to the material");
   }
   section.shape = own_material && !keyword.has("SECTION")
                       ? "GENERAL"
                       : abaqus_name(lines.required(keyword, "SECTION"));
   if (own_material && section.shape == "GENERAL" && section.calculix_offset)
-    lines.error(keyword, "has OFFSET1 or OFFSET2, which constants do not have");
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has OFFSET1 or OFFSET2, which constants do not have");
   if (own_material && section.shape == "GENERAL")
     return read_general_section(lines, keyword, content, section);
   const AbaqusBeamShape* const shape = find_abaqus_beam_shape(section.shape);
   if (shape != nullptr) section.shape = shape->name;
   if (shape == nullptr && !section.shape.empty())
-    lines.error(keyword, fmt::format("has the section {}, {}", shown(section.shape),
-                                     unread_abaqus_shape(section.shape)));
+    lines.error(ErrorCode::wrong_value, keyword, "has the section {}, {}", shown(section.shape),
+                unread_abaqus_shape(section.shape));
   if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::beam, section) ||
       shape == nullptr) {
     return lines.skip_data();
@@ -232,7 +239,7 @@ AbaqusSection* place_in_section(AbaqusLines& lines, const AbaqusKeyword& keyword
                                 AbaqusContent& content, bool constants, Eigen::Vector2d& place) {
   std::vector<std::string_view> fields;
   const std::size_t before = lines.source().errors();
-  if (!lines.next_fields(fields)) lines.error(keyword, "has no data line");
+  if (!lines.next_fields(fields)) lines.error(ErrorCode::missing, keyword, "has no data line");
   for (std::size_t k = 0; k < 2; ++k)
     place(static_cast<Eigen::Index>(k)) = lines.real_or(fields, k, 0.0, "place in the section");
   lines.no_more(keyword, fields, 2);
@@ -240,8 +247,9 @@ AbaqusSection* place_in_section(AbaqusLines& lines, const AbaqusKeyword& keyword
   if (section == nullptr || section->family != AbaqusType::Family::beam ||
       (section->shape == "GENERAL") != constants) {
     if (lines.source().errors() == before)
-      lines.error(keyword, constants ? "does not follow a *BEAM GENERAL SECTION of given constants"
-                                     : "does not follow a beam section with a shape");
+      lines.error(ErrorCode::incomplete, keyword,
+                  constants ? "does not follow a *BEAM GENERAL SECTION of given constants"
+                            : "does not follow a beam section with a shape");
     return nullptr;
   }
   return section;
@@ -256,15 +264,15 @@ void read_abaqus_beam_section_offset(AbaqusLines& lines, const AbaqusKeyword& ke
   if (s == nullptr) return;
   if (s->offset_at) {
     const SourceMark first = lines.source().mark(*s->offset_at);
-    return lines.error(keyword, fmt::format("is given a second time for its section ({}:{})",
-                                            first.file, first.line));
+    return lines.error(ErrorCode::duplicate, keyword,
+                       "is given a second time for its section ({}:{})", first.file, first.line);
   }
   if (s->calculix_offset) {
     const SourceMark mark = lines.source().mark(s->at);
-    return lines.error(keyword, fmt::format("follows a section with OFFSET1 or OFFSET2 ({}:{}), "
-                                            "expected one of both: this line is one of Abaqus, "
-                                            "those are of CalculiX",
-                                            mark.file, mark.line));
+    return lines.error(ErrorCode::exclusive, keyword,
+                       "follows a section with OFFSET1 or OFFSET2 ({}:{}), expected one of both: "
+                       "this line is one of Abaqus, those are of CalculiX",
+                       mark.file, mark.line);
   }
   s->offset_at = keyword.at;
   s->arm += place;

@@ -13,8 +13,9 @@ namespace {
 
 BeamSection pipe_section(AbaqusLines& lines, double radius, double wall) {
   if (wall > radius) {
-    lines.source().error(
-        fmt::format("the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall, radius));
+    lines.source().error(ErrorCode::geometry,
+                         "the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall,
+                         radius);
   }
   return BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
 }
@@ -23,12 +24,13 @@ BeamSection pipe_section(AbaqusLines& lines, double radius, double wall) {
 /// of Bredt, 4 A_m^2 / (closed integral of ds / t).
 BeamSection box_section(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
   if (t[0] != t[2] || t[1] != t[3]) {
-    lines.source().error(
-        "opposite walls of the box differ, so that its centroid is not at the "
-        "node, which is not supported");
+    lines.source().error(ErrorCode::unsupported,
+                         "opposite walls of the box differ, so that its centroid is not at the "
+                         "node, which is not supported");
   }
   const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
-  if (inner_a < 0.0 || inner_b < 0.0) lines.source().error("the walls of the box overlap");
+  if (inner_a < 0.0 || inner_b < 0.0)
+    lines.source().error(ErrorCode::geometry, "the walls of the box overlap");
   BeamSection s;
   s.A = a * b - inner_a * inner_b;
   s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
@@ -58,17 +60,17 @@ void i_section(AbaqusLines& lines, const std::vector<double>& d, AbaqusSection& 
   const double l = d[0], h = d[1], b1 = d[2], b2 = d[3], t1 = d[4], t2 = d[5], t3 = d[6];
   const auto flange = [&](double b, double t, const char* which) {
     if (b < 0.0 || t < 0.0 || (b > 0.0) != (t > 0.0))
-      lines.source().error(
-          fmt::format("the {} flange of the I is {:g} wide and {:g} thick, expected both more than "
-                      "0, or both 0",
-                      which, b, t));
+      lines.source().error(ErrorCode::incomplete,
+                           "the {} flange of the I is {:g} wide and {:g} thick, expected both more "
+                           "than 0, or both 0",
+                           which, b, t);
   };
   flange(b1, t1, "lower");
   flange(b2, t2, "upper");
   if (!(t1 + t2 < h))
     lines.source().error(
-        fmt::format("the flanges of the I ({:g} and {:g} thick) leave no web in its height of {:g}",
-                    t1, t2, h));
+        ErrorCode::geometry,
+        "the flanges of the I ({:g} and {:g} thick) leave no web in its height of {:g}", t1, t2, h);
   std::vector<SectionPlate> plates = {{0.0, 0.5 * (t1 + h - t2), t3, h - t1 - t2}};
   if (t1 > 0.0) plates.push_back({0.0, 0.5 * t1, b1, t1});
   if (t2 > 0.0) plates.push_back({0.0, h - 0.5 * t2, b2, t2});

@@ -20,16 +20,17 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
   const int id = c.element_nodes[deck.first + static_cast<std::size_t>(deck.type->nodes)];
   const auto it = c.node_of_label.find(AbaqusContent::label(deck.scope, id));
   if (it == c.node_of_label.end()) {
-    build.source.error(deck.at, fmt::format("{}: node {} does not exist", abaqus_label(deck), id));
+    build.source.error(ErrorCode::not_found, deck.at, "{}: node {} does not exist",
+                       abaqus_label(deck), id);
     return;
   }
   const FeModel& m = build.model;
   e.reference = m.positions[static_cast<std::size_t>(it->second)] - m.positions[e.nodes[0]];
   const Vec3 along = m.positions[e.nodes[deck.type->nodes - 1]] - m.positions[e.nodes[0]];
   if (!(along.cross(e.reference).norm() > 1e-9 * along.norm() * e.reference.norm()))
-    build.source.error(deck.at, fmt::format("{}: node {}, which gives its direction 1, lies on its "
-                                            "axis",
-                                            abaqus_label(deck), id));
+    build.source.error(ErrorCode::geometry, deck.at,
+                       "{}: node {}, which gives its direction 1, lies on its axis",
+                       abaqus_label(deck), id);
 }
 
 /// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
@@ -38,16 +39,16 @@ void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) 
   if (!section.offset_at || dialect == DeckDialect::abaqus) return;
   const DialectClues& clues = build.clues;
   if (dialect == DeckDialect::calculix) {
-    build.source.error(*section.offset_at,
+    build.source.error(ErrorCode::unsupported, *section.offset_at,
                        "*BEAM SECTION OFFSET is a line that only Abaqus has: CalculiX has OFFSET1 "
                        "and OFFSET2 of *BEAM SECTION");
   } else if (clues.calculix) {
     const SourceMark mark = build.source.mark(clues.calculix->at);
-    build.source.error(*section.offset_at,
-                       fmt::format("*BEAM SECTION OFFSET is a line that only Abaqus has, but the "
-                                   "deck has {} ({}:{}), which only CalculiX has; if it is one of "
-                                   "Abaqus give --dialect abaqus",
-                                   clues.calculix->what, mark.file, mark.line));
+    build.source.error(
+        ErrorCode::unsupported, *section.offset_at,
+        "*BEAM SECTION OFFSET is a line that only Abaqus has, but the deck has {} ({}:{}), which "
+        "only CalculiX has; if it is one of Abaqus give --dialect abaqus",
+        clues.calculix->what, mark.file, mark.line);
   }
 }
 
@@ -58,12 +59,11 @@ void report_abaqus_directions(AbaqusBuild& build) {
     const auto& [first, count] = elements;
     const std::string others =
         count == 1 ? std::string() : fmt::format(" and {}", plural(count - 1, "other element"));
-    build.source.error(
-        section->at,
-        fmt::format("{}: its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; expected a "
-                    "direction across it in the second line",
-                    section->shown, section->n1(0) + 0.0, section->n1(1) + 0.0,
-                    section->n1(2) + 0.0, first, others));
+    build.source.error(ErrorCode::geometry, section->at,
+                       "{}: its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; "
+                       "expected a direction across it in the second line",
+                       section->shown, section->n1(0) + 0.0, section->n1(1) + 0.0,
+                       section->n1(2) + 0.0, first, others);
   }
 }
 
@@ -100,31 +100,30 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) {
   const bool constants = section.shape == "GENERAL";
   if (!std::isfinite(section.arm.squaredNorm()))
-    return build.source.error(
-        section.at, fmt::format("{}: its centroid is at ({:g}, {:g}) of the node, expected numbers "
-                                "whose squares do not overflow",
-                                section.shown, section.arm(0) + 0.0, section.arm(1) + 0.0));
+    return build.source.error(ErrorCode::not_finite, section.at,
+                              "{}: its centroid is at ({:g}, {:g}) of the node, expected numbers "
+                              "whose squares do not overflow",
+                              section.shown, section.arm(0) + 0.0, section.arm(1) + 0.0);
   if (constants && (section.arm - section.shear_center).norm() > 1e-9 * section.arm.norm())
-    build.source.error(section.at,
-                       fmt::format("{}: its centroid is at ({:g}, {:g}) of the node and its shear "
-                                   "centre at ({:g}, {:g}), expected both at one place (*CENTROID, "
-                                   "*SHEAR CENTER)",
-                                   section.shown, section.arm(0), section.arm(1),
-                                   section.shear_center(0), section.shear_center(1)));
+    build.source.error(ErrorCode::incomplete, section.at,
+                       "{}: its centroid is at ({:g}, {:g}) of the node and its shear centre at "
+                       "({:g}, {:g}), expected both at one place (*CENTROID, *SHEAR CENTER)",
+                       section.shown, section.arm(0), section.arm(1), section.shear_center(0),
+                       section.shear_center(1));
   check_abaqus_offset_line(build, section);
   if (!section.calculix_offset || build.content.dialect == DeckDialect::calculix) return;
   const DialectClues& clues = build.clues;
   if (build.content.dialect == DeckDialect::abaqus) {
-    build.source.error(section.at, section.shown +
-                                       " has OFFSET1 or OFFSET2, which only CalculiX has: Abaqus "
-                                       "has the line *BEAM SECTION OFFSET");
+    build.source.error(ErrorCode::unsupported, section.at,
+                       section.shown +
+                           " has OFFSET1 or OFFSET2, which only CalculiX has: Abaqus has the line "
+                           "*BEAM SECTION OFFSET");
   } else if (clues.abaqus) {
     const SourceMark mark = build.source.mark(clues.abaqus->at);
-    build.source.error(
-        section.at,
-        fmt::format("{} has OFFSET1 or OFFSET2 as in CalculiX, but the deck has {} ({}:{}), which "
-                    "only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                    section.shown, clues.abaqus->what, mark.file, mark.line));
+    build.source.error(ErrorCode::unsupported, section.at,
+                       "{} has OFFSET1 or OFFSET2 as in CalculiX, but the deck has {} ({}:{}), "
+                       "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
+                       section.shown, clues.abaqus->what, mark.file, mark.line);
   }
 }
 

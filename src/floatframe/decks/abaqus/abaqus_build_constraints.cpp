@@ -74,16 +74,16 @@ void build_surfaces(AbaqusBuild& build) {
         const AbaqusElement& element = c.elements[e];
         const std::size_t count = index < 0 ? 0 : element_faces(model.elements[index].type).size();
         if (static_cast<std::size_t>(item.face) >= count) {
-          build.source.error(item.where.at,
-                             fmt::format("surface {}: element {} ({}) has no face {}", shown(name),
-                                         element.id, element.type->name, item.face + 1));
+          build.source.error(ErrorCode::not_found, item.where.at,
+                             "surface {}: element {} ({}) has no face {}", shown(name), element.id,
+                             element.type->name, item.face + 1);
           break;
         }
         faces.push_back({index, item.face});
       }
     }
     if (faces.empty() && build.source.errors() == before) {
-      build.source.error(surface.at, fmt::format("surface {} is empty", shown(name)));
+      build.source.error(ErrorCode::missing, surface.at, "surface {} is empty", shown(name));
     }
     model.surfaces[name] = std::move(faces);
   }
@@ -124,15 +124,16 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
     if (e >= 0) {
       const AbaqusElement& element = c.elements[e];
       if (element.type->family != AbaqusType::Family::coupling) {
-        build.source.error(raw.at, fmt::format("*DISTRIBUTING COUPLING names element {} ({}), "
-                                               "expected one of type DCOUP3D",
-                                               element.id, element.type->name));
+        build.source.error(
+            ErrorCode::wrong_value, raw.at,
+            "*DISTRIBUTING COUPLING names element {} ({}), expected one of type DCOUP3D",
+            element.id, element.type->name);
       } else if (const std::vector<int> node = build.nodes_of_elements({e}); node.size() == 1) {
         spider.reference = node.front();
       } else {
-        build.source.error(element.at,
-                           fmt::format("element {} ({}): node {} does not exist", element.id,
-                                       element.type->name, c.element_nodes[element.first]));
+        build.source.error(ErrorCode::not_found, element.at,
+                           "element {} ({}): node {} does not exist", element.id,
+                           element.type->name, c.element_nodes[element.first]);
       }
     }
   } else {
@@ -157,7 +158,8 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
   if (raw.surface && !only_nodes) add_surface(build, raw, list);
   if (build.source.errors() != before) return;
   if (list.nodes.empty() && !only_nodes) {
-    build.source.error(raw.at, "the rigid body or coupling has no nodes beside its reference");
+    build.source.error(ErrorCode::missing, raw.at,
+                       "the rigid body or coupling has no nodes beside its reference");
     return;
   }
   spider.nodes = list.nodes;
@@ -210,10 +212,10 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap&
     nodes.push_back(build.nodes.resolve(term.nodes));
     if (build.source.errors() != before) return;
     if (nodes.back().size() != 1 && nodes.back().size() != nodes.front().size()) {
-      build.source.error(raw.at, fmt::format("*EQUATION: {} has {} nodes, expected 1 or {} as in "
-                                             "the first term",
-                                             build.content.text(term.nodes, "node"),
-                                             nodes.back().size(), nodes.front().size()));
+      build.source.error(ErrorCode::wrong_count, raw.at,
+                         "*EQUATION: {} has {} nodes, expected 1 or {} as in the first term",
+                         build.content.text(term.nodes, "node"), nodes.back().size(),
+                         nodes.front().size());
       return;
     }
   }
@@ -240,9 +242,10 @@ void check_turned_spiders(AbaqusBuild& build, const std::map<int, Mat3>& axes) {
       continue;
     for (const int node : s.nodes) {
       if (!axes.contains(node)) continue;
-      build.source.error(s.source, fmt::format("{} follows in some directions only, and *TRANSFORM "
-                                               "turns them, which is not supported",
-                                               build.model.node_label(node)));
+      build.source.error(
+          ErrorCode::unsupported, s.source,
+          "{} follows in some directions only, and *TRANSFORM turns them, which is not supported",
+          build.model.node_label(node));
       break;
     }
   }
@@ -261,9 +264,10 @@ const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReferen
     return &found.entry->second;
   }
   if (found.several) {
-    build.source.error(at, fmt::format("surface {} is in several instances: put the name of one "
-                                       "and a dot before it",
-                                       shown(c.names[name])));
+    build.source.error(
+        ErrorCode::duplicate, at,
+        "surface {} is in several instances: put the name of one and a dot before it",
+        shown(c.names[name]));
     return nullptr;
   }
   std::vector<std::string> known;
@@ -271,8 +275,8 @@ const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReferen
     if (known.size() == most_known) break;
     known.push_back(c.names[key.second]);
   }
-  build.source.error(at, fmt::format("surface {} does not exist{}", shown(c.names[name]),
-                                     did_you_mean(c.names[name], known)));
+  build.source.error(ErrorCode::not_found, at, "surface {} does not exist{}", shown(c.names[name]),
+                     did_you_mean(c.names[name], known));
   return nullptr;
 }
 

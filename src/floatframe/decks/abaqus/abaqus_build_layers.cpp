@@ -43,9 +43,10 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
                                           d.calculix));
     return false;
   }
-  build.note(o.at, what + fmt::format("{}, as CalculiX does; if the deck is one of Abaqus give "
-                                      "--dialect abaqus",
-                                      d.taken));
+  build.note(
+      o.at,
+      what + fmt::format("{}, as CalculiX does; if the deck is one of Abaqus give --dialect abaqus",
+                         d.taken));
   return true;
 }
 
@@ -66,14 +67,16 @@ AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
     o.c.setZero();
   // Of shells the axis alone says which one is about the normal.
   if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
-      is_of_calculix(build, o, name,
-                     {fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 "
-                                  "in Abaqus),",
-                                  o.angle * 180.0 / std::numbers::pi),
-                      ignores, ignored}))
+      is_of_calculix(
+          build, o, name,
+          {fmt::format(
+               "the additional rotation of {:g} degrees, whose axis is blank (1 in Abaqus),",
+               o.angle * 180.0 / std::numbers::pi),
+           ignores, ignored}))
     o.axis = 0;
   if (o.points_on_a_line())
-    build.source.error(o.at, fmt::format("orientation {} {}", shown(name), o.wrong_points()));
+    build.source.error(ErrorCode::wrong_value, o.at, "orientation {} {}", shown(name),
+                       o.wrong_points());
   return o;
 }
 
@@ -111,15 +114,16 @@ int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::strin
   const bool abaqus =
       given == DeckDialect::abaqus || (given == DeckDialect::by_content && clues.abaqus);
   if (o.axis == 0 && abaqus && !calculix)
-    build.source.error(o.at, fmt::format("orientation {} is used for shells and has no second line "
-                                         "(axis and angle of the additional rotation)",
-                                         shown(name)));
+    build.source.error(ErrorCode::missing, o.at,
+                       "orientation {} is used for shells and has no second line (axis and angle "
+                       "of the additional rotation)",
+                       shown(name));
   if (o.axis == 0) return 3;
   if (o.axis != 3 && calculix && !abaqus)
-    build.source.error(o.at, fmt::format("orientation {} is used for shells and turns about axis "
-                                         "{}; of CalculiX decks only turns about axis 3, the "
-                                         "normal, are read",
-                                         shown(name), o.axis));
+    build.source.error(ErrorCode::unsupported, o.at,
+                       "orientation {} is used for shells and turns about axis {}; of CalculiX "
+                       "decks only turns about axis 3, the normal, are read",
+                       shown(name), o.axis);
   if (o.axis != 3 && o.axis_given && !calculix && !abaqus)
     build.note(o.at, fmt::format("orientation {} of shells turns about axis {}, which is taken "
                                  "about the normal as in Abaqus; if the deck is one of CalculiX, "
@@ -173,9 +177,9 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
     std::vector<std::string> known;
     for (const auto& [key, o] : build.content.orientations)
       if (known.size() < 100) known.push_back(key.second);
-    build.source.error(section.at,
-                       fmt::format("{} names the orientation {}, which does not exist{}",
-                                   section.shown, shown(name), did_you_mean(name, known)));
+    build.source.error(ErrorCode::not_found, section.at,
+                       "{} names the orientation {}, which does not exist{}", section.shown,
+                       shown(name), did_you_mean(name, known));
     return -1;
   }
   const AbaqusOrientation meant = in_program_of_deck(build, *found, name, shell);
@@ -215,20 +219,21 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
                         int material) {
   const std::vector<Material>& all = build.model.materials;
   const std::string huge = huge_sheet(shell, all[material].density, all);
-  if (!huge.empty()) build.source.error(section.at, fmt::format("{}: {}", section.shown, huge));
+  if (!huge.empty())
+    build.source.error(ErrorCode::not_finite, section.at, "{}: {}", section.shown, huge);
 }
 
 void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
                            const Material& material) {
   if (!material.elasticity) return;
   if (section.family == Family::beam)
-    build.source.error(section.at, fmt::format("{}: material {} is not isotropic, which beams must "
-                                               "be",
-                                               section.shown, shown(section.material)));
+    build.source.error(ErrorCode::unsupported, section.at,
+                       "{}: material {} is not isotropic, which beams must be", section.shown,
+                       shown(section.material));
   if (section.family == Family::solid && material.plane)
-    build.source.error(section.at, fmt::format("{}: material {} is a lamina, which only shells can "
-                                               "have",
-                                               section.shown, shown(section.material)));
+    build.source.error(ErrorCode::unsupported, section.at,
+                       "{}: material {} is a lamina, which only shells can have", section.shown,
+                       shown(section.material));
 }
 
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,

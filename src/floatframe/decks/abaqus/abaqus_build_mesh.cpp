@@ -66,22 +66,21 @@ void build_masses(AbaqusBuild& build) {
     const bool rotary = element.type->family == Family::rotary;
     if (!rotary && element.type->family != Family::mass) continue;
     if (section_of[e] < 0) {
-      build.source.error(element.at, fmt::format("{} has no {}", abaqus_label(element),
-                                                 rotary ? "*ROTARY INERTIA" : "*MASS"));
+      build.source.error(ErrorCode::missing, element.at, "{} has no {}", abaqus_label(element),
+                         rotary ? "*ROTARY INERTIA" : "*MASS");
       continue;
     }
     const AbaqusSection& section = c.masses[section_of[e]];
     const auto node =
         c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
     if (node == c.node_of_label.end()) {
-      build.source.error(element.at,
-                         fmt::format("{}: node {} does not exist", abaqus_label(element),
-                                     c.element_nodes[element.first]));
+      build.source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
+                         abaqus_label(element), c.element_nodes[element.first]);
       continue;
     }
     if (const std::string huge = huge_mass(section.mass, section.J); !huge.empty())
-      build.source.error(section.at,
-                         fmt::format("{} of {}: {}", section.shown, abaqus_label(element), huge));
+      build.source.error(ErrorCode::not_finite, section.at, "{} of {}: {}", section.shown,
+                         abaqus_label(element), huge);
     const Mat3& R = c.placement(element.scope).R;
     build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose(),
                                   section.at,
@@ -129,16 +128,15 @@ void build_abaqus_nodes(AbaqusBuild& build) {
   for (const AbaqusNode& node : c.nodes) {
     model.positions.push_back(c.placement(node.scope).at(node.p));
     if (const std::string huge = huge_place(model.positions.back()); !huge.empty())
-      build.source.error(node.at,
-                         fmt::format("node {}{}: {}", c.prefix(node.scope), node.id, huge));
+      build.source.error(ErrorCode::not_finite, node.at, "node {}{}: {}", c.prefix(node.scope),
+                         node.id, huge);
     int id = node.id;
     // Numbers of one scope are different, so only several scopes can share one.
     if (!c.parts.empty() && !taken.insert(id).second) {
       if (++free_number > std::numeric_limits<int>::max())
-        build.source.stop(node.at,
-                          fmt::format("node {}{} has the number of another node, and there "
-                                      "is no free one",
-                                      c.prefix(node.scope), id));
+        build.source.stop(ErrorCode::out_of_range, node.at,
+                          "node {}{} has the number of another node, and there is no free one",
+                          c.prefix(node.scope), id);
       id = static_cast<int>(free_number);
       nodes.add(node.scope, node.id, id, node.at);
     }
@@ -167,7 +165,7 @@ struct ElementCounts {
 
 void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
   if (counts.structural.number == 0) {
-    build.source.error({0, 0}, "the deck has no element with stiffness");
+    build.source.error(ErrorCode::missing, {0, 0}, "the deck has no element with stiffness");
   }
   for (const auto& [type, count] : counts.skins) {
     build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
@@ -189,12 +187,11 @@ void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_o
 
 void no_section(AbaqusBuild& build, const AbaqusElement& element) {
   const Family family = element.type->family;
-  build.source.error(
-      element.at,
-      fmt::format("{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
-                  family == Family::solid   ? "SOLID"
-                  : family == Family::shell ? "SHELL"
-                                            : "BEAM"));
+  build.source.error(ErrorCode::missing, element.at,
+                     "{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
+                     family == Family::solid   ? "SOLID"
+                     : family == Family::shell ? "SHELL"
+                                               : "BEAM");
 }
 
 /// Nothing if one of its nodes is not there.
@@ -212,8 +209,8 @@ std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& eleme
     const int id = c.element_nodes[element.first + k];
     const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
     if (it == c.node_of_label.end()) {
-      build.source.error(element.at,
-                         fmt::format("{}: node {} does not exist", abaqus_label(element), id));
+      build.source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
+                         abaqus_label(element), id);
       return std::nullopt;
     }
     result.nodes[k] = it->second;
@@ -270,10 +267,9 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     if (type.family == Family::rod && !(c.sections[section].thickness > 0.0)) {
       if (without_area.insert(section).second)
         build.source.error(
-            c.sections[section].at,
-            fmt::format("*SOLID SECTION names {}, which needs the area of its section "
-                        "in the line below",
-                        abaqus_label(element)));
+            ErrorCode::incomplete, c.sections[section].at,
+            "*SOLID SECTION names {}, which needs the area of its section in the line below",
+            abaqus_label(element));
       continue;
     }
     if (type.remark != nullptr) counts.read_as[&type].add(element.at);

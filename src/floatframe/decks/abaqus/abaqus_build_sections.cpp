@@ -28,21 +28,20 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
   Material material;
   if (it == c.materials.end()) {
     build.source.error(
-        section.at,
-        fmt::format(
-            "{} names the material {}, which does not exist{}", section.shown, shown(name),
-            c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order)));
+        ErrorCode::not_found, section.at, "{} names the material {}, which does not exist{}",
+        section.shown, shown(name),
+        c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order));
   } else {
     const AbaqusMaterial& m = it->second;
     if (!m.young) {
-      build.source.error(m.at, fmt::format("material {} has no *ELASTIC", shown(name)));
+      build.source.error(ErrorCode::missing, m.at, "material {} has no *ELASTIC", shown(name));
     }
     if (!m.density) model.without_density[static_cast<int>(model.materials.size())] = {m.at};
     material = m.elasticity ? anisotropic_material(*m.elasticity, m.plane, m.density.value_or(0.0))
                             : Material{m.young.value_or(0.0), m.poisson.value_or(0.0),
                                        m.density.value_or(0.0)};
     if (const std::string huge = huge_constant(material); !huge.empty())
-      build.source.error(m.at, fmt::format("material {}: {}", shown(name), huge));
+      build.source.error(ErrorCode::not_finite, m.at, "material {}: {}", shown(name), huge);
   }
   model.materials.push_back(material);
   model.material_names.push_back(name);
@@ -65,13 +64,13 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
   }
   if (dialect == DeckDialect::by_content) {
     build.source.error(
-        section.at,
-        fmt::format("{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and "
-                    "{}: give --dialect abaqus or --dialect calculix (in a model file 'dialect:')",
-                    section.shown, section.round,
-                    clues.abaqus ? fmt::format("the deck has things of both ({}, {})",
-                                               clues.abaqus->what, clues.calculix->what)
-                                 : "nothing in the deck shows whose it is"));
+        ErrorCode::out_of_range, section.at,
+        "{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and {}: give "
+        "--dialect abaqus or --dialect calculix (in a model file 'dialect:')",
+        section.shown, section.round,
+        clues.abaqus ? fmt::format("the deck has things of both ({}, {})", clues.abaqus->what,
+                                   clues.calculix->what)
+                     : "nothing in the deck shows whose it is");
   }
   return BeamSection::solid_round(section.round * (dialect == DeckDialect::abaqus ? 2.0 : 1.0));
 }
@@ -83,11 +82,10 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
     return;
   }
   const SourceMark mark = build.source.mark(clues.abaqus->at);
-  build.source.error(
-      section.at,
-      fmt::format("{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
-                  "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                  section.shown, section.shape, clues.abaqus->what, mark.file, mark.line));
+  build.source.error(ErrorCode::unsupported, section.at,
+                     "{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
+                     "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
+                     section.shown, section.shape, clues.abaqus->what, mark.file, mark.line);
 }
 
 /// Dimensions may be finite, and what follows from them not.
@@ -95,11 +93,10 @@ void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const 
                         const Material& material) {
   const double mass = s.A * material.density;
   if (std::isfinite(mass + s.A) && std::isfinite(s.Iy + s.Iz) && std::isfinite(s.J)) return;
-  build.source.error(section.at,
-                     fmt::format("{}: its area is {:g}, its moments are {:g} and {:g}, its torsion "
-                                 "constant is {:g} and its mass over length {:g}, expected finite "
-                                 "numbers",
-                                 section.shown, s.A, s.Iy, s.Iz, s.J, mass));
+  build.source.error(ErrorCode::not_finite, section.at,
+                     "{}: its area is {:g}, its moments are {:g} and {:g}, its torsion constant is "
+                     "{:g} and its mass over length {:g}, expected finite numbers",
+                     section.shown, s.A, s.Iy, s.Iz, s.J, mass);
 }
 
 /// Axes that no *ORIENTATION gives are global ones; whether an instance turns them is not said.
@@ -112,9 +109,10 @@ void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
   const bool directional =
       is_abaqus_sheet(section.family) ? p.directional : m.elasticity.has_value();
   if (directional && section.orientation.empty())
-    build.source.error(section.at, fmt::format("{} of the turned instance {} has a material with "
-                                               "directions and no orientation",
-                                               section.shown, shown(instance->second.name)));
+    build.source.error(
+        ErrorCode::contradiction, section.at,
+        "{} of the turned instance {} has a material with directions and no orientation",
+        section.shown, shown(instance->second.name));
 }
 
 }  // namespace
@@ -156,16 +154,16 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
       if (!fits) {
         error = element.type->family == Family::skin
                     ? fmt::format(
-                          "{} names {}; elements of this type are read as skins only, "
-                          "without a section",
+                          "{} names {}; elements of this type are read as skins only, without a "
+                          "section",
                           section.shown, abaqus_label(element))
                     : fmt::format("{} names {}, for which it is not supported", section.shown,
                                   abaqus_label(element));
       } else if (at >= 0 && in_calculix) {
         if (at != static_cast<int>(s) && !std::exchange(noted, true))
-          build.note(section.at, fmt::format("{} is the second one of {}: the last one counts, as "
-                                             "in CalculiX",
-                                             section.shown, abaqus_label(element)));
+          build.note(section.at,
+                     fmt::format("{} is the second one of {}: the last one counts, as in CalculiX",
+                                 section.shown, abaqus_label(element)));
       } else if (at >= 0) {
         const SourceMark first = build.source.mark(sections[at].at);
         error = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
@@ -173,7 +171,7 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
       }
       if (!error.empty()) {
         reported = true;
-        build.source.error(section.at, error);
+        build.source.error(ErrorCode::wrong_value, section.at, error);
       }
       at = static_cast<int>(s);
     }

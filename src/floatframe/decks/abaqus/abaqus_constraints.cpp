@@ -25,8 +25,8 @@ void check_rotations_of_nodes(AbaqusLines& lines, const AbaqusKeyword& kind,
   const std::string_view found = kind.value("COUPLING");
   if (found.empty() || same_word(found, "CONTINUUM")) return;
   if (!same_word(found, "STRUCTURAL"))
-    return lines.error(
-        kind, fmt::format("has COUPLING={}, expected CONTINUUM or STRUCTURAL", shown(found)));
+    return lines.error(ErrorCode::wrong_value, kind,
+                       "has COUPLING={}, expected CONTINUUM or STRUCTURAL", shown(found));
   content.note(
       lines.source().mark(kind.at),
       "*DISTRIBUTING, COUPLING=STRUCTURAL is taken as CONTINUUM: the reference follows the "
@@ -45,10 +45,9 @@ unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fi
   }
   if (!first || !last || *first < 1 || *last > 6 || *last < *first) {
     lines.source().error(
-        fmt::format("{}: the degrees of freedom are {}{}{}, expected numbers from "
-                    "1 to 6",
-                    what, field.empty() ? "missing" : shown(field), last != first ? " to " : "",
-                    last != first ? shown(fields[index + 1]) : ""));
+        ErrorCode::missing, "{}: the degrees of freedom are {}{}{}, expected numbers from 1 to 6",
+        what, field.empty() ? "missing" : shown(field), last != first ? " to " : "",
+        last != first ? shown(fields[index + 1]) : "");
     return 0;
   }
   return bits(*first, *last);
@@ -62,9 +61,8 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
   spider.at = keyword.at;
   const std::string_view reference = reference_node(lines, keyword);
   if (!keyword.value("POSITION").empty() && !same_word(keyword.value("POSITION"), "INPUT")) {
-    lines.error(keyword,
-                "moves its reference to the centre of mass (POSITION), which is not "
-                "supported");
+    lines.error(ErrorCode::unsupported, keyword,
+                "moves its reference to the centre of mass (POSITION), which is not supported");
   }
   for (const char* parameter : {"NSET", "TIENSET", "PINNSET"}) {
     if (keyword.has(parameter)) {
@@ -77,7 +75,8 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
     if (spider.nodes.size() == 1) {
       spider.mask = bits(1, 3);
     } else {
-      lines.error(keyword, "has PIN NSET beside another set, which is not supported");
+      lines.error(ErrorCode::unsupported, keyword,
+                  "has PIN NSET beside another set, which is not supported");
     }
   }
   if (keyword.has("ELSET")) {
@@ -85,7 +84,7 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
     spider.name = abaqus_name(keyword.value("ELSET"));
   }
   if (spider.nodes.empty() && spider.elements.empty()) {
-    lines.error(keyword, "needs the parameter NSET or ELSET");
+    lines.error(ErrorCode::incomplete, keyword, "needs the parameter NSET or ELSET");
   }
   lines.skip_data();
   if (reference.empty()) return;
@@ -108,8 +107,9 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusKeyword kind;
   std::string_view line;
   if (!lines.next_keyword(kind) || (kind.name != "KINEMATIC" && kind.name != "DISTRIBUTING")) {
-    lines.error(keyword, "is not followed by *KINEMATIC or *DISTRIBUTING");
-    if (!kind.name.empty()) lines.source().stop(kind.at, "reading ends here");
+    lines.error(ErrorCode::incomplete, keyword, "is not followed by *KINEMATIC or *DISTRIBUTING");
+    if (!kind.name.empty())
+      lines.source().stop(ErrorCode::wrong_value, kind.at, "reading ends here");
     return;
   }
   unsigned mask = 0;
@@ -124,14 +124,15 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
     spider.kind = Spider::Kind::mean;
     const std::string_view method = kind.value("WEIGHTINGMETHOD");
     if (!method.empty() && !same_word(method, "UNIFORM")) {
-      lines.error(kind, fmt::format("has the weighting {}, expected UNIFORM", shown(method)));
+      lines.error(ErrorCode::wrong_value, kind, "has the weighting {}, expected UNIFORM",
+                  shown(method));
     }
     check_rotations_of_nodes(lines, kind, content);
     if (mask != 63u) {
       const SourceMark mark = lines.source().mark(kind.at);
       content.notes.push_back(
-          fmt::format("{}:{}: *DISTRIBUTING names some degrees of freedom; the "
-                      "reference follows its nodes in all six",
+          fmt::format("{}:{}: *DISTRIBUTING names some degrees of freedom; the reference follows "
+                      "its nodes in all six",
                       mark.file, mark.line));
     }
   }
@@ -153,13 +154,13 @@ void read_abaqus_kinematic_coupling(AbaqusLines& lines, const AbaqusKeyword& key
     spider.nodes.push_back(content.reference(fields[0], lines.source().here()));
     const unsigned dofs = fields.size() > 1 ? abaqus_dofs(lines, fields, 1, keyword.shown) : 63u;
     if (mask != 0 && dofs != mask) {
-      lines.source().error(
-          "*KINEMATIC COUPLING has other degrees of freedom than in the line "
-          "before, which is not supported");
+      lines.source().error(ErrorCode::unsupported,
+                           "*KINEMATIC COUPLING has other degrees of freedom than in the line "
+                           "before, which is not supported");
     }
     mask = dofs;
   }
-  if (spider.nodes.empty()) return lines.error(keyword, "has no nodes");
+  if (spider.nodes.empty()) return lines.error(ErrorCode::missing, keyword, "has no nodes");
   if (reference.empty()) return;
   spider.mask = mask;
   spider.reference = content.reference(reference, keyword.at);
@@ -179,7 +180,7 @@ void read_abaqus_distributing_coupling(AbaqusLines& lines, const AbaqusKeyword& 
     const bool given = fields.size() > 1 && !fields[1].empty();
     spider.weights.push_back(given ? positive_real(lines, fields[1], "the weight of a node") : 1.0);
   }
-  if (spider.nodes.empty()) return lines.error(keyword, "has no nodes");
+  if (spider.nodes.empty()) return lines.error(ErrorCode::missing, keyword, "has no nodes");
   if (elements.empty()) return;
   spider.reference = content.named(elements, keyword.at);
   spider.reference_by_element = true;
@@ -197,17 +198,19 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     const std::size_t before = lines.source().errors();
     const std::optional<int> count = parse_integer(fields[0]);
     if (!count || *count < 1 || *count > most_terms || fields.size() != 1) {
-      lines.source().error(fmt::format("*EQUATION: {} is no number of terms", shown(fields[0])));
+      lines.source().error(ErrorCode::not_a_number, "*EQUATION: {} is no number of terms",
+                           shown(fields[0]));
       return lines.skip_data();
     }
     while (equation.terms.size() < static_cast<std::size_t>(*count)) {
       if (!lines.next_fields(fields)) {
-        lines.source().error(equation.at, fmt::format("*EQUATION has {} terms, expected {}",
-                                                      equation.terms.size(), *count));
+        lines.source().error(ErrorCode::wrong_count, equation.at,
+                             "*EQUATION has {} terms, expected {}", equation.terms.size(), *count);
         return;
       }
       if (fields.size() % 3 != 0) {
-        lines.source().error("*EQUATION: a line of terms is node, degree of freedom, factor, ...");
+        lines.source().error(ErrorCode::wrong_value,
+                             "*EQUATION: a line of terms is node, degree of freedom, factor, ...");
         return lines.skip_data();
       }
       for (std::size_t k = 0; k + 2 < fields.size(); k += 3) {
@@ -215,8 +218,9 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
         term.nodes = content.reference(fields[k], lines.source().here());
         const std::optional<int> dof = parse_integer(fields[k + 1]);
         if (!dof || *dof < 1 || *dof > 6) {
-          lines.source().error(fmt::format(
-              "*EQUATION: the degree of freedom is {}, expected 1 to 6", shown(fields[k + 1])));
+          lines.source().error(ErrorCode::out_of_range,
+                               "*EQUATION: the degree of freedom is {}, expected 1 to 6",
+                               shown(fields[k + 1]));
         }
         term.axis = dof.value_or(1) - 1;
         term.factor = lines.real(fields[k + 2], "factor");
@@ -225,7 +229,8 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     }
     if (lines.source().errors() != before) continue;
     if (equation.terms.front().factor == 0.0) {
-      lines.source().error(equation.at, "*EQUATION: the factor of the first term is zero");
+      lines.source().error(ErrorCode::out_of_range, equation.at,
+                           "*EQUATION: the factor of the first term is zero");
     }
     content.equations.push_back(std::move(equation));
   }

@@ -40,8 +40,9 @@ void read_abaqus_system(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqus
   const Vec3 z = x.cross(in_plane);
   const double size = x.stableNorm() * in_plane.stableNorm();
   if (!(z.stableNorm() > 1e-9 * size) || !std::isfinite(size)) {
-    lines.error(keyword, plane ? "has its three points on a line"
-                               : "has its two points at one place as seen along the third axis");
+    lines.error(ErrorCode::geometry, keyword,
+                plane ? "has its three points on a line"
+                      : "has its two points at one place as seen along the third axis");
     return;
   }
   system.axes.col(0) = x.stableNormalized();

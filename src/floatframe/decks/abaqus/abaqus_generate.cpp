@@ -33,7 +33,7 @@ class Generated {
   std::optional<Vec3> place(int id) {
     const auto it = content_.node_of_label.find(AbaqusContent::label(content_.scope, id));
     if (it != content_.node_of_label.end()) return content_.nodes[it->second].p;
-    lines_.source().error(fmt::format("node {} does not exist before this line", id));
+    lines_.source().error(ErrorCode::not_found, "node {} does not exist before this line", id);
     return std::nullopt;
   }
 
@@ -47,8 +47,9 @@ class Generated {
       content_.nodes.push_back({number, content_.scope, p, lines_.source().here()});
     } else if ((content_.nodes[it->second].p - p).norm() > 1e-6 * size) {
       const SourceMark first = lines_.source().mark(content_.nodes[it->second].at);
-      lines_.source().error(fmt::format("node {} is there already at another place ({}:{})", number,
-                                        first.file, first.line));
+      lines_.source().error(ErrorCode::duplicate,
+                            "node {} is there already at another place ({}:{})", number, first.file,
+                            first.line);
       return;
     }
     belongs(nodes_, number);
@@ -57,16 +58,17 @@ class Generated {
   /// An element like another one with other numbers.
   void element(const AbaqusElement& like, std::int64_t id, std::int64_t node_increment) {
     if (like.directed)
-      return lines_.source().error(fmt::format(
-          "element {} has a node for its orientation, which copies do not have", like.id));
+      return lines_.source().error(
+          ErrorCode::wrong_value,
+          "element {} has a node for its orientation, which copies do not have", like.id);
     if (!is_number(id, "element")) return;
     const int number = static_cast<int>(id);
     const auto [it, added] = content_.element_of_label.emplace(
         AbaqusContent::label(content_.scope, number), static_cast<int>(content_.elements.size()));
     if (!added) {
       const SourceMark first = lines_.source().mark(content_.elements[it->second].at);
-      lines_.source().error(
-          fmt::format("element {} is there already ({}:{})", number, first.file, first.line));
+      lines_.source().error(ErrorCode::duplicate, "element {} is there already ({}:{})", number,
+                            first.file, first.line);
       return;
     }
     AbaqusElement element = like;
@@ -86,7 +88,7 @@ class Generated {
   const AbaqusElement* find_element(int id) {
     const auto it = content_.element_of_label.find(AbaqusContent::label(content_.scope, id));
     if (it != content_.element_of_label.end()) return &content_.elements[it->second];
-    lines_.source().error(fmt::format("element {} does not exist before this line", id));
+    lines_.source().error(ErrorCode::not_found, "element {} does not exist before this line", id);
     return nullptr;
   }
 
@@ -98,8 +100,8 @@ class Generated {
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     if (out.empty())
-      lines_.source().error(fmt::format("{} has no members before this line",
-                                        content_.text(r, of_nodes ? "node" : "element")));
+      lines_.source().error(ErrorCode::missing, "{} has no members before this line",
+                            content_.text(r, of_nodes ? "node" : "element"));
     return out;
   }
 
@@ -126,7 +128,8 @@ class Generated {
 
   bool is_number(std::int64_t id, std::string_view what) {
     if (id > 0 && id <= std::numeric_limits<int>::max()) return true;
-    lines_.source().error(fmt::format("{} {} would be made, expected a positive number", what, id));
+    lines_.source().error(ErrorCode::out_of_range,
+                          "{} {} would be made, expected a positive number", what, id);
     return false;
   }
 
@@ -168,7 +171,8 @@ std::optional<Vec3> arc_centre(AbaqusLines& lines, Generated& out,
     return lines.misread() ? std::nullopt : out.place(node);
   }
   if (fields.size() < 5) {
-    lines.source().error("LINE=C needs the centre of the arc: a node or three coordinates");
+    lines.source().error(ErrorCode::incomplete,
+                         "LINE=C needs the centre of the arc: a node or three coordinates");
     return std::nullopt;
   }
   Vec3 centre = Vec3::Zero();
@@ -184,7 +188,8 @@ bool is_one_of(AbaqusLines& lines, const AbaqusKeyword& keyword, std::string_vie
   if (found.empty() || std::any_of(values.begin(), values.end(),
                                    [&](std::string_view v) { return same_word(v, found); }))
     return true;
-  lines.error(keyword, fmt::format("has {}={}, expected {}", parameter, shown(found), expected));
+  lines.error(ErrorCode::wrong_count, keyword, "has {}={}, expected {}", parameter, shown(found),
+              expected);
   lines.skip_data();
   return false;
 }
@@ -199,14 +204,16 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
     return;
   const bool round = keyword.has("LINE");
   if (round && content.system) {
-    lines.error(keyword, "has LINE=C while *SYSTEM holds: put *SYSTEM without lines before it");
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has LINE=C while *SYSTEM holds: put *SYSTEM without lines before it");
     return lines.skip_data();
   }
   Generated out(lines, content, keyword.value("NSET"), {});
   std::vector<std::string_view> fields;
   while (lines.next_fields(fields)) {
     if (fields.size() < 2) {
-      lines.source().error("a line of *NGEN needs the numbers of its two ends");
+      lines.source().error(ErrorCode::incomplete,
+                           "a line of *NGEN needs the numbers of its two ends");
       continue;
     }
     const int first = lines.integer(fields[0], "node"), last = lines.integer(fields[1], "node");
@@ -216,8 +223,8 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
     const auto a = out.place(first), b = out.place(last);
     if (!a || !b) continue;
     if (step == 0 || span % step != 0 || span / step < 1) {
-      lines.source().error(
-          fmt::format("steps of {} do not lead from node {} to node {}", step, first, last));
+      lines.source().error(ErrorCode::contradiction,
+                           "steps of {} do not lead from node {} to node {}", step, first, last);
       continue;
     }
     const std::int64_t count = span / step;
@@ -243,7 +250,8 @@ void read_abaqus_filled_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
   std::vector<std::string_view> fields;
   while (lines.next_fields(fields)) {
     if (fields.size() < 2) {
-      lines.source().error("a line of *NFILL needs the sets of its two sides");
+      lines.source().error(ErrorCode::incomplete,
+                           "a line of *NFILL needs the sets of its two sides");
       continue;
     }
     const int intervals = integer_or(lines, fields, 2, 1, "number of intervals");
@@ -253,12 +261,13 @@ void read_abaqus_filled_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
                            last = out.numbers(fields[1], true);
     if (first.empty() || last.empty()) continue;
     if (first.size() != last.size()) {
-      lines.source().error(fmt::format("the sides have {} and {} nodes, expected as many",
-                                       first.size(), last.size()));
+      lines.source().error(ErrorCode::contradiction,
+                           "the sides have {} and {} nodes, expected as many", first.size(),
+                           last.size());
       continue;
     }
     if (intervals < 1) {
-      lines.source().error(fmt::format("{} intervals, expected at least 1", intervals));
+      lines.source().error(ErrorCode::out_of_range, "{} intervals, expected at least 1", intervals);
       continue;
     }
     lines.source().make(static_cast<std::int64_t>(first.size()) * intervals);
@@ -276,12 +285,14 @@ void read_abaqus_filled_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
 void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
                               AbaqusContent& content) {
   if (!keyword.has("SHIFT")) {
-    lines.error(keyword, "has no SHIFT; reflected and projected copies are not read");
+    lines.error(ErrorCode::unsupported, keyword,
+                "has no SHIFT; reflected and projected copies are not read");
     return lines.skip_data();
   }
   lines.allow_only(keyword, {"CHANGENUMBER", "OLDSET", "NEWSET", "SHIFT", "MULTIPLE"});
   if (content.system)
-    lines.error(keyword, "shifts while *SYSTEM holds: put *SYSTEM without lines before it");
+    lines.error(ErrorCode::wrong_value, keyword,
+                "shifts while *SYSTEM holds: put *SYSTEM without lines before it");
   const std::string_view change = lines.required(keyword, "CHANGE NUMBER"),
                          old = lines.required(keyword, "OLD SET");
   if (change.empty() || old.empty()) return lines.skip_data();
@@ -308,7 +319,7 @@ void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
   Mat3 R = Mat3::Identity();
   if (degrees != 0.0) {
     if (!((b - a).norm() > 0.0)) {
-      lines.source().error("the axis of the rotation has no length");
+      lines.source().error(ErrorCode::missing, "the axis of the rotation has no length");
       return lines.skip_data();
     }
     R = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, (b - a).normalized())
@@ -348,7 +359,8 @@ void read_abaqus_generated_elements(AbaqusLines& lines, const AbaqusKeyword& key
     }
     if (lines.misread()) continue;
     if (!valid) {
-      lines.source().error("the numbers of elements of *ELGEN must be at least 1");
+      lines.source().error(ErrorCode::out_of_range,
+                           "the numbers of elements of *ELGEN must be at least 1");
       continue;
     }
     lines.source().make(all);

@@ -70,7 +70,7 @@ bool AbaqusLines::next_line(std::string_view& line) {
     AbaqusKeyword keyword;
     parse_keyword(line, keyword);
     if (keyword.value("INPUT").empty()) {
-      source_.stop(keyword.at, "*INCLUDE needs the parameter INPUT");
+      source_.stop(ErrorCode::incomplete, keyword.at, "*INCLUDE needs the parameter INPUT");
     }
     source_.include(keyword.value("INPUT"), keyword.at);
   }
@@ -82,8 +82,9 @@ void AbaqusLines::parse_keyword(std::string_view line, AbaqusKeyword& keyword) {
   keyword.at = source_.here();
   const auto limit = [&](std::size_t length) {
     if (length <= longest_keyword_line) return;
-    source_.stop(keyword.at, fmt::format("the keyword line {} has more than {} characters",
-                                         shown(line), longest_keyword_line));
+    source_.stop(ErrorCode::too_large, keyword.at,
+                 "the keyword line {} has more than {} characters", shown(line),
+                 longest_keyword_line);
   };
   limit(line.size());
   std::string whole(line);
@@ -147,16 +148,17 @@ void AbaqusLines::skip_data() {
   }
 }
 
-void AbaqusLines::error(const AbaqusKeyword& keyword, std::string_view text) {
-  source_.error(keyword.at, fmt::format("{} {}", keyword.shown, text));
+void AbaqusLines::error(ErrorCode code, const AbaqusKeyword& keyword, std::string_view text) {
+  source_.error(code, keyword.at, "{} {}", keyword.shown, text);
 }
 
 std::string_view AbaqusLines::required(const AbaqusKeyword& keyword, std::string_view parameter) {
   const std::string_view value = keyword.value(without_blanks(parameter));
-  if (value.empty()) error(keyword, fmt::format("needs the parameter {}", parameter));
+  if (value.empty())
+    error(ErrorCode::incomplete, keyword, fmt::format("needs the parameter {}", parameter));
   if (std::count_if(keyword.parameters.begin(), keyword.parameters.end(),
                     [&](const auto& p) { return p.name == without_blanks(parameter); }) > 1)
-    error(keyword, fmt::format("has the parameter {} twice", parameter));
+    error(ErrorCode::duplicate, keyword, fmt::format("has the parameter {} twice", parameter));
   return value;
 }
 
@@ -164,7 +166,8 @@ void AbaqusLines::allow_only(const AbaqusKeyword& keyword,
                              std::initializer_list<std::string_view> known) {
   for (const AbaqusKeyword::Parameter& p : keyword.parameters) {
     if (std::find(known.begin(), known.end(), p.name) == known.end()) {
-      error(keyword, fmt::format("has the parameter {}, which is not supported", shown(p.name)));
+      error(ErrorCode::unsupported, keyword,
+            fmt::format("has the parameter {}, which is not supported", shown(p.name)));
     }
   }
 }
@@ -178,20 +181,21 @@ void AbaqusLines::no_more(const AbaqusKeyword& keyword, const std::vector<std::s
                           std::size_t count) {
   for (std::size_t k = count; k < fields.size(); ++k) {
     if (fields[k].empty()) continue;
-    source_.error(fmt::format("{} has the entry {} behind {}, expected no more", keyword.shown,
-                              shown(fields[k]),
-                              count == 1 ? "its number" : fmt::format("its {} numbers", count)));
+    source_.error(ErrorCode::wrong_value, "{} has the entry {} behind {}, expected no more",
+                  keyword.shown, shown(fields[k]),
+                  count == 1 ? "its number" : fmt::format("its {} numbers", count));
     break;
   }
   std::string_view more;
   if (!next_data(more)) return;
-  source_.error(keyword.shown + " has a second line, which is not supported");
+  source_.error(ErrorCode::unsupported,
+                keyword.shown + " has a second line, which is not supported");
   skip_data();
 }
 
 double AbaqusLines::real(std::string_view field, std::string_view what) {
   const std::optional<double> value = parse_real(field);
-  if (!value) source_.error(fmt::format("{}: {}", what, not_a_real(field)));
+  if (!value) source_.error(ErrorCode::not_a_number, "{}: {}", what, not_a_real(field));
   return value.value_or(0.0);
 }
 
@@ -203,7 +207,7 @@ double AbaqusLines::real_or(const std::vector<std::string_view>& fields, std::si
 
 int AbaqusLines::integer(std::string_view field, std::string_view what) {
   const std::optional<int> value = parse_integer(field);
-  if (!value) source_.error(fmt::format("{}: {}", what, not_an_integer(field)));
+  if (!value) source_.error(ErrorCode::not_a_number, "{}: {}", what, not_an_integer(field));
   return value.value_or(0);
 }
 

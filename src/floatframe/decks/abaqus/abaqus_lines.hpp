@@ -1,9 +1,12 @@
 #pragma once
 // The lines of an Abaqus or CalculiX deck: keyword lines with parameters, data lines, comments,
 // continuation lines and *INCLUDE. Keywords, parameters and names do not depend on case or blanks.
+#include <fmt/format.h>
+
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "floatframe/formats/text/text_source.hpp"
@@ -61,7 +64,13 @@ class AbaqusLines {
 
   TextSource& source() noexcept { return source_; }
   /// An error at a keyword: "*SOLID SECTION " + text.
-  void error(const AbaqusKeyword& keyword, std::string_view text);
+  void error(ErrorCode code, const AbaqusKeyword& keyword, std::string_view text);
+  template <class First, class... Rest>
+  void error(ErrorCode code, const AbaqusKeyword& keyword, fmt::format_string<First, Rest...> text,
+             First&& first, Rest&&... rest) {
+    error(code, keyword,
+          fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
  private:
   bool next_line(std::string_view& line);

@@ -131,16 +131,16 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
   if (set.at.line == 0) set.at = keyword.at;
   set.internal = keyword.has("INTERNAL");
   if (of_nodes && keyword.has("ELSET")) {
-    lines.error(keyword,
-                "has the parameter 'ELSET', which is not supported; an element set can be "
-                "used wherever its nodes are wanted");
+    lines.error(ErrorCode::unsupported, keyword,
+                "has the parameter 'ELSET', which is not supported; an element set can be used "
+                "wherever its nodes are wanted");
   }
   AbaqusScope scope = content.scope;
   if (const std::string_view instance = keyword.value("INSTANCE"); !instance.empty()) {
     const auto it = content.scope_of_instance.find(abaqus_name(instance));
     if (it == content.scope_of_instance.end()) {
-      lines.error(keyword,
-                  fmt::format("names the instance {}, which does not exist", shown(instance)));
+      lines.error(ErrorCode::not_found, keyword, "names the instance {}, which does not exist",
+                  shown(instance));
     } else {
       scope = it->second;
     }
@@ -153,9 +153,8 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
     if (keyword.has("GENERATE")) {
       if (fields.size() < 2 || fields.size() > 3) {
         lines.source().error(
-            fmt::format("a line of GENERATE has {} numbers, expected first, last "
-                        "and increment",
-                        fields.size()));
+            ErrorCode::wrong_count,
+            "a line of GENERATE has {} numbers, expected first, last and increment", fields.size());
         continue;
       }
       AbaqusReference range;
@@ -166,8 +165,9 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
       range.at = at;
       if (lines.misread()) continue;
       if (range.first < 1 || range.last < range.first || range.step < 1) {
-        lines.source().error(fmt::format("GENERATE from {} to {} by {} gives no numbers",
-                                         range.first, range.last, range.step));
+        lines.source().error(ErrorCode::out_of_range,
+                             "GENERATE from {} to {} by {} gives no numbers", range.first,
+                             range.last, range.step);
         continue;
       }
       set.items.push_back(range);
@@ -182,7 +182,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
                           (field.front() >= 'a' && field.front() <= 'z');
       // "1.5", "-3" and "0" are no names.
       if (item.name >= 0 && !letter && parse_real(field).has_value()) {
-        lines.source().error(fmt::format("{}: {}", what, not_an_integer(field)));
+        lines.source().error(ErrorCode::not_a_number, "{}: {}", what, not_an_integer(field));
         continue;
       }
       set.items.push_back(item);
@@ -196,8 +196,9 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
   lines.allow_only(keyword, {"NSET", "SYSTEM", "INPUT"});
   const bool round = same_word(keyword.value("SYSTEM"), "C");
   if (keyword.has("SYSTEM") && !round && !same_word(keyword.value("SYSTEM"), "R"))
-    lines.error(keyword, fmt::format("has SYSTEM={}, expected R (rectangular) or C (cylindrical)",
-                                     shown(keyword.value("SYSTEM"))));
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has SYSTEM={}, expected R (rectangular) or C (cylindrical)",
+                shown(keyword.value("SYSTEM")));
   AbaqusSet* const set = set_of_parameter(content.node_sets, keyword, "NSET", content);
   lines.take_input(keyword);
   std::vector<std::string_view> fields;
@@ -207,7 +208,7 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
     const FeSource at = lines.source().here();
     const std::optional<int> id = parse_label(fields[0]);
     if (!id) {
-      lines.source().error("node number: " + not_an_integer(fields[0]));
+      lines.source().error(ErrorCode::not_a_number, "node number: " + not_an_integer(fields[0]));
       continue;
     }
     // Direction cosines of shells and beams in Abaqus; CalculiX looks at nothing there.
@@ -220,8 +221,8 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
       if (fields[k].empty()) continue;
       const std::optional<double> value = parse_real(fields[k]);
       if (!value) {
-        lines.source().error(
-            fmt::format("coordinate {} of node {}: {}", k, *id, not_a_real(fields[k])));
+        lines.source().error(ErrorCode::not_a_number, "coordinate {} of node {}: {}", k, *id,
+                             not_a_real(fields[k]));
         continue;
       }
       node.p[static_cast<Eigen::Index>(k) - 1] = *value;
@@ -235,8 +236,8 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
                                                            static_cast<int>(content.nodes.size()));
     if (!added) {
       const SourceMark first = lines.source().mark(content.nodes[it->second].at);
-      lines.source().error(
-          fmt::format("node {} is there already ({}:{})", *id, first.file, first.line));
+      lines.source().error(ErrorCode::duplicate, "node {} is there already ({}:{})", *id,
+                           first.file, first.line);
       continue;
     }
     content.nodes.push_back(node);
@@ -257,10 +258,11 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const AbaqusType* const type = find_abaqus_type(type_name);
   if (type == nullptr) {
     const bool connector = abaqus_name(type_name).starts_with("CONN");
-    lines.error(keyword, fmt::format("has the type {}, which is not supported{}", shown(type_name),
-                                     connector ? ": cut the deck there, each body is a part of its "
-                                                 "own, and the joint is one of the model"
-                                               : did_you_mean(type_name, abaqus_type_names())));
+    lines.error(ErrorCode::unsupported, keyword, "has the type {}, which is not supported{}",
+                shown(type_name),
+                connector ? ": cut the deck there, each body is a part of its own, and the joint "
+                            "is one of the model"
+                          : did_you_mean(type_name, abaqus_type_names()));
     return lines.skip_data();
   }
   content.clues.look_at_type(type->name, keyword.at);
@@ -274,15 +276,16 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   while (element_fields(lines, count, fields, at)) {
     const std::optional<int> id = parse_label(fields[0]);
     if (!id) {
-      lines.source().error(at, "element number: " + not_an_integer(fields[0]));
+      lines.source().error(ErrorCode::not_a_number, at,
+                           "element number: " + not_an_integer(fields[0]));
       continue;
     }
     const bool directed = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
     if (directed && content.dialect == DeckDialect::calculix) {
-      lines.source().error(at, fmt::format("element {} ({}) has a node for its orientation, which "
-                                           "CalculiX does not know: give the direction in *BEAM "
-                                           "SECTION",
-                                           *id, type->name));
+      lines.source().error(ErrorCode::wrong_value, at,
+                           "element {} ({}) has a node for its orientation, which CalculiX does "
+                           "not know: give the direction in *BEAM SECTION",
+                           *id, type->name);
       continue;
     }
     if (directed)
@@ -293,8 +296,8 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
       fields.resize(count);
     }
     if (fields.size() != count + directed) {
-      lines.source().error(at, fmt::format("element {} ({}) has {} nodes, expected {}", *id,
-                                           type->name, fields.size() - 1, type->nodes));
+      lines.source().error(ErrorCode::wrong_count, at, "element {} ({}) has {} nodes, expected {}",
+                           *id, type->name, fields.size() - 1, type->nodes);
       continue;
     }
     AbaqusElement element{*id, content.scope, type, content.element_nodes.size(), directed, at};
@@ -302,8 +305,8 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
     for (std::size_t k = 1; k < count + directed && valid; ++k) {
       const std::optional<int> node = parse_label(fields[k]);
       if (!node) {
-        lines.source().error(
-            at, fmt::format("node {} of element {}: {}", k, *id, not_an_integer(fields[k])));
+        lines.source().error(ErrorCode::not_a_number, at, "node {} of element {}: {}", k, *id,
+                             not_an_integer(fields[k]));
       }
       valid = node.has_value();
       content.element_nodes.push_back(node.value_or(0));
@@ -312,18 +315,19 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
         AbaqusContent::label(content.scope, *id), static_cast<int>(content.elements.size()));
     if (!added) {
       const SourceMark first = lines.source().mark(content.elements[it->second].at);
-      lines.source().error(
-          at, fmt::format("element {} is there already ({}:{})", *id, first.file, first.line));
+      lines.source().error(ErrorCode::duplicate, at, "element {} is there already ({}:{})", *id,
+                           first.file, first.line);
       continue;
     }
     content.elements.push_back(element);
     if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
   }
   if (further > 0) {
-    content.note(lines.source().mark(first_further),
-                 fmt::format("{} of type {} with more than {} nodes: the others are ignored, as "
-                             "CalculiX does",
-                             plural(further, "element"), type->name, type->nodes));
+    content.note(
+        lines.source().mark(first_further),
+        fmt::format(
+            "{} of type {} with more than {} nodes: the others are ignored, as CalculiX does",
+            plural(further, "element"), type->name, type->nodes));
   }
 }
 
@@ -343,12 +347,13 @@ void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   const std::string_view type = keyword.value("TYPE");
   const bool of_nodes = same_word(type, "NODE");
   if (!type.empty() && !of_nodes && !same_word(type, "ELEMENT")) {
-    lines.error(keyword, fmt::format("has the type {}, expected ELEMENT or NODE", shown(type)));
+    lines.error(ErrorCode::wrong_value, keyword, "has the type {}, expected ELEMENT or NODE",
+                shown(type));
   }
   if (name.empty()) return lines.skip_data();
   AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
   if (surface.at.line != 0 && content.dialect == DeckDialect::abaqus) {
-    lines.error(keyword, fmt::format("names the surface {} a second time", shown(name)));
+    lines.error(ErrorCode::duplicate, keyword, "names the surface {} a second time", shown(name));
     return lines.skip_data();
   }
   if (surface.at.line != 0) {
@@ -382,10 +387,9 @@ void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
                  face[1] <= '6') {
         item.face = face[1] - '1';
       } else {
-        lines.source().error(
-            fmt::format("surface {}: the face is {}, expected S1 to S6, SPOS or "
-                        "SNEG",
-                        shown(name), face.empty() ? "missing" : shown(face)));
+        lines.source().error(ErrorCode::missing,
+                             "surface {}: the face is {}, expected S1 to S6, SPOS or SNEG",
+                             shown(name), face.empty() ? "missing" : shown(face));
         continue;
       }
     }

@@ -56,15 +56,15 @@ void read_abaqus_mpc(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
     const bool beam = same_word(type, "BEAM"), pin = same_word(type, "PIN"),
                tie = same_word(type, "TIE");
     if (!beam && !pin && !tie) {
-      lines.source().error(
-          fmt::format("*MPC: the type {} is not supported, expected BEAM, PIN or "
-                      "TIE; use *RIGID BODY, *COUPLING or *EQUATION",
-                      shown(type)));
+      lines.source().error(ErrorCode::unsupported,
+                           "*MPC: the type {} is not supported, expected BEAM, PIN or TIE; use "
+                           "*RIGID BODY, *COUPLING or *EQUATION",
+                           shown(type));
       continue;
     }
     if (fields.size() != 3) {
-      lines.source().error(fmt::format("*MPC: {} has {} nodes or sets, expected 2",
-                                       upper_case(type), fields.size() - 1));
+      lines.source().error(ErrorCode::wrong_count, "*MPC: {} has {} nodes or sets, expected 2",
+                           upper_case(type), fields.size() - 1);
       continue;
     }
     const FeSource at = lines.source().here();
@@ -78,9 +78,9 @@ void read_abaqus_mpc(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
       const AbaqusNode *a = mpc_node(content, node), *b = mpc_node(content, reference);
       if (a == nullptr || b == nullptr ||
           content.placement(a->scope).at(a->p) != content.placement(b->scope).at(b->p)) {
-        lines.source().error(
-            "*MPC: TIE is read of two nodes at one place that stand before this line; use PIN, or "
-            "BEAM for a rigid bar");
+        lines.source().error(ErrorCode::unsupported,
+                             "*MPC: TIE is read of two nodes at one place that stand before this "
+                             "line; use PIN, or BEAM for a rigid bar");
         continue;
       }
     }

@@ -24,14 +24,14 @@ void read_abaqus_nodal_thickness(AbaqusLines& lines, const AbaqusKeyword& keywor
     t.at = lines.source().here();
     t.nodes = content.reference(fields[0], t.at);
     if (fields.size() < 2) {
-      lines.source().error(
-          fmt::format("*NODAL THICKNESS of {} has no thickness", content.text(t.nodes, "node")));
+      lines.source().error(ErrorCode::missing, "*NODAL THICKNESS of {} has no thickness",
+                           content.text(t.nodes, "node"));
       continue;
     }
     t.value = positive_real(lines, fields[1], "thickness at nodes");
     content.thicknesses.push_back(t);
   }
-  if (!any) lines.error(keyword, "has no data line");
+  if (!any) lines.error(ErrorCode::missing, keyword, "has no data line");
 }
 
 AbaqusNodalThickness::AbaqusNodalThickness(AbaqusBuild& build) : b_(build) {
@@ -85,10 +85,9 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
 
 void AbaqusNodalThickness::missing(const AbaqusSection& section, const Element& e, int node) {
   if (missing_++ > 0) return;
-  b_.source.error(section.at,
-                  fmt::format("{} has NODAL THICKNESS, but node {} of element {} has none "
-                              "(*NODAL THICKNESS)",
-                              section.shown, b_.model.node_ids[node], e.id));
+  b_.source.error(ErrorCode::missing, section.at,
+                  "{} has NODAL THICKNESS, but node {} of element {} has none (*NODAL THICKNESS)",
+                  section.shown, b_.model.node_ids[node], e.id);
 }
 
 void AbaqusNodalThickness::notes() {

@@ -26,19 +26,21 @@ class SmearedMass {
     const std::vector<int> list = elements_of(raw);
     if (b_.source.errors() != before) return;
     if (list.empty())
-      return error(raw, fmt::format("names {}, which has no elements with stiffness",
-                                    b_.content.text(raw.elements, "element")));
+      return error(ErrorCode::missing, raw,
+                   fmt::format("names {}, which has no elements with stiffness",
+                               b_.content.text(raw.elements, "element")));
     double sum = 0.0;  // of what a total mass is shared by
     if (raw.units == Units::total)
       for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
     if (raw.units == Units::total && !(sum > 0.0))
-      return error(raw,
-                   "shares a mass among elements without mass: give their materials *DENSITY, "
-                   "or DISTRIBUTION=VOLUME PROPORTIONAL");
+      return error(ErrorCode::wrong_value, raw,
+                   "shares a mass among elements without mass: give their materials *DENSITY, or "
+                   "DISTRIBUTION=VOLUME PROPORTIONAL");
     if (!std::isfinite(sum))
-      return error(raw, fmt::format("shares a mass among elements whose {} is {:g}, expected a "
-                                    "finite number",
-                                    raw.by_volume ? "volume" : "mass", sum));
+      return error(
+          ErrorCode::not_finite, raw,
+          fmt::format("shares a mass among elements whose {} is {:g}, expected a finite number",
+                      raw.by_volume ? "volume" : "mass", sum));
     double mass = 0.0;
     for (const int e : list) {
       const Size& s = size(e);
@@ -55,12 +57,13 @@ class SmearedMass {
       mass += (s.density + more_[k]) * (s.volume / s.measure);
       if (std::isfinite(s.density + more_[k])) continue;
       return error(
-          raw, fmt::format("gives {} a {} of {:g}, expected a finite number", label_of(e),
-                           has_shell_section(m_.elements[k].type) ? "mass over area" : "density",
-                           s.density + more_[k]));
+          ErrorCode::not_finite, raw,
+          fmt::format("gives {} a {} of {:g}, expected a finite number", label_of(e),
+                      has_shell_section(m_.elements[k].type) ? "mass over area" : "density",
+                      s.density + more_[k]));
     }
     if (!std::isfinite(mass))
-      return error(raw,
+      return error(ErrorCode::not_finite, raw,
                    fmt::format("gives its {} elements a mass of {:g}, expected a finite number",
                                list.size(), mass));
     b_.note(raw.at, fmt::format("*NONSTRUCTURAL MASS is added to {} elements of {}", list.size(),
@@ -82,8 +85,8 @@ class SmearedMass {
     double density = 0.0, measure = 1.0;
   };
 
-  void error(const AbaqusNonstructuralMass& raw, const std::string& text) {
-    b_.source.error(raw.at, "*NONSTRUCTURAL MASS " + text);
+  void error(ErrorCode code, const AbaqusNonstructuralMass& raw, const std::string& text) {
+    b_.source.error(code, raw.at, "*NONSTRUCTURAL MASS " + text);
   }
 
   std::string label_of(int index) const {
@@ -115,7 +118,8 @@ class SmearedMass {
         list.push_back(index);
         continue;
       }
-      error(raw, fmt::format("names {}, which {}", abaqus_label(deck), why));
+      error(ErrorCode::wrong_value, raw,
+            fmt::format("names {}, which {}", abaqus_label(deck), why));
       return {};
     }
     return list;
@@ -196,21 +200,22 @@ void read_abaqus_nonstructural_mass(AbaqusLines& lines, const AbaqusKeyword& key
   } else if (units == "MASSPERLENGTH") {
     mass.units = Units::length;
   } else if (units != "TOTALMASS" && lines.source().errors() == before) {
-    lines.error(keyword, fmt::format("has the units {}, expected TOTAL MASS, MASS PER VOLUME, MASS "
-                                     "PER AREA or MASS PER LENGTH",
-                                     shown(keyword.value("UNITS"))));
+    lines.error(
+        ErrorCode::wrong_value, keyword,
+        "has the units {}, expected TOTAL MASS, MASS PER VOLUME, MASS PER AREA or MASS PER LENGTH",
+        shown(keyword.value("UNITS")));
   }
   mass.by_volume = distribution == "VOLUMEPROPORTIONAL";
   if (!distribution.empty() && !mass.by_volume && distribution != "MASSPROPORTIONAL")
-    lines.error(keyword, fmt::format("has the distribution {}, expected MASS PROPORTIONAL or "
-                                     "VOLUME PROPORTIONAL",
-                                     shown(keyword.value("DISTRIBUTION"))));
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has the distribution {}, expected MASS PROPORTIONAL or VOLUME PROPORTIONAL",
+                shown(keyword.value("DISTRIBUTION")));
   std::vector<std::string_view> fields;
   if (lines.next_fields(fields)) {
     mass.value = positive_real(lines, fields[0], "nonstructural mass");
     lines.no_more(keyword, fields, 1);
   } else {
-    lines.error(keyword, "has no data line");
+    lines.error(ErrorCode::missing, keyword, "has no data line");
   }
   lines.skip_data();
   if (content.only_nodes || lines.source().errors() != before) return;

@@ -16,7 +16,7 @@ AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keywor
                                  AbaqusContent& content) {
   const auto it = content.materials.find(content.material);
   if (it != content.materials.end()) return &it->second;
-  lines.error(keyword, "belongs to no *MATERIAL");
+  lines.error(ErrorCode::missing, keyword, "belongs to no *MATERIAL");
   return nullptr;
 }
 
@@ -24,15 +24,15 @@ AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keywor
 bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
               std::vector<std::string_view>& fields) {
   if (!lines.next_fields(fields)) {
-    lines.error(keyword, "has no data line");
+    lines.error(ErrorCode::missing, keyword, "has no data line");
     return false;
   }
   std::string_view more;
   if (lines.next_data(more)) {
     lines.source().error(
-        fmt::format("{} depends on temperature or fields (a second line), which is "
-                    "not supported",
-                    keyword.shown));
+        ErrorCode::unsupported,
+        "{} depends on temperature or fields (a second line), which is not supported",
+        keyword.shown);
     lines.skip_data();
   }
   return true;
@@ -44,7 +44,8 @@ std::vector<TemperatureRow> table_of(AbaqusLines& lines, const AbaqusKeyword& ke
   std::vector<TemperatureRow> rows;
   std::vector<std::string_view> fields;
   if (!same_word(keyword.value("DEPENDENCIES"), "0") && keyword.has("DEPENDENCIES")) {
-    lines.error(keyword, "depends on field variables (DEPENDENCIES), which is not supported");
+    lines.error(ErrorCode::unsupported, keyword,
+                "depends on field variables (DEPENDENCIES), which is not supported");
     lines.skip_data();
     return rows;
   }
@@ -56,7 +57,7 @@ std::vector<TemperatureRow> table_of(AbaqusLines& lines, const AbaqusKeyword& ke
     row.temperature = lines.real_or(fields, count, 0.0, "temperature");
     rows.push_back(std::move(row));
   }
-  if (rows.empty()) lines.error(keyword, "has no data line");
+  if (rows.empty()) lines.error(ErrorCode::missing, keyword, "has no data line");
   return rows;
 }
 
@@ -65,18 +66,19 @@ void use_isotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMater
   material.young = values[0];
   material.poisson = values[1];
   if (!(values[0] > 0.0))
-    lines.error(keyword, fmt::format("has Young's modulus {:g}, expected more than 0", values[0]));
+    lines.error(ErrorCode::too_large, keyword, "has Young's modulus {:g}, expected more than 0",
+                values[0]);
   if (!(values[1] > -1.0 && values[1] < 0.5))
-    lines.error(keyword,
-                fmt::format("has Poisson's ratio {:g}, expected more than -1 and less than 0.5",
-                            values[1]));
+    lines.error(ErrorCode::out_of_range, keyword,
+                "has Poisson's ratio {:g}, expected more than -1 and less than 0.5", values[1]);
 }
 
 void use_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMaterial& material,
                  const std::vector<double>& values) {
   material.density = values[0];
   if (!(values[0] >= 0.0))
-    lines.error(keyword, fmt::format("is {:g}, expected no negative density", values[0]));
+    lines.error(ErrorCode::out_of_range, keyword, "is {:g}, expected no negative density",
+                values[0]);
 }
 
 }  // namespace
@@ -98,7 +100,8 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
   if (keyword.has("ORIENTATION")) {
     section.orientation = abaqus_name(keyword.value("ORIENTATION"));
     if (family != Family::solid && !is_abaqus_sheet(family))
-      lines.error(keyword, "has the parameter 'ORIENTATION', which is not supported");
+      lines.error(ErrorCode::unsupported, keyword,
+                  "has the parameter 'ORIENTATION', which is not supported");
   }
   if (lines.source().errors() == before) return true;
   lines.skip_data();
@@ -109,7 +112,7 @@ double positive_real(AbaqusLines& lines, std::string_view field, std::string_vie
   const std::size_t before = lines.source().errors();
   const double value = lines.real(field, what);
   if (!(value > 0.0) && lines.source().errors() == before)
-    lines.source().error(fmt::format("{} is {:g}, expected more than 0", what, value));
+    lines.source().error(ErrorCode::too_large, "{} is {:g}, expected more than 0", what, value);
   return value;
 }
 
@@ -120,8 +123,8 @@ void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const auto [it, added] = content.materials.emplace(name, AbaqusMaterial{});
   if (!added) {
     const SourceMark first = lines.source().mark(it->second.at);
-    lines.error(keyword, fmt::format("names the material {} a second time ({}:{})", shown(name),
-                                     first.file, first.line));
+    lines.error(ErrorCode::duplicate, keyword, "names the material {} a second time ({}:{})",
+                shown(name), first.file, first.line);
     // What follows belongs to a material that nothing names.
     content.material = fmt::format("{} (line {})", name, keyword.at.line);
     content.materials.emplace(content.material, AbaqusMaterial{});
@@ -139,9 +142,10 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   if (is_abaqus_anisotropic(type))
     return read_abaqus_anisotropic(lines, keyword, content, material);
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
-    lines.error(keyword, fmt::format("has the type {}, expected ISOTROPIC, ENGINEERING CONSTANTS, "
-                                     "ORTHOTROPIC, ANISOTROPIC or LAMINA",
-                                     shown(keyword.value("TYPE"))));
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has the type {}, expected ISOTROPIC, ENGINEERING CONSTANTS, ORTHOTROPIC, "
+                "ANISOTROPIC or LAMINA",
+                shown(keyword.value("TYPE")));
     return lines.skip_data();
   }
   const std::size_t before = lines.source().errors();
@@ -149,7 +153,7 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   const std::vector<TemperatureRow> rows = table_of(lines, keyword, 2, names);
   if (lines.source().errors() != before || material == nullptr) return;
   if (material->young) {
-    lines.error(keyword, "is given a second time for its material");
+    lines.error(ErrorCode::duplicate, keyword, "is given a second time for its material");
     return;
   }
   take_abaqus_constants(lines, keyword, content, *material, rows, use_isotropic);
@@ -163,7 +167,7 @@ void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   const std::vector<TemperatureRow> rows = table_of(lines, keyword, 1, names);
   if (lines.source().errors() != before || material == nullptr) return;
   if (material->density) {
-    lines.error(keyword, "is given a second time for its material");
+    lines.error(ErrorCode::duplicate, keyword, "is given a second time for its material");
     return;
   }
   take_abaqus_constants(lines, keyword, content, *material, rows, use_density);
@@ -186,16 +190,14 @@ void read_abaqus_surface_section(AbaqusLines& lines, const AbaqusKeyword& keywor
                                  AbaqusContent& content) {
   const std::string_view density = keyword.value("DENSITY");
   if (keyword.has("DENSITY") && parse_real(density).value_or(1.0) != 0.0) {
-    lines.error(keyword, fmt::format("has the density {}: the mass of surface elements is not "
-                                     "read, use *MASS or shells",
-                                     shown(density)));
+    lines.error(ErrorCode::unsupported, keyword,
+                "has the density {}: the mass of surface elements is not read, use *MASS or shells",
+                shown(density));
   } else {
     const SourceMark mark = lines.source().mark(keyword.at);
     const std::string elements = abaqus_name(keyword.value("ELSET"));
-    content.notes.push_back(
-        fmt::format("{}:{}: *SURFACE SECTION of {} is ignored: it has no "
-                    "mass",
-                    mark.file, mark.line, shown(elements)));
+    content.notes.push_back(fmt::format("{}:{}: *SURFACE SECTION of {} is ignored: it has no mass",
+                                        mark.file, mark.line, shown(elements)));
   }
   lines.skip_data();
 }
@@ -205,14 +207,16 @@ void read_abaqus_mass(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
   lines.allow_only(keyword, {"ELSET", "TYPE", "ALPHA", "COMPOSITE"});
   const std::string_view type = keyword.value("TYPE");
   if (!type.empty() && !same_word(type, "ISOTROPIC")) {
-    lines.error(keyword, fmt::format("has the type {}, expected ISOTROPIC", shown(type)));
+    lines.error(ErrorCode::wrong_value, keyword, "has the type {}, expected ISOTROPIC",
+                shown(type));
   }
   if (!begin_abaqus_section(lines, keyword, content, Family::mass, section)) return;
   std::vector<std::string_view> fields;
   if (!one_line(lines, keyword, fields)) return;
   section.mass = lines.real(fields[0], "mass");
   if (section.mass < 0.0)
-    lines.error(keyword, fmt::format("is {:g}, expected no negative mass", section.mass));
+    lines.error(ErrorCode::out_of_range, keyword, "is {:g}, expected no negative mass",
+                section.mass);
   content.masses.push_back(section);
 }
 
@@ -229,9 +233,9 @@ void read_abaqus_rotary_inertia(AbaqusLines& lines, const AbaqusKeyword& keyword
   }
   for (std::size_t k = 3; k < 6; ++k) {
     if (lines.real_or(fields, k, 0.0, "product of inertia") != 0.0) {
-      lines.error(keyword,
-                  "has products of inertia, whose sign is not the same in all programs: "
-                  "not supported");
+      lines.error(
+          ErrorCode::unsupported, keyword,
+          "has products of inertia, whose sign is not the same in all programs: not supported");
       break;
     }
   }

@@ -37,10 +37,9 @@ const AbaqusContent::Key* AbaqusResolver::find_set(const AbaqusReference& refere
 void AbaqusResolver::missing(const AbaqusReference& reference) {
   if (reference.name >= 0 &&
       find_abaqus_name(content_, sets_, reference.scope, reference.name).several)
-    return source_.error(reference.at,
-                         fmt::format("{} is in several instances: put the name of one and a dot "
-                                     "before it",
-                                     content_.text(reference, word_)));
+    return source_.error(ErrorCode::duplicate, reference.at,
+                         "{} is in several instances: put the name of one and a dot before it",
+                         content_.text(reference, word_));
   std::string help;
   if (reference.name >= 0 && sets_.size() <= most_known) {
     std::vector<std::string> known;
@@ -49,16 +48,17 @@ void AbaqusResolver::missing(const AbaqusReference& reference) {
     }
     help = did_you_mean(content_.names[reference.name], known);
   }
-  source_.error(reference.at,
-                fmt::format("{} does not exist{}", content_.text(reference, word_), help));
+  source_.error(ErrorCode::not_found, reference.at, "{} does not exist{}",
+                content_.text(reference, word_), help);
 }
 
 void AbaqusResolver::spend(std::uint64_t count, const FeSource& at) {
   work_ += count;
   if (work_ <= most_work_) return;
-  source_.stop(at, fmt::format("the sets of {0}s, and what names them, have more than {1} members "
-                               "in all, too many for a deck of {2} {0}s",
-                               word_, most_work_, list_of_.size()));
+  source_.stop(ErrorCode::too_large, at,
+               "the sets of {0}s, and what names them, have more than {1} members in all, too many "
+               "for a deck of {2} {0}s",
+               word_, most_work_, list_of_.size());
 }
 
 void AbaqusResolver::add(int index, std::vector<int>& list) {
@@ -83,8 +83,8 @@ void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>&
   spend(looked_at, item.at);
   const long wanted = static_cast<long>((last - first) / item.step) + 1;
   if (found == 0) {
-    source_.error(item.at,
-                  fmt::format("none of the {}s {} to {} is there", word_, item.first, item.last));
+    source_.error(ErrorCode::not_found, item.at, "none of the {}s {} to {} is there", word_,
+                  item.first, item.last);
   } else if (found < wanted) {
     if (gaps_ == 0) first_gap_ = item.at;
     gaps_ += wanted - found;
@@ -114,7 +114,7 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
   if (result.state == State::done) return result.list;
   const AbaqusSet& set = sets_.at(key);
   if (depth >= deepest_set) {
-    source_.stop(set.at, fmt::format("sets are nested deeper than {}", deepest_set));
+    source_.stop(ErrorCode::too_large, set.at, "sets are nested deeper than {}", deepest_set);
   }
   result.state = State::busy;
   const std::size_t before = source_.errors();
@@ -128,8 +128,8 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
         item.name < 0 || itself(item) ? nullptr : find_set(item);
     if (inner == nullptr) continue;
     if (members_[*inner].state == State::busy) {
-      source_.stop(item.at, fmt::format("{} set {} contains itself", word_,
-                                        shown(content_.names[inner->second])));
+      source_.stop(ErrorCode::cycle, item.at, "{} set {} contains itself", word_,
+                   shown(content_.names[inner->second]));
     }
     members(*inner, depth + 1);
   }
@@ -139,8 +139,8 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
     if (!itself(item)) append(item, list);
   }
   if (list.empty() && source_.errors() == before) {
-    source_.error(set.at,
-                  fmt::format("{} set {} is empty", word_, shown(content_.names[key.second])));
+    source_.error(ErrorCode::missing, set.at, "{} set {} is empty", word_,
+                  shown(content_.names[key.second]));
   }
   result.list = std::move(list);
   result.state = State::done;
@@ -168,8 +168,8 @@ int AbaqusResolver::one(const AbaqusReference& reference, std::string_view what)
   const std::vector<int> found = resolve(reference);
   if (found.size() == 1) return found.front();
   if (!found.empty()) {
-    source_.error(reference.at, fmt::format("{}: {} has {} {}s, expected one", what,
-                                            content_.text(reference, word_), found.size(), word_));
+    source_.error(ErrorCode::wrong_value, reference.at, "{}: {} has {} {}s, expected one", what,
+                  content_.text(reference, word_), found.size(), word_);
   }
   return -1;
 }

@@ -22,8 +22,8 @@ void read_shell_offset(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusS
   } else if (value && std::isfinite(*value)) {
     section.offset = *value;
   } else {
-    lines.error(keyword,
-                fmt::format("has the offset {}, expected SPOS, SNEG or a number", shown(offset)));
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has the offset {}, expected SPOS, SNEG or a number", shown(offset));
   }
 }
 
@@ -34,7 +34,7 @@ void read_ply(AbaqusLines& lines, const std::vector<std::string_view>& fields, s
   ply.thickness = positive_real(lines, fields[0], fmt::format("thickness of ply {}", number));
   if (fields.size() > 2) ply.material = abaqus_name(fields[2]);
   if (ply.material.empty())
-    lines.source().error(fmt::format("ply {} names no material (third entry)", number));
+    lines.source().error(ErrorCode::missing, "ply {} names no material (third entry)", number);
   if (fields.size() > 3 && !fields[3].empty()) {
     if (const auto angle = parse_real(fields[3])) {
       ply.angle = *angle * std::numbers::pi / 180.0;
@@ -53,7 +53,7 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusSection section;
   const bool general = keyword.name == "SHELLGENERALSECTION";
   if (general && !keyword.has("MATERIAL") && !keyword.has("COMPOSITE")) {
-    lines.error(keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 "gives forces from strains, which is not read: give its layers (COMPOSITE) or its "
                 "MATERIAL");
     return lines.skip_data();
@@ -71,12 +71,15 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const bool composite = keyword.has("COMPOSITE");
   read_shell_offset(lines, keyword, section);
   section.symmetric = keyword.has("SYMMETRIC");
-  if (section.symmetric && !composite) lines.error(keyword, "is SYMMETRIC without COMPOSITE");
+  if (section.symmetric && !composite)
+    lines.error(ErrorCode::incomplete, keyword, "is SYMMETRIC without COMPOSITE");
   if (composite && keyword.has("MATERIAL"))
-    lines.error(keyword, "has COMPOSITE and a material: those of the plies are in its lines");
+    lines.error(ErrorCode::exclusive, keyword,
+                "has COMPOSITE and a material: those of the plies are in its lines");
   section.nodal_thickness = keyword.has("NODALTHICKNESS");
   if (composite && section.nodal_thickness)
-    lines.error(keyword, "has COMPOSITE and NODAL THICKNESS, which is not supported together");
+    lines.error(ErrorCode::unsupported, keyword,
+                "has COMPOSITE and NODAL THICKNESS, which is not supported together");
   if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::shell, section)) return;
   if (section.nodal_thickness) {
     section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
@@ -85,7 +88,8 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   }
   std::vector<std::string_view> fields;
   if (!lines.next_fields(fields))
-    return lines.error(keyword, composite ? "has no plies" : "has no thickness");
+    return lines.error(ErrorCode::missing, keyword,
+                       composite ? "has no plies" : "has no thickness");
   if (composite) {
     do {
       if (section.plies.size() < most_plies)
@@ -93,7 +97,7 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
     } while (lines.next_fields(fields) && section.plies.size() <= most_plies);
     section.material = section.plies.front().material;
     if (section.plies.size() >= most_plies)
-      lines.error(keyword, fmt::format("has more than {} plies", most_plies - 1));
+      lines.error(ErrorCode::too_large, keyword, "has more than {} plies", most_plies - 1);
     content.sections.push_back(section);
     return lines.skip_data();
   }
@@ -109,7 +113,7 @@ void read_abaqus_membrane_section(AbaqusLines& lines, const AbaqusKeyword& keywo
                              "NODALTHICKNESS", "STACKDIRECTION"});
   read_shell_offset(lines, keyword, section);
   if (section.offset != 0.0)
-    lines.error(keyword,
+    lines.error(ErrorCode::wrong_value, keyword,
                 "has an offset, but membranes have no rotations that would carry it: put the nodes "
                 "into the middle, or use *SHELL SECTION");
   section.nodal_thickness = keyword.has("NODALTHICKNESS");
@@ -120,7 +124,7 @@ void read_abaqus_membrane_section(AbaqusLines& lines, const AbaqusKeyword& keywo
     section.thickness = positive_real(lines, fields[0], "thickness of the membrane");
     lines.no_more(keyword, fields, fields.size());
   } else {
-    lines.error(keyword, "has no thickness");
+    lines.error(ErrorCode::missing, keyword, "has no thickness");
   }
   content.sections.push_back(section);
   lines.skip_data();

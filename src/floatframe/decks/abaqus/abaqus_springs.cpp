@@ -42,8 +42,8 @@ class AbaqusSpringBuilder {
     for (std::size_t s = 0; s < c_.springs.size(); ++s) {
       for (const int e : b_.elements.resolve(c_.springs[s].elements)) {
         if (c_.elements[e].type->family != Family::spring) {
-          b_.source.error(c_.springs[s].at, fmt::format("*SPRING names {}, which is no spring",
-                                                        abaqus_label(c_.elements[e])));
+          b_.source.error(ErrorCode::wrong_value, c_.springs[s].at,
+                          "*SPRING names {}, which is no spring", abaqus_label(c_.elements[e]));
           break;
         }
         spring_of[e] = static_cast<int>(s);
@@ -55,20 +55,19 @@ class AbaqusSpringBuilder {
       if (family == Family::damper) ++dampers_;
       if (family != Family::spring) continue;
       if (spring_of[e] < 0) {
-        b_.source.error(element.at, fmt::format("{} has no *SPRING", abaqus_label(element)));
+        b_.source.error(ErrorCode::missing, element.at, "{} has no *SPRING", abaqus_label(element));
       } else {
         one(element, c_.springs[spring_of[e]]);
       }
     }
     if (dampers_ > 0)
-      b_.note({0, 1}, fmt::format("{} dashpots are ignored, the part has modal damping "
-                                  "(--damping)",
+      b_.note({0, 1}, fmt::format("{} dashpots are ignored, the part has modal damping (--damping)",
                                   dampers_));
   }
 
  private:
-  void error(const AbaqusElement& e, const std::string& text) {
-    b_.source.error(e.at, fmt::format("{}: {}", abaqus_label(e), text));
+  void error(ErrorCode code, const AbaqusElement& e, const std::string& text) {
+    b_.source.error(code, e.at, "{}: {}", abaqus_label(e), text);
   }
 
   bool nodes_of(const AbaqusElement& e, std::array<int, 2>& out) {
@@ -77,14 +76,16 @@ class AbaqusSpringBuilder {
       const int id = c_.element_nodes[e.first + k];
       const auto it = c_.node_of_label.find(AbaqusContent::label(e.scope, id));
       if (it == c_.node_of_label.end()) {
-        error(e, fmt::format("node {} does not exist", id));
+        error(ErrorCode::not_found, e, fmt::format("node {} does not exist", id));
         return false;
       }
       for (const Spider& s : b_.model.spiders) {
         if (s.rotation_node != it->second) continue;
-        error(e, fmt::format("node {} stands for the rotations of a rigid body, where springs are "
-                             "not supported",
-                             id));
+        error(
+            ErrorCode::unsupported, e,
+            fmt::format(
+                "node {} stands for the rotations of a rigid body, where springs are not supported",
+                id));
         return false;
       }
       out[static_cast<std::size_t>(k)] = it->second;
@@ -117,7 +118,8 @@ class AbaqusSpringBuilder {
     if (along) {
       const Vec3 d = b_.model.positions[spring.nodes[1]] - b_.model.positions[spring.nodes[0]];
       if (!(d.norm() > 0.0)) {
-        error(e, "its nodes are at one place, so it has no direction; use SPRING2");
+        error(ErrorCode::missing, e,
+              "its nodes are at one place, so it has no direction; use SPRING2");
         return;
       }
       spring.directions[0].head<3>() = -d.normalized();
@@ -128,9 +130,10 @@ class AbaqusSpringBuilder {
         const std::vector<double>& dofs = raw.lines.front();
         const double dof = i < dofs.size() ? dofs[i] : 0.0;
         if (!(dof >= 1.0 && dof <= 6.0) || dof != static_cast<int>(dof)) {
-          b_.source.error(raw.at, fmt::format("*SPRING: direction {} of {} is {:g}, expected one "
-                                              "of 1 to 6 in its first line",
-                                              end + 1, e.type->name, dof));
+          b_.source.error(
+              ErrorCode::out_of_range, raw.at,
+              "*SPRING: direction {} of {} is {:g}, expected one of 1 to 6 in its first line",
+              end + 1, e.type->name, dof);
           return;
         }
         const int axis = static_cast<int>(dof) - 1;
@@ -145,10 +148,9 @@ class AbaqusSpringBuilder {
   std::optional<double> stiffness(const AbaqusElement& e, const AbaqusSpring& raw,
                                   std::size_t first) {
     if (raw.lines.size() <= first) {
-      b_.source.error(raw.at, fmt::format("*SPRING: {} needs {}", abaqus_label(e),
-                                          first == 0 ? "a line with its stiffness"
-                                                     : "a line with its directions and one with "
-                                                       "its stiffness"));
+      b_.source.error(ErrorCode::incomplete, raw.at, "*SPRING: {} needs {}", abaqus_label(e),
+                      first == 0 ? "a line with its stiffness"
+                                 : "a line with its directions and one with its stiffness");
       return std::nullopt;
     }
     if (!raw.nonlinear) {
@@ -161,16 +163,16 @@ class AbaqusSpringBuilder {
       table.emplace_back(raw.lines[i].front(), raw.lines[i].size() > 1 ? raw.lines[i][1] : 0.0);
     const auto k = slope_at_zero(table);
     if (!k) {
-      b_.source.error(raw.at,
-                      "*SPRING has a table that does not show its stiffness at zero elongation: "
-                      "expected lines of force and elongation, with different elongations on both "
-                      "sides of zero");
+      b_.source.error(
+          ErrorCode::contradiction, raw.at,
+          "*SPRING has a table that does not show its stiffness at zero elongation: expected lines "
+          "of force and elongation, with different elongations on both sides of zero");
       return std::nullopt;
     }
     if (noted_.insert(&raw).second)
-      b_.note(raw.at, fmt::format("*SPRING is not linear: its stiffness at zero elongation, {:g}, "
-                                  "is taken",
-                                  *k));
+      b_.note(raw.at,
+              fmt::format("*SPRING is not linear: its stiffness at zero elongation, {:g}, is taken",
+                          *k));
     return k;
   }
 
@@ -208,7 +210,7 @@ void read_abaqus_gap(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
     content.note(lines.source().mark(keyword.at),
                  keyword.shown + " is ignored, as the options say: its nodes are free");
   } else {
-    lines.error(keyword,
+    lines.error(ErrorCode::missing, keyword,
                 "has no linear stiffness: --contact ignore (key `contact`) leaves its nodes free; "
                 "a gap that is closed may be a SPRINGA");
   }

@@ -17,11 +17,12 @@ void use_at_temperature(AbaqusLines& lines, AbaqusContent& content, const Abaqus
   const auto material = content.materials.find(p.material);
   if (material == content.materials.end()) return;
   if (found.chosen)
-    content.note(lines.source().mark(p.keyword.at),
-                 fmt::format("{} of material {} is taken at the temperature {:g} (its table goes "
-                             "from {:g} to {:g})",
-                             p.keyword.shown, shown(p.material), *content.temperature,
-                             p.rows.front().temperature, p.rows.back().temperature));
+    content.note(
+        lines.source().mark(p.keyword.at),
+        fmt::format(
+            "{} of material {} is taken at the temperature {:g} (its table goes from {:g} to {:g})",
+            p.keyword.shown, shown(p.material), *content.temperature, p.rows.front().temperature,
+            p.rows.back().temperature));
   p.use(lines, p.keyword, material->second, found.values);
 }
 
@@ -96,7 +97,7 @@ void take_abaqus_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, Aba
     material.young = 1.0;
     material.poisson = 0.0;
   }
-  if (content.temperature) return lines.error(keyword, found.error);
+  if (content.temperature) return lines.error(ErrorCode::wrong_value, keyword, found.error);
   content.pending.push_back(std::move(p));
 }
 
@@ -115,10 +116,10 @@ void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content) {
     if (found.error.empty()) {
       use_at_temperature(lines, content, p, found);
     } else {
-      lines.error(p.keyword, why.empty() ? found.error
-                                         : fmt::format("{}; the initial temperatures of the deck "
-                                                       "say none: {}",
-                                                       found.error, why));
+      lines.error(ErrorCode::wrong_value, p.keyword,
+                  why.empty() ? found.error
+                              : fmt::format("{}; the initial temperatures of the deck say none: {}",
+                                            found.error, why));
     }
   }
 }

@@ -21,8 +21,9 @@ void read_pairs(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent&
   while (lines.next_fields(fields)) {
     any = true;
     if (fields.size() < 2 || fields[0].empty() || fields[1].empty()) {
-      lines.source().error(
-          fmt::format("{}: expected the names of two surfaces, slave and master", keyword.shown));
+      lines.source().error(ErrorCode::wrong_value,
+                           "{}: expected the names of two surfaces, slave and master",
+                           keyword.shown);
       continue;
     }
     AbaqusTie tie = pattern;
@@ -31,7 +32,9 @@ void read_pairs(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent&
     tie.master = content.named(fields[1], tie.at);
     content.ties.push_back(tie);
   }
-  if (!any) lines.error(keyword, "has no line with the names of two surfaces, slave and master");
+  if (!any)
+    lines.error(ErrorCode::missing, keyword,
+                "has no line with the names of two surfaces, slave and master");
 }
 
 std::vector<int> nodes_of_surface(AbaqusBuild& build, const AbaqusSurface& surface,
@@ -62,9 +65,9 @@ void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& take
   if (slave == nullptr || master == nullptr) return;
   const char* const word = raw.contact ? "*CONTACT PAIR" : "*TIE";
   if (master->of_nodes) {
-    build.source.error(raw.at, fmt::format("{}: the master surface {} is made of nodes, expected "
-                                           "faces of elements",
-                                           word, shown(master_name)));
+    build.source.error(ErrorCode::wrong_value, raw.at,
+                       "{}: the master surface {} is made of nodes, expected faces of elements",
+                       word, shown(master_name));
     return;
   }
   SurfaceTie tie;
@@ -94,10 +97,9 @@ void read_abaqus_tie(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
                              "NOROTATION", "CONSTRAINTRATIO", "NOTHICKNESS"});
   if (keyword.has("CYCLICSYMMETRY")) {
     const SourceMark mark = lines.source().mark(keyword.at);
-    content.notes.push_back(
-        fmt::format("{}:{}: {}, CYCLIC SYMMETRY is ignored: the part is one sector, whose cut "
-                    "faces are free",
-                    mark.file, mark.line, keyword.shown));
+    content.notes.push_back(fmt::format(
+        "{}:{}: {}, CYCLIC SYMMETRY is ignored: the part is one sector, whose cut faces are free",
+        mark.file, mark.line, keyword.shown));
     return lines.skip_data();
   }
   AbaqusTie tie;
@@ -105,8 +107,8 @@ void read_abaqus_tie(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
     const std::string_view text = keyword.value("POSITIONTOLERANCE");
     tie.distance = parse_real(text).value_or(0.0);
     if (!(tie.distance > 0.0)) {
-      lines.error(keyword, fmt::format("has the position tolerance {}, expected a positive number",
-                                       shown(text)));
+      lines.error(ErrorCode::out_of_range, keyword,
+                  "has the position tolerance {}, expected a positive number", shown(text));
     }
   }
   tie.adjust = !same_word(keyword.value("ADJUST"), "NO");
@@ -120,7 +122,7 @@ void read_abaqus_general_contact(AbaqusLines& lines, const AbaqusKeyword& keywor
   lines.skip_data();
   if (content.only_nodes) return;
   if (content.contact != DeckContact::ignore) {
-    lines.error(keyword,
+    lines.error(ErrorCode::wrong_value, keyword,
                 content.contact == DeckContact::tied
                     ? "is general contact, which names no surfaces to tie: use *TIE, or --contact "
                       "ignore (key `contact`), which leaves all surfaces free"
@@ -129,9 +131,8 @@ void read_abaqus_general_contact(AbaqusLines& lines, const AbaqusKeyword& keywor
   }
   const SourceMark mark = lines.source().mark(keyword.at);
   content.notes.push_back(
-      fmt::format("{}:{}: {} is ignored, as the options say: its surfaces "
-                  "are free",
-                  mark.file, mark.line, keyword.shown));
+      fmt::format("{}:{}: {} is ignored, as the options say: its surfaces are free", mark.file,
+                  mark.line, keyword.shown));
 }
 
 void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,
@@ -139,7 +140,7 @@ void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,
   using Contact = DeckContact;
   if (content.only_nodes) return lines.skip_data();
   if (content.contact == Contact::refuse) {
-    lines.error(keyword,
+    lines.error(ErrorCode::wrong_value, keyword,
                 "is not linear: --contact ignore (key `contact`) leaves the surfaces free, "
                 "--contact tied joins them where they touch");
     return lines.skip_data();
@@ -147,9 +148,8 @@ void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (content.contact == Contact::ignore) {
     const SourceMark mark = lines.source().mark(keyword.at);
     content.notes.push_back(
-        fmt::format("{}:{}: {} is ignored, as the options say: its "
-                    "surfaces are free",
-                    mark.file, mark.line, keyword.shown));
+        fmt::format("{}:{}: {} is ignored, as the options say: its surfaces are free", mark.file,
+                    mark.line, keyword.shown));
     return lines.skip_data();
   }
   AbaqusTie tie;

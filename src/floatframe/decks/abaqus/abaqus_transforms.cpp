@@ -35,7 +35,8 @@ void read_abaqus_transform(AbaqusLines& lines, const AbaqusKeyword& keyword,
                            AbaqusContent& content) {
   lines.allow_only(keyword, {"NSET", "TYPE"});
   if (content.only_nodes) {
-    lines.error(keyword, "turns the rows of matrices, which is not supported");
+    lines.error(ErrorCode::unsupported, keyword,
+                "turns the rows of matrices, which is not supported");
     return lines.skip_data();
   }
   const std::string_view nset = lines.required(keyword, "NSET");
@@ -45,8 +46,8 @@ void read_abaqus_transform(AbaqusLines& lines, const AbaqusKeyword& keyword,
   t.scope = content.scope;
   t.cylindrical = same_word(type, "C");
   if (!type.empty() && !t.cylindrical && !same_word(type, "R")) {
-    lines.error(keyword, fmt::format("has the type {}, expected R (rectangular) or C (cylindrical)",
-                                     shown(type)));
+    lines.error(ErrorCode::wrong_value, keyword,
+                "has the type {}, expected R (rectangular) or C (cylindrical)", shown(type));
     return lines.skip_data();
   }
   const std::size_t before = lines.source().errors();
@@ -62,9 +63,9 @@ void read_abaqus_transform(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const double size = t.a.norm() + t.b.norm();
   const double spread = t.cylindrical ? (t.b - t.a).norm() : t.a.cross(t.b).norm() / size;
   if (count < 6 || !(spread > 1e-9 * size)) {
-    lines.error(keyword, t.cylindrical ? "needs two different points of its axis"
-                                       : "needs two points that do not lie on a line with the "
-                                         "origin");
+    lines.error(ErrorCode::incomplete, keyword,
+                t.cylindrical ? "needs two different points of its axis"
+                              : "needs two points that do not lie on a line with the origin");
     return;
   }
   if (nset.empty()) return;
@@ -82,9 +83,10 @@ std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build) {
     for (const int node : build.nodes.resolve(t.nodes)) {
       const std::optional<Mat3> R = axes_at(t, build.model.positions[node]);
       if (!R) {
-        build.source.error(t.at, fmt::format("*TRANSFORM: {} lies on the axis, where the radial "
-                                             "direction is not determined",
-                                             build.model.node_label(node)));
+        build.source.error(
+            ErrorCode::wrong_value, t.at,
+            "*TRANSFORM: {} lies on the axis, where the radial direction is not determined",
+            build.model.node_label(node));
         continue;
       }
       axes[node] = *R;

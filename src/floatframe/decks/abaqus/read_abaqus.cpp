@@ -117,9 +117,8 @@ class DeckReader {
   void read() {
     std::string_view first;
     if (lines_.next_data(first)) {
-      lines_.source().stop(
-          lines_.source().here(),
-          fmt::format("the deck begins with {}, expected a keyword line (*...)", shown(first)));
+      lines_.source().stop(ErrorCode::wrong_value, lines_.source().here(),
+                           "the deck begins with {}, expected a keyword line (*...)", shown(first));
     }
     AbaqusKeyword keyword;
     while (lines_.next_keyword(keyword)) one(keyword);
@@ -141,7 +140,7 @@ class DeckReader {
     if (rule.use == Use::harmless) {
       note(keyword, "is ignored");
     } else if (rule.use == Use::refused) {
-      error(keyword, fmt::format("is not supported: {}", rule.advice));
+      error(ErrorCode::unsupported, keyword, fmt::format("is not supported: {}", rule.advice));
     } else {
       unknown(keyword);
     }
@@ -160,15 +159,17 @@ class DeckReader {
       const bool changes =
           changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
       if (content_.only_nodes || (!removes && !changes)) continue;
-      error(keyword, fmt::format("is inside the *STEP of line {}, but the part must be complete "
-                                 "before the first step",
-                                 begin.at.line));
+      error(
+          ErrorCode::contradiction, keyword,
+          fmt::format(
+              "is inside the *STEP of line {}, but the part must be complete before the first step",
+              begin.at.line));
     }
   }
 
   /// Each keyword once: there may be millions of them.
-  void error(const AbaqusKeyword& keyword, const std::string& text) {
-    if (errors_.insert(keyword.name).second) lines_.error(keyword, text);
+  void error(ErrorCode code, const AbaqusKeyword& keyword, const std::string& text) {
+    if (errors_.insert(keyword.name).second) lines_.error(code, keyword, text);
   }
 
   void unknown(const AbaqusKeyword& keyword) {
@@ -176,11 +177,12 @@ class DeckReader {
     if (content_.only_nodes && noted_.size() >= most_notes) return;
     const std::string near = nearly(keyword.name);
     if (!near.empty()) {
-      error(keyword, fmt::format("is not known, did you mean '*{}'?", near));
+      error(ErrorCode::unknown_key, keyword,
+            fmt::format("is not known, did you mean '*{}'?", near));
     } else if (content_.only_nodes) {
       note(keyword, "is not known and is ignored");
     } else {
-      error(keyword,
+      error(ErrorCode::unknown_key, keyword,
             "is not known and may change stiffness, mass or constraints: take it out of the deck "
             "if it does not");
     }
@@ -226,7 +228,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   finish_abaqus_assembly(content, source);
   finish_abaqus_constants(lines, content);
   if (content.nodes.empty() && source.errors() == 0) {
-    source.error({0, 0}, "the deck has no nodes");
+    source.error(ErrorCode::missing, {0, 0}, "the deck has no nodes");
   }
   source.throw_if_any();
   const bool only_nodes = content.only_nodes;

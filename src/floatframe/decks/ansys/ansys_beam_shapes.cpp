@@ -96,7 +96,8 @@ class BeamShape {
   std::optional<AnsysBeam> made() {
     // TXZ, --, TXY, ADDMAS
     if (ansys_value(s_.control, 0) != 0.0 || ansys_value(s_.control, 2) != 0.0)
-      return wrong("a transverse shear stiffness of its own (SECCONTROL) is not read");
+      return wrong(ErrorCode::unsupported,
+                   "a transverse shear stiffness of its own (SECCONTROL) is not read");
     beam_.mass = ansys_value(s_.control, 3);
     if (s_.shape == "ASEC") {
       if (!constants()) return std::nullopt;
@@ -108,18 +109,19 @@ class BeamShape {
       return std::nullopt;
     }
     if (!place()) return std::nullopt;
-    if (const std::string misfit = ansys_beam_misfit(beam_); !misfit.empty()) return wrong(misfit);
+    if (const std::string misfit = ansys_beam_misfit(beam_); !misfit.empty())
+      return wrong(ErrorCode::wrong_value, misfit);
     return beam_;
   }
 
  private:
-  std::nullopt_t wrong(const std::string& text) {
-    b_.source.error(s_.at, fmt::format("section {} ({}): {}", id_,
-                                       s_.kind == "PIPE" ? s_.kind : s_.shape, text));
+  std::nullopt_t wrong(ErrorCode code, const std::string& text) {
+    b_.source.error(code, s_.at, "section {} ({}): {}", id_, s_.kind == "PIPE" ? s_.kind : s_.shape,
+                    text);
     return std::nullopt;
   }
-  bool fail(const std::string& text) {
-    wrong(text);
+  bool fail(ErrorCode code, const std::string& text) {
+    wrong(code, text);
     return false;
   }
 
@@ -141,22 +143,26 @@ class BeamShape {
   bool solid() {
     if (s_.kind == "PIPE") return pipe();
     if (s_.shape == "RECT") {
-      if (!positive(2)) return fail("its sides are expected to be more than 0");
+      if (!positive(2))
+        return fail(ErrorCode::too_large, "its sides are expected to be more than 0");
       beam_.section = BeamSection::rectangle(d_[0], d_[1]);
       beam_.section.shear_y = beam_.section.shear_z = 5.0 / 6.0 * beam_.section.A;
     } else if (s_.shape == "CSOLID") {
-      if (!positive(1)) return fail("its radius is expected to be more than 0");
+      if (!positive(1))
+        return fail(ErrorCode::too_large, "its radius is expected to be more than 0");
       round(d_[0], 0.0);
     } else if (s_.shape == "CTUBE") {
       if (!positive(2) || !(d_[1] > d_[0]))
-        return fail("expected an inner radius above 0 and a larger outer one");
+        return fail(ErrorCode::wrong_value,
+                    "expected an inner radius above 0 and a larger outer one");
       round(d_[1], d_[0]);
     } else if (s_.shape == "MESH") {
-      return fail("sections of cells are not read; give their constants, SECTYPE,n,BEAM,ASEC");
+      return fail(ErrorCode::unsupported,
+                  "sections of cells are not read; give their constants, SECTYPE,n,BEAM,ASEC");
     } else {
-      return fail(
-          "this shape is not read; RECT, CSOLID, CTUBE, I, CHAN, L, T, Z, HREC, HATS and ASEC "
-          "(constants) are");
+      return fail(ErrorCode::unsupported,
+                  "this shape is not read; RECT, CSOLID, CTUBE, I, CHAN, L, T, Z, HREC, HATS and "
+                  "ASEC (constants) are");
     }
     return true;
   }
@@ -165,17 +171,19 @@ class BeamShape {
   bool pipe() {
     const double outer = 0.5 * d_[0], wall = d_[1] == 0.0 ? outer : d_[1];
     if (!(outer > 0.0 && wall > 0.0 && wall <= outer))
-      return fail(
-          fmt::format("its outer diameter is {:g} and its wall {:g}, expected more than 0 "
-                      "and a wall of at most the radius",
-                      d_[0], d_[1]));
-    if (d_[5] != 0.0) return fail("a fluid inside (Mint) is not read");
+      return fail(ErrorCode::too_large,
+                  fmt::format("its outer diameter is {:g} and its wall {:g}, expected more than 0 "
+                              "and a wall of at most the radius",
+                              d_[0], d_[1]));
+    if (d_[5] != 0.0) return fail(ErrorCode::unsupported, "a fluid inside (Mint) is not read");
     round(outer, outer - wall);
     if (d_[6] == 0.0 || d_[7] == 0.0) return true;
-    if (d_[7] < 0.0) return fail(fmt::format("its insulation is {:g} thick", d_[7]));
+    if (d_[7] < 0.0)
+      return fail(ErrorCode::out_of_range, fmt::format("its insulation is {:g} thick", d_[7]));
     const auto cover = b_.content.materials.find(static_cast<int>(d_[6]));
     if (cover == b_.content.materials.end() || cover->second.find("DENS") == nullptr)
-      return fail(fmt::format("material {:g} of its insulation has no density (MP,DENS)", d_[6]));
+      return fail(ErrorCode::missing,
+                  fmt::format("material {:g} of its insulation has no density (MP,DENS)", d_[6]));
     beam_.mass += cover->second.find("DENS")->front().second * std::numbers::pi * d_[7] *
                   (2.0 * outer + d_[7]);
     return true;
@@ -184,12 +192,13 @@ class BeamShape {
   /// A, Iyy, Iyz, Izz, Iw, J, CGy, CGz, SHy, SHz, TKz, TKy, TSxz, TSxy
   bool constants() {
     if (!positive(2) || !(d_[3] > 0.0) || !(d_[5] > 0.0))
-      return fail("A, Iyy, Izz and J are expected to be more than 0");
+      return fail(ErrorCode::too_large, "A, Iyy, Izz and J are expected to be more than 0");
     BeamSection& s = beam_.section;
     s.A = d_[0];
     set_ansys_principal(d_[1], d_[3], d_[2], beam_);
     s.J = d_[5];
-    if (!(s.Iy > 0.0)) return fail("Iyz is larger than Iyy and Izz allow");
+    if (!(s.Iy > 0.0))
+      return fail(ErrorCode::contradiction, "Iyz is larger than Iyy and Izz allow");
     if (d_[12] > 0.0) s.shear_z = d_[12] * d_[0];
     if (d_[13] > 0.0) s.shear_y = d_[13] * d_[0];
     center_y_ = d_[6];
@@ -202,30 +211,34 @@ class BeamShape {
 
   bool plates(const PlateShape& shape) {
     if ((s_.shape == "L" || s_.shape == "T") && d_[1] < 0.0)
-      return fail(fmt::format("W2 is {:g}: a flipped section is not read", d_[1]));
+      return fail(ErrorCode::unsupported,
+                  fmt::format("W2 is {:g}: a flipped section is not read", d_[1]));
     if (!positive(shape.dimensions))
       return fail(
+          ErrorCode::too_large,
           fmt::format("it has {} dimensions, expected all to be more than 0", shape.dimensions));
     const BeamPlates plates = shape.plates(d_);
     for (const SectionPlate& p : plates)
       if (!(p.height > 0.0 && p.width > 0.0))
-        return fail(fmt::format("its dimensions do not fit: a wall of it would be {:g} by {:g}",
+        return fail(ErrorCode::geometry,
+                    fmt::format("its dimensions do not fit: a wall of it would be {:g} by {:g}",
                                 p.height, p.width));
     if (s_.shape == "HATS" && !(d_[7] + d_[8] < d_[2]))
-      return fail("its webs are thicker than its top is wide");
+      return fail(ErrorCode::geometry, "its webs are thicker than its top is wide");
     if ((s_.shape == "HREC" && !(d_[4] + d_[5] < d_[1])) ||
         (s_.shape == "CHAN" && !(d_[3] + d_[4] < d_[2])))
-      return fail("its walls are thicker than it is high");
+      return fail(ErrorCode::geometry, "its walls are thicker than it is high");
     // A few bytes of deck would take 0.01 to 0.1 s each.
     if (++b_.solved_sections > most_solved_sections)
-      return fail(
-          fmt::format("the torsion of more than {} sections is not computed: give their "
-                      "constants (SECTYPE,n,BEAM,ASEC)",
-                      most_solved_sections));
+      return fail(ErrorCode::too_large,
+                  fmt::format("the torsion of more than {} sections is not computed: give their "
+                              "constants (SECTYPE,n,BEAM,ASEC)",
+                              most_solved_sections));
     const PlateSums sums = plate_sums(plates);
     const SectionFlow flow = section_flow(plates);
     if (!flow.found)
-      return fail("its torsion constant cannot be computed: its walls are too unlike in size");
+      return fail(ErrorCode::wrong_value,
+                  "its torsion constant cannot be computed: its walls are too unlike in size");
     BeamSection& s = beam_.section;
     s.A = sums.A;
     set_ansys_principal(sums.Iy, sums.Iz, sums.Iyz, beam_);
@@ -258,19 +271,21 @@ class BeamShape {
     const std::string& where = s_.offset;
     for (std::size_t k = 2; k < 6; ++k)
       if (ansys_value(s_.offsets, k) != 0.0)
-        return fail("a centroid or shear centre of its own (SECOFFSET) is not read");
+        return fail(ErrorCode::unsupported,
+                    "a centroid or shear centre of its own (SECOFFSET) is not read");
     double y = center_y_, z = center_z_;  // of the node
     if (where == "SHRC") {
-      if (!sides_) return fail(unknown("to which side its flange points"));
+      if (!sides_) return fail(ErrorCode::wrong_value, unknown("to which side its flange points"));
       y = shear_y_;
       z = shear_z_;
     } else if (where == "ORIG" || where == "USER") {
       const bool user = where == "USER";
-      if (!origin_) return fail(unknown("where its origin is"));
+      if (!origin_) return fail(ErrorCode::wrong_value, unknown("where its origin is"));
       y = user ? ansys_value(s_.offsets, 0) : 0.0;
       z = user ? ansys_value(s_.offsets, 1) : 0.0;
     } else if (!where.empty() && where != "CENT") {
       return fail(
+          ErrorCode::unsupported,
           fmt::format("SECOFFSET,{} is not read, expected CENT, SHRC, ORIGIN or USER", where));
     }
     beam_.arm_y = center_y_ - y;

@@ -25,7 +25,7 @@ Mat3 ansys_rotation(const Vec3& angles) {
 int AnsysBuild::node(int id, const FeSource& at, const std::string& who) {
   const auto it = content.node_index.find(id);
   if (it != content.node_index.end()) return it->second;
-  source.error(at, fmt::format("{} has node {}, which is not in the file", who, id));
+  source.error(ErrorCode::not_found, at, "{} has node {}, which is not in the file", who, id);
   return -1;
 }
 
@@ -54,20 +54,19 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
   if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
   said.push_back(e.type);
   if (it == content.types.end()) {
-    source.error(e.at, fmt::format("element {} is of type {}, which no ET gives", e.id, e.type));
+    source.error(ErrorCode::wrong_value, e.at, "element {} is of type {}, which no ET gives", e.id,
+                 e.type);
   } else if (it->second.number == 179) {
-    source.error(
-        it->second.at,
-        fmt::format("type {} is PRETS179: the mesh is cut there, and what holds it together "
-                    "is the preload of an analysis; write the mesh without the cut",
-                    e.type));
+    source.error(ErrorCode::wrong_value, it->second.at,
+                 "type {} is PRETS179: the mesh is cut there, and what holds it together is the "
+                 "preload of an analysis; write the mesh without the cut",
+                 e.type);
   } else {
-    source.error(
-        it->second.at,
-        fmt::format("type {} is element {}, which is not read; read are SOLID45, 92, 95, "
-                    "185, 186, 187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, "
-                    "PIPE288, 289, LINK8, 180, COMBIN14, MATRIX27, MASS21 and MPC184",
-                    e.type, it->second.number));
+    source.error(ErrorCode::unsupported, it->second.at,
+                 "type {} is element {}, which is not read; read are SOLID45, 92, 95, 185, 186, "
+                 "187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, PIPE288, 289, LINK8, "
+                 "180, COMBIN14, MATRIX27, MASS21 and MPC184",
+                 e.type, it->second.number);
   }
   return nullptr;
 }
@@ -100,17 +99,19 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   } else if (content.materials.empty() && options.material) {
     m = *options.material;
   } else if (!content.materials.empty()) {
-    error(e, fmt::format("it has material {}, which is not in the file", id));
+    error(ErrorCode::not_found, e, fmt::format("it has material {}, which is not in the file", id));
   }
   if (const std::string huge = huge_constant(m); own && !huge.empty())
-    source.error(found->second.at, fmt::format("material {}: {}", id, huge));
+    source.error(ErrorCode::not_finite, found->second.at, "material {}: {}", id, huge);
   if (own && found->second.find("DENS") == nullptr)
     model.without_density[it->second] = {found->second.at, 1.0};
   m.density += more_density;
   if (!std::isfinite(m.density))
-    error(e, fmt::format("the density of its material {} and its added mass make {:g}, expected a "
-                         "finite number",
-                         id, m.density));
+    error(
+        ErrorCode::not_finite, e,
+        fmt::format(
+            "the density of its material {} and its added mass make {:g}, expected a finite number",
+            id, m.density));
   model.materials.push_back(std::move(m));
   model.material_names.push_back(fmt::format("{}", id));
   return it->second;
@@ -119,9 +120,10 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
 std::optional<int> AnsysBuild::layer_material(double number, const AnsysElement& e,
                                               const FeSource& at) {
   if (!(number >= 0.0 && number < 1e9) || number != std::floor(number)) {
-    error_once(at, fmt::format("section {}: a layer is of material {:g}, which is no number of a "
-                               "material",
-                               e.section, number));
+    error_once(
+        ErrorCode::not_a_number, at,
+        fmt::format("section {}: a layer is of material {:g}, which is no number of a material",
+                    e.section, number));
     return std::nullopt;
   }
   const int id = static_cast<int>(number);
@@ -135,14 +137,14 @@ std::optional<Orientation> AnsysBuild::system(int id, const FeSource& at, const 
   if (id > 10) {
     const auto it = content.systems.find(id);
     if (it == content.systems.end()) {
-      source.error(at,
-                   fmt::format("{} has coordinate system {}, which is not in the file", who, id));
+      source.error(ErrorCode::not_found, at,
+                   "{} has coordinate system {}, which is not in the file", who, id);
       return std::nullopt;
     }
     const AnsysSystem& s = it->second;
     if (!s.round) {
-      source.error(s.at,
-                   fmt::format("coordinate system {} is elliptical, expected a round one", id));
+      source.error(ErrorCode::wrong_value, s.at,
+                   "coordinate system {} is elliptical, expected a round one", id);
       return std::nullopt;
     }
     kind = s.kind;
@@ -150,10 +152,10 @@ std::optional<Orientation> AnsysBuild::system(int id, const FeSource& at, const 
     o.origin = s.origin;
   }
   if (kind > 2) {
-    source.error(at,
-                 fmt::format("{} has coordinate system {}: toroidal ones and those of numbers 3 "
-                             "to 10 are not read",
-                             who, id));
+    source.error(
+        ErrorCode::unsupported, at,
+        "{} has coordinate system {}: toroidal ones and those of numbers 3 to 10 are not read", who,
+        id);
     return std::nullopt;
   }
   if (kind == 1) o.kind = Orientation::Kind::cylindrical;
@@ -194,12 +196,12 @@ std::vector<char> AnsysBuild::nodes_with_rotations() const {
   return rotates;
 }
 
-void AnsysBuild::error(const AnsysElement& e, const std::string& text) {
-  source.error(e.at, fmt::format("{}: {}", label(e), text));
+void AnsysBuild::error(ErrorCode code, const AnsysElement& e, const std::string& text) {
+  source.error(code, e.at, "{}: {}", label(e), text);
 }
 
-void AnsysBuild::shared_error(const AnsysElement& e, const std::string& text) {
-  const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e});
+void AnsysBuild::shared_error(ErrorCode code, const AnsysElement& e, const std::string& text) {
+  const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e, code});
   if (!fresh) ++it->second.others;
 }
 
@@ -207,18 +209,18 @@ void AnsysBuild::report_shared() {
   for (const auto& [key, s] : shared) {
     std::string text = key.second;
     if (s.others > 0) text += "; the same holds for " + plural(s.others, "other element");
-    error(s.first, text);
+    error(s.code, s.first, text);
   }
   shared.clear();
 }
 
-void AnsysBuild::error_once(const FeSource& at, const std::string& text) {
+void AnsysBuild::error_once(ErrorCode code, const FeSource& at, const std::string& text) {
   if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, text)).second)
-    source.error(at, text);
+    source.error(code, at, text);
 }
 
 void AnsysBuild::note(const FeSource& at, const std::string& text) {
-  model.notes.push_back(ErrorEntry{source.mark(at), text}.text());
+  model.notes.push_back(source.mark(at).before(text));
 }
 
 }  // namespace floatframe

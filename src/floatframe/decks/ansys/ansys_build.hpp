@@ -55,12 +55,12 @@ struct AnsysBuild {
   Mat3 nodal_axes(int node) const;
   /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
   std::vector<char> nodes_with_rotations() const;
-  void error(const AnsysElement& e, const std::string& text);
+  void error(ErrorCode code, const AnsysElement& e, const std::string& text);
   /// An error that elements of the same type share: `report_shared` says it with the first of them.
-  void shared_error(const AnsysElement& e, const std::string& text);
+  void shared_error(ErrorCode code, const AnsysElement& e, const std::string& text);
   void report_shared();
   /// An error of what many elements have; equal ones are one.
-  void error_once(const FeSource& at, const std::string& text);
+  void error_once(ErrorCode code, const FeSource& at, const std::string& text);
   void note(const FeSource& at, const std::string& text);
 
   std::map<std::pair<int, double>, int> materials = {};
@@ -74,6 +74,7 @@ struct AnsysBuild {
   std::vector<int> said = {};                          ///< types with an error
   struct Shared {
     AnsysElement first;
+    ErrorCode code;
     long others = 0;
   };
   std::map<std::pair<int, std::string>, Shared> shared = {};  ///< by type and text

@@ -55,7 +55,7 @@ void refuse_member(AnsysBuild& b, const AnsysComponent& component, int first, in
     text += fmt::format("{}{} {}{} is not in the file", last != first ? "of which " : "", what,
                         missing, last != first ? "" : ", which");
   }
-  b.source.error(component.at, text);
+  b.source.error(ErrorCode::wrong_value, component.at, text);
 }
 
 }  // namespace
@@ -64,10 +64,9 @@ void build_ansys_equations(AnsysBuild& b) {
   for (const auto& [number, raw] : b.content.equations) {
     const std::string who = fmt::format("CE {}", number);
     if (raw.constant != 0.0) {
-      b.source.error(raw.at,
-                     fmt::format("{}: its constant is {:g}, only equations that sum to 0 are "
-                                 "read",
-                                 who, raw.constant));
+      b.source.error(ErrorCode::unsupported, raw.at,
+                     "{}: its constant is {:g}, only equations that sum to 0 are read", who,
+                     raw.constant);
       continue;
     }
     LinearEquation equation;
@@ -139,9 +138,10 @@ void build_ansys_components(AnsysBuild& b) {
       const int missing = first < 1 || last < first ? first : all.append(first, last, found);
       if (missing != 0) refuse_member(b, component, first, last, missing);
       if (spent + found.size() > most)
-        b.source.stop(component.at, fmt::format("the components have more than {} members in all, "
-                                                "too many for a file of {} nodes and {} elements",
-                                                most, b.model.nodes(), b.content.elements.size()));
+        b.source.stop(ErrorCode::too_large, component.at,
+                      "the components have more than {} members in all, too many for a file of {} "
+                      "nodes and {} elements",
+                      most, b.model.nodes(), b.content.elements.size());
     }
     spent += found.size();
     if (found.empty()) continue;

@@ -98,11 +98,11 @@ class ContactBuilder {
     const bool mean = behaviour == 1 && (surface || number == 175);
     if (p.contact->keyopt[2] != 2 || !bonded(p) || (!rigid && !mean))
       return b_.source.error(
-          p.at, fmt::format("{}: {} with KEYOPT(2) = {}, KEYOPT(4) = {}, KEYOPT(12) = {} is not "
-                            "read; multipoint constraints (2) that are always bonded (5, 6), rigid "
-                            "or spreading forces, are",
-                            who, ansys_library_element(number)->name, p.contact->keyopt[2],
-                            behaviour, p.contact->keyopt[12]));
+          ErrorCode::unsupported, p.at,
+          "{}: {} with KEYOPT(2) = {}, KEYOPT(4) = {}, KEYOPT(12) = {} is not read; multipoint "
+          "constraints (2) that are always bonded (5, 6), rigid or spreading forces, are",
+          who, ansys_library_element(number)->name, p.contact->keyopt[2], behaviour,
+          p.contact->keyopt[12]);
     Spider s;
     s.kind = rigid ? Spider::Kind::rigid : Spider::Kind::mean;
     s.name = who;
@@ -164,20 +164,21 @@ class ContactBuilder {
     const bool always = bonded(p);
     if (!always && b_.options.contact == DeckContact::refuse)
       return b_.source.error(
-          p.at, fmt::format("the contact pair of real constants {} is not linear: --contact ignore "
-                            "(key `contact`) leaves its surfaces free, --contact tied joins them "
-                            "where they touch",
-                            id));
+          ErrorCode::wrong_value, p.at,
+          "the contact pair of real constants {} is not linear: --contact ignore (key `contact`) "
+          "leaves its surfaces free, --contact tied joins them where they touch",
+          id);
     if (!always && b_.options.contact == DeckContact::ignore)
-      return b_.note(p.at, fmt::format("the contact pair of real constants {} is ignored, as "
-                                       "the options say: its surfaces are free",
+      return b_.note(p.at, fmt::format("the contact pair of real constants {} is ignored, as the "
+                                       "options say: its surfaces are free",
                                        id));
     SurfaceTie tie;
     tie.faces = faces_of(p);
     if (tie.faces.empty())
-      return b_.source.error(p.at, fmt::format("the contact pair of real constants {}: its target "
-                                               "lies on no face of a solid or a shell",
-                                               id));
+      return b_.source.error(
+          ErrorCode::wrong_value, p.at,
+          "the contact pair of real constants {}: its target lies on no face of a solid or a shell",
+          id);
     tie.nodes = nodes_of(p.contacts);
     tie.adjust = false;
     if (!always) tie.distance = b_.options.contact_distance;

@@ -29,9 +29,10 @@ class AnsysElementBuilder {
       return library != nullptr && (library->family == F::spring || library->family == F::matrix);
     });
     if (b_.model.elements.empty() && !springs && b_.source.errors() == 0)
-      b_.source.stop({0, 0}, fmt::format("the file has {} elements and none of them is a solid, a "
-                                         "shell, a beam, a rod or a spring",
-                                         elements.size()));
+      b_.source.stop(ErrorCode::not_found, {0, 0},
+                     "the file has {} elements and none of them is a solid, a shell, a beam, a rod "
+                     "or a spring",
+                     elements.size());
     notes();
   }
 
@@ -64,13 +65,15 @@ class AnsysElementBuilder {
     if (static_cast<int>(nodes_.size()) > library.nodes &&
         std::any_of(nodes_.begin() + library.nodes, nodes_.end(), [](int n) { return n >= 0; })) {
       b_.error(
-          e, fmt::format("it has {} nodes, at most {} are expected", nodes_.size(), library.nodes));
+          ErrorCode::wrong_count, e,
+          fmt::format("it has {} nodes, at most {} are expected", nodes_.size(), library.nodes));
       return false;
     }
     for (int& n : nodes_) ++n;  // 0: none
     const auto shape = ansys_shape(library, type, nodes_);
     if (!shape) {
-      b_.error(e, "its nodes are repeated or missing in a way that makes no element");
+      b_.error(ErrorCode::missing, e,
+               "its nodes are repeated or missing in a way that makes no element");
       return false;
     }
     element.type = shape->type;
@@ -135,8 +138,7 @@ class AnsysElementBuilder {
   void notes() {
     for (const auto& [name, count] : passed_over_)
       b_.model.notes.push_back(
-          fmt::format("{}: {} {} have neither stiffness nor mass and are left "
-                      "out",
+          fmt::format("{}: {} {} have neither stiffness nor mass and are left out",
                       b_.source.files()[0], count, name));
     if (!middles_.empty())
       b_.model.notes.push_back(

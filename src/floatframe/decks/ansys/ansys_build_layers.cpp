@@ -21,8 +21,8 @@ constexpr std::size_t most_layers = 250;
 std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
                                   const AnsysElement& e) {
   const std::string who = fmt::format("section {}", e.section);
-  const auto refuse = [&](const std::string& text) {
-    b.source.error(section.at, who + text);
+  const auto refuse = [&](ErrorCode code, const std::string& text) {
+    b.source.error(code, section.at, who + text);
     return std::vector<ShellPly>();
   };
   std::vector<ShellPly> plies;
@@ -30,7 +30,8 @@ std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
     const double t = ansys_value(row, 0);
     if (!row.empty() && t == 0.0) continue;  // a layer that is dropped
     if (!(t > 0.0) || !std::isfinite(t))
-      return refuse(fmt::format(": a layer is {:g} thick, expected more than 0", t));
+      return refuse(ErrorCode::too_large,
+                    fmt::format(": a layer is {:g} thick, expected more than 0", t));
     const std::optional<int> material = b.layer_material(ansys_value(row, 1), e, section.at);
     if (!material) return {};
     plies.push_back({*material, t, ansys_value(row, 2) * std::numbers::pi / 180.0});
@@ -41,22 +42,23 @@ std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
     mass += ply.thickness * b.model.materials[ply.material].density;
   }
   if (!std::isfinite(thick + mass))
-    return refuse(
-        fmt::format(": the thickness of its layers is {:g} and their mass over area {:g}, "
-                    "expected finite numbers",
-                    thick, mass));
-  if (plies.empty()) return refuse(" has no layer with a thickness (SECDATA)");
+    return refuse(ErrorCode::not_finite,
+                  fmt::format(": the thickness of its layers is {:g} and their mass over area "
+                              "{:g}, expected finite numbers",
+                              thick, mass));
+  if (plies.empty()) return refuse(ErrorCode::missing, " has no layer with a thickness (SECDATA)");
   if (plies.size() > most_layers)
     return refuse(
+        ErrorCode::too_large,
         fmt::format(" has {} layers, expected at most {} in a solid", plies.size(), most_layers));
   if (!section.offset.empty() && section.offset != "MID")
     return refuse(
-        fmt::format(": SECOFFSET,{} of layers of solids is not read: they fill their "
-                    "element",
+        ErrorCode::unsupported,
+        fmt::format(": SECOFFSET,{} of layers of solids is not read: they fill their element",
                     section.offset));
   if (std::any_of(section.control.begin(), section.control.end(),
                   [](double x) { return x != 0.0; }))
-    return refuse(": SECCONTROL of layers of solids is not read");
+    return refuse(ErrorCode::unsupported, ": SECCONTROL of layers of solids is not read");
   return plies;
 }
 
@@ -66,9 +68,9 @@ int layup_of(AnsysBuild& b, const AnsysElement& e) {
   if (!fresh) return it->second;
   const AnsysSection* section = b.section(e, "SHEL");
   if (section == nullptr) {
-    b.error(e, fmt::format("it has layers (KEYOPT(3) = 1), but its section {} is no "
-                           "SECTYPE,{},SHELL",
-                           e.section, e.section));
+    b.error(ErrorCode::wrong_value, e,
+            fmt::format("it has layers (KEYOPT(3) = 1), but its section {} is no SECTYPE,{},SHELL",
+                        e.section, e.section));
     return -1;
   }
   std::vector<ShellPly> plies = solid_plies(b, *section, e);
@@ -90,9 +92,10 @@ bool layers_oriented(AnsysBuild& b, const AnsysElement& e, const Element& elemen
   }
   const Vec3 x = b.model.orientations[element.orientation].at(middle).col(0);
   if (std::abs(x.dot(shell_normal(p))) <= std::numbers::sqrt2 / 2.0) return true;
-  b.error(e, fmt::format("the x axis of its coordinate system {} is nearer to the normal of its "
-                         "layers than 45 degrees",
-                         e.system));
+  b.error(ErrorCode::geometry, e,
+          fmt::format("the x axis of its coordinate system {} is nearer to the normal of its "
+                      "layers than 45 degrees",
+                      e.system));
   return false;
 }
 
@@ -117,7 +120,8 @@ bool build_ansys_layers(AnsysBuild& b, const AnsysElement& e, const AnsysType& t
   if (brick && type.number == 185) element.type = ElementType::hex8i;
   if (uniform && !b.model.materials[element.material].elasticity) return true;
   if (element_kernel(element.type).nodal_ply == nullptr) {
-    b.error(e, "its layers are those of a pyramid or tetrahedron, expected a brick or a wedge");
+    b.error(ErrorCode::wrong_value, e,
+            "its layers are those of a pyramid or tetrahedron, expected a brick or a wedge");
     return false;
   }
   element.layup = layup;

@@ -28,32 +28,35 @@ class AnsysMatrix {
   void add(const AnsysType& type, const std::vector<int>& nodes) {
     const AnsysReal* real = b_.real(e_);
     if (real == nullptr)
-      return b_.shared_error(e_, fmt::format("its real constants {} are not in the file", e_.real));
+      return b_.shared_error(ErrorCode::not_found, e_,
+                             fmt::format("its real constants {} are not in the file", e_.real));
     if (std::all_of(real->values.begin(), real->values.end(), [](double x) { return x == 0.0; }))
       return;
     if (type.keyopt[3] == 5)
-      return b_.note(e_.at, fmt::format("{}: its damping is ignored, the part has modal damping "
-                                        "(--damping)",
-                                        b_.label(e_)));
+      return b_.note(
+          e_.at, fmt::format("{}: its damping is ignored, the part has modal damping (--damping)",
+                             b_.label(e_)));
     const bool mass = type.keyopt[3] == 2;
     if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
-      return b_.shared_error(e_, fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
-                                             "stiffness (0, 4) or mass (0, 2)",
-                                             type.keyopt[2], type.keyopt[3]));
+      return b_.shared_error(ErrorCode::wrong_value, e_,
+                             fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
+                                         "stiffness (0, 4) or mass (0, 2)",
+                                         type.keyopt[2], type.keyopt[3]));
     for (std::size_t k = matrix_constants; k < real->values.size(); ++k)
       if (real->values[k] != 0.0)
-        return b_.error_once(real->at, fmt::format("real constants {}: constant {} is {:g}, "
-                                                   "expected 78 of a symmetric matrix",
-                                                   e_.real, k + 1, real->values[k]));
+        return b_.error_once(
+            ErrorCode::out_of_range, real->at,
+            fmt::format("real constants {}: constant {} is {:g}, expected 78 of a symmetric matrix",
+                        e_.real, k + 1, real->values[k]));
     // What is left of the matrix is made of products of its constants.
     for (std::size_t k = 0; k < real->values.size(); ++k)
       if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
-        return b_.error_once(real->at, fmt::format("real constants {}: constant {} is {:g}, "
-                                                   "expected a number whose square does not "
-                                                   "overflow",
-                                                   e_.real, k + 1, x));
+        return b_.error_once(ErrorCode::not_finite, real->at,
+                             fmt::format("real constants {}: constant {} is {:g}, expected a "
+                                         "number whose square does not overflow",
+                                         e_.real, k + 1, x));
     if (nodes.size() < 2 || nodes[0] < 0 || nodes[1] < 0 || nodes[0] == nodes[1])
-      return b_.error(e_, "it has no two different nodes");
+      return b_.error(ErrorCode::missing, e_, "it has no two different nodes");
     nodes_ = {nodes[0], nodes[1]};
     fill(*real);
     if (mass)
@@ -93,13 +96,14 @@ class AnsysMatrix {
       for (int j = 0; j < 12; ++j)
         if (std::abs(rest(i, j)) > matrix_rounding * std::sqrt(size_of(i) * size_of(j)) &&
             rest(i, j) != 0.0)
-          return b_.error(e_,
+          return b_.error(ErrorCode::out_of_range, e_,
                           "its mass is not that of a rigid point at each node: expected equal "
-                          "masses in three directions, moments of inertia and nothing between "
-                          "the nodes, or between displacements and rotations");
+                          "masses in three directions, moments of inertia and nothing between the "
+                          "nodes, or between displacements and rotations");
     for (const PointMass& point : points) {
       if (point.mass < 0.0 || Vec3(point.J.diagonal()).minCoeff() < 0.0)
-        return b_.error(e_, "its mass has a negative term on its diagonal, expected none below 0");
+        return b_.error(ErrorCode::out_of_range, e_,
+                        "its mass has a negative term on its diagonal, expected none below 0");
     }
     for (PointMass& point : points) add_ansys_mass(b_, e_, point);
   }
@@ -111,9 +115,9 @@ class AnsysMatrix {
       const Vec12 f = K_.col(axis) + K_.col(6 + axis);
       for (int i = 0; i < 12; ++i)
         if (std::abs(f(i)) > matrix_rounding * std::sqrt(size_of(i) * scale_[0]))
-          return b_.error(e_,
-                          "it holds its nodes to the ground: a translation of both has a force "
-                          "in it; only stiffness between its nodes is read");
+          return b_.error(ErrorCode::unsupported, e_,
+                          "it holds its nodes to the ground: a translation of both has a force in "
+                          "it; only stiffness between its nodes is read");
     }
     std::vector<Spring> springs;
     for (const bool displacements : {true, false}) {
@@ -134,7 +138,8 @@ class AnsysMatrix {
         for (int j = 0; j < 12; ++j)
           if (of_displacement(i) == displacements &&
               std::abs(K_(i, j)) > std::sqrt(matrix_rounding) * std::sqrt(size_of(i) * size_of(j)))
-            return b_.error(e_, "its stiffness has negative eigenvalues, expected none below 0");
+            return b_.error(ErrorCode::out_of_range, e_,
+                            "its stiffness has negative eigenvalues, expected none below 0");
     }
     for (Spring& s : springs) b_.model.springs.push_back(std::move(s));
   }

@@ -37,24 +37,26 @@ class AnsysSprings {
   void one(const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
     const AnsysReal* real = b_.real(e);
     if (real == nullptr)
-      return b_.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
+      return b_.shared_error(ErrorCode::not_found, e,
+                             fmt::format("its real constants {} are not in the file", e.real));
     if (real->value(1) != 0.0 || real->value(2) != 0.0) ++dampers_;
     Spring s;
     s.stiffness = real->value(0);
     if (s.stiffness == 0.0) return;
     if (s.stiffness < 0.0)
       return b_.shared_error(
-          e, fmt::format("its stiffness is {:g}, expected none below 0", s.stiffness));
+          ErrorCode::out_of_range, e,
+          fmt::format("its stiffness is {:g}, expected none below 0", s.stiffness));
     s.name = b_.label(e);
     s.source = e.at;
-    if (nodes.empty() || nodes[0] < 0) return b_.error(e, "it has no node");
+    if (nodes.empty() || nodes[0] < 0) return b_.error(ErrorCode::missing, e, "it has no node");
     s.nodes = {nodes[0], nodes.size() > 1 ? nodes[1] : -1};
     const int direction = type.keyopt[2];
     if (direction < 0 || direction > 6 || type.keyopt[1] != 0)
-      return b_.shared_error(
-          e, fmt::format("KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring of "
-                         "its line or of UX to ROTZ",
-                         type.keyopt[1], direction));
+      return b_.shared_error(ErrorCode::wrong_value, e,
+                             fmt::format("KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring "
+                                         "of its line or of UX to ROTZ",
+                                         type.keyopt[1], direction));
     if (direction > 0) {
       for (int end = 0; end < 2; ++end)
         if (s.nodes[end] >= 0)
@@ -68,26 +70,27 @@ class AnsysSprings {
 
   void notes() {
     if (dampers_ > 0)
-      b_.model.notes.push_back(
-          fmt::format("{}: the damping of {} COMBIN14 is ignored, the part has modal damping "
-                      "(--damping)",
-                      b_.source.files()[0], dampers_));
+      b_.model.notes.push_back(fmt::format(
+          "{}: the damping of {} COMBIN14 is ignored, the part has modal damping (--damping)",
+          b_.source.files()[0], dampers_));
   }
 
  private:
   bool along(const AnsysElement& e, const AnsysType& type, Spring& s) {
     if (type.keyopt[3] != 0 && type.keyopt[3] != 1) {
       b_.shared_error(
-          e, fmt::format("KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]));
+          ErrorCode::unsupported, e,
+          fmt::format("KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]));
       return false;
     }
     if (s.nodes[1] < 0) {
-      b_.error(e, "it has one node, and no direction (KEYOPT(2))");
+      b_.error(ErrorCode::wrong_count, e, "it has one node, and no direction (KEYOPT(2))");
       return false;
     }
     const Vec3 d = b_.model.positions[s.nodes[1]] - b_.model.positions[s.nodes[0]];
     if (!(d.norm() > 0.0)) {
-      b_.error(e, "its nodes are at one place, and it has no direction (KEYOPT(2))");
+      b_.error(ErrorCode::missing, e,
+               "its nodes are at one place, and it has no direction (KEYOPT(2))");
       return false;
     }
     const int first = type.keyopt[3] == 1 ? 3 : 0;
@@ -159,15 +162,15 @@ void build_ansys_rigid(AnsysBuild& b) {
   RigidBodies bodies(b.model.nodes());
   each(b, F::rigid, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
     if (type.keyopt[1] > 1)
-      return b.shared_error(
-          e, fmt::format("KEYOPT(1) = {}: joints are not read, they are joints of the "
-                         "model; rigid links (0) and beams (1) are",
-                         type.keyopt[1]));
+      return b.shared_error(ErrorCode::unsupported, e,
+                            fmt::format("KEYOPT(1) = {}: joints are not read, they are joints of "
+                                        "the model; rigid links (0) and beams (1) are",
+                                        type.keyopt[1]));
     if (n.size() < 2 || n[0] < 0 || n[1] < 0 || n[0] == n[1])
-      return b.error(e, "it has no two different nodes");
+      return b.error(ErrorCode::missing, e, "it has no two different nodes");
     if (type.keyopt[1] == 1) return bodies.join(n[0], n[1], e.at, b.label(e));
     const Vec3 d = b.model.positions[n[1]] - b.model.positions[n[0]];
-    if (!(d.norm() > 0.0)) return b.error(e, "its nodes are at one place");
+    if (!(d.norm() > 0.0)) return b.error(ErrorCode::geometry, e, "its nodes are at one place");
     LinearEquation equation;
     equation.source = e.at;
     for (int k = 0; k < 3; ++k)
@@ -197,11 +200,12 @@ void build_ansys_rigid(AnsysBuild& b) {
 
 void add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
   if (m.mass == 0.0 && m.J.isZero(0.0)) return;
-  if (const std::string huge = huge_mass(m.mass, m.J); !huge.empty()) return b.error(e, huge);
+  if (const std::string huge = huge_mass(m.mass, m.J); !huge.empty())
+    return b.error(ErrorCode::not_finite, e, huge);
   if (!m.J.isZero(0.0) && b.rotates[m.node] == 0) {
-    b.note(e.at, fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
-                             "left out",
-                             b.label(e), b.model.node_ids[m.node]));
+    b.note(e.at,
+           fmt::format("{}: node {} has no rotations, so the inertia has no effect and is left out",
+                       b.label(e), b.model.node_ids[m.node]));
     m.J.setZero();
   }
   m.source = e.at;
@@ -215,13 +219,15 @@ void build_ansys_masses(AnsysBuild& b) {
   each(b, F::mass, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
     const AnsysReal* real = b.real(e);
     if (real == nullptr)
-      return b.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
-    if (n.empty() || n[0] < 0) return b.error(e, "it has no node");
+      return b.shared_error(ErrorCode::not_found, e,
+                            fmt::format("its real constants {} are not in the file", e.real));
+    if (n.empty() || n[0] < 0) return b.error(ErrorCode::missing, e, "it has no node");
     if (type.keyopt[1] != 0 || (type.keyopt[3] != 0 && type.keyopt[3] != 2))
-      return b.error(e,
-                     fmt::format("KEYOPT(1) = {}, KEYOPT(3) = {}: expected masses (0) of a node in "
-                                 "space (0 or 2)",
-                                 type.keyopt[1], type.keyopt[3]));
+      return b.error(
+          ErrorCode::wrong_value, e,
+          fmt::format(
+              "KEYOPT(1) = {}, KEYOPT(3) = {}: expected masses (0) of a node in space (0 or 2)",
+              type.keyopt[1], type.keyopt[3]));
     PointMass m;
     m.node = n[0];
     m.mass = real->value(0);
@@ -229,25 +235,24 @@ void build_ansys_masses(AnsysBuild& b) {
     for (std::size_t k = 0; k < inertias; ++k) {
       if (!(real->value(k) < 0.0)) continue;
       if (b.said_once.insert(fmt::format("mass of real constants {}", e.real)).second)
-        b.source.error(real->at, fmt::format("real constants {}: a {} of {:g} for {}, "
-                                             "expected none below 0",
-                                             e.real, k < 3 ? "mass" : "moment of inertia",
-                                             real->value(k), b.label(e)));
+        b.source.error(ErrorCode::out_of_range, real->at,
+                       "real constants {}: a {} of {:g} for {}, expected none below 0", e.real,
+                       k < 3 ? "mass" : "moment of inertia", real->value(k), b.label(e));
       return;
     }
     if (type.keyopt[3] == 0) {
       for (std::size_t k = 7; k < 10; ++k)
         if (real->value(k) != 0.0)
-          return b.error_once(
-              real->at, fmt::format("real constants {}: a mass beside its node (constant {} is "
-                                    "{:g}) is not read; give it a node of its own",
-                                    e.real, k + 1, real->value(k)));
+          return b.error_once(ErrorCode::unsupported, real->at,
+                              fmt::format("real constants {}: a mass beside its node (constant {} "
+                                          "is {:g}) is not read; give it a node of its own",
+                                          e.real, k + 1, real->value(k)));
       for (std::size_t k = 1; k < 3; ++k)
         if (std::abs(real->value(k) - m.mass) > 1e-9 * std::abs(m.mass))
-          return b.error_once(
-              real->at, fmt::format("real constants {}: masses of {:g}, {:g} and {:g} in the three "
-                                    "directions; a part has one",
-                                    e.real, m.mass, real->value(1), real->value(2)));
+          return b.error_once(ErrorCode::out_of_range, real->at,
+                              fmt::format("real constants {}: masses of {:g}, {:g} and {:g} in the "
+                                          "three directions; a part has one",
+                                          e.real, m.mass, real->value(1), real->value(2)));
       m.J.diagonal() << real->value(3), real->value(4), real->value(5);
       if (type.keyopt[2] == 1) {
         const Mat3 R = b.nodal_axes(n[0]);

@@ -31,8 +31,9 @@ void get_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), {
 /// Of CDWRITE: *IF,_CDRDOFF,EQ,1,THEN / *ELSE / *ENDIF around NUMOFF; its *ELSE is read.
 void begin_branch(AnsysFields& f, AnsysContent& c) {
   if (f.word(1) != "_CDRDOFF")
-    f.stop(fmt::format("*IF: branches are not read, but that of CDWRITE over _CDRDOFF; found {}",
-                       shown(f.text(1))));
+    f.stop(ErrorCode::unsupported,
+           "*IF: branches are not read, but that of CDWRITE over _CDRDOFF; found {}",
+           shown(f.text(1)));
   c.branch = 1;
 }
 void turn_branch(AnsysFields&, AnsysContent& c) { c.branch = 0; }
@@ -41,7 +42,7 @@ void set_lumped(AnsysFields& f, AnsysContent& c) {
   const std::string word = f.word(1);
   c.lumped = word == "ON" || word == "1";
   if (!c.lumped && !word.empty() && word != "OFF" && word != "0")
-    f.stop(fmt::format("LUMPM: expected ON or OFF, found {}", shown(f.text(1))));
+    f.stop(ErrorCode::wrong_value, "LUMPM: expected ON or OFF, found {}", shown(f.text(1)));
 }
 
 void skip_with_block(AnsysFields& f, AnsysContent& c) {
@@ -57,17 +58,16 @@ void check_target_shape(AnsysFields& f, AnsysContent&) {
   if (shape.empty() || std::any_of(of_nodes.begin(), of_nodes.end(),
                                    [&](const char* name) { return shape.starts_with(name); }))
     return;
-  f.stop(
-      fmt::format("TSHAP: targets of the shape {} are not read, expected one of nodes (LINE, "
-                  "PARA, TRIA, TRI6, QUAD, QUA8, POINT) or a pilot node (PILO)",
-                  shown(f.text(1))));
+  f.stop(ErrorCode::unsupported,
+         "TSHAP: targets of the shape {} are not read, expected one of nodes (LINE, PARA, TRIA, "
+         "TRI6, QUAD, QUA8, POINT) or a pilot node (PILO)",
+         shown(f.text(1)));
 }
 
 void note_units(AnsysFields& f, AnsysContent& c) {
-  c.model.notes.push_back(
-      fmt::format("{}:{}: the file says that its units are {}; the units given with the file are "
-                  "taken",
-                  f.source().files()[f.at().file], f.at().line, shown(f.text(1))));
+  c.model.notes.push_back(fmt::format(
+      "{}:{}: the file says that its units are {}; the units given with the file are taken",
+      f.source().files()[f.at().file], f.at().line, shown(f.text(1))));
 }
 
 void end_of_file(AnsysFields&, AnsysContent& c) { c.ended = true; }
@@ -175,8 +175,7 @@ constexpr std::array<std::pair<const char*, const char*>, 24> ansys_refused = {{
     {"CEINTF", "it takes the selection of the session: write the model with CDWRITE"},
     {"CYCLIC", "cyclic symmetry is not read"},
     {"SECREAD",
-     "sections in files of their own are not read: give their constants, SECTYPE,n,"
-     "BEAM,ASEC"},
+     "sections in files of their own are not read: give their constants, SECTYPE,n,BEAM,ASEC"},
     {"SECJOINT", "joints between parts are joints of the model here: leave them out of the part"},
     {"SECFUNCTION", "thickness as a function of the place is not read"},
     {"RESUME", "binary databases are not read: write the model with CDWRITE"},
@@ -209,7 +208,8 @@ class AnsysReader {
     if (command != std::end(ansys_commands)) return command->read(f_, c_);
     const auto* refused = std::find_if(ansys_refused.begin(), ansys_refused.end(),
                                        [&](const auto& r) { return f_.is(r.first); });
-    if (refused != ansys_refused.end()) f_.stop(fmt::format("{}: {}", word, refused->second));
+    if (refused != ansys_refused.end())
+      f_.stop(ErrorCode::wrong_value, fmt::format("{}: {}", word, refused->second));
     if (std::any_of(ansys_silent.begin(), ansys_silent.end(),
                     [&](const char* name) { return f_.is(name); })) {
       const bool told =
@@ -219,10 +219,10 @@ class AnsysReader {
       return;
     }
     if (word == "-1") return;  // the end of a block whose count came first
-    f_.stop(
-        fmt::format("{} is not known: whether it changes stiffness or mass is not clear; remove "
-                    "it from the file if it does not",
-                    shown(f_.text(0))));
+    f_.stop(ErrorCode::unknown_key,
+            fmt::format("{} is not known: whether it changes stiffness or mass is not clear; "
+                        "remove it from the file if it does not",
+                        shown(f_.text(0))));
   }
 
   /// NAME=value; a text or an expression is kept as unknown, an error where it is used.

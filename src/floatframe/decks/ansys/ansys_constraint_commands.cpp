@@ -16,8 +16,8 @@ constexpr std::array ansys_axes = {"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
 int axis_of(AnsysFields& f, std::size_t k) {
   const int axis = ansys_axis(f.text(k));
   if (axis < 0)
-    f.stop(fmt::format("{}: expected a degree of freedom UX to ROTZ, found {}", f.command(),
-                       shown(f.text(k))));
+    f.stop(ErrorCode::wrong_value, "{}: expected a degree of freedom UX to ROTZ, found {}",
+           f.command(), shown(f.text(k)));
   return axis;
 }
 
@@ -40,10 +40,10 @@ int number_in(AnsysFields& f, std::size_t k, const Map& map) {
 void refuse_selection(AnsysFields& f, std::size_t k) {
   const std::string word = f.word(k);
   if (f.number(k) || word.empty()) return;
-  f.stop(
-      fmt::format("{}: {} needs the selection or component of the session, only numbers of "
-                  "nodes are read; write the model with CDWRITE",
-                  f.command(), shown(f.text(k))));
+  f.stop(ErrorCode::unsupported,
+         "{}: {} needs the selection or component of the session, only numbers of nodes are read; "
+         "write the model with CDWRITE",
+         f.command(), shown(f.text(k)));
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void read_ansys_equation(AnsysFields& f, AnsysContent& c) {
     return;
   }
   if (f.word(2) != "NODE" || c.equations.empty())
-    f.stop(fmt::format("CE: expected DEFI, then NODE, found {}", shown(f.text(2))));
+    f.stop(ErrorCode::wrong_value, "CE: expected DEFI, then NODE, found {}", shown(f.text(2)));
   append_terms(f, c.equations[c.constraint], 3, f.size() + 2);
 }
 
@@ -82,7 +82,8 @@ void read_ansys_equation(AnsysFields& f, AnsysContent& c) {
 void read_ansys_coupling(AnsysFields& f, AnsysContent& c) {
   const bool written = ansys_written(f);
   if (written && f.word(2) == "NODE") {
-    if (c.couplings.empty()) f.stop("CP: NODE, but there is no DEFI before");
+    if (c.couplings.empty())
+      f.stop(ErrorCode::contradiction, "CP: NODE, but there is no DEFI before");
   } else {
     const std::size_t at = written ? 3 : 1;
     c.constraint = number_in(f, at, c.couplings);

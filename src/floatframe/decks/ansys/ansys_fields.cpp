@@ -82,10 +82,10 @@ double AnsysFields::real(std::size_t k, const char* what, double missing) {
   if (blank(k)) return missing;
   const auto value = number(k);
   if (!value)
-    stop(
-        fmt::format("{}: {}: {}; expressions and parameters that no *SET gives as a number are "
-                    "not read",
-                    command_, what, not_a_real(text(k))));
+    stop(ErrorCode::unsupported,
+         fmt::format(
+             "{}: {}: {}; expressions and parameters that no *SET gives as a number are not read",
+             command_, what, not_a_real(text(k))));
   return *value;
 }
 
@@ -93,14 +93,16 @@ int AnsysFields::integer(std::size_t k, const char* what, int missing) {
   if (blank(k)) return missing;
   const double value = real(k, what);
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
-    stop(fmt::format("{}: {}: {}", command_, what, not_an_integer(text(k))));
+    stop(ErrorCode::not_a_number,
+         fmt::format("{}: {}: {}", command_, what, not_an_integer(text(k))));
   return static_cast<int>(value);
 }
 
 int AnsysFields::label(std::size_t k, const char* what) {
   const int value = integer(k, what);
   if (value < 1)
-    stop(fmt::format("{}: {}: {}, expected a number of 1 or more", command_, what,
+    stop(ErrorCode::missing,
+         fmt::format("{}: {}: {}, expected a number of 1 or more", command_, what,
                      blank(k) ? std::string("the field is empty") : shown(text(k))));
   return value;
 }
@@ -108,12 +110,13 @@ int AnsysFields::label(std::size_t k, const char* what) {
 FortranColumns AnsysFields::columns() {
   std::string_view line;
   if (!source_.next(line))
-    source_.stop(at_, fmt::format("the file ends where the format of {} is expected", command_));
+    source_.stop(ErrorCode::damaged, at_, "the file ends where the format of {} is expected",
+                 command_);
   const auto format = parse_fortran_columns(line);
   if (!format)
-    source_.stop(source_.here(), fmt::format("{}: a format like (3i9,6e21.13e3) is expected, "
-                                             "found {}",
-                                             command_, shown(trimmed(line))));
+    source_.stop(ErrorCode::wrong_value, source_.here(),
+                 "{}: a format like (3i9,6e21.13e3) is expected, found {}", command_,
+                 shown(trimmed(line)));
   return *format;
 }
 
@@ -126,9 +129,10 @@ bool AnsysFields::block_line(std::string_view& line) {
     return false;
   }
   if (command_ == "NBLOCK" || command_ == "EBLOCK")
-    source_.stop(source_.here(), fmt::format("the file ends within {}, which begins in line {} and "
-                                             "ends with -1: it is cut short",
-                                             command_, at_.line));
+    source_.stop(
+        ErrorCode::damaged, source_.here(),
+        "the file ends within {}, which begins in line {} and ends with -1: it is cut short",
+        command_, at_.line);
   return false;
 }
 
@@ -138,9 +142,9 @@ bool AnsysFields::row(const FortranColumns& format, std::vector<std::string_view
   cells.clear();
   if (trimmed(line) == "-1") return false;
   if (!format.split(line, cells).empty())
-    source_.stop(source_.here(), fmt::format("{}: the line is longer than its format, which has {} "
-                                             "columns",
-                                             command_, format.columns.size()));
+    source_.stop(ErrorCode::wrong_value, source_.here(),
+                 "{}: the line is longer than its format, which has {} columns", command_,
+                 format.columns.size());
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
   return true;
 }
@@ -167,8 +171,8 @@ int AnsysFields::cell_integer(const std::vector<std::string_view>& cells, std::s
   if (k >= cells.size() || cells[k].empty()) return 0;
   const auto value = parse_integer(cells[k]);
   if (!value)
-    source_.stop(source_.here(),
-                 fmt::format("{}: {}: {}", command_, what, not_an_integer(cells[k])));
+    source_.stop(ErrorCode::not_a_number, source_.here(), "{}: {}: {}", command_, what,
+                 not_an_integer(cells[k]));
   return *value;
 }
 
@@ -177,10 +181,13 @@ double AnsysFields::cell_real(const std::vector<std::string_view>& cells, std::s
   if (k >= cells.size() || cells[k].empty()) return 0.0;
   const auto value = parse_real(cells[k]);
   if (!value)
-    source_.stop(source_.here(), fmt::format("{}: {}: {}", command_, what, not_a_real(cells[k])));
+    source_.stop(ErrorCode::not_a_number, source_.here(), "{}: {}: {}", command_, what,
+                 not_a_real(cells[k]));
   return *value;
 }
 
-void AnsysFields::stop(const std::string& message) { source_.stop(at_, message); }
+void AnsysFields::stop(ErrorCode code, const std::string& message) {
+  source_.stop(code, at_, message);
+}
 
 }  // namespace floatframe

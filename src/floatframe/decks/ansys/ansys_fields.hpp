@@ -1,6 +1,8 @@
 #pragma once
 // Lines of ANSYS decks as commands with fields, and lines of their blocks in columns of a Fortran
 // format.
+#include <fmt/format.h>
+
 #include <map>
 #include <optional>
 #include <string>
@@ -60,7 +62,12 @@ class AnsysFields {
   int cell_integer(const std::vector<std::string_view>& cells, std::size_t k, const char* what);
   double cell_real(const std::vector<std::string_view>& cells, std::size_t k, const char* what);
 
-  [[noreturn]] void stop(const std::string& message);
+  [[noreturn]] void stop(ErrorCode code, const std::string& message);
+  template <class First, class... Rest>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
+                         Rest&&... rest) {
+    stop(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
  private:
   bool block_line(std::string_view& line);

@@ -54,15 +54,13 @@ class AnsysElastic {
     Material result;
     result.density = value("DENS").value_or(0.0);
     if (result.density < 0.0)
-      error(fmt::format("DENS is {:g}, no negative density is expected", result.density));
+      error(ErrorCode::out_of_range,
+            fmt::format("DENS is {:g}, no negative density is expected", result.density));
     refuse_two();
     if (!said_.empty()) return result;
     if (!m_.anisotropic.empty()) return anisotropic(result.density);
     const auto E = value("EX");
-    if (!E) {
-      error("it has no EX");
-      return result;
-    }
+    if (!E) return error(ErrorCode::missing, "it has no EX"), result;
     result.young = *E;
     const bool directions = value("EY") || value("EZ") || value("GYZ") || value("GXZ") ||
                             value("PRYZ") || value("PRXZ");
@@ -82,7 +80,7 @@ class AnsysElastic {
     const std::vector<TemperatureRow> rows = rows_of(*found_rows);
     const AtTemperature found = at_temperature(rows, temperature_);
     if (!found.error.empty()) {
-      error(fmt::format("its {} {}", label, found.error));
+      error(ErrorCode::wrong_value, fmt::format("its {} {}", label, found.error));
       return rows.front().values[0];
     }
     if (found.chosen && temperatures_noted_++ == 0) {
@@ -110,10 +108,10 @@ class AnsysElastic {
     const auto compare = [&](const char* by_mp, const char* by_tb) {
       const auto mp = at(m_.values, by_mp), tb = at(m_.tables, by_tb);
       if (mp && tb && *mp != *tb)
-        error(fmt::format(
-            "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the "
-            "file",
-            by_mp, *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC"));
+        error(ErrorCode::out_of_range,
+              fmt::format(
+                  "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the file",
+                  by_mp, *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC"));
     };
     compare("DENS", "DENS");
     const bool isotropic = m_.tables.contains("EX"), any = !m_.anisotropic.empty();
@@ -129,35 +127,33 @@ class AnsysElastic {
     if (!m_.values.contains("PRXY")) compare("NUXY", "PRXY");
     for (const char* label : {"EY", "EZ", "PRYZ", "PRXZ", "NUYZ", "NUXZ", "GXY", "GYZ", "GXZ"})
       if (m_.values.contains(label))
-        error(
-            fmt::format("{} by MP stands beside TB,ELASTIC, which is isotropic, leave one of the "
-                        "two in the file",
-                        label));
+        error(ErrorCode::wrong_value, fmt::format("{} by MP stands beside TB,ELASTIC, which is "
+                                                  "isotropic, leave one of the two in the file",
+                                                  label));
   }
 
-  void error(const std::string& text) {
+  void error(ErrorCode code, const std::string& text) {
     if (std::find(said_.begin(), said_.end(), text) != said_.end()) return;
     said_.push_back(text);
-    source_.error(m_.at, fmt::format("material {}: {}", id_, text));
+    source_.error(code, m_.at, "material {}: {}", id_, text);
   }
 
   Material isotropic(Material m) {
     auto nu = value("PRXY");
     if (!nu) nu = value("NUXY");
     if (const auto G = value("GXY"); !nu && G && *G > 0.0) nu = m.young / (2.0 * *G) - 1.0;
-    if (!nu) {
-      error("it has no PRXY");
-      return m;
-    }
+    if (!nu) return error(ErrorCode::missing, "it has no PRXY"), m;
     m.poisson = *nu;
-    if (!(m.young > 0.0)) error(fmt::format("EX is {:g}, expected more than 0", m.young));
+    if (!(m.young > 0.0))
+      error(ErrorCode::out_of_range, fmt::format("EX is {:g}, expected more than 0", m.young));
     if (!(m.poisson > -1.0 && m.poisson < 0.5))
-      error(fmt::format("PRXY is {:g}, expected more than -1 and less than 0.5", m.poisson));
+      error(ErrorCode::out_of_range,
+            fmt::format("PRXY is {:g}, expected more than -1 and less than 0.5", m.poisson));
     if (const auto G = value("GXY"); G && std::abs(*G - m.shear()) > 1e-3 * std::abs(m.shear()))
-      error(
-          fmt::format("GXY is {:g}, but EX and PRXY give {:g}: an orthotropic material needs EY "
-                      "and EZ",
-                      *G, m.shear()));
+      error(ErrorCode::incomplete,
+            fmt::format(
+                "GXY is {:g}, but EX and PRXY give {:g}: an orthotropic material needs EY and EZ",
+                *G, m.shear()));
     return m;
   }
 
@@ -165,7 +161,7 @@ class AnsysElastic {
   double major(const char* pr, const char* nu, double along, double across) {
     if (const auto x = value(pr)) return *x;
     if (const auto x = value(nu)) return *x * along / across;
-    error(fmt::format("it has no {}", pr));
+    error(ErrorCode::missing, fmt::format("it has no {}", pr));
     return 0.0;
   }
 
@@ -178,7 +174,7 @@ class AnsysElastic {
     e.nu23 = major("PRYZ", "NUYZ", e.E2, e.E3);
     e.nu13 = major("PRXZ", "NUXZ", e.E1, e.E3);
     const auto G = value("GXY");
-    if (!G) error("it has EY or EZ, and no GXY");
+    if (!G) error(ErrorCode::wrong_value, "it has EY or EZ, and no GXY");
     e.G12 = G.value_or(1.0);
     e.G23 = value("GYZ").value_or(e.G12);
     e.G13 = value("GXZ").value_or(e.G12);
@@ -194,7 +190,7 @@ class AnsysElastic {
                                          {"G23", "GYZ"}})
         if (const std::size_t at = wrong.find(ours); at != std::string::npos)
           wrong.replace(at, std::string_view(ours).size(), theirs);
-      error(wrong);
+      error(ErrorCode::wrong_value, wrong);
       return plain;
     }
     // The same in all directions is isotropic.
@@ -210,7 +206,8 @@ class AnsysElastic {
   /// The upper triangle by rows, in the order xx, yy, zz, xy, yz, xz.
   Material anisotropic(double density) {
     if (m_.anisotropic.size() != 21) {
-      error(fmt::format("TB,ANEL has {} constants, expected 21", m_.anisotropic.size()));
+      error(ErrorCode::wrong_count,
+            fmt::format("TB,ANEL has {} constants, expected 21", m_.anisotropic.size()));
       return {};
     }
     Mat6 D;
@@ -219,7 +216,7 @@ class AnsysElastic {
       for (int j = i; j < 6; ++j) D(i, j) = D(j, i) = m_.anisotropic[k++];
     const std::string wrong = elasticity_error(D, false, elasticity_name);
     if (!wrong.empty()) {
-      error(fmt::format("TB,ANEL: {}", wrong));
+      error(ErrorCode::wrong_value, fmt::format("TB,ANEL: {}", wrong));
       return {};
     }
     if (m_.compliance) D = D.inverse().eval();
@@ -244,7 +241,8 @@ void read_ansys_material(AnsysFields& f, AnsysContent& c) {
   AnsysMaterial& m = open_ansys_material(f, c, 2);
   for (std::size_t k = 4; k < f.size(); ++k)
     if (f.real(k, "the coefficient") != 0.0)
-      f.stop(fmt::format("MP: {} depends on the temperature, only constants are read", label));
+      f.stop(ErrorCode::unsupported, "MP: {} depends on the temperature, only constants are read",
+             label);
   m.values[label] = {{0.0, f.real(3, label.c_str())}};
 }
 
@@ -257,7 +255,8 @@ void read_ansys_temperatures(AnsysFields& f, AnsysContent& c) {
   for (std::size_t k = at + 1; k < f.size(); ++k) {
     if (f.blank(k)) continue;
     const std::size_t place = start - 1 + k - at - 1;
-    if (place >= most_temperatures) f.stop("MPTEMP: more than 100 temperatures");
+    if (place >= most_temperatures)
+      f.stop(ErrorCode::too_large, "MPTEMP: more than 100 temperatures");
     c.temperatures.resize(std::max(c.temperatures.size(), place + 1), 0.0);
     c.temperatures[place] = f.real(k, "the temperature");
   }
@@ -275,17 +274,17 @@ void read_ansys_material_data(AnsysFields& f, AnsysContent& c) {
   for (std::size_t k = at + 3; k < f.size(); ++k) {
     if (f.blank(k)) continue;
     const std::size_t place = start - 1 + k - at - 3;
-    if (place >= most_temperatures) f.stop("MPDATA: more than 100 temperatures");
+    if (place >= most_temperatures)
+      f.stop(ErrorCode::too_large, "MPDATA: more than 100 temperatures");
     if (place > table.size())
-      f.stop(fmt::format("MPDATA: {} begins at place {}, but {} are there", label, start,
-                         table.size()));
+      f.stop(ErrorCode::wrong_value, "MPDATA: {} begins at place {}, but {} are there", label,
+             start, table.size());
     const double T = place < c.temperatures.size() ? c.temperatures[place] : 0.0;
     const std::pair<double, double> entry{T, f.real(k, label.c_str())};
-    if (place == table.size()) {
+    if (place == table.size())
       table.push_back(entry);
-    } else {
+    else
       table[place] = entry;
-    }
   }
 }
 
@@ -297,7 +296,7 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
     m.anisotropic.clear();
     m.compliance = f.word(5) == "1" || f.word(5) == "FLEX";
     if (f.integer(3, "the number of temperatures", 1) > 1)
-      f.stop("TB,ANEL: several temperatures; leave one in the file");
+      f.stop(ErrorCode::wrong_value, "TB,ANEL: several temperatures; leave one in the file");
     return;
   }
   c.table_temperature = 0.0;
@@ -315,10 +314,9 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
         f.source().files()[f.at().file], f.at().line, f.word(1), c.table_material));
     return;
   }
-  f.stop(
-      fmt::format("TB,{}: this table is not read; a part needs EX and PRXY, EX to GXZ, or "
-                  "TB,ANEL",
-                  f.word(1)));
+  f.stop(ErrorCode::unsupported,
+         "TB,{}: this table is not read; a part needs EX and PRXY, EX to GXZ, or TB,ANEL",
+         f.word(1));
 }
 
 namespace {
@@ -331,11 +329,10 @@ bool is_elastic_table(const AnsysContent& c) {
 void put_at(std::vector<std::pair<double, double>>& table, double T, double value) {
   const auto it = std::lower_bound(table.begin(), table.end(), T,
                                    [](const auto& entry, double t) { return entry.first < t; });
-  if (it != table.end() && it->first == T) {
+  if (it != table.end() && it->first == T)
     it->second = value;
-  } else {
+  else
     table.insert(it, {T, value});
-  }
 }
 
 }  // namespace
@@ -345,17 +342,16 @@ void read_ansys_table_temperature(AnsysFields& f, AnsysContent& c) {
   const std::size_t at = f.command() == "TBFIELD" ? 2 : 1;
   c.table_temperature = f.real(at, "the temperature");
   if (c.table == "ANEL" && !c.materials[c.table_material].anisotropic.empty())
-    f.stop("TB,ANEL: several temperatures; leave one in the file");
+    f.stop(ErrorCode::wrong_value, "TB,ANEL: several temperatures; leave one in the file");
 }
 
 /// TBFIELD,TEMP,20 is TBTEMP,20.
 void read_ansys_table_field(AnsysFields& f, AnsysContent& c) {
   if (!is_elastic_table(c)) return;
   if (f.word(1) != "TEMP")
-    f.stop(
-        fmt::format("TBFIELD: TB,{} of material {} depends on {}, only temperatures (TEMP) are "
-                    "read",
-                    c.table, c.table_material, shown(f.text(1))));
+    f.stop(ErrorCode::unsupported,
+           "TBFIELD: TB,{} of material {} depends on {}, only temperatures (TEMP) are read",
+           c.table, c.table_material, shown(f.text(1)));
   read_ansys_table_temperature(f, c);
 }
 
@@ -369,23 +365,26 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
     if (!f.blank(k)) values.push_back(f.real(k, "the constant"));
   if (c.table == "DENS") {
     if (values.size() != 1)
-      f.stop(fmt::format("TB,DENS: {} constants in a line, expected 1", values.size()));
+      f.stop(ErrorCode::out_of_range, "TB,DENS: {} constants in a line, expected 1", values.size());
     put_at(m.tables["DENS"], c.table_temperature, values[0]);
     return;
   }
   if (c.table == "ELAS") {
     if (values.size() != 2)
-      f.stop(fmt::format("TB,ELASTIC: {} constants in a line, expected 2 of an isotropic material",
-                         values.size()));
+      f.stop(ErrorCode::wrong_value,
+             "TB,ELASTIC: {} constants in a line, expected 2 of an isotropic material",
+             values.size());
     put_at(m.tables["EX"], c.table_temperature, values[0]);
     put_at(m.tables["PRXY"], c.table_temperature, values[1]);
     return;
   }
   const std::size_t place = m.anisotropic.size() + 1;
   if (f.integer(1, "the place", static_cast<int>(place)) != static_cast<int>(place))
-    f.stop(fmt::format("TB,ANEL: constants from place {}, expected from {}", f.text(1), place));
+    f.stop(ErrorCode::out_of_range, "TB,ANEL: constants from place {}, expected from {}", f.text(1),
+           place);
   if (m.anisotropic.size() + values.size() > 21)
-    f.stop(fmt::format("TB,ANEL: more than 21 constants of material {}", c.table_material));
+    f.stop(ErrorCode::too_large, "TB,ANEL: more than 21 constants of material {}",
+           c.table_material);
   m.anisotropic.insert(m.anisotropic.end(), values.begin(), values.end());
 }
 

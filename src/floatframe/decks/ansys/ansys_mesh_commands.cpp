@@ -15,15 +15,16 @@ namespace {
 
 int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSource& at) {
   if (id < 1)
-    f.source().stop(at, fmt::format("a node has the number {}, expected is 1 or more", id));
+    f.source().stop(ErrorCode::out_of_range, at, "a node has the number {}, expected is 1 or more",
+                    id);
   const auto [it, fresh] = c.node_index.try_emplace(id, c.model.nodes());
   if (!fresh) {
-    f.source().error(at, fmt::format("node {} is in the file twice, first in line {}", id,
-                                     c.model.node_sources[it->second].line));
+    f.source().error(ErrorCode::duplicate, at, "node {} is in the file twice, first in line {}", id,
+                     c.model.node_sources[it->second].line);
     return it->second;
   }
   if (const std::string huge = huge_place(p); !huge.empty())
-    f.source().error(at, fmt::format("node {}: {}", id, huge));
+    f.source().error(ErrorCode::not_finite, at, "node {}: {}", id, huge);
   c.model.positions.push_back(p);
   c.model.node_ids.push_back(id);
   c.model.node_sources.push_back(at);
@@ -33,10 +34,9 @@ int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSou
 /// A block that says another number of nodes or elements than follow.
 void note_count(AnsysFields& f, AnsysContent& c, double said, std::size_t found, const char* what) {
   if (!(said > 0.0) || said == static_cast<double>(found)) return;
-  c.model.notes.push_back(
-      fmt::format("{}:{}: {} says {:.0f} {}, {} follow: if the file is not cut "
-                  "short, nothing is missing",
-                  f.source().files()[f.at().file], f.at().line, f.command(), said, what, found));
+  c.model.notes.push_back(fmt::format(
+      "{}:{}: {} says {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
+      f.source().files()[f.at().file], f.at().line, f.command(), said, what, found));
 }
 
 void set_angles(AnsysContent& c, int index, const Vec3& angles) {
@@ -49,11 +49,13 @@ Vec3 three(AnsysFields& f, std::size_t first, const char* what) {
 
 void add_element(AnsysFields& f, AnsysContent& c, AnsysElement e) {
   if (e.id < 1)
-    f.source().stop(e.at, fmt::format("an element has the number {}, expected is 1 or more", e.id));
+    f.source().stop(ErrorCode::out_of_range, e.at,
+                    "an element has the number {}, expected is 1 or more", e.id);
   const auto [it, fresh] = c.element_index.try_emplace(e.id, c.elements.size());
   if (!fresh)
-    f.source().error(e.at, fmt::format("element {} is in the file twice, first in line {}", e.id,
-                                       c.elements[it->second].at.line));
+    f.source().error(ErrorCode::duplicate, e.at,
+                     "element {} is in the file twice, first in line {}", e.id,
+                     c.elements[it->second].at.line);
   c.highest_element = std::max(c.highest_element, e.id);
   c.elements.push_back(e);
 }
@@ -74,7 +76,7 @@ AnsysElement with_attributes(const AnsysContent& c, const FeSource& at) {
 void append_nodes(AnsysFields& f, AnsysContent& c, AnsysElement& e, std::size_t first) {
   for (std::size_t k = first; k < f.size(); ++k) {
     if (e.nodes == 20)
-      f.stop(fmt::format("element {} has more than 20 nodes, which no element has", e.id));
+      f.stop(ErrorCode::too_large, "element {} has more than 20 nodes, which no element has", e.id);
     c.element_nodes.push_back(f.integer(k, "the node"));
     ++e.nodes;
   }
@@ -91,10 +93,10 @@ bool ansys_written(const AnsysFields& f) {
 void read_ansys_node(AnsysFields& f, AnsysContent& c) {
   if (!ansys_written(f)) {
     if (c.nodal_system != 0)
-      f.stop(
-          fmt::format("N: the node is in coordinate system {} (CSYS), only nodes in global "
-                      "rectangular coordinates are read",
-                      c.nodal_system));
+      f.stop(ErrorCode::unsupported,
+             "N: the node is in coordinate system {} (CSYS), only nodes in global rectangular "
+             "coordinates are read",
+             c.nodal_system);
     const int id = f.label(1, "the number of the node");
     const int index = add_node(f, c, id, three(f, 2, "the coordinate"), f.at());
     return set_angles(c, index, three(f, 5, "the angle"));
@@ -106,12 +108,11 @@ void read_ansys_node(AnsysFields& f, AnsysContent& c) {
   } else if (f.word(2) == "ANG") {
     const auto it = c.node_index.find(id);
     if (it == c.node_index.end())
-      return f.source().error(f.at(), fmt::format("N: angles of node {}, which is not in the file "
-                                                  "before",
-                                                  id));
+      return f.source().error(ErrorCode::not_found, f.at(),
+                              "N: angles of node {}, which is not in the file before", id);
     set_angles(c, it->second, three(f, 6, "the angle"));
   } else {
-    f.stop(fmt::format("N: expected LOC or ANG, found {}", shown(f.text(2))));
+    f.stop(ErrorCode::wrong_value, "N: expected LOC or ANG, found {}", shown(f.text(2)));
   }
 }
 
@@ -119,9 +120,9 @@ void read_ansys_node_block(AnsysFields& f, AnsysContent& c) {
   const FortranColumns format = f.columns();
   const std::size_t first = format.integers();
   if (first == 0 || format.columns.size() < first + 3)
-    f.stop(
-        "NBLOCK: its format has no column for the number of the node or not three for its "
-        "coordinates");
+    f.stop(ErrorCode::missing,
+           "NBLOCK: its format has no column for the number of the node or not three for its "
+           "coordinates");
   std::vector<std::string_view> cells;
   const double said = f.number(4).value_or(0.0);
   const std::size_t before = c.model.positions.size();
@@ -142,7 +143,8 @@ void read_ansys_node_block(AnsysFields& f, AnsysContent& c) {
 void read_ansys_element(AnsysFields& f, AnsysContent& c) {
   if (f.command() == "EN" && ansys_written(f)) {
     if (f.word(2) == "NODE") {
-      if (c.elements.empty()) f.stop("EN: nodes, but no line ATTR before them");
+      if (c.elements.empty())
+        f.stop(ErrorCode::wrong_value, "EN: nodes, but no line ATTR before them");
       AnsysElement& e = c.elements.back();
       for (std::size_t k = 3; k < f.size(); ++k) {
         if (f.blank(k)) continue;
@@ -152,7 +154,7 @@ void read_ansys_element(AnsysFields& f, AnsysContent& c) {
       return;
     }
     if (f.word(2) != "ATTR")
-      f.stop(fmt::format("EN: expected ATTR or NODE, found {}", shown(f.text(2))));
+      f.stop(ErrorCode::wrong_value, "EN: expected ATTR or NODE, found {}", shown(f.text(2)));
     if (f.integer(3, "the number of nodes") == -1) return;  // the end of a block
     AnsysElement e = with_attributes(c, f.at());
     e.material = f.integer(4, "the material");
@@ -166,14 +168,14 @@ void read_ansys_element(AnsysFields& f, AnsysContent& c) {
   AnsysElement e = with_attributes(c, f.at());
   const bool numbered = f.command() == "EN";
   if (!numbered && c.highest_element == std::numeric_limits<int>::max())
-    f.stop("E: there is no number above 2147483647 for the element");
+    f.stop(ErrorCode::not_a_number, "E: there is no number above 2147483647 for the element");
   e.id = numbered ? f.label(1, "the number of the element") : c.highest_element + 1;
   append_nodes(f, c, e, numbered ? 2 : 1);
   add_element(f, c, e);
 }
 
 void read_ansys_element_more(AnsysFields& f, AnsysContent& c) {
-  if (c.elements.empty()) f.stop("EMORE: there is no element before");
+  if (c.elements.empty()) f.stop(ErrorCode::not_found, "EMORE: there is no element before");
   AnsysElement& e = c.elements.back();
   while (e.nodes < 8) {  // E has room for eight
     c.element_nodes.push_back(0);
@@ -190,8 +192,9 @@ void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
   const FortranColumns format = f.columns();
   const std::size_t lead = solid ? 11 : 5;
   if (format.integers() != format.columns.size() || format.columns.size() <= lead)
-    f.stop(fmt::format("EBLOCK: its format has {} columns of whole numbers, expected more than {}",
-                       format.integers(), lead));
+    f.stop(ErrorCode::too_large,
+           "EBLOCK: its format has {} columns of whole numbers, expected more than {}",
+           format.integers(), lead);
   const double said = f.number(4).value_or(0.0);
   const std::size_t before = c.elements.size();
   std::vector<std::string_view> cells;
@@ -209,21 +212,21 @@ void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
     const int count =
         solid ? cell(8, "the number of nodes") : static_cast<int>(cells.size() - lead);
     if (cells.size() <= lead || count < 1 || count > 20)
-      f.source().stop(e.at, fmt::format("element {} has {} nodes, expected 1 to 20", e.id,
-                                        cells.size() <= lead ? 0 : count));
+      f.source().stop(ErrorCode::wrong_count, e.at, "element {} has {} nodes, expected 1 to 20",
+                      e.id, cells.size() <= lead ? 0 : count);
     for (std::size_t k = lead; k < cells.size(); ++k)
       c.element_nodes.push_back(cell(k, "the node"));
     while (c.element_nodes.size() < e.first + count) {
       if (!f.row(format, cells))
-        f.source().stop(e.at, fmt::format("element {} has {} nodes in its first line, but {} are "
-                                          "listed",
-                                          e.id, count, c.element_nodes.size() - e.first));
+        f.source().stop(ErrorCode::wrong_count, e.at,
+                        "element {} has {} nodes in its first line, but {} are listed", e.id, count,
+                        c.element_nodes.size() - e.first);
       for (std::size_t k = 0; k < cells.size(); ++k) c.element_nodes.push_back(cell(k, "the node"));
     }
     if (c.element_nodes.size() > e.first + count)
-      f.source().stop(e.at, fmt::format("element {} has {} nodes in its first line, but {} are "
-                                        "listed",
-                                        e.id, count, c.element_nodes.size() - e.first));
+      f.source().stop(ErrorCode::wrong_count, e.at,
+                      "element {} has {} nodes in its first line, but {} are listed", e.id, count,
+                      c.element_nodes.size() - e.first);
     e.nodes = count;
     add_element(f, c, e);
   }
@@ -234,7 +237,8 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
   AnsysComponent component;
   component.at = f.at();
   component.name = f.word(1);
-  if (component.name.empty()) f.stop("CMBLOCK: the name of the component is missing");
+  if (component.name.empty())
+    f.stop(ErrorCode::missing, "CMBLOCK: the name of the component is missing");
   const std::string kind = f.word(2);
   const int count = f.integer(3, "the number of members");
   const FortranColumns format = f.columns();
@@ -248,8 +252,9 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
     found += static_cast<int>(cells.size());
   }
   if (found != count)
-    f.stop(fmt::format("CMBLOCK: component {} has {} members in its first line, but {} are listed",
-                       component.name, count, found));
+    f.stop(ErrorCode::wrong_value,
+           "CMBLOCK: component {} has {} members in its first line, but {} are listed",
+           component.name, count, found);
   if (known) {
     c.components.push_back(std::move(component));
   } else {
@@ -264,12 +269,14 @@ void read_ansys_system(AnsysFields& f, AnsysContent& c) {
   const std::size_t at = written ? 3 : 1;
   const int id = f.label(at, "the number of the coordinate system");
   if (id < 11)
-    f.stop(fmt::format("LOCAL: coordinate system {}, expected a number of 11 or more", id));
+    f.stop(ErrorCode::out_of_range, "LOCAL: coordinate system {}, expected a number of 11 or more",
+           id);
   AnsysSystem& s = c.systems[id];
   s.at = f.at();
   s.kind = f.integer(at + 1, "the kind of the coordinate system");
   if (s.kind < 0 || s.kind > 3)
-    f.stop(fmt::format("LOCAL: coordinate system {} is of kind {}, expected 0 to 3", id, s.kind));
+    f.stop(ErrorCode::out_of_range, "LOCAL: coordinate system {} is of kind {}, expected 0 to 3",
+           id, s.kind);
   const std::string part = written ? f.word(2) : std::string("LOC");
   const auto round = [&](std::size_t k) {
     return f.real(k, "the parameter", 1.0) == 1.0 && f.real(k + 1, "the parameter", 1.0) == 1.0;
@@ -286,7 +293,7 @@ void read_ansys_system(AnsysFields& f, AnsysContent& c) {
   } else if (part == "PRM") {
     s.round = s.kind == 0 || round(at + 2);
   } else {
-    f.stop(fmt::format("LOCAL: expected LOC, ANG or PRM, found {}", shown(f.text(2))));
+    f.stop(ErrorCode::wrong_value, "LOCAL: expected LOC, ANG or PRM, found {}", shown(f.text(2)));
   }
 }
 

@@ -21,12 +21,14 @@ int element_number(AnsysFields& f, std::size_t k) {
   const std::size_t digit = word.find_first_of("0123456789");
   if (digit != std::string_view::npos)
     if (const auto number = parse_label(word.substr(digit))) return *number;
-  f.stop(fmt::format("ET: expected an element as 185 or SOLID185, found {}", shown(word)));
+  f.stop(ErrorCode::wrong_value, "ET: expected an element as 185 or SOLID185, found {}",
+         shown(word));
 }
 
 AnsysSection& open_section(AnsysFields& f, AnsysContent& c) {
   const auto it = c.sections.find(c.section_set);
-  if (it == c.sections.end()) f.stop(fmt::format("{}: there is no SECTYPE before", f.command()));
+  if (it == c.sections.end())
+    f.stop(ErrorCode::wrong_value, "{}: there is no SECTYPE before", f.command());
   return it->second;
 }
 
@@ -52,9 +54,9 @@ void read_ansys_type_block(AnsysFields& f, AnsysContent& c) {
       type.keyopt[k] = f.cell_integer(cells, 1 + k, "KEYOPT");
     type.at = f.source().here();
     if (type.id < 1 || type.number < 1)
-      f.source().stop(type.at, fmt::format("ETBLOCK: type {} is element {}, expected numbers of 1 "
-                                           "or more",
-                                           type.id, type.number));
+      f.source().stop(ErrorCode::out_of_range, type.at,
+                      "ETBLOCK: type {} is element {}, expected numbers of 1 or more", type.id,
+                      type.number);
     c.types[type.id] = type;
   }
 }
@@ -62,10 +64,12 @@ void read_ansys_type_block(AnsysFields& f, AnsysContent& c) {
 void read_ansys_key_option(AnsysFields& f, AnsysContent& c) {
   const int id = f.label(1, "the number of the type");
   const auto it = c.types.find(id);
-  if (it == c.types.end()) f.stop(fmt::format("KEYOPT: there is no type {} (ET) before", id));
+  if (it == c.types.end())
+    f.stop(ErrorCode::wrong_value, "KEYOPT: there is no type {} (ET) before", id);
   const int number = f.label(2, "the number of the option");
   if (number > highest_key_option)
-    f.stop(fmt::format("KEYOPT: option {}, expected 1 to {}", number, highest_key_option));
+    f.stop(ErrorCode::out_of_range, "KEYOPT: option {}, expected 1 to {}", number,
+           highest_key_option);
   it->second.keyopt[number] = f.integer(3, "the option");
 }
 
@@ -75,7 +79,8 @@ void read_ansys_real(AnsysFields& f, AnsysContent& c) {
     AnsysReal& real = c.reals[f.label(3, "the number of the set")];
     real.at = f.at();
     const std::size_t start = f.label(4, "the place");
-    if (start > most_rows) f.stop(fmt::format("R: place {}, expected a smaller one", start));
+    if (start > most_rows)
+      f.stop(ErrorCode::wrong_value, "R: place {}, expected a smaller one", start);
     for (std::size_t k = 5; k < f.size(); ++k) {
       if (f.blank(k)) continue;
       real.values.resize(std::max(real.values.size(), start + k - 5), 0.0);
@@ -92,10 +97,11 @@ void read_ansys_real(AnsysFields& f, AnsysContent& c) {
 
 void read_ansys_real_more(AnsysFields& f, AnsysContent& c) {
   const auto it = c.reals.find(c.real_set);
-  if (it == c.reals.end()) f.stop("RMORE: there is no R before");
+  if (it == c.reals.end()) f.stop(ErrorCode::wrong_value, "RMORE: there is no R before");
   std::vector<double>& values = it->second.values;
   values.resize((values.size() + 5) / 6 * 6, 0.0);  // six fields a line
-  if (values.size() > most_rows) f.stop("RMORE: a set has too many real constants");
+  if (values.size() > most_rows)
+    f.stop(ErrorCode::wrong_count, "RMORE: a set has too many real constants");
   for (std::size_t k = 1; k <= 6; ++k) values.push_back(f.real(k, "the constant"));
 }
 
@@ -103,14 +109,16 @@ void read_ansys_real_more(AnsysFields& f, AnsysContent& c) {
 void read_ansys_real_block(AnsysFields& f, AnsysContent& c) {
   const FortranColumns first = f.columns(), more = f.columns();
   if (first.integers() != 2 || more.integers() != 0)
-    f.stop("RLBLOCK: its formats are not two whole numbers with reals, and reals");
+    f.stop(ErrorCode::wrong_value,
+           "RLBLOCK: its formats are not two whole numbers with reals, and reals");
   std::vector<std::string_view> cells;
   while (f.row(first, cells)) {
     const FeSource at = f.source().here();
     const int id = f.cell_integer(cells, 0, "the number of the set");
     const int count = f.cell_integer(cells, 1, "the number of constants");
     if (id < 1 || count < 0 || count > static_cast<int>(most_rows))
-      f.source().stop(at, fmt::format("RLBLOCK: set {} has {} real constants", id, count));
+      f.source().stop(ErrorCode::wrong_value, at, "RLBLOCK: set {} has {} real constants", id,
+                      count);
     AnsysReal real;
     real.at = at;
     std::size_t room = first.columns.size();
@@ -118,8 +126,9 @@ void read_ansys_real_block(AnsysFields& f, AnsysContent& c) {
       real.values.push_back(f.cell_real(cells, k, "the constant"));
     while (real.values.size() < static_cast<std::size_t>(count)) {
       if (!f.row(more, cells))
-        f.source().stop(at, fmt::format("RLBLOCK: set {} has {} real constants, but {} are listed",
-                                        id, count, real.values.size()));
+        f.source().stop(ErrorCode::wrong_value, at,
+                        "RLBLOCK: set {} has {} real constants, but {} are listed", id, count,
+                        real.values.size());
       room = more.columns.size();
       for (std::size_t k = 0; k < room && real.values.size() < static_cast<std::size_t>(count); ++k)
         real.values.push_back(f.cell_real(cells, k, "the constant"));
@@ -141,7 +150,8 @@ void read_ansys_section_data(AnsysFields& f, AnsysContent& c) {
   AnsysSection& s = open_section(f, c);
   std::vector<double> row;
   for (std::size_t k = 1; k < f.size(); ++k) row.push_back(f.real(k, "the value"));
-  if (s.rows.size() > most_rows) f.stop("SECDATA: a section has too many lines");
+  if (s.rows.size() > most_rows)
+    f.stop(ErrorCode::wrong_count, "SECDATA: a section has too many lines");
   s.rows.push_back(std::move(row));
 }
 
@@ -151,8 +161,9 @@ void read_ansys_section_block(AnsysFields& f, AnsysContent& c) {
   std::vector<std::string_view> cells;
   for (int k = 0; k < count; ++k) {
     if (!f.loose_row(cells))
-      f.stop(fmt::format("SECBLOCK: section {} has {} lines in its first line, but {} are there",
-                         c.section_set, count, k));
+      f.stop(ErrorCode::wrong_value,
+             "SECBLOCK: section {} has {} lines in its first line, but {} are there", c.section_set,
+             count, k);
     std::vector<double> row;
     for (std::size_t i = 0; i < cells.size(); ++i)
       row.push_back(f.cell_real(cells, i, "the value"));

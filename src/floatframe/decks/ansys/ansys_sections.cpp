@@ -14,7 +14,8 @@ namespace {
 std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e) {
   const AnsysReal* real = b.real(e);
   if (real == nullptr) {
-    b.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
+    b.shared_error(ErrorCode::not_found, e,
+                   fmt::format("its real constants {} are not in the file", e.real));
     return std::nullopt;
   }
   AnsysBeam beam;
@@ -29,13 +30,16 @@ std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e)
   beam.turn = r(5) * std::numbers::pi / 180.0;
   beam.mass = r(11);
   if (!(s.A > 0.0 && s.Iz > 0.0 && s.Iy > 0.0)) {
-    b.error_once(real->at, fmt::format("real constants {}: AREA, IZZ and IYY are {:g}, {:g} and "
-                                       "{:g}, expected more than 0",
-                                       e.real, s.A, s.Iz, s.Iy));
+    b.error_once(
+        ErrorCode::too_large, real->at,
+        fmt::format(
+            "real constants {}: AREA, IZZ and IYY are {:g}, {:g} and {:g}, expected more than 0",
+            e.real, s.A, s.Iz, s.Iy));
     return std::nullopt;
   }
   if (const std::string misfit = ansys_beam_misfit(beam); !misfit.empty()) {
-    b.error_once(real->at, fmt::format("real constants {}: {}", e.real, misfit));
+    b.error_once(ErrorCode::wrong_value, real->at,
+                 fmt::format("real constants {}: {}", e.real, misfit));
     return std::nullopt;
   }
   return beam;
@@ -47,7 +51,7 @@ std::optional<AnsysBeam> beam_section_of(AnsysBuild& b, const AnsysElement& e,
   const char* const kind = type.number == 288 || type.number == 289 ? "PIPE" : "BEAM";
   const AnsysSection* s = b.section(e, kind);
   if (s == nullptr) {
-    b.shared_error(e,
+    b.shared_error(ErrorCode::wrong_value, e,
                    fmt::format("its section {} is no SECTYPE,{},{}", e.section, e.section, kind));
     return std::nullopt;
   }
@@ -90,13 +94,15 @@ bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& e
     one_way = type.number == 180 && real->value(2) != 0.0;
   }
   if (one_way) {
-    b.shared_error(e, "it is for tension or compression alone (TENSKEY), which is not linear");
+    b.shared_error(ErrorCode::wrong_value, e,
+                   "it is for tension or compression alone (TENSKEY), which is not linear");
     return false;
   }
   if (!(s.A > 0.0)) {
-    b.shared_error(e, fmt::format("neither its section {} (SECTYPE,{},LINK) nor its real constants "
-                                  "{} give an area above 0",
-                                  e.section, e.section, e.real));
+    b.shared_error(ErrorCode::wrong_value, e,
+                   fmt::format("neither its section {} (SECTYPE,{},LINK) nor its real constants {} "
+                               "give an area above 0",
+                               e.section, e.section, e.real));
     return false;
   }
   element.type = ElementType::rod2;
@@ -113,7 +119,7 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   const std::size_t count = family == AnsysFamily::beam3 ? 3 : 2;
   if (nodes.size() < count || std::any_of(nodes.begin(), nodes.begin() + static_cast<int>(count),
                                           [](int n) { return n < 0; })) {
-    b.error(e, fmt::format("it has fewer than {} nodes", count));
+    b.error(ErrorCode::wrong_count, e, fmt::format("it has fewer than {} nodes", count));
     return false;
   }
   const std::vector<Vec3>& p = b.model.positions;
@@ -121,7 +127,7 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   element.nodes[0] = nodes[0];
   element.nodes[1] = nodes[1];
   if (!(along.norm() > 0.0)) {
-    b.error(e, "its ends are at one place");
+    b.error(ErrorCode::geometry, e, "its ends are at one place");
     return false;
   }
   if (family == AnsysFamily::rod) return rod(b, e, type, element);
@@ -136,7 +142,7 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   const Vec3 towards = oriented ? Vec3(p[nodes[count]] - p[nodes[0]]) : Vec3::Zero();
   const Vec3 x = along.normalized();
   if (oriented && !(x.cross(towards).norm() > 1e-8 * towards.norm())) {
-    b.error(e, "its node for the orientation is on its axis");
+    b.error(ErrorCode::wrong_value, e, "its node for the orientation is on its axis");
     return false;
   }
   const Vec3 y = local_y(along, oriented ? &towards : nullptr);

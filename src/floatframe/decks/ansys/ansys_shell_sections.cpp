@@ -26,9 +26,9 @@ class AnsysShell {
     const AnsysSection* section = b_.section(e_, "SHEL");
     if (type_.keyopt[1] != 0)
       b_.shared_error(
-          e_, fmt::format("KEYOPT(1) = {}: only shells with bending and membrane stiffness are "
-                          "read",
-                          type_.keyopt[1]));
+          ErrorCode::unsupported, e_,
+          fmt::format("KEYOPT(1) = {}: only shells with bending and membrane stiffness are read",
+                      type_.keyopt[1]));
     if (section != nullptr && !thin && type_.number != 93) {
       layers(*section, s);
     } else {
@@ -48,7 +48,7 @@ class AnsysShell {
     if (huge.empty()) return;
     const bool fresh =
         b_.said_once.insert(fmt::format("{}, {}: {}", e_.section, e_.real, huge)).second;
-    if (fresh) b_.source.error(at, fmt::format("{}: {}", b_.label(e_), huge));
+    if (fresh) b_.source.error(ErrorCode::not_finite, at, "{}: {}", b_.label(e_), huge);
   }
 
   void layers(const AnsysSection& section, ShellSection& s) {
@@ -60,9 +60,9 @@ class AnsysShell {
     for (const std::vector<double>& row : rows) {
       const double t = ansys_value(row, 0);
       if (!(t > 0.0))
-        b_.error_once(section.at, fmt::format("section {}: a layer is {:g} thick, expected more "
-                                              "than 0",
-                                              e_.section, t));
+        b_.error_once(
+            ErrorCode::too_large, section.at,
+            fmt::format("section {}: a layer is {:g} thick, expected more than 0", e_.section, t));
       const int material =
           ansys_value(row, 1) == 0.0
               ? element_.material
@@ -77,7 +77,7 @@ class AnsysShell {
       }
     }
     if (rows.empty())
-      b_.error_once(section.at,
+      b_.error_once(ErrorCode::missing, section.at,
                     fmt::format("section {} has no layer with a thickness (SECDATA)", e_.section));
     const std::string& where = section.offset;
     if (where == "TOP" || where == "BOT") {
@@ -85,15 +85,18 @@ class AnsysShell {
     } else if (where == "USER") {  // the place of the nodes from the middle
       s.offset = -ansys_value(section.offsets, 0);
     } else if (!where.empty() && where != "MID") {
-      b_.error_once(section.at, fmt::format("section {}: SECOFFSET,{} is not read, expected MID, "
-                                            "TOP, BOT or USER",
-                                            e_.section, where));
+      b_.error_once(
+          ErrorCode::unsupported, section.at,
+          fmt::format("section {}: SECOFFSET,{} is not read, expected MID, TOP, BOT or USER",
+                      e_.section, where));
     }
     if (ansys_value(section.control, 0) != 0.0 || ansys_value(section.control, 1) != 0.0 ||
         ansys_value(section.control, 2) != 0.0)
-      b_.error_once(section.at, fmt::format("section {}: a transverse shear stiffness of its own "
-                                            "(SECCONTROL) is not read",
-                                            e_.section));
+      b_.error_once(
+          ErrorCode::unsupported, section.at,
+          fmt::format(
+              "section {}: a transverse shear stiffness of its own (SECCONTROL) is not read",
+              e_.section));
     s.mass = ansys_value(section.control, 3);
   }
 
@@ -102,38 +105,40 @@ class AnsysShell {
   void constants(ShellSection& s) {
     const AnsysReal* real = b_.real(e_);
     if (real == nullptr || !(real->value(0) > 0.0)) {
-      b_.shared_error(
-          e_, type_.number == 63 || type_.number == 93
-                  ? fmt::format("its real constants {} give no thickness", e_.real)
-                  : fmt::format("its section {} is no SECTYPE,{},SHELL, and its real constants "
-                                "give no thickness",
-                                e_.section, e_.section));
+      b_.shared_error(ErrorCode::wrong_value, e_,
+                      type_.number == 63 || type_.number == 93
+                          ? fmt::format("its real constants {} give no thickness", e_.real)
+                          : fmt::format("its section {} is no SECTYPE,{},SHELL, and its real "
+                                        "constants give no thickness",
+                                        e_.section, e_.section));
       s.thickness = 1.0;  // the error is known
       return;
     }
     s.thickness = real->value(0);
     for (std::size_t k = 1; k < 4; ++k)
       if (real->value(k) != 0.0 && std::abs(real->value(k) - s.thickness) > 1e-9 * s.thickness)
-        b_.error_once(real->at, fmt::format("real constants {}: the thickness is {:g} at one "
-                                            "corner and {:g} at another, expected one",
-                                            e_.real, s.thickness, real->value(k)));
+        b_.error_once(ErrorCode::out_of_range, real->at,
+                      fmt::format("real constants {}: the thickness is {:g} at one corner and {:g} "
+                                  "at another, expected one",
+                                  e_.real, s.thickness, real->value(k)));
     const bool thin = type_.number == 63;
     element_.angle = real->value(thin ? 5 : 4) * std::numbers::pi / 180.0;
     s.mass = real->value(thin ? 18 : 5);
     if (!thin) return others(*real, 6, real->values.size());
     if (real->value(6) != 0.0) s.bending_factor = real->value(6);
     if (real->value(4) != 0.0)
-      b_.error_once(real->at, fmt::format("real constants {}: an elastic foundation (EFS) is not "
-                                          "read",
-                                          e_.real));
+      b_.error_once(
+          ErrorCode::unsupported, real->at,
+          fmt::format("real constants {}: an elastic foundation (EFS) is not read", e_.real));
     others(*real, 9, 18);  // CTOP and CBOT before are of stress
   }
 
   void others(const AnsysReal& real, std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < std::min(end, real.values.size()); ++k)
       if (real.values[k] != 0.0)
-        b_.error_once(real.at, fmt::format("real constants {}: constant {} is {:g}, expected 0",
-                                           e_.real, k + 1, real.values[k]));
+        b_.error_once(ErrorCode::out_of_range, real.at,
+                      fmt::format("real constants {}: constant {} is {:g}, expected 0", e_.real,
+                                  k + 1, real.values[k]));
   }
 
   int index_of(const ShellSection& s) {
@@ -172,9 +177,11 @@ class AnsysShell {
       for (const Vec3& x : p) middle += x / static_cast<double>(p.size());
       const Vec3 x = b_.model.orientations[element_.orientation].at(middle).col(0);
       if (std::abs(x.dot(n)) > std::numbers::sqrt2 / 2.0)
-        b_.error(e_, fmt::format("the x axis of its coordinate system {} is nearer to its normal "
-                                 "than 45 degrees",
-                                 e_.system));
+        b_.error(
+            ErrorCode::geometry, e_,
+            fmt::format(
+                "the x axis of its coordinate system {} is nearer to its normal than 45 degrees",
+                e_.system));
       return;
     }
     if (triangle) return;

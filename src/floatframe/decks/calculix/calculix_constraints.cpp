@@ -92,14 +92,13 @@ class Springs {
       }
       const int number = ++deck_.numbers.last_element;
       const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
-      elements_ += alone ? fmt::format(
-                               "*ELEMENT, TYPE=SPRING1, ELSET={0}\n{1}, {2}\n*SPRING, "
-                               "ELSET={0}\n1\n",
-                               set, number, ends[0].first)
-                         : fmt::format(
-                               "*ELEMENT, TYPE=SPRING2, ELSET={0}\n{1}, {2}, {3}\n*SPRING, "
-                               "ELSET={0}\n1, 1\n",
-                               set, number, ends[0].first, ends[1].first);
+      elements_ +=
+          alone
+              ? fmt::format("*ELEMENT, TYPE=SPRING1, ELSET={0}\n{1}, {2}\n*SPRING, ELSET={0}\n1\n",
+                            set, number, ends[0].first)
+              : fmt::format(
+                    "*ELEMENT, TYPE=SPRING2, ELSET={0}\n{1}, {2}, {3}\n*SPRING, ELSET={0}\n1, 1\n",
+                    set, number, ends[0].first, ends[1].first);
       elements_ += with_point(calculix_number(eigen.values(k))) + '\n';
     }
   }
@@ -149,11 +148,11 @@ class Springs {
 
   void must_be_in_an_element(const FeSource& source, int node) {
     if (is_in_an_element(node)) return;
-    deck_.errors.add(deck_.model.mark(source),
-                     fmt::format("a spring that is neither along an axis nor along the line of "
-                                 "its nodes ends at {}, which no element has: CalculiX would "
-                                 "hold it there",
-                                 deck_.model.node_label(node)));
+    deck_.errors.add(
+        ErrorCode::wrong_value, deck_.model.mark(source),
+        fmt::format("a spring that is neither along an axis nor along the line of its nodes ends "
+                    "at {}, which no element has: CalculiX would hold it there",
+                    deck_.model.node_label(node)));
   }
 
   std::pair<int, int> further_node(const FeSource& source, int node, const Vec6& direction) {
@@ -227,10 +226,9 @@ void add_masses(CalculixText& deck) {
                              set, number, deck.node(m.node), calculix_number(m.mass));
   }
   if (turning > 0)
-    deck.notes.push_back(
-        fmt::format("the inertia of {} about the node is left out: CalculiX has "
-                    "masses without inertia",
-                    plural(static_cast<long>(turning), "point mass", "point masses")));
+    deck.notes.push_back(fmt::format(
+        "the inertia of {} about the node is left out: CalculiX has masses without inertia",
+        plural(static_cast<long>(turning), "point mass", "point masses")));
 }
 
 }  // namespace

@@ -129,10 +129,9 @@ void add_elements(CalculixText& deck) {
   note(expanded,
        "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
        "integration points (B32, S8, not B32R, S8R), its frequencies differ");
-  note(
-      rods,
-      "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, and "
-      "is clamped to beams at their nodes");
+  note(rods,
+       "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, "
+       "and is clamped to beams at their nodes");
   note(modes,
        "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
        "frequencies are lower, by some percent where the mesh is coarse");
@@ -162,10 +161,10 @@ void number_rods_after_beams(CalculixText& deck) {
     ++renumbered;
   }
   if (renumbered > 0)
-    deck.notes.push_back(fmt::format(
-        "{} numbered anew, after the beams that they meet: CalculiX 2.20 joins them only "
-        "in some directions otherwise",
-        plural(renumbered, "rod is", "rods are")));
+    deck.notes.push_back(
+        fmt::format("{} numbered anew, after the beams that they meet: CalculiX 2.20 joins them "
+                    "only in some directions otherwise",
+                    plural(renumbered, "rod is", "rods are")));
 }
 
 /// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
@@ -178,12 +177,12 @@ void note_beams_on_shells(CalculixText& deck) {
   }
   const auto first = std::find(at.begin(), at.end(), 3u);
   if (first == at.end()) return;
-  deck.notes.push_back(fmt::format(
-      "beams and shells share {}: a shell of CalculiX does not resist that a beam turns "
-      "there about the normal of the shell, which is a frequency of zero where nothing "
-      "else does; first: {}",
-      plural(std::count(at.begin(), at.end(), 3u), "node"),
-      deck.model.node_label(static_cast<int>(first - at.begin()))));
+  deck.notes.push_back(
+      fmt::format("beams and shells share {}: a shell of CalculiX does not resist that a beam "
+                  "turns there about the normal of the shell, which is a frequency of zero where "
+                  "nothing else does; first: {}",
+                  plural(std::count(at.begin(), at.end(), 3u), "node"),
+                  deck.model.node_label(static_cast<int>(first - at.begin()))));
 }
 
 void add_set(CalculixText& deck, const char* keyword, const std::string& name,
@@ -246,8 +245,8 @@ void add_step(CalculixText& deck, int modes) {
   if (const int most = static_cast<int>(std::max(1L, deck.dofs / 5)); modes > most) {
     modes = most;
     deck.notes.push_back(fmt::format(
-        "the step asks for {}, a fifth of the {} of the deck: asked for more than it can "
-        "find, CalculiX prints zeros",
+        "the step asks for {}, a fifth of the {} of the deck: asked for more than it can find, "
+        "CalculiX prints zeros",
         plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom")));
   }
   deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
@@ -284,7 +283,8 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 
 WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
   if (model.elements.empty())
-    throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
+    throw InputError(ErrorCode::unsupported,
+                     "the model has no elements, expected a mesh (matrices make no deck)");
   const std::optional<OffsetBeams> beside = offset_beams(model);
   const FeModel& given = beside ? beside->model : model;
   FeModel tied;  // only if needed: what nothing resists is singular there too

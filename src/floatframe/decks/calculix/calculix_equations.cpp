@@ -260,15 +260,14 @@ void CalculixEquations::say_refused() {
   if (refused_.empty()) return;
   const auto more = static_cast<long>(refused_.size()) - 1;
   deck_.errors.add(
-      deck_.model.mark(first_source_),
-      fmt::format(
-          "the rotation of node {}, of a beam or shell, is in an equation, a spring or the "
-          "arm of an end beside its node; CalculiX, which makes solids of beams and shells, "
-          "would lose it (.vtu and .msh show the mesh){}",
-          first_refused_,
-          more == 0
-              ? ""
-              : fmt::format("; the same holds for {}", plural(more, "more node", "more nodes"))));
+      ErrorCode::unsupported, deck_.model.mark(first_source_),
+      fmt::format("the rotation of node {}, of a beam or shell, is in an equation, a spring or the "
+                  "arm of an end beside its node; CalculiX, which makes solids of beams and "
+                  "shells, would lose it (.vtu and .msh show the mesh){}",
+                  first_refused_,
+                  more == 0 ? ""
+                            : fmt::format("; the same holds for {}",
+                                          plural(more, "more node", "more nodes"))));
 }
 
 void CalculixEquations::add_zeros() {

@@ -45,9 +45,9 @@ class SectionWriter {
 
   void add() {
     if (model_.materials.empty() && !model_.elements.empty())
-      return deck_.errors.add({model_.files.empty() ? std::string() : model_.files.front()},
-                              "the file has no material, which a deck needs: give one (--material "
-                              "E,NU,RHO)");
+      return deck_.errors.add(
+          ErrorCode::incomplete, {model_.files.empty() ? std::string() : model_.files.front()},
+          "the file has no material, which a deck needs: give one (--material E,NU,RHO)");
     std::map<SectionKey, std::vector<int>> sets;
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
       const Element& element = model_.elements[e];
@@ -75,7 +75,7 @@ class SectionWriter {
     for (const auto& [what, elements] : refused_) {
       const Element& first = model_.elements[elements.first];
       deck_.errors.add(
-          deck_.mark_of(first),
+          ErrorCode::wrong_value, deck_.mark_of(first),
           fmt::format("{} {}{}", model_.element_label(static_cast<int>(elements.first)), what,
                       elements.more == 0
                           ? ""
@@ -93,8 +93,8 @@ class SectionWriter {
       what = "has no material, which a deck needs";
     else if (e.layup >= 0)
       what =
-          "is a solid with plies, which is not written as a CalculiX deck (.vtu and .msh show "
-          "the mesh)";
+          "is a solid with plies, which is not written as a CalculiX deck (.vtu and .msh show the "
+          "mesh)";
     else if (is_panel(e.type))
       what = "is a shear panel, which CalculiX has not (.vtu and .msh show the mesh)";
     else if ((is_shell(e.type) || is_membrane(e.type)) && in(e.section, model_.shells))

@@ -27,8 +27,8 @@ void bar_axes(NastranFields& f, char* axes) {
     return i >= word.size() || letters.find(word[i]) != std::string_view::npos;
   };
   if (word.size() > 3 || !one_of(0, "GB") || !one_of(1, "GO") || !one_of(2, "GO")) {
-    f.error(fmt::format("OFFT is {}, expected GGG, BGG, GGO, BGO, GOG, BOG, GOO or BOO",
-                        shown(f.text(7))));
+    f.error(ErrorCode::wrong_value, "OFFT is {}, expected GGG, BGG, GGO, BGO, GOG, BOG, GOO or BOO",
+            shown(f.text(7)));
     return;
   }
   for (std::size_t i = 0; i < word.size(); ++i) axes[i] = word[i];
@@ -72,7 +72,8 @@ void read_nastran_bar_default(NastranFields& f, NastranContent& c) {
   bar_axes(f, axes);
   d.axes = axes[0];
   const auto [it, fresh] = c.bar_defaults.try_emplace(f.name() == "BAROR" ? "CBAR" : "CBEAM", d);
-  if (!fresh) f.error(fmt::format("it is in the file twice, first in line {}", it->second.at.line));
+  if (!fresh)
+    f.error(ErrorCode::duplicate, "it is in the file twice, first in line {}", it->second.at.line);
 }
 
 void complete_nastran_bars(NastranContent& c, TextSource& source) {
@@ -83,7 +84,8 @@ void complete_nastran_bars(NastranContent& c, TextSource& source) {
     if (e.default_property && d != nullptr && d->property > 0) e.property = d->property;
     if (!e.default_orientation) continue;
     if (d == nullptr || (d->orientation_node == 0 && d->orientation == Vec3::Zero())) {
-      source.error(e.at, fmt::format("{} {}: the orientation vector is missing", e.card, e.id));
+      source.error(ErrorCode::missing, e.at, "{} {}: the orientation vector is missing", e.card,
+                   e.id);
       continue;
     }
     e.orientation = d->orientation;

@@ -54,8 +54,8 @@ int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string&
     largest_id_ = *std::max_element(model.node_ids.begin(), model.node_ids.end());
   }
   if (largest_id_ == std::numeric_limits<int>::max()) {
-    source.stop(at, fmt::format("{} needs a node of its own, but there is no number above {}", who,
-                                largest_id_));
+    source.stop(ErrorCode::incomplete, at,
+                "{} needs a node of its own, but there is no number above {}", who, largest_id_);
   }
   model.positions.push_back(p);
   model.node_ids.push_back(++largest_id_);
@@ -81,7 +81,7 @@ int NastranBuild::node(int id, const FeSource& at, const std::string& who) {
   const auto it = node_of.find(id);
   if (it != node_of.end()) return it->second;
   if (id > 0) {
-    source.error(at,
+    source.error(ErrorCode::not_found, at,
                  content.scalar_points.contains(id)
                      ? fmt::format("{} has the scalar point {}, expected a node (GRID)", who, id)
                      : fmt::format("{} has node {}, which is not in the file", who, id));
@@ -93,14 +93,15 @@ void NastranBuild::spend(std::size_t members, const FeSource& at) {
   spent_ += members;
   const std::uint64_t most = 10'000'000 + 100 * (content.grids.size() + content.elements.size());
   if (spent_ > most) {
-    source.stop(at, fmt::format("the sets and supports have more than {} members in all, too many "
-                                "for a file of {} nodes and {} elements",
-                                most, content.grids.size(), content.elements.size()));
+    source.stop(ErrorCode::too_large, at,
+                "the sets and supports have more than {} members in all, too many for a file of {} "
+                "nodes and {} elements",
+                most, content.grids.size(), content.elements.size());
   }
 }
 
 void NastranBuild::note(const FeSource& at, const std::string& text) {
-  model.notes.push_back(ErrorEntry{source.mark(at), text}.text());
+  model.notes.push_back(source.mark(at).before(text));
 }
 
 const NastranFrame& NastranBuild::frame(int id, const FeSource& at) {
@@ -116,18 +117,20 @@ NastranFrame NastranBuild::made(int id, const FeSource& at) {
   const bool nodes = by_nodes != content.node_systems.end();
   if (it == content.systems.end() && !nodes) {
     const auto other = content.other_systems.find(id);
-    source.error(at, other == content.other_systems.end()
-                         ? fmt::format("coordinate system {} is not in the file", id)
-                         : fmt::format("coordinate system {} is a {}, which is not read (CORD1R, "
-                                       "CORD1C, CORD1S, CORD2R, CORD2C and CORD2S are)",
-                                       id, other->second));
+    source.error(ErrorCode::not_found, at,
+                 other == content.other_systems.end()
+                     ? fmt::format("coordinate system {} is not in the file", id)
+                     : fmt::format("coordinate system {} is a {}, which is not read (CORD1R, "
+                                   "CORD1C, CORD1S, CORD2R, CORD2C and CORD2S are)",
+                                   id, other->second));
     return {};
   }
   const FeSource own = nodes ? by_nodes->second.at : it->second.at;
   if (!open_.insert(id).second || open_.size() > 100) {
-    source.error(own, fmt::format("coordinate system {} refers to itself through its reference "
-                                  "systems, or these are more than 100 deep",
-                                  id));
+    source.error(ErrorCode::cycle, own,
+                 "coordinate system {} refers to itself through its reference systems, or these "
+                 "are more than 100 deep",
+                 id);
     return {};
   }
   if (nodes) {
@@ -150,7 +153,8 @@ NastranFrame NastranBuild::through(char kind, const Vec3& a, const Vec3& b, cons
   f.origin = a;
   const Vec3 z = b - a, y = z.cross(c - a);
   if (!(y.norm() > 1e-12 * z.norm() * (c - a).norm())) {
-    source.error(at, fmt::format("coordinate system {}: its points A, B and C are on a line", id));
+    source.error(ErrorCode::geometry, at,
+                 "coordinate system {}: its points A, B and C are on a line", id);
     return f;
   }
   f.R.col(2) = z.normalized();
@@ -167,8 +171,8 @@ Vec3 NastranBuild::place_of(int id, const FeSource& at, int system) {
   }
   const auto it = grid_of_.find(id);
   if (it == grid_of_.end()) {
-    source.error(
-        at, fmt::format("coordinate system {} has node {}, which is not in the file", system, id));
+    source.error(ErrorCode::not_found, at,
+                 "coordinate system {} has node {}, which is not in the file", system, id);
     return Vec3(id, 0.1 * id * id, 1.0);  // somewhere; the error is known
   }
   const NastranGrid& g = content.grids[it->second];
@@ -187,8 +191,8 @@ void build_nastran_nodes(NastranBuild& build) {
     const auto [it, fresh] = build.node_of.try_emplace(g.id, model.nodes());
     if (!fresh && g.id > 0) {
       const FeSource& first = model.node_sources[it->second];
-      build.source.error(
-          g.at, fmt::format("node {} is in the file twice, first in line {}", g.id, first.line));
+      build.source.error(ErrorCode::duplicate, g.at,
+                         "node {} is in the file twice, first in line {}", g.id, first.line);
     }
     model.positions.push_back(to_basic(build.frame(g.cp, g.at), g.x));
     model.node_ids.push_back(g.id);
@@ -200,7 +204,7 @@ void build_nastran_nodes(NastranBuild& build) {
       build.turned_axes[model.nodes() - 1] = nastran_axes_at(*cd, model.positions.back());
     }
   }
-  if (n == 0) build.source.error({0, 0}, "the file has no nodes (GRID)");
+  if (n == 0) build.source.error(ErrorCode::missing, {0, 0}, "the file has no nodes (GRID)");
 }
 
 }  // namespace floatframe

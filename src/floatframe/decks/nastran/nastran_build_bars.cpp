@@ -39,8 +39,8 @@ Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
 }
 
 void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who) {
-  build.source.error(
-      at, fmt::format("{}: it has no length, or its orientation vector is along its axis", who));
+  build.source.error(ErrorCode::missing, at,
+                     "{}: it has no length, or its orientation vector is along its axis", who);
 }
 
 bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {

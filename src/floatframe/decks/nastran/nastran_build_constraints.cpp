@@ -107,11 +107,11 @@ class ConstraintBuilder {
   void spider(const NastranSpider& s) {
     const std::string who = fmt::format("{} {}", s.card, s.id);
     if (s.nodes.empty()) {
-      b_.source.error(s.at, fmt::format("{} has no nodes", who));
+      b_.source.error(ErrorCode::missing, s.at, "{} has no nodes", who);
       return;
     }
     if (s.mask == 0) {
-      b_.source.error(s.at, fmt::format("{} has no components", who));
+      b_.source.error(ErrorCode::missing, s.at, "{} has no components", who);
       return;
     }
     Spider spider;
@@ -126,7 +126,7 @@ class ConstraintBuilder {
       const int node = b_.node(id, s.at, who);
       if (node < 0) return;
       if (s.kind == Spider::Kind::rigid && node == spider.reference)
-        return b_.source.error(s.at, fmt::format("{}: node {} depends on itself", who, id));
+        return b_.source.error(ErrorCode::cycle, s.at, "{}: node {} depends on itself", who, id);
       if (s.kind == Spider::Kind::rigid && (s.mask >> 3) != 0) b_.rotates[index(node)] = 1;
       if (s.kind == Spider::Kind::rigid && b_.turned[index(node)] != 0 && !any_axes(s.mask)) {
         followers_.push_back({&s, spider.reference, node});
@@ -154,7 +154,8 @@ class ConstraintBuilder {
     if (node < 0) return;
     const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
     if (axes.kind != 'R') {
-      b_.source.error(m.at, fmt::format("{}: its system {} is not rectangular", who, m.system));
+      b_.source.error(ErrorCode::wrong_value, m.at, "{}: its system {} is not rectangular", who,
+                      m.system);
       return;
     }
     PointMass point;
@@ -168,16 +169,17 @@ class ConstraintBuilder {
     const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
     if (b_.rotates[index(node)] == 0) {
       if (offset.norm() > 0.0) {
-        b_.source.error(m.at, fmt::format("{} has an offset, but node {} has no rotations; tie the "
-                                          "mass to several nodes (RBE2, RBE3)",
-                                          who, m.node));
+        b_.source.error(ErrorCode::missing, m.at,
+                        "{} has an offset, but node {} has no rotations; tie the mass to several "
+                        "nodes (RBE2, RBE3)",
+                        who, m.node);
         return;
       }
       if (point.J.cwiseAbs().maxCoeff() > 0.0) {
         b_.note(m.at,
-                fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
-                            "left out",
-                            who, m.node));
+                fmt::format(
+                    "{}: node {} has no rotations, so the inertia has no effect and is left out",
+                    who, m.node));
         point.J.setZero();
       }
     }
@@ -218,9 +220,9 @@ class ConstraintBuilder {
         continue;
       }
       if (!by_control && set != 0 && e.set != set) {
-        b_.source.error(e.at, fmt::format("the file has MPC sets {} and {}; only one can be read, "
-                                          "remove the other",
-                                          set, e.set));
+        b_.source.error(ErrorCode::exclusive, e.at,
+                        "the file has MPC sets {} and {}; only one can be read, remove the other",
+                        set, e.set);
         return;
       }
       set = e.set;
@@ -252,9 +254,9 @@ class ConstraintBuilder {
                                  passed_over));
     }
     if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0) {
-      b_.source.error(b_.content.control.mpc.front().second,
-                      fmt::format("the case control selects MPC set {}, which is not in the file",
-                                  b_.content.control.mpc.front().first));
+      b_.source.error(ErrorCode::not_found, b_.content.control.mpc.front().second,
+                      "the case control selects MPC set {}, which is not in the file",
+                      b_.content.control.mpc.front().first);
     }
   }
 
@@ -284,9 +286,9 @@ int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
                          const NastranEquation::Term& term) {
   const int node = build.node(term.node, e.at, fmt::format("MPC {}", e.set));
   if (node < 0 || term.component >= 0) return node;
-  build.source.error(e.at, fmt::format("MPC {}: the component of node {} is missing, expected one "
-                                       "of 1 to 6",
-                                       e.set, term.node));
+  build.source.error(ErrorCode::missing, e.at,
+                     "MPC {}: the component of node {} is missing, expected one of 1 to 6", e.set,
+                     term.node);
   return -1;
 }
 
@@ -316,8 +318,8 @@ void build_nastran_supports(NastranBuild& build) {
       const int node = points ? -1 : build.node(s.first, s.at, "a support (SPC)");
       if (node >= 0) nodes.push_back(node);
     } else if (!numbers.append(s.first, s.last, nodes) && !points) {
-      build.source.error(s.at,
-                         fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
+      build.source.error(ErrorCode::not_found, s.at, "SPC1: there is no node from {} to {}",
+                         s.first, s.last);
     }
     build.spend(nodes.size(), s.at);
     for (const int node : nodes) {

@@ -35,9 +35,9 @@ class ElementBuilder {
     for (const NastranElement& e : c_.elements) {
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
       if (!fresh && e.id > 0) {
-        b_.source.error(e.at, fmt::format("{}: this element number is in the file twice, first in "
-                                          "line {}",
-                                          label(e), it->second.line));
+        b_.source.error(ErrorCode::duplicate, e.at,
+                        "{}: this element number is in the file twice, first in line {}", label(e),
+                        it->second.line);
       }
       if (mesh_only_ &&
           (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
@@ -78,15 +78,15 @@ class ElementBuilder {
     const auto it = c_.properties.find(e.property);
     if (it == c_.properties.end()) {
       if (missing_.insert(e.property).second) {
-        b_.source.error(e.at,
-                        fmt::format("{}: property {} is not in the file", label(e), e.property));
+        b_.source.error(ErrorCode::not_found, e.at, "{}: property {} is not in the file", label(e),
+                        e.property);
       }
       return nullptr;
     }
     const std::string_view card = it->second.card;
     if (std::find(cards.begin(), cards.end(), card) == cards.end()) {
-      b_.source.error(e.at, fmt::format("{}: property {} is a {}, expected a {}", label(e),
-                                        e.property, card, *cards.begin()));
+      b_.source.error(ErrorCode::wrong_value, e.at, "{}: property {} is a {}, expected a {}",
+                      label(e), e.property, card, *cards.begin());
       return nullptr;
     }
     return &it->second;
@@ -114,9 +114,9 @@ class ElementBuilder {
       const NastranProperty* p = property(e, {"PSHELL", "PCOMP", "PCOMPG"});
       if (p == nullptr) return;
       if (e.other) {
-        b_.source.error(e.at, fmt::format("{}: only a part of its mid-side nodes is given; all "
-                                          "or none must be",
-                                          label(e)));
+        b_.source.error(ErrorCode::incomplete, e.at,
+                        "{}: only a part of its mid-side nodes is given; all or none must be",
+                        label(e));
         return;
       }
       // A PCOMP has its nonstructural mass in its section.
@@ -256,18 +256,17 @@ class ElementBuilder {
 
   void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
     if (!(value > 0.0))
-      b_.source.error(
-          p.at, fmt::format("{} {}: {} is {:g}, expected more than 0", p.card, id, what, value));
+      b_.source.error(ErrorCode::too_large, p.at, "{} {}: {} is {:g}, expected more than 0", p.card,
+                      id, what, value);
   }
 
   /// The mean of the corners.
   double thickness(const NastranElement& e, const NastranProperty& p) {
     if (!e.own_thickness) return p.thickness;
     if (!p.plies.empty()) {
-      b_.source.error(e.at,
-                      fmt::format("{}: it has thicknesses of its corners, and its property {} "
-                                  "is a {}",
-                                  label(e), e.property, p.card));
+      b_.source.error(ErrorCode::wrong_value, e.at,
+                      "{}: it has thicknesses of its corners, and its property {} is a {}",
+                      label(e), e.property, p.card);
       return p.thickness;
     }
     const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
@@ -337,24 +336,23 @@ class ElementBuilder {
   void notes() {
     const bool nothing = b_.model.elements.empty() && c_.springs.list.empty();
     if (nothing && b_.source.errors() == 0) {
-      b_.source.error({0, 0},
-                      mesh_only_ && skins_ > 0
-                          ? "the file has no solid elements, and its shells and bars have no "
-                            "properties"
-                          : "the file has no solid, shell, bar, rod or spring; of masses and "
-                            "rigid elements alone there is no flexible part");
+      b_.source.error(
+          ErrorCode::missing, {0, 0},
+          mesh_only_ && skins_ > 0
+              ? "the file has no solid elements, and its shells and bars have no properties"
+              : "the file has no solid, shell, bar, rod or spring; of masses and rigid elements "
+                "alone there is no flexible part");
     }
     if (skins_ > 0) {
       b_.note(first_skin_,
-              fmt::format("{} surfaces and lines of the mesh have no property: they only "
-                          "make node sets",
-                          skins_));
+              fmt::format(
+                  "{} surfaces and lines of the mesh have no property: they only make node sets",
+                  skins_));
     }
     if (uneven_ > 0)
-      b_.note(first_uneven_,
-              fmt::format("{} shells have corners of different thickness, by {:.1f} % at most: "
-                          "each has the mean of its corners",
-                          uneven_, 100.0 * unevenness_));
+      b_.note(first_uneven_, fmt::format("{} shells have corners of different thickness, by {:.1f} "
+                                         "% at most: each has the mean of its corners",
+                                         uneven_, 100.0 * unevenness_));
     if (mesh_only_ && !options_.material && !b_.model.elements.empty()) {
       b_.note(b_.model.elements[0].source, "the file has no material");
     }

@@ -33,8 +33,8 @@ double shear_thickness(NastranBuild& build, const NastranElement& e, const Nastr
   const int first = material(p.material), other = material(p.shear_material);
   const std::vector<Material>& all = build.model.materials;
   if (all[first].elasticity || all[other].elasticity) {
-    build.source.error(p.at, fmt::format("{} {}: MID3 is not MID1: that is read of MAT1 only",
-                                         p.card, e.property));
+    build.source.error(ErrorCode::unsupported, p.at,
+                       "{} {}: MID3 is not MID1: that is read of MAT1 only", p.card, e.property);
     return 0.0;
   }
   return p.shell_shear * all[other].shear() / all[first].shear();
@@ -46,8 +46,8 @@ Mat3 coupling_of(NastranBuild& build, const NastranElement& e, const NastranProp
   if (it != build.content.materials.end() && it->second.plane)
     return build.content.stiffness_factor *
            plane_stress(anisotropic_material(*it->second.elasticity, true, 0.0));
-  build.source.error(
-      p.at, fmt::format("{} {}: MID4 is {}, expected a MAT2", p.card, e.property, p.coupling));
+  build.source.error(ErrorCode::wrong_value, p.at, "{} {}: MID4 is {}, expected a MAT2", p.card,
+                     e.property, p.coupling);
   return Mat3::Zero();
 }
 
@@ -74,9 +74,10 @@ ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
   if (!p.z0) return s;
   const double middle = *p.z0 + 0.5 * p.thickness;
   if (e.offset != 0.0 && std::abs(middle) > 1e-6 * p.thickness)
-    build.source.error(e.at, fmt::format("{} {}: it has an offset ZOFFS, and its {} {} a Z0 of "
-                                         "{:g}: give one of them",
-                                         e.card, e.id, p.card, e.property, *p.z0));
+    build.source.error(
+        ErrorCode::out_of_range, e.at,
+        "{} {}: it has an offset ZOFFS, and its {} {} a Z0 of {:g}: give one of them", e.card, e.id,
+        p.card, e.property, *p.z0);
   s.offset += middle;
   return s;
 }
@@ -88,17 +89,19 @@ void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element&
   if (e.material_system < 0) return;
   result.orientation = system_orientation(build, e.material_system, e.at);
   if (build.model.orientations[result.orientation].kind != Orientation::Kind::rectangular)
-    build.source.error(e.at, fmt::format("{} {}: its material system MCID {} is cylindrical or "
-                                         "spherical, expected a rectangular one",
-                                         e.card, e.id, e.material_system));
+    build.source.error(ErrorCode::wrong_value, e.at,
+                       "{} {}: its material system MCID {} is cylindrical or spherical, expected a "
+                       "rectangular one",
+                       e.card, e.id, e.material_system);
 }
 
 void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result) {
   if (!build.model.materials[result.material].elasticity || p.material_system == 0) return;
   if (p.material_system < 0) {
-    build.source.error(p.at, fmt::format("PSOLID: CORDM is {}: axes of the element are not read, "
-                                         "give a coordinate system",
-                                         p.material_system));
+    build.source.error(
+        ErrorCode::unsupported, p.at,
+        "PSOLID: CORDM is {}: axes of the element are not read, give a coordinate system",
+        p.material_system);
     return;
   }
   result.orientation = system_orientation(build, p.material_system, p.at);

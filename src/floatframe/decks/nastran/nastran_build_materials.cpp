@@ -14,8 +14,8 @@ double NastranMaterials::own_shear(int id) {
   if (!m.young || !m.shear || !m.poisson) return 1.0;
   if (!(*m.shear > 0.0)) {
     if (unfit_for_bars_.insert(id).second)
-      b_.source.error(
-          m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear));
+      b_.source.error(ErrorCode::too_large, m.at,
+                      "MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear);
     return 1.0;
   }
   return *m.shear * 2.0 * (1.0 + *m.poisson) / *m.young;
@@ -46,8 +46,8 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
   if (found != c_.materials.end()) {
     const std::string misfit = nastran_material_misfit(found->second, p.card);
     if (!misfit.empty() && first)
-      b_.source.error(p.at, fmt::format("{}: material {} is a {}, expected a {}", p.card, id,
-                                        found->second.card, misfit));
+      b_.source.error(ErrorCode::wrong_value, p.at, "{}: material {} is a {}, expected a {}",
+                      p.card, id, found->second.card, misfit);
     m = elastic(found->first, found->second);
     m.density = (found->second.density.value_or(0.0) + nonstructural) * c_.mass_factor;
     if (!found->second.density && weighs)
@@ -55,20 +55,22 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
                                                                                c_.mass_factor};
     if (m.density < 0.0 && nonstructural < 0.0 && found->second.density.value_or(-1.0) >= 0.0 &&
         negative_.insert({p.at.file, p.at.line}).second)
-      b_.source.error(p.at, fmt::format("{}: its nonstructural mass makes the density of material "
-                                        "{} {:g}, expected no negative number",
-                                        p.card, id, m.density / c_.mass_factor));
+      b_.source.error(ErrorCode::out_of_range, p.at,
+                      "{}: its nonstructural mass makes the density of material {} {:g}, expected "
+                      "no negative number",
+                      p.card, id, m.density / c_.mass_factor);
     if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second) {
-      b_.note(p.at, fmt::format("{}: its nonstructural mass is added to the density of its "
-                                "material",
-                                p.card));
+      b_.note(p.at,
+              fmt::format("{}: its nonstructural mass is added to the density of its material",
+                          p.card));
     }
   } else if (first) {
     const auto other = c_.other_materials.find(id);
-    b_.source.error(p.at, other == c_.other_materials.end()
-                              ? fmt::format("{}: material {} is not in the file", p.card, id)
-                              : fmt::format("{}: material {} is a {}, which is not read", p.card,
-                                            id, other->second));
+    b_.source.error(
+        ErrorCode::not_found, p.at,
+        other == c_.other_materials.end()
+            ? fmt::format("{}: material {} is not in the file", p.card, id)
+            : fmt::format("{}: material {} is a {}, which is not read", p.card, id, other->second));
   }
   const int fresh = static_cast<int>(b_.model.materials.size());
   b_.model.materials.push_back(m);
@@ -85,15 +87,17 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   Material result;
   if (m.elasticity && checked_.insert(id).second) {
     const std::string error = nastran_plane_error(m);
-    if (!error.empty()) b_.source.error(m.at, fmt::format("{} {}: {}", m.card, id, error));
+    if (!error.empty())
+      b_.source.error(ErrorCode::wrong_value, m.at, "{} {}: {}", m.card, id, error);
   }
   if (m.elasticity) return anisotropic_material(c_.stiffness_factor * *m.elasticity, m.plane, 0.0);
   if (m.card != std::string_view("MAT1")) return result;  // refused already
   const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
   if (given < 2) {
     if (checked_.insert(id).second)
-      b_.source.error(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
-                                        given == 0 ? "none" : "one"));
+      b_.source.error(ErrorCode::wrong_count, m.at,
+                      "MAT1 {}: {} of E, G and NU given, expected two", id,
+                      given == 0 ? "none" : "one");
     return result;
   }
   result.young = m.young ? *m.young : 2.0 * (1.0 + *m.poisson) * *m.shear;
@@ -104,9 +108,9 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   } else {
     // The same sentence for each use of the material would not help.
     if (checked_.insert(id).second)
-      b_.source.error(m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 where it gives "
-                                        "NU with E",
-                                        id, *m.shear));
+      b_.source.error(ErrorCode::too_large, m.at,
+                      "MAT1 {}: G is {:g}, expected more than 0 where it gives NU with E", id,
+                      *m.shear);
     return result;
   }
   if (given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear) &&
@@ -119,8 +123,8 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
                           const char* expected) {
     if (!valid)
-      b_.source.error(m.at, fmt::format("MAT1 {}: {} is {:g}{}, expected {}", id, what, found,
-                                        origin, expected));
+      b_.source.error(ErrorCode::wrong_count, m.at, "MAT1 {}: {} is {:g}{}, expected {}", id, what,
+                      found, origin, expected);
   };
   const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
                        double y) {

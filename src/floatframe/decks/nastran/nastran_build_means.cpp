@@ -30,11 +30,14 @@ class MeanBuilder {
     if (reference_ < 0 || !gather() || !averages()) return;
     taken();
     if (solve(false) || solve(true)) return;
-    error("too many of its nodes depend on other rigid elements or equations already");
+    error(ErrorCode::duplicate,
+          "too many of its nodes depend on other rigid elements or equations already");
   }
 
  private:
-  void error(const std::string& text) { b_.source.error(s_.at, fmt::format("{}: {}", who_, text)); }
+  void error(ErrorCode code, const std::string& text) {
+    b_.source.error(code, s_.at, "{}: {}", who_, text);
+  }
   Vec3 arm(int node) const { return b_.model.positions[node] - b_.model.positions[reference_]; }
 
   /// Weights of each node, in basic axes.
@@ -92,9 +95,10 @@ class MeanBuilder {
       d.segment<3>(c < 3 ? 0 : 3) = T.col(c % 3);
       if ((known * d - d).norm() > 1e-6) {
         error(
-            fmt::format("the components of its nodes do not define how component {} of the "
-                        "reference moves",
-                        c + 1));
+            ErrorCode::wrong_value,
+            fmt::format(
+                "the components of its nodes do not define how component {} of the reference moves",
+                c + 1));
         return false;
       }
       const Vec6 g = inverse * d;

@@ -34,9 +34,8 @@ class RigidBuilder {
     Mat6 N;
     for (int i = 0; i < 6; ++i) N.row(i) = row(independent[i]).transpose();
     if (pivoted_rank(N, 1e-9) < 6) {
-      b_.source.error(r_.at, fmt::format("{}: its six independent components do not define a rigid "
-                                         "motion",
-                                         who_));
+      b_.source.error(ErrorCode::dependent, r_.at,
+                      "{}: its six independent components do not define a rigid motion", who_);
       return;
     }
     const Mat6 inverse = N.inverse();
@@ -99,7 +98,7 @@ void rigid_rod(NastranBuild& build, const NastranRigidRod& r) {
   if (a < 0 || b < 0) return;
   const Vec3 d = build.model.positions[b] - build.model.positions[a];
   if (!(d.norm() > 0.0)) {
-    build.source.error(r.at, fmt::format("{}: it has no length", who));
+    build.source.error(ErrorCode::missing, r.at, "{}: it has no length", who);
     return;
   }
   LinearEquation e;

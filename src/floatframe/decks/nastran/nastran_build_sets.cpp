@@ -27,9 +27,10 @@ std::set<int> selected_nastran_sets(NastranBuild& build,
   std::set<int> sets;
   for (const auto& [id, at] : selected) {
     if (id != selected.front().first) {
-      build.source.error(at, fmt::format("the case control selects {} sets {} and {}; only one can "
-                                         "be read, remove the other",
-                                         what, selected.front().first, id));
+      build.source.error(
+          ErrorCode::exclusive, at,
+          "the case control selects {} sets {} and {}; only one can be read, remove the other",
+          what, selected.front().first, id);
       return sets;
     }
     const auto joined = added.find(id);
@@ -37,13 +38,14 @@ std::set<int> selected_nastran_sets(NastranBuild& build,
       sets.insert(id);
     } else {
       if (there.contains(id))
-        build.source.error(at, fmt::format("the set {} is one of {} cards and one of {}ADD, "
-                                           "expected only one of both",
-                                           id, what, what));
+        build.source.error(
+            ErrorCode::wrong_value, at,
+            "the set {} is one of {} cards and one of {}ADD, expected only one of both", id, what,
+            what);
       for (const int set : joined->second)
         if (!there.contains(set))
-          build.source.error(
-              at, fmt::format("{}ADD {} joins set {}, which is not in the file", what, id, set));
+          build.source.error(ErrorCode::not_found, at,
+                             "{}ADD {} joins set {}, which is not in the file", what, id, set);
       if (build.source.errors() > 0) return {};
       sets.insert(joined->second.begin(), joined->second.end());
     }
@@ -73,7 +75,7 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
       complete = false;
       if (!set.strict || first == 0) continue;
       build.source.error(
-          set.at,
+          ErrorCode::not_found, set.at,
           first == last
               ? fmt::format("set {} has {} {}, which is not in the file", set.id, what, first)
               : fmt::format("set {}: there is no {} from {} to {}", set.id, what, first, last));

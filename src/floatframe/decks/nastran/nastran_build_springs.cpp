@@ -20,8 +20,9 @@ class SpringBuilder {
     for (const NastranSpring& s : springs_.list) {
       const auto [it, fresh] = seen.try_emplace(s.id, s.at);
       if (!fresh && s.id > 0)
-        error(s, fmt::format("this element number is in the file twice, first in line {}",
-                             it->second.line));
+        error(ErrorCode::duplicate, s,
+              fmt::format("this element number is in the file twice, first in line {}",
+                          it->second.line));
       if (s.card == std::string_view("CBUSH")) {
         bushing(s);
       } else if (s.card == std::string_view("CBUSH1D")) {
@@ -37,8 +38,8 @@ class SpringBuilder {
 
  private:
   static std::string label(const NastranSpring& s) { return fmt::format("{} {}", s.card, s.id); }
-  void error(const NastranSpring& s, const std::string& text) {
-    b_.source.error(s.at, fmt::format("{}: {}", label(s), text));
+  void error(ErrorCode code, const NastranSpring& s, const std::string& text) {
+    b_.source.error(code, s.at, "{}: {}", label(s), text);
   }
   const Vec3& position(int node) const { return b_.model.positions[node]; }
 
@@ -62,9 +63,10 @@ class SpringBuilder {
     if (id == 0) return true;
     if (b_.content.scalar_points.contains(id)) {
       if (c > 0) {
-        error(s, fmt::format("the component is {}, but {} is a scalar point, which has one only (0 "
-                             "or blank)",
-                             c + 1, id));
+        error(ErrorCode::wrong_value, s,
+              fmt::format(
+                  "the component is {}, but {} is a scalar point, which has one only (0 or blank)",
+                  c + 1, id));
         return false;
       }
       const NastranScalarPoint* point = b_.scalars.find(id);
@@ -76,7 +78,8 @@ class SpringBuilder {
     node = b_.node(id, s.at, label(s));
     if (node < 0) return false;
     if (c < 0) {
-      error(s, fmt::format("the component of node {} is missing, expected one of 1 to 6", id));
+      error(ErrorCode::missing, s,
+            fmt::format("the component of node {} is missing, expected one of 1 to 6", id));
       return false;
     }
     direction.segment<3>(c < 3 ? 0 : 3) = sign * b_.axes(node).col(c % 3);
@@ -97,7 +100,8 @@ class SpringBuilder {
     if (!s.stiffness) {
       const auto it = springs_.pelas.find(s.property);
       if (it == springs_.pelas.end()) {
-        error(s, fmt::format("property {} (PELAS) is not in the file", s.property));
+        error(ErrorCode::not_found, s,
+              fmt::format("property {} (PELAS) is not in the file", s.property));
         return;
       }
       k = it->second.first;
@@ -117,7 +121,8 @@ class SpringBuilder {
     if (!nodes(s, n)) return;
     const auto it = springs_.pbush.find(s.property);
     if (it == springs_.pbush.end()) {
-      error(s, fmt::format("property {} (PBUSH) is not in the file", s.property));
+      error(ErrorCode::not_found, s,
+            fmt::format("property {} (PBUSH) is not in the file", s.property));
       return;
     }
     const Vec6 k = it->second.first * b_.content.stiffness_factor;
@@ -140,7 +145,8 @@ class SpringBuilder {
     if (!nodes(s, spring.nodes)) return;
     const auto it = springs_.pbush1d.find(s.property);
     if (it == springs_.pbush1d.end()) {
-      error(s, fmt::format("property {} (PBUSH1D) is not in the file", s.property));
+      error(ErrorCode::not_found, s,
+            fmt::format("property {} (PBUSH1D) is not in the file", s.property));
       return;
     }
     const Vec3 a = position(spring.nodes[0]);
@@ -150,7 +156,8 @@ class SpringBuilder {
     } else if (s.system < 0) {
       const Vec3 d = spring.nodes[1] < 0 ? Vec3(Vec3::Zero()) : Vec3(position(spring.nodes[1]) - a);
       if (!(d.norm() > 1e-9 * a.norm())) {
-        error(s, "it has no line from node to node; give a coordinate system CID");
+        error(ErrorCode::missing, s,
+              "it has no line from node to node; give a coordinate system CID");
         return;
       }
       x = d.normalized();
@@ -172,9 +179,10 @@ class SpringBuilder {
     }
     const Vec3 d = n[1] >= 0 ? Vec3(position(n[1]) - a) : Vec3(Vec3::Zero());
     if (!(d.norm() > 1e-9 * a.norm())) {
-      error(s, n[1] < 0 ? "it ends at the ground and has no axes; give a coordinate system CID"
-                        : "its nodes are at one place, so it has no axis; give a coordinate "
-                          "system CID");
+      error(ErrorCode::missing, s,
+            n[1] < 0
+                ? "it ends at the ground and has no axes; give a coordinate system CID"
+                : "its nodes are at one place, so it has no axis; give a coordinate system CID");
       return false;
     }
     Vec3 v = b_.axes(n[0]) * s.orientation;
@@ -188,14 +196,15 @@ class SpringBuilder {
     if (v.isZero(0.0)) {
       // Equal across the axis: any directions there will do.
       if (across && (k(1) != k(2) || k(4) != k(5))) {
-        error(s, "it has stiffness across its axis, but no orientation; give GO, a vector or CID");
+        error(ErrorCode::wrong_value, s,
+              "it has stiffness across its axis, but no orientation; give GO, a vector or CID");
         return false;
       }
       v = x.cross(std::abs(x(0)) < 0.7 ? Vec3::UnitX() : Vec3::UnitY());
     }
     const Vec3 z = x.cross(v);
     if (!(z.norm() > 1e-6 * v.norm())) {
-      error(s, "its orientation vector is parallel to its axis");
+      error(ErrorCode::geometry, s, "its orientation vector is parallel to its axis");
       return false;
     }
     axes << x, z.normalized().cross(x), z.normalized();

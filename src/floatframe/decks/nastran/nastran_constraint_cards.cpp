@@ -37,7 +37,8 @@ void dependent_components(NastranFields& f, std::size_t i, int expected) {
     count += std::popcount(f.components(i + 1, "the components of UM"));
   }
   if (count != expected)
-    f.error(fmt::format("UM has {} components, expected {} as in REFC", count, expected));
+    f.error(ErrorCode::wrong_count, "UM has {} components, expected {} as in REFC", count,
+            expected);
 }
 
 }  // namespace
@@ -49,9 +50,9 @@ void read_nastran_rbe2(NastranFields& f, NastranContent& c) {
   for (std::size_t i = 3; i < f.size(); ++i) {
     if (i + 1 == f.size() && is_real(f.text(i))) break;  // ALPHA
     if (same_word(f.text(i), "THRU"))
-      return f.error_in(i,
-                        "its list of nodes has THRU, which RBE2 does not know; expected each node "
-                        "by its number");
+      return f.error_in(
+          ErrorCode::wrong_value, i,
+          "its list of nodes has THRU, which RBE2 does not know; expected each node by its number");
     if (!f.blank(i)) s.nodes.push_back(f.label(i, "a node GM"));
   }
   c.spiders.push_back(std::move(s));
@@ -73,9 +74,10 @@ void read_nastran_rbe3(NastranFields& f, NastranContent& c) {
     }
     if (is_real(f.text(i))) {
       weight = f.real(i, "a weight");
-      if (!(weight > 0.0)) f.error(fmt::format("a weight is {:g}, expected more than 0", weight));
+      if (!(weight > 0.0))
+        f.error(ErrorCode::too_large, "a weight is {:g}, expected more than 0", weight);
       mask = f.components(++i, "the components of a weight");
-      if (mask == 0) f.error("the components of a weight are missing");
+      if (mask == 0) f.error(ErrorCode::missing, "the components of a weight are missing");
       continue;
     }
     s.nodes.push_back(f.label(i, "a node"));
@@ -114,7 +116,7 @@ void read_nastran_rigid(NastranFields& f, NastranContent& c, const char* card, s
     if (mask != 0) r.independent.push_back({names.back(), mask});
   }
   if (count != 6)
-    f.error(fmt::format("it has {} independent components, expected 6 in all", count));
+    f.error(ErrorCode::dependent, "it has {} independent components, expected 6 in all", count);
   for (std::size_t k = 0; k < nodes; ++k) {
     const unsigned mask = f.components(other + k, "the dependent components");
     if (mask != 0) r.dependent.push_back({names[k], mask});
@@ -163,13 +165,14 @@ void read_nastran_rbe1(NastranFields& f, NastranContent& c) {
     if (i + 1 == f.size() || is_real(f.text(i))) break;  // ALPHA
     const int node = f.label(i, "a node");
     const unsigned mask = f.components(++i, "the components of a node");
-    if (mask == 0) f.error(fmt::format("the components of node {} are missing", node));
+    if (mask == 0) f.error(ErrorCode::missing, "the components of node {} are missing", node);
     if (!dependent) count += std::popcount(mask);
     (dependent ? r.dependent : r.independent).push_back({node, mask});
   }
   if (count != 6)
-    f.error(fmt::format("it has {} independent components, expected 6 in all", count));
-  if (r.dependent.empty()) f.error("UM with the dependent components is missing");
+    f.error(ErrorCode::dependent, "it has {} independent components, expected 6 in all", count);
+  if (r.dependent.empty())
+    f.error(ErrorCode::missing, "UM with the dependent components is missing");
   c.rigids.push_back(std::move(r));
 }
 
@@ -193,13 +196,14 @@ void read_nastran_mpc(NastranFields& f, NastranContent& c) {
     int component = mask == 0 ? -1 : 0;  // none: of a scalar point
     while (component >= 0 && component < 6 && mask != (1u << component)) ++component;
     if (component == 6) {
-      f.error(fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(i + 1))));
+      f.error(ErrorCode::out_of_range, "the component is {}, expected one of 1 to 6",
+              shown(f.text(i + 1)));
       return;
     }
     e.terms.push_back({f.label(i, "a node"), component, f.real(i + 2, "a coefficient", 0.0)});
   }
   if (e.terms.empty() || e.terms[0].factor == 0.0) {
-    f.error("the first term needs a coefficient that is not zero");
+    f.error(ErrorCode::incomplete, "the first term needs a coefficient that is not zero");
     return;
   }
   c.equations.push_back(std::move(e));

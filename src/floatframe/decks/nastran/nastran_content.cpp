@@ -93,8 +93,8 @@ class ContentReader {
     }
     if (const auto& at = c_.control.preload)
       c_.notes.push_back(
-          fmt::format("{}:{}: STATSUB is ignored: the part is free of the stress "
-                      "of a preload, the frequencies of Nastran are not",
+          fmt::format("{}:{}: STATSUB is ignored: the part is free of the stress of a preload, the "
+                      "frequencies of Nastran are not",
                       source_.files()[at->file], at->line));
     if (has_control && !cards.ended())
       c_.notes.emplace_back("the file has no ENDDATA: if it is not cut short, nothing is missing");
@@ -220,7 +220,7 @@ class ContentReader {
   double factor(F& f, const std::string& name) {
     const double value = f.real(1, name.c_str());
     if (!(value > 0.0)) {
-      f.error(fmt::format("{} is {}, expected more than 0", name, shown(f.text(1))));
+      f.error(ErrorCode::too_large, "{} is {}, expected more than 0", name, shown(f.text(1)));
       return 1.0;
     }
     f.must_be_zero(2, "an imaginary part");
@@ -228,10 +228,9 @@ class ContentReader {
     if (fresh) return value;
     if (value != it->second.value) {
       const SourceMark first = source_.mark(it->second.at);
-      f.error(
-          fmt::format("{} is {}, but {:g} in {}:{}; a part can have only one of them, remove "
-                      "the other",
-                      name, shown(f.text(1)), it->second.value, first.file, first.line));
+      f.error(ErrorCode::exclusive,
+              "{} is {}, but {:g} in {}:{}; a part can have only one of them, remove the other",
+              name, shown(f.text(1)), it->second.value, first.file, first.line);
     }
     return 1.0;
   }
@@ -251,16 +250,16 @@ class ContentReader {
                                          [](const auto& p) { return p.first.starts_with("NSM"); });
       for (const auto& [command, at] : c_.control.additions) {
         if (command.starts_with("NSM") && !mass_sets) continue;
-        source_.error(at, fmt::format("the case control has {}, which adds stiffness or mass and "
-                                      "is not read",
-                                      command));
+        source_.error(ErrorCode::unsupported, at,
+                      "the case control has {}, which adds stiffness or mass and is not read",
+                      command);
       }
     }
     for (const auto& [name, passed] : unknown_) {
       const std::string number =
           passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : "";
       const char* why = why_nastran_card_is_refused(name);
-      source_.error(passed.at,
+      source_.error(ErrorCode::unsupported, passed.at,
                     why == nullptr
                         ? fmt::format("{} is not read and may change stiffness or mass{}",
                                       name.substr(0, 40), number)
@@ -274,8 +273,7 @@ class ContentReader {
     }
     if (!c_.control.missing_includes.empty()) {
       c_.notes.push_back(
-          fmt::format("files that the executive control includes are missing and "
-                      "ignored: {}",
+          fmt::format("files that the executive control includes are missing and ignored: {}",
                       fmt::join(c_.control.missing_includes, ", ")));
     }
     std::string list, dampers, nominal, unselected;
@@ -290,8 +288,7 @@ class ContentReader {
     if (!nominal.empty())
       c_.notes.push_back(
           fmt::format("tables of stiffness and damping over frequency or load are ignored, the "
-                      "part has the "
-                      "constant ones: {}",
+                      "part has the constant ones: {}",
                       nominal));
     if (!unselected.empty())
       c_.notes.push_back(
@@ -325,8 +322,8 @@ class ContentReader {
     c_.grids.resize(kept);
     if (twice > 0)
       c_.notes.push_back(
-          fmt::format("{} nodes are in the file twice with the same numbers, first in "
-                      "line {}: each is one, as in Nastran",
+          fmt::format("{} nodes are in the file twice with the same numbers, first in line {}: "
+                      "each is one, as in Nastran",
                       twice, at.line));
   }
 
@@ -342,7 +339,7 @@ class ContentReader {
 }  // namespace
 
 void nastran_twice(NastranFields& f, const FeSource& first) {
-  f.error(fmt::format("this number is in the file twice, first in line {}", first.line));
+  f.error(ErrorCode::duplicate, "this number is in the file twice, first in line {}", first.line);
 }
 
 NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes) {

@@ -46,8 +46,8 @@ void NastranEquations::flush(FeModel& model, TextSource& source) {
       double most = 0.0;
       const auto [best, axis] = pivot_of(rows, r, node, rotation ? 3 : 0, most);
       if (!(most > 1e-9)) {
-        source.error(places[r], fmt::format("the equations for node {} hold a direction twice",
-                                            model.node_ids[node]));
+        source.error(ErrorCode::duplicate, places[r],
+                     "the equations for node {} hold a direction twice", model.node_ids[node]);
         break;
       }
       std::swap(rows[r], rows[best]);

@@ -27,8 +27,8 @@ void read_nastran_ply(NastranFields& f, std::size_t first, NastranProperty& p) {
   } else {
     ply.thickness = f.real(first + 1, ("the thickness of " + what).c_str());
     if (!(ply.thickness > 0.0))
-      f.error(
-          fmt::format("the thickness of {} is {:g}, expected more than 0", what, ply.thickness));
+      f.error(ErrorCode::too_large, "the thickness of {} is {:g}, expected more than 0", what,
+              ply.thickness);
   }
   ply.angle = f.real(first + 2, ("the angle of " + what).c_str(), 0.0) * std::numbers::pi / 180.0;
   p.plies.push_back(ply);
@@ -41,9 +41,9 @@ bool read_lam(NastranFields& f, NastranProperty& p) {
   p.smeared = same_word(lam, "SMEAR");
   p.membrane = same_word(lam, "MEM");
   if (lam.empty() || p.smeared || p.membrane) return false;
-  f.error(fmt::format(
-      "LAM is {}, expected blank, SYM, MEM or SMEAR (BEND has no stiffness in the plane)",
-      shown(lam)));
+  f.error(ErrorCode::missing,
+          "LAM is {}, expected blank, SYM, MEM or SMEAR (BEND has no stiffness in the plane)",
+          shown(lam));
   return false;
 }
 
@@ -53,30 +53,30 @@ void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
   // A material 0 is blank: so pre-processors punch what is missing.
   const auto blank = [&](std::size_t i) { return f.blank(i) || parse_integer(f.text(i)) == 0; };
   if (blank(1) && !blank(3))
-    return f.error("MID1 is blank: a plate without stiffness in its plane is not supported");
+    return f.error(ErrorCode::unsupported,
+                   "MID1 is blank: a plate without stiffness in its plane is not supported");
   p.material = f.label(1, "the material");
   p.thickness = f.real(2, "the thickness");
   p.membrane = blank(3);
   if (p.membrane) {
     for (const auto& [at, name] : {std::pair{5, "MID3"}, std::pair{10, "MID4"}})
       if (!blank(at))
-        f.error(
-            fmt::format("{} is {}, but MID2 is blank: a membrane has neither bending nor "
-                        "transverse shear",
-                        name, shown(f.text(at))));
+        f.error(ErrorCode::wrong_value,
+                "{} is {}, but MID2 is blank: a membrane has neither bending nor transverse shear",
+                name, shown(f.text(at)));
   } else if (f.text(3) == "-1") {
-    f.error("MID2 is -1: plane strain is not supported");
+    f.error(ErrorCode::unsupported, "MID2 is -1: plane strain is not supported");
   } else {
     p.bending = f.label(3, "MID2");
   }
   p.bending_factor = f.real(4, "12I/T**3", 1.0);
   if (!(p.bending_factor > 0.0))
-    f.error(fmt::format("12I/T**3 is {:g}, expected more than 0", p.bending_factor));
+    f.error(ErrorCode::too_large, "12I/T**3 is {:g}, expected more than 0", p.bending_factor);
   if (!blank(5) && !p.membrane) {
     p.shear_material = f.label(5, "MID3");
     p.shell_shear = f.real(6, "TS/T", 5.0 / 6.0) * p.thickness;
     if (!(p.shell_shear > 0.0))
-      f.error(fmt::format("TS/T is {}, expected more than 0", shown(f.text(6))));
+      f.error(ErrorCode::too_large, "TS/T is {}, expected more than 0", shown(f.text(6)));
   }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
   if (!blank(10) && !p.membrane) p.coupling = f.label(10, "MID4");
@@ -88,8 +88,8 @@ void read_nastran_pcomp(NastranFields& f, NastranProperty& p) {
   if (!f.blank(1)) p.z0 = f.real(1, "Z0");
   p.nonstructural = f.real(2, "the nonstructural mass", 0.0);
   if (p.nonstructural < 0.0)
-    f.error(fmt::format("the nonstructural mass is {:g}, expected no negative number",
-                        p.nonstructural));
+    f.error(ErrorCode::out_of_range, "the nonstructural mass is {:g}, expected no negative number",
+            p.nonstructural);
   const bool symmetric = read_lam(f, p);
   const std::size_t step = global ? 8 : 4, offset = global ? 1 : 0;
   for (std::size_t i = 8; i < f.size() && p.plies.size() < most; i += step) {
@@ -97,7 +97,7 @@ void read_nastran_pcomp(NastranFields& f, NastranProperty& p) {
     for (std::size_t k = 0; k < step; ++k) there = there || !f.blank(i + k);
     if (there) read_nastran_ply(f, i + offset, p);
   }
-  if (p.plies.empty()) return f.error("it has no plies");
+  if (p.plies.empty()) return f.error(ErrorCode::missing, "it has no plies");
   if (symmetric)
     for (std::size_t k = p.plies.size(); k-- > 0;) p.plies.push_back(p.plies[k]);
   p.material = p.plies.front().material;

@@ -53,15 +53,17 @@ void read_nastran_scalar_mass(NastranFields& f, NastranContent& c) {
       if (point(2 + 2 * end)) s.points[end] = f.label(2 + 2 * end, "the node");
     return c.scalar_masses.push_back(s);
   }
-  if (both) return f.error("a mass between two nodes is not supported; give CONM2 at each");
+  if (both)
+    return f.error(ErrorCode::unsupported,
+                   "a mass between two nodes is not supported; give CONM2 at each");
   const std::size_t end = there(2) ? 2 : 4;
   m.node = f.label(end, "the node");
   const unsigned mask = f.components(end + 1, "the component");
   int component = 0;
   while (component < 6 && mask != (1u << component)) ++component;
   if (component == 6)
-    return f.error(
-        fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(end + 1))));
+    return f.error(ErrorCode::out_of_range, "the component is {}, expected one of 1 to 6",
+                   shown(f.text(end + 1)));
   m.M(component, component) = mass;
   c.mass_matrices.push_back(m);
 }
@@ -99,17 +101,16 @@ bool rigid_body(NastranBuild& build, const Sum& sum, NastranMass& out) {
   const Vec3 moment(0.5 * (B(1, 2) - B(2, 1)), 0.5 * (B(2, 0) - B(0, 2)),
                     0.5 * (B(0, 1) - B(1, 0)));
   if ((A - m * Mat3::Identity()).norm() > 1e-6 * size) {
-    build.source.error(
-        first.at,
-        fmt::format("{} {}: node {} has the masses {:g}, {:g} and {:g} along x, y and z; a part "
-                    "that moves freely has one mass in all directions (CONM2)",
-                    first.card, first.id, first.node, A(0, 0), A(1, 1), A(2, 2)));
+    build.source.error(ErrorCode::out_of_range, first.at,
+                       "{} {}: node {} has the masses {:g}, {:g} and {:g} along x, y and z; a part "
+                       "that moves freely has one mass in all directions (CONM2)",
+                       first.card, first.id, first.node, A(0, 0), A(1, 1), A(2, 2));
     return false;
   }
   if ((B + skew(moment)).norm() > 1e-6 * B.norm() || (m == 0.0 && B.norm() > 0.0) || m < 0.0) {
-    build.source.error(first.at, fmt::format("{} {}: the mass matrix of node {} is not that of a "
-                                             "rigid body; give CONM2",
-                                             first.card, first.id, first.node));
+    build.source.error(ErrorCode::wrong_value, first.at,
+                       "{} {}: the mass matrix of node {} is not that of a rigid body; give CONM2",
+                       first.card, first.id, first.node);
     return false;
   }
   const Vec3 c = m > 0.0 ? Vec3(moment / m) : Vec3(Vec3::Zero());
@@ -138,8 +139,8 @@ std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build) {
     if (m.property > 0) {
       const auto it = c.pmass.find(m.property);
       if (it == c.pmass.end()) {
-        build.source.error(
-            m.at, fmt::format("{}: property {} (PMASS) is not in the file", who, m.property));
+        build.source.error(ErrorCode::not_found, m.at, "{}: property {} (PMASS) is not in the file",
+                           who, m.property);
         continue;
       }
       m.M *= it->second.first;

@@ -28,7 +28,7 @@ void mat8(NastranFields& f, NastranMaterial& m) {
   if (!f.blank(7)) m.density = f.real(7, "RHO");
   if (f.blank(1) || f.blank(2) || f.blank(3)) return;
   const std::string error = engineering_error(c, true);
-  if (!error.empty()) return f.error(error);
+  if (!error.empty()) return f.error(ErrorCode::wrong_value, error);
   m.elasticity = lamina_elasticity(c);
   m.plane = true;
 }
@@ -50,7 +50,7 @@ void mat9(NastranFields& f, NastranMaterial& m) {
     for (int j = i; j < 6; ++j) D(i, j) = D(j, i) = f.real(k++, "an elastic constant", 0.0);
   if (!f.blank(22)) m.density = f.real(22, "RHO");
   const std::string error = elasticity_error(D, false, solid_constant);
-  if (!error.empty()) return f.error(error);
+  if (!error.empty()) return f.error(ErrorCode::wrong_value, error);
   m.elasticity = D;
 }
 
@@ -68,7 +68,7 @@ void read_nastran_anisotropic(NastranFields& f, NastranContent& c) {
   const int id = f.label(0, "the number of the material");
   (f.name() == "MAT2" ? mat2 : f.name() == "MAT8" ? mat8 : mat9)(f, m);
   if (m.density && *m.density < 0.0)
-    f.error(fmt::format("RHO is {:g}, expected no negative density", *m.density));
+    f.error(ErrorCode::out_of_range, "RHO is {:g}, expected no negative density", *m.density);
   const auto [it, fresh] = c.materials.try_emplace(id, m);
   if (!fresh && id > 0) nastran_twice(f, it->second.at);
 }

@@ -38,13 +38,13 @@ void corner_thicknesses(NastranFields& f, std::size_t corners, std::size_t flag,
     e.corner_thickness[k] = f.real(10 + k, "the thickness of a corner", -1.0);
     if (f.blank(10 + k)) continue;
     if (!(e.corner_thickness[k] > 0.0))
-      f.error(fmt::format("the thickness of a corner is {:g}, expected more than 0",
-                          e.corner_thickness[k]));
+      f.error(ErrorCode::too_large, "the thickness of a corner is {:g}, expected more than 0",
+              e.corner_thickness[k]);
     e.own_thickness = true;
   }
   const int relative = f.integer(flag, "TFLAG", 0);
   if (relative != 0 && relative != 1)
-    f.error(fmt::format("TFLAG is {}, expected 0 or 1", relative));
+    f.error(ErrorCode::out_of_range, "TFLAG is {}, expected 0 or 1", relative);
   e.relative_thickness = relative == 1;
 }
 
@@ -110,12 +110,12 @@ void read_nastran_solid(NastranFields& f, NastranContent& c) {
   std::size_t given = 0;
   for (std::size_t k = corners; k < all; ++k) given += f.blank(2 + k) ? 0 : 1;
   if (given > 0 && given < all - corners) {
-    f.error(fmt::format("{} of its {} mid-side nodes are given; all or none must be", given,
-                        all - corners));
+    f.error(ErrorCode::incomplete, "{} of its {} mid-side nodes are given; all or none must be",
+            given, all - corners);
     return;
   }
   if (f.size() > 2 + all) {
-    f.error(fmt::format("it has more than {} nodes", all));
+    f.error(ErrorCode::too_large, "it has more than {} nodes", all);
     return;
   }
   e.count = static_cast<int>(given > 0 ? all : corners);
@@ -187,7 +187,8 @@ void read_nastran_mass(NastranFields& f, NastranContent& c) {
   m.node = f.label(1, "the node");
   m.system = f.integer(2, "the coordinate system CID", 0);
   m.mass = f.real(3, "the mass");
-  if (m.mass < 0.0) f.error(fmt::format("the mass is {:g}, expected no negative number", m.mass));
+  if (m.mass < 0.0)
+    f.error(ErrorCode::out_of_range, "the mass is {:g}, expected no negative number", m.mass);
   m.offset = f.vector(4, "the offset");
   const double I11 = f.real(8, "I11", 0.0), I21 = f.real(9, "I21", 0.0);
   const double I22 = f.real(10, "I22", 0.0), I31 = f.real(11, "I31", 0.0);

@@ -27,14 +27,14 @@ void psolid(NastranFields& f, NastranProperty& p) {
   const bool points = in == "2" || in == "3" || same_word(in, "TWO") || same_word(in, "THREE");
   p.full_integration = points && (isop == "1" || same_word(isop, "FULL"));
   if (!f.blank(6) && !same_word(f.text(6), "SMECH")) {
-    f.error(fmt::format("FCTN is {}, only solids (SMECH) are read", shown(f.text(6))));
+    f.error(ErrorCode::unsupported, "FCTN is {}, only solids (SMECH) are read", shown(f.text(6)));
   }
 }
 
 /// K1 and K2 at a place; 0 is no shear deformation.
 std::array<double, 2> shear_factors(NastranFields& f, std::size_t at, double otherwise) {
   const double k1 = f.real(at, "K1", otherwise), k2 = f.real(at + 1, "K2", otherwise);
-  if (k1 < 0.0 || k2 < 0.0) f.error("a shear factor (K1, K2) is negative");
+  if (k1 < 0.0 || k2 < 0.0) f.error(ErrorCode::out_of_range, "a shear factor (K1, K2) is negative");
   return {k1, k2};
 }
 
@@ -46,10 +46,10 @@ void set_shear(const std::array<double, 2>& factors, double A, BeamSection& s) {
 /// I12 turns the principal axes, about which I1 and I2 would not be those of the card.
 void check_product(NastranFields& f, const NastranSection& s) {
   if (s.I12 == 0.0 || (s.I1 > 0.0 && s.I2 > 0.0 && s.I12 * s.I12 < s.I1 * s.I2)) return;
-  f.error(
-      fmt::format("I12 is {:g}, I1 is {:g} and I2 is {:g}, expected I1 and I2 of more than 0 "
-                  "and an I12^2 of less than I1 I2",
-                  s.I12, s.I1, s.I2));
+  f.error(ErrorCode::too_large,
+          "I12 is {:g}, I1 is {:g} and I2 is {:g}, expected I1 and I2 of more than 0 and an I12^2 "
+          "of less than I1 I2",
+          s.I12, s.I1, s.I2);
 }
 
 void pbar(NastranFields& f, NastranProperty& p) {
@@ -82,7 +82,8 @@ void pbeam(NastranFields& f, NastranProperty& p) {
   // Stress points of end A are on the next line, unless it begins with a station.
   std::size_t i = word(8) ? 8 : 16, end = 0;
   for (; word(i); i += same_word(f.text(i), "YES") ? 16 : 8) {
-    if (places.size() > most_stations) return f.error("it has too many stations");
+    if (places.size() > most_stations)
+      return f.error(ErrorCode::wrong_count, "it has too many stations");
     Place& place = places.emplace_back();
     place.field = i + 1;
     place.x = f.real(i + 1, "X/XB", 1.0);
@@ -127,7 +128,8 @@ void pshear(NastranFields& f, NastranProperty& p) {
     const char* const name = k == 0 ? "F1" : "F2";
     p.edge_factors[k] = f.real(4 + k, name, 0.0);
     if (p.edge_factors[k] < 0.0)
-      f.error(fmt::format("{} is {:g}, expected no negative number", name, p.edge_factors[k]));
+      f.error(ErrorCode::out_of_range, "{} is {:g}, expected no negative number", name,
+              p.edge_factors[k]);
   }
 }
 

@@ -33,9 +33,10 @@ class ScalarEquations {
     for (const NastranEquation::Term& t : e.terms) {
       if (b_.content.scalar_points.contains(t.node)) {
         if (t.component > 0) {
-          b_.source.error(e.at, fmt::format("MPC {}: the component is {}, but {} is a scalar "
-                                            "point, which has one only (0 or blank)",
-                                            e.set, t.component + 1, t.node));
+          b_.source.error(ErrorCode::wrong_value, e.at,
+                          "MPC {}: the component is {}, but {} is a scalar point, which has one "
+                          "only (0 or blank)",
+                          e.set, t.component + 1, t.node);
           return;
         }
         const NastranScalarPoint* p = b_.scalars.find(t.node);
@@ -108,7 +109,7 @@ class ScalarEquations {
       spent_ += row.terms.size();
       if (spent_ > most_)
         b_.source.stop(
-            row.equation->at,
+            ErrorCode::wrong_count, row.equation->at,
             "MPC equations tie too many scalar points together, for a file of this size");
       for (const auto& [key, factor] : row.terms) {
         double& sum = other.terms[key];
@@ -161,10 +162,10 @@ class ScalarEquations {
     for (const auto& [key, factor] : row.terms) {
       if (row.pivot == key) continue;
       if (points_.contains(key)) {
-        b_.source.error(
-            from.at, fmt::format("MPC {}: scalar point {} is tied to scalar point {}, which only "
-                                 "springs hold; it needs an equation with nodes of its own",
-                                 from.set, points_.at(*row.pivot).id, points_.at(key).id));
+        b_.source.error(ErrorCode::unsupported, from.at,
+                        "MPC {}: scalar point {} is tied to scalar point {}, which only springs "
+                        "hold; it needs an equation with nodes of its own",
+                        from.set, points_.at(*row.pivot).id, points_.at(key).id);
         return;
       }
       e.terms.push_back({key.first, key.second, factor});

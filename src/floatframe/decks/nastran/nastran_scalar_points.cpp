@@ -79,7 +79,7 @@ void read_nastran_scalar_spring(NastranFields& f, NastranContent& c) {
   s.nodes = e.points;
   s.components = {-1, -1};
   if (s.nodes[0] == 0) std::swap(s.nodes[0], s.nodes[1]);
-  if (s.nodes[0] == 0) return f.error("it has no scalar point");
+  if (s.nodes[0] == 0) return f.error(ErrorCode::missing, "it has no scalar point");
   c.springs.list.push_back(s);
 }
 
@@ -99,8 +99,8 @@ void check_nastran_scalar_masses(NastranBuild& build) {
     if (m.property > 0) {
       const auto it = build.content.pmass.find(m.property);
       if (it == build.content.pmass.end()) {
-        build.source.error(
-            m.at, fmt::format("{}: property {} (PMASS) is not in the file", who, m.property));
+        build.source.error(ErrorCode::not_found, m.at, "{}: property {} (PMASS) is not in the file",
+                           who, m.property);
         continue;
       }
       mass *= it->second.first;
@@ -109,9 +109,9 @@ void check_nastran_scalar_masses(NastranBuild& build) {
     for (const int id : m.points) {
       if (id == 0) continue;
       if (!build.content.scalar_points.contains(id)) {
-        build.source.error(m.at, fmt::format("{}: the component of node {} is missing, expected "
-                                             "one of 1 to 6",
-                                             who, id));
+        build.source.error(ErrorCode::missing, m.at,
+                           "{}: the component of node {} is missing, expected one of 1 to 6", who,
+                           id);
         mass = 0.0;
       } else if (point == 0 && !build.scalars.held(id)) {
         point = id;
@@ -123,16 +123,17 @@ void check_nastran_scalar_masses(NastranBuild& build) {
       continue;
     }
     build.source.error(
-        m.at, fmt::format("{}: the mass {:g} of scalar point {} has no place, so it has none in "
-                          "the inertia of a part that moves; make the point a node (GRID) where "
-                          "the mass is, with CONM2, on CELAS2 in one component and tied to the "
-                          "part by MPC in the others",
-                          who, mass, point));
+        ErrorCode::missing, m.at,
+        "{}: the mass {:g} of scalar point {} has no place, so it has none in the inertia of a "
+        "part that moves; make the point a node (GRID) where the mass is, with CONM2, on CELAS2 in "
+        "one component and tied to the part by MPC in the others",
+        who, mass, point);
   }
   if (held > 0)
-    build.note(first, fmt::format("{} masses of scalar points that are held (SPC) or of the ground "
-                                  "are left out",
-                                  held));
+    build.note(
+        first,
+        fmt::format("{} masses of scalar points that are held (SPC) or of the ground are left out",
+                    held));
 }
 
 namespace {
@@ -153,9 +154,9 @@ class ScalarPointBuilder {
       for (const NastranEquation::Term& t : e.terms) use(t.node, e.at);
     for (const NastranGrid& g : c_.grids)
       if (is_point(g.id))
-        b_.source.error(g.at, fmt::format("node {} is a scalar point as well (SPOINT, or by an "
-                                          "element of scalar points)",
-                                          g.id));
+        b_.source.error(
+            ErrorCode::wrong_value, g.at,
+            "node {} is a scalar point as well (SPOINT, or by an element of scalar points)", g.id);
     springs();
     equations();
     for (auto& [id, point] : points_) {
@@ -207,10 +208,10 @@ class ScalarPointBuilder {
         const bool turns = s.components[1 - end] >= 3;
         if (group.node < 0) group.node = node->second;
         if (group.turns.value_or(turns) != turns)
-          b_.source.error(s.at, fmt::format("{} {}: scalar point {} is tied to a rotation and to a "
-                                            "displacement by springs; one of them must be tied by "
-                                            "MPC, which says the lever",
-                                            s.card, s.id, id));
+          b_.source.error(ErrorCode::dependent, s.at,
+                          "{} {}: scalar point {} is tied to a rotation and to a displacement by "
+                          "springs; one of them must be tied by MPC, which says the lever",
+                          s.card, s.id, id);
         group.turns = turns;
       }
   }

@@ -150,8 +150,8 @@ std::size_t dimensions_of(std::string_view type) {
 void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, Dimensions d,
                  NastranSection& raw) {
   if ((type == "TUBE" || type == "TUBE2") && d[1] > d[0]) {
-    f.error(fmt::format("the {} of the {} is more than its outer radius",
-                        type == "TUBE" ? "inner radius" : "wall", type));
+    f.error(ErrorCode::contradiction, "the {} of the {} is more than its outer radius",
+            type == "TUBE" ? "inner radius" : "wall", type);
   }
   if (plain_section(type, d, p.section)) {
     raw = {p.section.A, p.section.Iz, p.section.Iy, 0.0, p.section.J};
@@ -164,32 +164,31 @@ void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, 
   const Plates plates = made.plates(closed ? of_box : d);
   for (const SectionPlate& plate : plates) {
     if (plate.height > 0.0 && plate.width > 0.0) continue;
-    if (type == "BOX") return f.error("the walls of the BOX are thicker than the box");
-    return f.error(
-        fmt::format("the dimensions of the {} do not fit: a wall of it would be {:g} by "
-                    "{:g}",
-                    type, plate.height, plate.width));
+    if (type == "BOX")
+      return f.error(ErrorCode::geometry, "the walls of the BOX are thicker than the box");
+    return f.error(ErrorCode::geometry,
+                   "the dimensions of the {} do not fit: a wall of it would be {:g} by {:g}", type,
+                   plate.height, plate.width);
   }
   NastranSection s = made_of(plates);
   if (closed) {
     if (!(of_box[4] + of_box[5] < of_box[0])) {
-      return f.error(fmt::format("the walls of the {} are thicker than the box", type));
+      return f.error(ErrorCode::geometry, "the walls of the {} are thicker than the box", type);
     }
     s.J = bredt_torsion(of_box[0], of_box[1], of_box[2], of_box[3], of_box[4], of_box[5]);
   } else {
     p.remarks.push_back(
-        fmt::format("the torsion constant of the section {} is the sum of b t^3/3 "
-                    "of its plates, {:.6g}; warping and shear deformation are left out",
+        fmt::format("the torsion constant of the section {} is the sum of b t^3/3 of its plates, "
+                    "{:.6g}; warping and shear deformation are left out",
                     type, s.J));
   }
   raw = s;
   set_nastran_section(p, s);
   nastran_shear_of_shape(type, d, p.section);
   if (f.name() == "PBEAML" && !made.centred && type != "BOX") {
-    p.remarks.push_back(
-        fmt::format("the shear centre of the section {} is taken as its centroid, "
-                    "on the line of the element",
-                    type));
+    p.remarks.push_back(fmt::format(
+        "the shear centre of the section {} is taken as its centroid, on the line of the element",
+        type));
   }
 }
 
@@ -203,20 +202,22 @@ void named_stations(NastranFields& f, NastranProperty& p, const std::string& typ
   std::vector<NastranStation> stations{first};
   for (std::size_t i = 9 + count; i < f.size(); i += count + 3) {
     if (!is_word(i)) {
-      return f.error(fmt::format("found {} after the section, expected YES or NO of a station",
-                                 shown(f.text(i))));
+      return f.error(ErrorCode::wrong_value,
+                     "found {} after the section, expected YES or NO of a station",
+                     shown(f.text(i)));
     }
-    if (stations.size() > 50) return f.error("it has too many stations");
+    if (stations.size() > 50) return f.error(ErrorCode::wrong_count, "it has too many stations");
     NastranStation s;
     s.field = i + 1;
     s.x = f.real(i + 1, "X/XB", 1.0);
     double here[6] = {};
     for (std::size_t k = 0; k < count; ++k) {
       if (f.blank(i + 2 + k) && s.x != 1.0)
-        return f.error(
-            fmt::format("dimension {} of the station at X/XB = {:g} is missing", k + 1, s.x));
+        return f.error(ErrorCode::missing, "dimension {} of the station at X/XB = {:g} is missing",
+                       k + 1, s.x);
       here[k] = f.real(i + 2 + k, "a dimension of a station", d[k]);
-      if (here[k] < 0.0) return f.error("a dimension of a station is negative");
+      if (here[k] < 0.0)
+        return f.error(ErrorCode::out_of_range, "a dimension of a station is negative");
     }
     NastranProperty other;
     other.card = p.card;
@@ -225,7 +226,8 @@ void named_stations(NastranFields& f, NastranProperty& p, const std::string& typ
     if (!(first.section.A > 0.0)) return;  // an error later
     if (!(s.section.A > 0.0)) {
       if (f.errors() == before)
-        f.error(fmt::format("A is {:g} at X/XB = {:g}, expected more than 0", s.section.A, s.x));
+        f.error(ErrorCode::too_large, "A is {:g} at X/XB = {:g}, expected more than 0", s.section.A,
+                s.x);
       return;
     }
     s.nonstructural = f.real(i + 2 + count, "the nonstructural mass", first.nonstructural);
@@ -254,17 +256,17 @@ void read_nastran_named_section(NastranFields& f, NastranProperty& p) {
   const std::string type = upper_case(f.text(3));
   const std::size_t count = dimensions_of(type);
   if (count == 0) {
-    f.error(
-        fmt::format("the section {} is not read (BAR, BOX, BOX1, CHAN, CHAN1, CHAN2, CROSS, H, "
-                    "HAT, I, I1, L, ROD, T, T1, T2, TUBE, TUBE2 and Z are); give A, I1, I2 and "
-                    "J with {}",
-                    shown(f.text(3)), f.name() == "PBARL" ? "PBAR" : "PBEAM"));
+    f.error(ErrorCode::unsupported,
+            "the section {} is not read (BAR, BOX, BOX1, CHAN, CHAN1, CHAN2, CROSS, H, HAT, I, I1, "
+            "L, ROD, T, T1, T2, TUBE, TUBE2 and Z are); give A, I1, I2 and J with {}",
+            shown(f.text(3)), f.name() == "PBARL" ? "PBAR" : "PBEAM");
     return;
   }
   double d[6] = {};
   for (std::size_t i = 0; i < count; ++i) {
     d[i] = f.real(8 + i, "a dimension of the section");
-    if (d[i] < 0.0) return f.error("a dimension of the section is negative");
+    if (d[i] < 0.0)
+      return f.error(ErrorCode::out_of_range, "a dimension of the section is negative");
   }
   p.nonstructural = f.real(8 + count, "the nonstructural mass", 0.0);
   NastranStation first;

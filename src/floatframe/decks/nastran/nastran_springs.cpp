@@ -29,7 +29,8 @@ void spring_end(NastranFields& f, std::size_t i, int end, NastranSpring& s) {
   }
   while (component < 5 && mask != (1u << component)) ++component;
   if (mask != (1u << component))
-    f.error(fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(i + 1))));
+    f.error(ErrorCode::out_of_range, "the component is {}, expected one of 1 to 6",
+            shown(f.text(i + 1)));
 }
 
 /// A CONROD, which is its own property, by a number that no card has.
@@ -45,7 +46,7 @@ void rod_section(NastranFields& f, std::size_t material, NastranProperty& p) {
   p.section.J = f.real(material + 2, "J", 0.0);
   p.nonstructural = f.real(material + 4, "the nonstructural mass", 0.0);
   if (p.section.J < 0.0)
-    f.error(fmt::format("J is {:g}, expected no negative number", p.section.J));
+    f.error(ErrorCode::out_of_range, "J is {:g}, expected no negative number", p.section.J);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ void read_nastran_celas(NastranFields& f, NastranContent& c) {
     std::swap(s.components[0], s.components[1]);
   }
   if (s.nodes[0] == 0) {
-    f.error("it has no node");
+    f.error(ErrorCode::missing, "it has no node");
     return;
   }
   c.springs.list.push_back(s);
@@ -120,8 +121,8 @@ void read_nastran_pbush(NastranFields& f, NastranContent& c) {
                lost = same_word(word, "B") || same_word(word, "GE");
     if (word.empty() || same_word(word, "RCV")) continue;
     if (!stiffness && !lost) {
-      f.error(fmt::format("found the line {}, expected K, B, GE or RCV; others are not read",
-                          shown(word)));
+      f.error(ErrorCode::unsupported,
+              "found the line {}, expected K, B, GE or RCV; others are not read", shown(word));
       return;
     }
     for (int i = 0; i < 6; ++i) {
@@ -129,7 +130,8 @@ void read_nastran_pbush(NastranFields& f, NastranContent& c) {
       if (lost) {
         damping(f, at, c);
       } else if (same_word(f.text(at), "RIGID")) {
-        f.error("RIGID is not a stiffness; give a number, or join the nodes with RBE2");
+        f.error(ErrorCode::wrong_value,
+                "RIGID is not a stiffness; give a number, or join the nodes with RBE2");
       } else {
         k(i) = f.real(at, "a stiffness", 0.0);
       }
@@ -156,8 +158,9 @@ void read_nastran_pbush1d(NastranFields& f, NastranContent& c) {
     const bool damper = same_word(word, "SHOCKA") || same_word(word, "DAMPER");
     if (damper && !c.springs.damping) c.springs.damping = f.at();
     if (same_word(word, "SPRING") || same_word(word, "GENER"))
-      f.error(fmt::format("{} gives a stiffness that is not linear; give its slope at rest as K",
-                          upper_case(word)));
+      f.error(ErrorCode::wrong_value,
+              "{} gives a stiffness that is not linear; give its slope at rest as K",
+              upper_case(word));
   }
   const auto [it, fresh] = c.springs.pbush1d.try_emplace(id, std::pair{k, f.at()});
   if (!fresh && id > 0) nastran_twice(f, it->second.second);
@@ -192,10 +195,10 @@ void read_nastran_rod_property(NastranFields& f, NastranProperty& p) {
   const double outer = f.real(2, "OD"), wall = f.real(3, "T", 0.5 * outer);
   const double end = f.real(5, "OD2", outer);
   if (std::abs(end - outer) > 1e-6 * std::abs(outer))
-    f.error(fmt::format("a tapered tube is not supported: OD is {} and OD2 is {}", shown(f.text(2)),
-                        shown(f.text(5))));
+    f.error(ErrorCode::unsupported, "a tapered tube is not supported: OD is {} and OD2 is {}",
+            shown(f.text(2)), shown(f.text(5)));
   if (!(outer > 0.0) || wall < 0.0 || wall > 0.5 * outer) {
-    f.error(fmt::format("OD is {:g} and T is {:g}, expected a tube", outer, wall));
+    f.error(ErrorCode::out_of_range, "OD is {:g} and T is {:g}, expected a tube", outer, wall);
     return;
   }
   const bool solid = wall == 0.0;

@@ -119,14 +119,13 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
                    [](const NastranStation& a, const NastranStation& b) { return a.x < b.x; });
   for (std::size_t k = 1; k < stations.size(); ++k) {
     if (!(stations[k].x > 0.0) || stations[k].x > 1.0)
-      return f.error_in(
-          stations[k].field,
-          fmt::format("a station is at X/XB = {:g}, expected more than 0 and at most 1",
-                      stations[k].x));
+      return f.error_in(ErrorCode::too_large, stations[k].field,
+                        "a station is at X/XB = {:g}, expected more than 0 and at most 1",
+                        stations[k].x);
     if (stations[k].x == stations[k - 1].x)
-      return f.error_in(stations[k].field,
-                        fmt::format("a second station is at X/XB = {:g}, expected one at a place",
-                                    stations[k].x));
+      return f.error_in(ErrorCode::duplicate, stations[k].field,
+                        "a second station is at X/XB = {:g}, expected one at a place",
+                        stations[k].x);
   }
   if (stations.back().x < 1.0) {  // end B is as end A
     stations.push_back(stations.front());
@@ -137,13 +136,13 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
   for (const NastranStation& s : stations) {
     const std::array<double, 6> here = values_of(s);
     if (here[3] != 0.0 && here[3] * here[3] >= here[1] * here[2])
-      return f.error(fmt::format("I12 is {:g} at X/XB = {:g}, its square is not less than I1 I2",
-                                 here[3], s.x));
+      return f.error(ErrorCode::out_of_range,
+                     "I12 is {:g} at X/XB = {:g}, its square is not less than I1 I2", here[3], s.x);
     for (std::size_t k = 0; k < 6; ++k) {
       same = same && std::abs(here[k] - first[k]) <= same_section * std::abs(first[k]);
       if (k == 3 || k == 5 || here[k] > 0.0 || (first[k] == 0.0 && here[k] == 0.0)) continue;
-      return f.error(fmt::format("{} is {:g} at X/XB = {:g}, expected more than 0",
-                                 names_of_taper[k], here[k], s.x));
+      return f.error(ErrorCode::too_large, "{} is {:g} at X/XB = {:g}, expected more than 0",
+                     names_of_taper[k], here[k], s.x);
     }
   }
   if (!same) p.stations = std::move(stations);
@@ -168,14 +167,15 @@ NastranTapers::NastranTapers(NastranBuild& build) {
   for (const auto& [id, count] : beams) {
     const NastranProperty& p = c.properties.at(id);
     std::vector<NastranPiece>& pieces = pieces_[id] = chain_of(p.stations, share);
-    build.note(p.at,
-               fmt::format("{} {}: its section changes along the beam: {} elements are chains "
-                           "of {} beams of constant section, with nodes of their own{}",
-                           p.card, id, count, pieces.size(),
-                           share < 1.0 ? fmt::format(" (fewer than for 0.05 %, by {:.2g}, for "
-                                                     "the size of the file)",
-                                                     share)
-                                       : ""));
+    build.note(
+        p.at, fmt::format(
+                  "{} {}: its section changes along the beam: {} elements are chains of {} beams "
+                  "of constant section, with nodes of their own{}",
+                  p.card, id, count, pieces.size(),
+                  share < 1.0
+                      ? fmt::format(" (fewer than for 0.05 %, by {:.2g}, for the size of the file)",
+                                    share)
+                      : ""));
   }
 }
 

@@ -57,12 +57,13 @@ class UnvBuild {
       const int id = c_.element_nodes[e.first + k];
       const auto it = c_.node_index.find(id);
       if (it == c_.node_index.end()) {
-        in_.error(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
-                                    e.type->name, id));
+        in_.error(ErrorCode::not_found, e.at,
+                  "element {} ({}) has node {}, which is not in the file", e.id, e.type->name, id);
         return false;
       }
       if (!once_.insert(it->second).second) {
-        in_.error(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name, id));
+        in_.error(ErrorCode::duplicate, e.at, "element {} ({}) has node {} twice", e.id,
+                  e.type->name, id);
         return false;
       }
       nodes.push_back(it->second);
@@ -100,7 +101,8 @@ class UnvBuild {
         thickness_.choose(std::span(ordered).first(corners),
                           groups == groups_of_.end() ? std::vector<std::string>() : groups->second);
     if (!choice.error.empty())
-      in_.error(e.at, fmt::format("element {} ({}) {}", e.id, e.type->name, choice.error));
+      in_.error(ErrorCode::wrong_value, e.at, "element {} ({}) {}", e.id, e.type->name,
+                choice.error);
     return choice.section;
   }
 
@@ -108,7 +110,7 @@ class UnvBuild {
     std::set<std::string> known;
     for (const UnvGroup& group : c_.groups) known.insert(group.name);
     for (std::string& message : thickness_.not_found({known.begin(), known.end()}))
-      in_.error({0, 0}, std::move(message));
+      in_.error(ErrorCode::wrong_value, {0, 0}, std::move(message));
   }
 
   void elements() {
@@ -116,11 +118,10 @@ class UnvBuild {
     std::set<int> materials;
     for (UnvElement& e : c_.elements) {
       if (e.type->use == UnvUse::refused) {
-        in_.error(e.at,
-                  fmt::format("element {} is a {}, whose value is in a table of properties of "
-                              "the format, which is not read; remove it and describe it in "
-                              "the model",
-                              e.id, e.type->name));
+        in_.error(ErrorCode::unsupported, e.at,
+                  "element {} is a {}, whose value is in a table of properties of the format, "
+                  "which is not read; remove it and describe it in the model",
+                  e.id, e.type->name);
         continue;
       }
       if (e.type->use == UnvUse::left) ++dampers_;
@@ -147,27 +148,27 @@ class UnvBuild {
     materials_ = materials.size();
     if (thickness_.any()) thickness_errors();
     if (c_.model.elements.empty() && in_.errors() == 0)
-      in_.stop({0, 0}, fmt::format("the file has {} elements and none of them is solid; a part "
-                                   "needs tetrahedra, bricks or wedges, or shells to which a "
-                                   "thickness is given (--thickness, key `thickness`)",
-                                   c_.elements.size()));
+      in_.stop(
+          ErrorCode::not_found, {0, 0},
+          "the file has {} elements and none of them is solid; a part needs tetrahedra, bricks or "
+          "wedges, or shells to which a thickness is given (--thickness, key `thickness`)",
+          c_.elements.size());
     for (const auto& [system, first] : c_.systems_used) {
       const auto known = c_.systems.find(system);
       if (known != c_.systems.end() ? known->second : system == 0 || system == 1) continue;
-      in_.error(
-          first.second,
-          fmt::format("node {} is in coordinate system {}, which is {}; only nodes in global "
-                      "rectangular coordinates are read",
-                      first.first, system,
-                      known == c_.systems.end() ? "not in the file" : "turned, moved or round"));
+      in_.error(ErrorCode::not_found, first.second,
+                "node {} is in coordinate system {}, which is {}; only nodes in global rectangular "
+                "coordinates are read",
+                first.first, system,
+                known == c_.systems.end() ? "not in the file" : "turned, moved or round");
     }
   }
 
   /// Rigid elements that share a node are one rigid body.
   void join(const UnvElement& e, const std::vector<int>& nodes) {
     if (nodes.size() < 2) {
-      in_.error(e.at, fmt::format("element {} ({}) has one node, at least 2 are expected", e.id,
-                                  e.type->name));
+      in_.error(ErrorCode::wrong_count, e.at,
+                "element {} ({}) has one node, at least 2 are expected", e.id, e.type->name);
       return;
     }
     for (const int node : nodes) {
@@ -212,8 +213,9 @@ class UnvBuild {
         const auto node = c_.node_index.find(number);
         const auto element = c_.element_index.find(number);
         if (kind == 7 ? node == c_.node_index.end() : element == c_.element_index.end()) {
-          in_.error(group.at, fmt::format("group '{}' has {} {}, which is not in the file",
-                                          group.name, kind == 7 ? "node" : "element", number));
+          in_.error(ErrorCode::not_found, group.at,
+                    "group '{}' has {} {}, which is not in the file", group.name,
+                    kind == 7 ? "node" : "element", number);
           continue;
         }
         if (kind == 7) {
@@ -255,15 +257,15 @@ class UnvBuild {
                       "ratio and density with the file",
                       file));
     else if (materials_ > 1)
-      c_.model.notes.push_back(fmt::format(
-          "{}: the elements have {} different material numbers; all get the material given with "
-          "the file",
-          file, materials_));
+      c_.model.notes.push_back(
+          fmt::format("{}: the elements have {} different material numbers; all get the material "
+                      "given with the file",
+                      file, materials_));
     if (skins_ > 0)
-      c_.model.notes.push_back(fmt::format(
-          "{}: {} shells, beams and rods are taken as skins and edges: they make node sets and "
-          "have no stiffness and no mass",
-          file, skins_));
+      c_.model.notes.push_back(
+          fmt::format("{}: {} shells, beams and rods are taken as skins and edges: they make node "
+                      "sets and have no stiffness and no mass",
+                      file, skins_));
     if (dampers_ > 0)
       c_.model.notes.push_back(
           fmt::format("{}: {} dampers are ignored: the part has modal damping", file, dampers_));

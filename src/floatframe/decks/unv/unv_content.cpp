@@ -25,13 +25,15 @@ class UnvParser {
     while (in_.next(line)) {
       if (trimmed(line).empty()) continue;
       if (!is_unv_delimiter(line))
-        in_.stop(in_.here(), fmt::format("a dataset begins with a line -1, found {}", shown(line)));
+        in_.stop(ErrorCode::wrong_value, in_.here(), "a dataset begins with a line -1, found {}",
+                 shown(line));
       const FeSource begin = in_.here();
-      if (!in_.next(line)) in_.stop(begin, "the file ends where the number of a dataset follows");
+      if (!in_.next(line))
+        in_.stop(ErrorCode::damaged, begin, "the file ends where the number of a dataset follows");
       const auto number = parse_label(trimmed(line));
       if (!number)
-        in_.stop(in_.here(), fmt::format("the number of a dataset is expected, found {}",
-                                         shown(trimmed(line))));
+        in_.stop(ErrorCode::out_of_range, in_.here(),
+                 "the number of a dataset is expected, found {}", shown(trimmed(line)));
       dataset(*number);
     }
     return std::move(c_);
@@ -41,14 +43,15 @@ class UnvParser {
   /// The next line of the dataset; false at its end.
   bool record(std::string_view& line) {
     if (!in_.next(line))
-      in_.stop(in_.here(),
-               fmt::format("the file ends within dataset {}: a line -1 is expected", dataset_));
+      in_.stop(ErrorCode::damaged, in_.here(),
+               "the file ends within dataset {}: a line -1 is expected", dataset_);
     return !is_unv_delimiter(line);
   }
   std::string_view needed(const char* what) {
     std::string_view line;
     if (!record(line))
-      in_.stop(in_.here(), fmt::format("dataset {} ends where {} expected", dataset_, what));
+      in_.stop(ErrorCode::wrong_value, in_.here(), "dataset {} ends where {} expected", dataset_,
+               what);
     return line;
   }
 
@@ -65,22 +68,25 @@ class UnvParser {
     numbers_.clear();
     for (const std::string_view word : words_) {
       const auto value = parse_integer(word);
-      if (!value) in_.stop(in_.here(), fmt::format("{}: {}", what, not_an_integer(word)));
+      if (!value)
+        in_.stop(ErrorCode::not_a_number, in_.here(), "{}: {}", what, not_an_integer(word));
       numbers_.push_back(*value);
     }
     if (numbers_.size() < least)
-      in_.stop(in_.here(), fmt::format("{} has {} numbers, at least {} are expected", what,
-                                       numbers_.size(), least));
+      in_.stop(ErrorCode::wrong_count, in_.here(), "{} has {} numbers, at least {} are expected",
+               what, numbers_.size(), least);
   }
 
   Vec3 point(std::size_t first, const char* what) {
     if (words_.size() != first + 3)
-      in_.stop(in_.here(), fmt::format("{} has {} coordinates, 3 are expected", what,
-                                       words_.size() - std::min(first, words_.size())));
+      in_.stop(ErrorCode::wrong_count, in_.here(), "{} has {} coordinates, 3 are expected", what,
+               words_.size() - std::min(first, words_.size()));
     Vec3 p;
     for (int k = 0; k < 3; ++k) {
       const auto value = parse_real(words_[first + k]);
-      if (!value) in_.stop(in_.here(), fmt::format("{}: {}", what, not_a_real(words_[first + k])));
+      if (!value)
+        in_.stop(ErrorCode::not_a_number, in_.here(), "{}: {}", what,
+                 not_a_real(words_[first + k]));
       p[k] = *value;
     }
     return p;
@@ -109,10 +115,10 @@ class UnvParser {
         break;
     }
     if (std::find(unv_passed_over.begin(), unv_passed_over.end(), number) == unv_passed_over.end())
-      in_.stop(in_.here(),
-               fmt::format("dataset {} is not known: whether it changes stiffness or mass is not "
-                           "clear; remove it from the file if it does not",
-                           number));
+      in_.stop(ErrorCode::unknown_key, in_.here(),
+               "dataset {} is not known: whether it changes stiffness or mass is not clear; remove "
+               "it from the file if it does not",
+               number);
     if (number != 151) c_.passed_over.insert(number);
     std::string_view line;
     while (record(line)) {
@@ -135,11 +141,13 @@ class UnvParser {
         p = point(0, "the node");
       }
       const int id = numbers_[0], system = numbers_[1];
-      if (id < 1) in_.stop(at, fmt::format("a node has the number {}, expected is 1 or more", id));
+      if (id < 1)
+        in_.stop(ErrorCode::out_of_range, at, "a node has the number {}, expected is 1 or more",
+                 id);
       const auto [it, fresh] = c_.node_index.try_emplace(id, c_.model.nodes());
       if (!fresh)
-        in_.error(at, fmt::format("node {} is in the file twice, first in line {}", id,
-                                  c_.model.node_sources[it->second].line));
+        in_.error(ErrorCode::duplicate, at, "node {} is in the file twice, first in line {}", id,
+                  c_.model.node_sources[it->second].line);
       c_.systems_used.try_emplace(system, std::pair{id, at});
       c_.model.positions.push_back(p);
       c_.model.node_ids.push_back(id);
@@ -159,18 +167,19 @@ class UnvParser {
       e.nodes = numbers_[old ? 7 : 5];
       e.type = unv_type(numbers_[1]);
       if (e.id < 1)
-        in_.stop(e.at, fmt::format("an element has the number {}, expected is 1 or more", e.id));
+        in_.stop(ErrorCode::out_of_range, e.at,
+                 "an element has the number {}, expected is 1 or more", e.id);
       if (e.type == nullptr)
-        in_.stop(e.at, fmt::format("element {} has the descriptor {}, which is not supported; "
-                                   "supported are solid elements 111 to 113, 115, 116, 118, rigid "
-                                   "ones 121, 122, and shells, beams and rods as skins",
-                                   e.id, numbers_[1]));
+        in_.stop(ErrorCode::unsupported, e.at,
+                 "element {} has the descriptor {}, which is not supported; supported are solid "
+                 "elements 111 to 113, 115, 116, 118, rigid ones 121, 122, and shells, beams and "
+                 "rods as skins",
+                 e.id, numbers_[1]);
       const int most = e.type->use == UnvUse::rigid ? 1'000'000 : 20;
       if (e.nodes < 1 || e.nodes > most || (e.type->nodes > 0 && e.nodes != e.type->nodes))
-        in_.stop(e.at, fmt::format("element {} ({}) has {} nodes, {} are expected", e.id,
-                                   e.type->name, e.nodes,
-                                   e.type->nodes > 0 ? std::to_string(e.type->nodes)
-                                                     : fmt::format("1 to {}", most)));
+        in_.stop(ErrorCode::wrong_count, e.at, "element {} ({}) has {} nodes, {} are expected",
+                 e.id, e.type->name, e.nodes,
+                 e.type->nodes > 0 ? std::to_string(e.type->nodes) : fmt::format("1 to {}", most));
       if (e.type->beam) static_cast<void>(needed("the orientation of a beam is"));
       e.first = c_.element_nodes.size();
       while (c_.element_nodes.size() < e.first + e.nodes) {
@@ -178,13 +187,13 @@ class UnvParser {
         c_.element_nodes.insert(c_.element_nodes.end(), numbers_.begin(), numbers_.end());
       }
       if (c_.element_nodes.size() != e.first + e.nodes)
-        in_.stop(in_.here(),
-                 fmt::format("element {} ({}) has {} nodes listed, {} are expected", e.id,
-                             e.type->name, c_.element_nodes.size() - e.first, e.nodes));
+        in_.stop(ErrorCode::wrong_count, in_.here(),
+                 "element {} ({}) has {} nodes listed, {} are expected", e.id, e.type->name,
+                 c_.element_nodes.size() - e.first, e.nodes);
       const auto [it, fresh] = c_.element_index.try_emplace(e.id, c_.elements.size());
       if (!fresh)
-        in_.error(e.at, fmt::format("element {} is in the file twice, first in line {}", e.id,
-                                    c_.elements[it->second].at.line));
+        in_.error(ErrorCode::duplicate, e.at, "element {} is in the file twice, first in line {}",
+                  e.id, c_.elements[it->second].at.line);
       c_.elements.push_back(e);
     }
   }
@@ -197,8 +206,8 @@ class UnvParser {
       integers(line, 8, "the group");
       const int number = numbers_[0], count = numbers_[7];
       if (count < 0)
-        in_.stop(group.at,
-                 fmt::format("group {} has {} members, expected is 0 or more", number, count));
+        in_.stop(ErrorCode::out_of_range, group.at,
+                 "group {} has {} members, expected is 0 or more", number, count);
       group.name = std::string(trimmed(needed("the name of a group is")));
       if (group.name.empty()) group.name = fmt::format("group {}", number);
       while (group.members.size() < static_cast<std::size_t>(count)) {
@@ -206,9 +215,10 @@ class UnvParser {
         for (std::size_t k = 0; k + 3 < numbers_.size(); k += 4)
           group.members.emplace_back(numbers_[k], numbers_[k + 1]);
         if (numbers_.size() % 4 != 0 || group.members.size() > static_cast<std::size_t>(count))
-          in_.stop(in_.here(), fmt::format("group '{}' has {} members in its first line, and "
-                                           "another number of them is listed",
-                                           group.name, count));
+          in_.stop(
+              ErrorCode::wrong_value, in_.here(),
+              "group '{}' has {} members in its first line, and another number of them is listed",
+              group.name, count);
       }
       c_.groups.push_back(std::move(group));
     }
@@ -236,10 +246,9 @@ class UnvParser {
 
   void read_units() {
     const std::string text(trimmed(needed("the units are")));
-    c_.model.notes.push_back(
-        fmt::format("{}:{}: the file says that its units are {}; the units given with the file "
-                    "are taken",
-                    in_.files()[in_.here().file], in_.here().line, shown(text)));
+    c_.model.notes.push_back(fmt::format(
+        "{}:{}: the file says that its units are {}; the units given with the file are taken",
+        in_.files()[in_.here().file], in_.here().line, shown(text)));
     std::string_view line;
     while (record(line)) {
     }

@@ -32,8 +32,8 @@ NpyArray list_of(const VecX& vector) {
   return {{size(vector.size())}, std::vector<double>(vector.data(), vector.data() + vector.size())};
 }
 
-void ArrayReader::error(const std::string& name, const std::string& sentence) {
-  errors_.add({file_, 0, 0}, "member '" + name + ".npy': " + sentence);
+void ArrayReader::error(ErrorCode code, const std::string& name, const std::string& sentence) {
+  errors_.add(code, {file_, 0, 0}, "member '" + name + ".npy': " + sentence);
 }
 
 const ZipMember* ArrayReader::find(const std::string& name) const {
@@ -45,13 +45,13 @@ const ZipMember* ArrayReader::find(const std::string& name) const {
 std::optional<NpyArray> ArrayReader::load(const std::string& name) {
   const ZipMember* m = find(name);
   if (!m) {
-    error(name, "is missing");
+    error(ErrorCode::missing, name, "is missing");
     return std::nullopt;
   }
   try {
     return read_npy(m->content);
   } catch (const InputError& damage) {
-    error(name, damage.what());
+    error(ErrorCode::wrong_value, name, damage.what());
     return std::nullopt;
   }
 }
@@ -62,14 +62,14 @@ std::optional<std::vector<double>> ArrayReader::doubles(const std::string& name,
   if (!array) return std::nullopt;
   auto* values = std::get_if<std::vector<double>>(&array->values);
   if (array->shape != shape || !values) {
-    error(name, fmt::format("found {}{}, expected {}", shape_text(array->shape),
-                            values ? "" : " of integers", shape_text(shape)));
+    error(ErrorCode::wrong_count, name, "found {}{}, expected {}", shape_text(array->shape),
+          values ? "" : " of integers", shape_text(shape));
     return std::nullopt;
   }
   for (std::size_t k = 0; k < values->size(); ++k)
     if (!std::isfinite((*values)[k])) {
-      error(name,
-            fmt::format("found {} as value {}, expected finite numbers", (*values)[k], k + 1));
+      error(ErrorCode::not_finite, name, "found {} as value {}, expected finite numbers",
+            (*values)[k], k + 1);
       return std::nullopt;
     }
   return std::move(*values);
@@ -111,17 +111,17 @@ std::vector<int> ArrayReader::integers(const std::string& name, std::optional<st
   const bool right = array->shape.size() == (columns ? 2u : 1u) &&
                      (!columns || array->shape[1] == *columns) && array->values.index() > 0;
   if (!right) {
-    error(name, fmt::format("found {}{}, expected {} integers", shape_text(array->shape),
-                            array->values.index() == 0 ? " of doubles" : "",
-                            columns ? fmt::format("rows of {}", *columns) : "a list of"));
+    error(ErrorCode::wrong_count, name, "found {}{}, expected {} integers",
+          shape_text(array->shape), array->values.index() == 0 ? " of doubles" : "",
+          columns ? fmt::format("rows of {}", *columns) : "a list of");
     return {};
   }
   std::vector<int> out;
   const auto take = [&](const auto& values) {
     for (const auto x : values) {
       if (x < 0 || x >= limit) {
-        error(name, fmt::format("found {} as value {}, expected a number from 0 to {}", x,
-                                out.size() + 1, limit - 1));
+        error(ErrorCode::too_large, name, "found {} as value {}, expected a number from 0 to {}", x,
+              out.size() + 1, limit - 1);
         out.clear();
         return;
       }
@@ -137,7 +137,7 @@ Eigen::Index ArrayReader::length(const std::string& name) {
   const auto array = load(name);
   if (!array) return 0;
   if (array->shape.empty()) {
-    error(name, "found " + shape_text(array->shape) + ", expected rows");
+    error(ErrorCode::wrong_count, name, "found " + shape_text(array->shape) + ", expected rows");
     return 0;
   }
   const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array->values);

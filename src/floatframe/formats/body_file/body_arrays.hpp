@@ -1,9 +1,12 @@
 #pragma once
 // Between the matrices of a reduced part and the arrays of a body file. Modal fields over points
 // are arrays of three dimensions: point, component, mode.
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
@@ -48,7 +51,12 @@ class ArrayReader {
                             std::int64_t limit);
   /// Size of the first dimension; 0 and an error if the member is missing or damaged.
   Eigen::Index length(const std::string& name);
-  void error(const std::string& name, const std::string& sentence);
+  void error(ErrorCode code, const std::string& name, const std::string& sentence);
+  template <class First, class... Rest>
+  void error(ErrorCode code, const std::string& name, fmt::format_string<First, Rest...> text,
+             First&& first, Rest&&... rest) {
+    error(code, name, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
  private:
   const ZipMember* find(const std::string& name) const;

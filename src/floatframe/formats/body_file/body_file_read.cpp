@@ -36,10 +36,10 @@ SparseRows read_sparse(ArrayReader& arrays, const std::string& name, Eigen::Inde
                      starts.size() == static_cast<std::size_t>(n) + 1 && starts.front() == 0 &&
                      starts.back() == entries && std::is_sorted(starts.begin(), starts.end());
   if (!valid) {
-    arrays.error(name + "_indptr",
-                 fmt::format("found {} rows for {} values in {} columns, expected the {} rows of a "
-                             "sparse matrix",
-                             starts.empty() ? 0 : starts.size() - 1, entries, columns.size(), n));
+    arrays.error(
+        ErrorCode::wrong_count, name + "_indptr",
+        "found {} rows for {} values in {} columns, expected the {} rows of a sparse matrix",
+        starts.empty() ? 0 : starts.size() - 1, entries, columns.size(), n);
     return out;
   }
   std::vector<Eigen::Triplet<double>> triplets;
@@ -72,8 +72,8 @@ class BodyReader {
 
  private:
   FlexibleBody& body() { return out_.part.body; }
-  void error(const std::string& sentence) {
-    errors_.add({name_, 0, 0}, "member 'header.json': " + sentence);
+  void error(ErrorCode code, const std::string& sentence) {
+    errors_.add(code, {name_, 0, 0}, "member 'header.json': " + sentence);
   }
 
   /// Nothing else can be read without it.
@@ -81,26 +81,27 @@ class BodyReader {
     const auto it = std::find_if(members_.begin(), members_.end(),
                                  [](const ZipMember& m) { return m.name == "header.json"; });
     if (it == members_.end())
-      throw InputError({name_, 0, 0}, "this is not a body file (it has no member 'header.json')");
+      throw InputError(ErrorCode::wrong_file, {name_, 0, 0},
+                       "this is not a body file (it has no member 'header.json')");
     std::string why;
     const Json json = read_json(it->content, why);
     if (json.is_discarded())
-      throw InputError({name_, 0, 0},
+      throw InputError(ErrorCode::wrong_file, {name_, 0, 0},
                        "this is not a body file (member 'header.json' is no header: " + why + ")");
     if (!json.is_object() || text_of(json, "format") != "floatframe body")
-      throw InputError({name_, 0, 0},
-                       "this is not a body file (member 'header.json' does not say format "
-                       "'floatframe body')");
+      throw InputError(
+          ErrorCode::wrong_file, {name_, 0, 0},
+          "this is not a body file (member 'header.json' does not say format 'floatframe body')");
     const auto version = json.find("format_version");
     if (version == json.end() || *version != body_file_version)
-      throw InputError(
-          {name_, 0, 0},
-          fmt::format("member 'header.json': found format version {}, this program reads version "
-                      "{} (the file was written by Floatframe {})",
-                      version == json.end() ? "none" : json_excerpt(*version), body_file_version,
-                      excerpt(text_of(json, "floatframe"))));
+      throw InputError(ErrorCode::mismatch, {name_, 0, 0},
+                       fmt::format("member 'header.json': found format version {}, this program "
+                                   "reads version {} (the file was written by Floatframe {})",
+                                   version == json.end() ? "none" : json_excerpt(*version),
+                                   body_file_version, excerpt(text_of(json, "floatframe"))));
     if (const auto units = json.find("units"); units != json.end() && *units != body_file_units)
-      error(fmt::format("found the units {}, expected \"{}\": all members are in SI units",
+      error(ErrorCode::wrong_value,
+            fmt::format("found the units {}, expected \"{}\": all members are in SI units",
                         json_excerpt(*units), body_file_units));
     if (const auto m = json.find("modes"); m != json.end() && m->is_array())
       for (const Json& mode : *m) {
@@ -108,17 +109,19 @@ class BodyReader {
         const auto f = mode.is_object() ? mode.find("frequency_Hz") : mode.end();
         const bool given = mode.is_object() && f != mode.end() && !f->is_null();
         if (given && !f->is_number())
-          error(fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
+          error(ErrorCode::out_of_range,
+                fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
                             json_excerpt(*f), header_.frequencies.size() + 1));
         header_.frequencies.push_back(given && f->is_number() ? f->get<double>() : -1.0);
       }
     else
-      error("found no list of 'modes', expected one entry per mode");
+      error(ErrorCode::missing, "found no list of 'modes', expected one entry per mode");
     if (const auto n = json.find("equal_modes_left_out"); n != json.end()) {
       if (n->is_number_integer() && *n >= 0 && *n <= 1000)
         body().equal_left_out = n->get<int>();
       else
-        error(fmt::format("found equal_modes_left_out {}, expected a whole number from 0 to 1000",
+        error(ErrorCode::out_of_range,
+              fmt::format("found equal_modes_left_out {}, expected a whole number from 0 to 1000",
                           json_excerpt(*n)));
     }
     std::set<std::string> names;
@@ -127,19 +130,19 @@ class BodyReader {
         const std::string name = name_of(marker, "marker");
         body().nodes.emplace_back().name = name;
         if (name.empty() || !names.insert(name).second)
-          error("found the marker name '" + excerpt(name) +
-                "', expected names that are not empty and differ");
+          error(ErrorCode::contradiction, "found the marker name '" + excerpt(name) +
+                                              "', expected names that are not empty and differ");
         followers(marker, name);
         interface_of(marker);
       }
     else
-      error("found no list of 'markers', expected one");
+      error(ErrorCode::missing, "found no list of 'markers', expected one");
     const std::string mass_model = text_of(json, "mass_model");
     const std::vector<std::string> models{"isoparametric", "six_dof", "hermite"};
     const auto model = std::find(models.begin(), models.end(), mass_model);
     if (model == models.end())
-      error("found the mass model '" + excerpt(mass_model) +
-            "', expected isoparametric, six_dof or hermite");
+      error(ErrorCode::wrong_value, "found the mass model '" + excerpt(mass_model) +
+                                        "', expected isoparametric, six_dof or hermite");
     else
       body().mass_model = static_cast<MassModel>(model - models.begin());
     if (const auto from = json.find("provenance"); from != json.end() && from->is_object())
@@ -150,7 +153,7 @@ class BodyReader {
       if (const auto health = json.find("health"); health != json.end())
         out_.part.health = health_from_json(health->dump());
     } catch (const InputError& damage) {
-      error(std::string("health: ") + damage.what());
+      error(ErrorCode::wrong_value, std::string("health: ") + damage.what());
     }
   }
 
@@ -167,7 +170,8 @@ class BodyReader {
   std::string name_of(const Json& object, const char* what) {
     std::string name = text_of(object, "name");
     if (printable(name) != name)
-      error(fmt::format("found the {} name '{}', expected one without control characters", what,
+      error(ErrorCode::wrong_value,
+            fmt::format("found the {} name '{}', expected one without control characters", what,
                         printable(excerpt(name))));
     return name;
   }
@@ -199,7 +203,8 @@ class BodyReader {
     }
     if (right) return;
     list.clear();
-    error(fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
+    error(ErrorCode::wrong_count,
+          fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
                       json_excerpt(*given), excerpt(name)));
   }
 

@@ -27,7 +27,7 @@ class Check {
     const auto source = file_.part.health.rotary_inertia == false ? InvariantSource::integrals
                                                                   : InvariantSource::rotary;
     for (const InvariantError& f : check_invariants(file_.part.body, source))
-      arrays_.error(f.quantity, f.sentence);
+      arrays_.error(ErrorCode::wrong_value, f.quantity, f.sentence);
     if (!errors_.empty()) return;
     const InertiaInvariants& v = file_.part.body.invariants;
     if (const auto& p = file_.part.body.projection) {
@@ -40,10 +40,9 @@ class Check {
         m = p->M_s.sum();
       }
       if (!(std::abs(m - v.m) <= same_number * v.m))
-        arrays_.error(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
-                      fmt::format("found {:g} kg in all, expected the mass of member 'm.npy', {:g} "
-                                  "kg",
-                                  m, v.m));
+        arrays_.error(ErrorCode::out_of_range,
+                      p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
+                      "found {:g} kg in all, expected the mass of member 'm.npy', {:g} kg", m, v.m);
     }
     check_second_order(file_.part.body, arrays_);
     const VecX own = mode_frequencies(file_.part.body);
@@ -52,10 +51,9 @@ class Check {
       if (header_.frequencies[k] < 0.0 || !std::isfinite(f)) continue;
       if (std::abs(f - header_.frequencies[k]) <= same_number * std::max(f, header_.frequencies[k]))
         continue;
-      error(
-          fmt::format("found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give "
-                      "{:.6g} Hz",
-                      header_.frequencies[k], k + 1, f));
+      error(ErrorCode::wrong_value, fmt::format("found {:.6g} Hz for mode {}, but K and the modal "
+                                                "mass S11 + S22 + S33 give {:.6g} Hz",
+                                                header_.frequencies[k], k + 1, f));
       break;
     }
     health(v);
@@ -72,19 +70,18 @@ class Check {
       for (const std::int64_t point : header_.moves_with[k]) {
         const ModalNode& node = file_.part.body.nodes[k];
         if (point < 0 || point >= part.surface_positions.cols()) {
-          error(
-              fmt::format("found the surface point {} for marker '{}', expected a number from 0 "
-                          "to {}",
-                          point, excerpt(node.name), part.surface_positions.cols() - 1));
+          error(ErrorCode::out_of_range,
+                fmt::format(
+                    "found the surface point {} for marker '{}', expected a number from 0 to {}",
+                    point, excerpt(node.name), part.surface_positions.cols() - 1));
           return;
         }
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
         if (off <= same_number * scale) continue;
-        arrays_.error("marker_X",
-                      fmt::format("marker '{}' moves {:.3g} m per modal amplitude away from point "
-                                  "{} of the surface, which moves with it (largest mode of the "
-                                  "surface: {:.3g} m)",
-                                  excerpt(node.name), off, point, scale));
+        arrays_.error(ErrorCode::wrong_value, "marker_X",
+                      "marker '{}' moves {:.3g} m per modal amplitude away from point {} of the "
+                      "surface, which moves with it (largest mode of the surface: {:.3g} m)",
+                      excerpt(node.name), off, point, scale);
         return;
       }
   }
@@ -96,10 +93,11 @@ class Check {
     if (!(said.mass > 0.0)) return;  // no report
     if (h.modes != v.modes())
       error(
+          ErrorCode::wrong_value,
           fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
     if (!(std::abs(v.m - said.mass) <= same_number * said.mass)) {
-      arrays_.error("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
-                                     said.mass));
+      arrays_.error(ErrorCode::contradiction, "m",
+                    "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
       return;
     }
     if (h.rotary_inertia) of_the_part(v, h);
@@ -107,30 +105,30 @@ class Check {
     const double length = std::sqrt(J.trace() / v.m);
     const Vec3 c = v.centre_of_mass();
     if (!((c - said.centre).norm() <= same_number * length))
-      arrays_.error("m_u",
-                    fmt::format("found the centre of mass {} m, but the health report says {} m",
-                                vector_text(c), vector_text(said.centre)));
+      arrays_.error(ErrorCode::contradiction, "m_u",
+                    "found the centre of mass {} m, but the health report says {} m",
+                    vector_text(c), vector_text(said.centre));
     if (!((J - said.J_origin).norm() <= same_number * J.norm()))
-      arrays_.error("P_u",
-                    fmt::format("found moments of inertia {} kg m2 about the origin, but "
-                                "the health report says {} kg m2",
-                                vector_text(J.diagonal()), vector_text(said.J_origin.diagonal())));
+      arrays_.error(
+          ErrorCode::contradiction, "P_u",
+          "found moments of inertia {} kg m2 about the origin, but the health report says {} kg m2",
+          vector_text(J.diagonal()), vector_text(said.J_origin.diagonal()));
     for (const InterfaceHealth& interface : h.interfaces)
       for (const ModalNode& node : file_.part.body.nodes)
         if (node.name == interface.name &&
             !((node.p - interface.p).norm() <= same_number * (length + node.p.norm())))
-          arrays_.error("marker_p",
-                        fmt::format("found {} m for '{}', but the health report says {} m",
-                                    vector_text(node.p), node.name, vector_text(interface.p)));
+          arrays_.error(ErrorCode::contradiction, "marker_p",
+                        "found {} m for '{}', but the health report says {} m", vector_text(node.p),
+                        node.name, vector_text(interface.p));
   }
 
   /// What earlier programs wrote was not checked.
   void of_the_part(const InertiaInvariants& v, const HealthReport& h) {
     const double m = h.from_elements.mass;
     if (m > 0.0 && !(std::abs(v.m - m) <= same_number * m))
-      arrays_.error("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg of the "
-                                     "elements",
-                                     v.m, m));
+      arrays_.error(ErrorCode::contradiction, "m",
+                    "found {:.6g} kg, but the health report says {:.6g} kg of the elements", v.m,
+                    m);
     normal_modes(h);
   }
 
@@ -146,15 +144,15 @@ class Check {
       if (!std::isfinite(kept[k]) ||
           std::abs(own - kept[k]) <= same_number * std::max(own, kept[k]))
         continue;
-      arrays_.error("frequencies", fmt::format("found {:.6g} Hz for normal mode {}, but the health "
-                                               "report says {:.6g} Hz",
-                                               own, k + 1, kept[k]));
+      arrays_.error(ErrorCode::contradiction, "frequencies",
+                    "found {:.6g} Hz for normal mode {}, but the health report says {:.6g} Hz", own,
+                    k + 1, kept[k]);
       return;
     }
   }
 
-  void error(const std::string& sentence) {
-    errors_.add({name_, 0, 0}, "member 'header.json': " + sentence);
+  void error(ErrorCode code, const std::string& sentence) {
+    errors_.add(code, {name_, 0, 0}, "member 'header.json': " + sentence);
   }
 
   const BodyFile& file_;

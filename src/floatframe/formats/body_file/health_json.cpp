@@ -132,7 +132,8 @@ struct Reader {
   void operator()(const char* key, T& x) {
     const auto it = in.find(key);
     if (it == in.end()) return;
-    if (!get(*it, x)) throw InputError(std::string("found a wrong value of '") + key + "'");
+    if (!get(*it, x))
+      throw InputError(ErrorCode::wrong_value, std::string("found a wrong value of '") + key + "'");
   }
   static bool get(const Json& j, double& x) {
     if (j.is_null()) x = std::numeric_limits<double>::quiet_NaN();
@@ -199,7 +200,8 @@ HealthReport health_from_json(const std::string& text) {
   HealthReport out;
   std::string why;
   const Json json = read_json(text, why);
-  if (!json.is_object()) throw InputError("found no object, expected a health report");
+  if (!json.is_object())
+    throw InputError(ErrorCode::missing, "found no object, expected a health report");
   Reader reader{json};
   fields(reader, out);
   return out;

@@ -20,13 +20,16 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t alignment = 64;  // of the values, as NumPy writes them
 
-[[noreturn]] void fail(const std::string& sentence) { throw InputError(sentence); }
+[[noreturn]] void fail(ErrorCode code, const std::string& sentence) {
+  throw InputError(code, sentence);
+}
 
 std::size_t count_of(const std::vector<std::size_t>& shape) {
   std::size_t n = 1;
   for (const std::size_t k : shape) {
     if (k != 0 && n > std::numeric_limits<std::size_t>::max() / 16 / k)
-      fail("found the shape " + shape_text(shape) + ", expected fewer values");
+      fail(ErrorCode::wrong_count,
+           "found the shape " + shape_text(shape) + ", expected fewer values");
     n *= k;
   }
   return n;
@@ -61,7 +64,7 @@ class Header {
 
  private:
   [[noreturn]] void damaged() const {
-    fail("found a damaged header, expected descr, fortran_order and shape");
+    fail(ErrorCode::damaged, "found a damaged header, expected descr, fortran_order and shape");
   }
   void blanks() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
@@ -136,7 +139,8 @@ template <class T>
 NpyArray values(std::string_view bytes, const Header& header) {
   const std::size_t n = count_of(*header.shape);
   if (bytes.size() != n * sizeof(T))
-    fail(fmt::format("found {} bytes of values, expected {} for the shape {}", bytes.size(),
+    fail(ErrorCode::wrong_count,
+         fmt::format("found {} bytes of values, expected {} for the shape {}", bytes.size(),
                      n * sizeof(T), shape_text(*header.shape)));
   std::vector<T> out(n);
   if (n > 0) std::memcpy(out.data(), bytes.data(), bytes.size());
@@ -201,28 +205,30 @@ std::string npy_texts(const std::vector<std::string>& texts) {
 
 NpyArray read_npy(std::string_view bytes) {
   if (bytes.substr(0, magic.size()) != magic || bytes.size() < magic.size() + 6)
-    fail("found no array, expected the .npy format of NumPy");
+    fail(ErrorCode::wrong_file, "found no array, expected the .npy format of NumPy");
   const auto byte = [&](std::size_t k) -> std::size_t {
     return static_cast<unsigned char>(bytes[k]);
   };
   const std::size_t version = byte(6);
   if (version < 1 || version > 3)
-    fail(fmt::format("found version {} of the .npy format, expected 1 to 3", version));
+    fail(ErrorCode::out_of_range,
+         fmt::format("found version {} of the .npy format, expected 1 to 3", version));
   std::size_t length = byte(8) | byte(9) << 8, start = 10;
   if (version > 1) {
     length |= byte(10) << 16 | byte(11) << 24;
     start = 12;
   }
   if (length > bytes.size() - start)
-    fail(fmt::format("found {} bytes of a header of {}: the array is truncated",
-                     bytes.size() - start, length));
+    fail(ErrorCode::damaged, fmt::format("found {} bytes of a header of {}: the array is truncated",
+                                         bytes.size() - start, length));
   const Header header(bytes.substr(start, length));
   const std::string_view rest = bytes.substr(start + length);
   if (*header.descr == "<f8") return values<double>(rest, header);
   if (*header.descr == "<i4") return values<std::int32_t>(rest, header);
   if (*header.descr == "<i8") return values<std::int64_t>(rest, header);
-  fail("found values of the type '" + header.descr->substr(0, 20) +
-       "', expected <f8, <i4 or <i8 (little-endian doubles and integers)");
+  fail(ErrorCode::wrong_value,
+       "found values of the type '" + header.descr->substr(0, 20) +
+           "', expected <f8, <i4 or <i8 (little-endian doubles and integers)");
 }
 
 }  // namespace floatframe

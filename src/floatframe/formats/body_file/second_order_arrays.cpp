@@ -116,7 +116,8 @@ std::shared_ptr<const SecondOrder> read_second_order(ArrayReader& arrays, Eigen:
   const MatX Si = arrays.grouped("second_order_Si", 9, nm, nm);
   std::vector<int> nodes = arrays.integers("second_order_nodes", std::nullopt, markers);
   if (std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) != nodes.end())
-    arrays.error("second_order_nodes", "expected markers in ascending order, each once");
+    arrays.error(ErrorCode::duplicate, "second_order_nodes",
+                 "expected markers in ascending order, each once");
   const Eigen::Index count = arrays.length("second_order_nodes");
   nodes.resize(static_cast<std::size_t>(count));  // zeros after an error
   const MatX h = arrays.grouped("second_order_h", 3 * count, nm, nm);
@@ -155,10 +156,10 @@ void read_projection_second_order(ArrayReader& arrays, Eigen::Index nm, Projecti
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const int point = pairs[2 * k], rotation = pairs[2 * k + 1];
     if (point >= nodes || rotation >= rotations || (k > 0 && point < data.turning.back().point)) {
-      arrays.error("projection_turning",
-                   fmt::format("found point {} with rotation {} in row {}, expected points in "
-                               "ascending order below {} and rotations below {}",
-                               point, rotation, k + 1, nodes, rotations));
+      arrays.error(ErrorCode::wrong_value, "projection_turning",
+                   "found point {} with rotation {} in row {}, expected points in ascending order "
+                   "below {} and rotations below {}",
+                   point, rotation, k + 1, nodes, rotations);
       return;
     }
     const auto row = static_cast<Eigen::Index>(k);
@@ -170,8 +171,8 @@ void check_second_order(const FlexibleBody& body, ArrayReader& arrays) {
   const auto check = [&](const char* name, const MatX& m, double size, Eigen::Index place) {
     const double off = (m - m.transpose()).cwiseAbs().maxCoeff();
     if (off <= symmetric_to * size) return true;
-    arrays.error(name, fmt::format("matrix {} is not symmetric: two of its entries differ by {:g}",
-                                   place + 1, off));
+    arrays.error(ErrorCode::contradiction, name,
+                 "matrix {} is not symmetric: two of its entries differ by {:g}", place + 1, off);
     return false;
   };
   const auto check_all = [&](const char* name, const std::vector<const MatX*>& all) {

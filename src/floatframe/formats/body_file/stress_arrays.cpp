@@ -36,11 +36,10 @@ void read_places(ArrayReader& arrays, Eigen::Index points, BodyStress& out) {
     const int* row = flat.data() + 6 * k;
     if (row[0] > points || row[3] >= layers || row[4] >= static_cast<int>(out.groups.size()) ||
         row[5] > 1) {
-      arrays.error(
-          "stress_places",
-          fmt::format("place {} is not one: expected a point up to {}, a layer below {}, a "
-                      "group below {} and 0 or 1",
-                      k + 1, points, layers, out.groups.size()));
+      arrays.error(ErrorCode::wrong_value, "stress_places",
+                   "place {} is not one: expected a point up to {}, a layer below {}, a group "
+                   "below {} and 0 or 1",
+                   k + 1, points, layers, out.groups.size());
       return;
     }
     out.places.push_back({.layer = static_cast<StressPlace::Layer>(row[3]),
@@ -61,11 +60,10 @@ void read_sections(ArrayReader& arrays, const StressNames& names, BodyStress& ou
   for (std::size_t k = 0; k < flat.size() / 5; ++k) {
     const int* row = flat.data() + 5 * k;
     if (row[3] != static_cast<int>(k % 2) || row[4] < before || row[4] > places) {
-      arrays.error(
-          "stress_sections",
-          fmt::format("section {} is not one: expected the ends 0 and 1 in turn and first places "
-                      "that ascend up to {}",
-                      k + 1, places));
+      arrays.error(ErrorCode::wrong_value, "stress_sections",
+                   "section {} is not one: expected the ends 0 and 1 in turn and first places that "
+                   "ascend up to {}",
+                   k + 1, places);
       return;
     }
     before = row[4];

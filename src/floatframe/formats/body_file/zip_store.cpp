@@ -61,33 +61,35 @@ class ArchiveReader {
 
   std::vector<ZipMember> read() {
     if (bytes_.size() < 4 || (u32(0) != local_mark && u32(0) != end_mark))
-      fail("this is not a zip archive (it does not begin with PK)");
+      fail(ErrorCode::wrong_file, "this is not a zip archive (it does not begin with PK)");
     const std::size_t end = find_end();
     const std::size_t count = u16(end + 10), size = u32(end + 12), start = u32(end + 16);
     if (u16(end + 4) != 0 || u16(end + 8) != count)
-      fail("the archive has several volumes, expected one file");
+      fail(ErrorCode::duplicate, "the archive has several volumes, expected one file");
     if (count == 0xffff || start == largest || size == largest)
-      fail("the archive is a zip64 archive, expected less than 4 GB and 65535 members");
+      fail(ErrorCode::too_large,
+           "the archive is a zip64 archive, expected less than 4 GB and 65535 members");
     if (start > end || size > end - start || start + size != end)
-      fail(
-          fmt::format("the directory of the archive is damaged: found {} bytes at {} of it, "
-                      "expected them to end at {}",
-                      size, start, end));
+      fail(ErrorCode::damaged, fmt::format("the directory of the archive is damaged: found {} "
+                                           "bytes at {} of it, expected them to end at {}",
+                                           size, start, end));
     std::vector<ZipMember> out;
     std::set<std::string> names;
     std::size_t at = start;
     for (std::size_t k = 0; k < count; ++k) {
       out.push_back(member(at, end));
       if (!names.insert(out.back().name).second)
-        fail("member '" + out.back().name + "': found twice, expected once");
+        fail(ErrorCode::duplicate, "member '" + out.back().name + "': found twice, expected once");
     }
-    if (at != end) fail("the directory of the archive is longer than its number of members says");
+    if (at != end)
+      fail(ErrorCode::contradiction,
+           "the directory of the archive is longer than its number of members says");
     return out;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& sentence) const {
-    throw InputError(SourceMark{file_, 0, 0}, sentence);
+  [[noreturn]] void fail(ErrorCode code, const std::string& sentence) const {
+    throw InputError(code, SourceMark{file_, 0, 0}, sentence);
   }
   std::size_t u16(std::size_t at) const {
     return static_cast<unsigned char>(bytes_[at]) |
@@ -103,40 +105,46 @@ class ArchiveReader {
       for (std::size_t at = last + 1; at-- > first;)
         if (u32(at) == end_mark && at + end_size + u16(at + 20) == bytes_.size()) return at;
     }
-    fail("the archive has no directory at its end: it is truncated or damaged");
+    fail(ErrorCode::damaged, "the archive has no directory at its end: it is truncated or damaged");
   }
 
   /// The member whose directory entry is at `at`, which moves to the next one.
   ZipMember member(std::size_t& at, std::size_t end) const {
     if (end - at < entry_size || u32(at) != entry_mark)
-      fail("the directory of the archive is damaged: an entry is missing or cut off");
+      fail(ErrorCode::damaged,
+           "the directory of the archive is damaged: an entry is missing or cut off");
     const std::size_t flags = u16(at + 8), method = u16(at + 10), crc = u32(at + 16);
     const std::size_t packed = u32(at + 20), size = u32(at + 24), name_size = u16(at + 28);
     const std::size_t rest = name_size + u16(at + 30) + u16(at + 32), local = u32(at + 42);
     if (end - at - entry_size < rest)
-      fail("the directory of the archive is damaged: the name of a member is cut off");
+      fail(ErrorCode::damaged,
+           "the directory of the archive is damaged: the name of a member is cut off");
     ZipMember m;
     m.name = std::string(bytes_.substr(at + entry_size, name_size));
     at += entry_size + rest;
     const std::string who = "member '" + m.name + "': ";
-    if (flags & 1u) fail(who + "is encrypted, expected plain bytes");
+    if (flags & 1u) fail(ErrorCode::unsupported, who + "is encrypted, expected plain bytes");
     if (method != 0)
-      fail(fmt::format("{}is compressed (method {}), expected a stored member", who, method));
+      fail(ErrorCode::unsupported,
+           fmt::format("{}is compressed (method {}), expected a stored member", who, method));
     if (packed != size)
-      fail(fmt::format("{}found {} stored bytes for a size of {}, expected as many", who, packed,
+      fail(ErrorCode::damaged,
+           fmt::format("{}found {} stored bytes for a size of {}, expected as many", who, packed,
                        size));
     if (local > end || end - local < local_size || u32(local) != local_mark)
-      fail(fmt::format("{}found no header at byte {}, expected one", who, local));
+      fail(ErrorCode::damaged,
+           fmt::format("{}found no header at byte {}, expected one", who, local));
     const std::size_t data = local + local_size + u16(local + 26) + u16(local + 28);
     if (u16(local + 26) != name_size || bytes_.substr(local + local_size, name_size) != m.name)
-      fail(who + "found another name in its own header, expected the same");
+      fail(ErrorCode::damaged, who + "found another name in its own header, expected the same");
     if (data > end || size > end - data)
-      fail(fmt::format("{}found {} bytes of {}: it is truncated", who, data > end ? 0 : end - data,
-                       size));
+      fail(ErrorCode::damaged, fmt::format("{}found {} bytes of {}: it is truncated", who,
+                                           data > end ? 0 : end - data, size));
     m.content = bytes_.substr(data, size);
     const std::uint32_t found = crc_of(m.content);
     if (found != crc)
-      fail(fmt::format("{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who,
+      fail(ErrorCode::damaged,
+           fmt::format("{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who,
                        found, crc));
     return m;
   }
@@ -153,10 +161,10 @@ std::string zip_archive(const std::vector<ZipMember>& members) {
   for (const ZipMember& m : members)
     total += local_size + entry_size + 2 * m.name.size() + m.content.size();
   if (total > largest || members.size() >= 0xffff)
-    throw InputError(fmt::format(
-        "the archive would have {} bytes, expected less than 4 GB: keep fewer modes, or leave the "
-        "projection data out",
-        total));
+    throw InputError(ErrorCode::too_large,
+                     fmt::format("the archive would have {} bytes, expected less than 4 GB: keep "
+                                 "fewer modes, or leave the projection data out",
+                                 total));
   out.reserve(total);
   for (const ZipMember& m : members) {
     const std::uint32_t crc = crc_of(m.content);

@@ -17,7 +17,7 @@ class GeometryBuilder {
   /// Indices of points that were given.
   void triangle(int a, int b, int c);
   std::size_t points() const noexcept { return points_.size(); }
-  [[noreturn]] void stop(const std::string& sentence, int line = 0) const;
+  [[noreturn]] void stop(ErrorCode code, const std::string& sentence, int line = 0) const;
 
   TriangleGeometry finish() const;
 

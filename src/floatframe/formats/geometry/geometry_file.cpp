@@ -40,9 +40,11 @@ struct PointKeyHash {
 
 int GeometryBuilder::point(const Vec3& p, int line) {
   if (!p.allFinite())
-    stop(fmt::format("point {} is not finite, expected three numbers", points_.size() + 1), line);
+    stop(ErrorCode::not_finite,
+         fmt::format("point {} is not finite, expected three numbers", points_.size() + 1), line);
   if (points_.size() >= 3 * limits::geometry_triangles)
-    stop(fmt::format("found more than {} points, expected at most so many",
+    stop(ErrorCode::too_large,
+         fmt::format("found more than {} points, expected at most so many",
                      3 * limits::geometry_triangles),
          line);
   points_.push_back(p);
@@ -51,13 +53,13 @@ int GeometryBuilder::point(const Vec3& p, int line) {
 
 void GeometryBuilder::triangle(int a, int b, int c) {
   if (triangles_.size() >= limits::geometry_triangles)
-    stop(fmt::format("found more than {} triangles, expected at most so many",
-                     limits::geometry_triangles));
+    stop(ErrorCode::too_large, fmt::format("found more than {} triangles, expected at most so many",
+                                           limits::geometry_triangles));
   triangles_.push_back({a, b, c});
 }
 
-void GeometryBuilder::stop(const std::string& sentence, int line) const {
-  throw InputError(SourceMark{name_, line, 0}, sentence);
+void GeometryBuilder::stop(ErrorCode code, const std::string& sentence, int line) const {
+  throw InputError(code, SourceMark{name_, line, 0}, sentence);
 }
 
 TriangleGeometry GeometryBuilder::finish() const {
@@ -80,7 +82,7 @@ TriangleGeometry GeometryBuilder::finish() const {
     if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
       out.triangles.push_back(corners);
   }
-  if (out.triangles.empty()) stop("found no triangles, expected a surface");
+  if (out.triangles.empty()) stop(ErrorCode::missing, "found no triangles, expected a surface");
   out.positions.resize(3, static_cast<Eigen::Index>(places.size()));
   for (std::size_t k = 0; k < places.size(); ++k)
     out.positions.col(static_cast<Eigen::Index>(k)) = *places[k];
@@ -95,8 +97,9 @@ bool is_geometry_file(const std::filesystem::path& file) {
 TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
                                 const GeometryLoader& loader) {
   GeometryBuilder out(name);
-  if (!is_geometry_file(name)) out.stop("found this ending, expected .stl, .obj, .gltf or .glb");
-  if (bytes.empty()) out.stop("the file is empty");
+  if (!is_geometry_file(name))
+    out.stop(ErrorCode::wrong_value, "found this ending, expected .stl, .obj, .gltf or .glb");
+  if (bytes.empty()) out.stop(ErrorCode::missing, "the file is empty");
   const std::string ending = geometry_ending(name);
   if (ending == ".stl")
     parse_stl(bytes, out);
@@ -110,7 +113,7 @@ TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
 TriangleGeometry read_geometry(const std::filesystem::path& file) {
   // An ending that is not read is said before the file is looked for.
   if (!is_geometry_file(file))
-    throw InputError(SourceMark{file.string(), 0, 0},
+    throw InputError(ErrorCode::wrong_value, SourceMark{file.string(), 0, 0},
                      "found this ending, expected .stl, .obj, .gltf or .glb");
   std::vector<std::filesystem::path> others;
   const auto beside = [&](const std::string& name) {

@@ -40,12 +40,13 @@ class GltfReader {
       : json_(json), chunk_(chunk), loader_(loader), out_(out) {}
 
   void read() {
-    if (!json_.is_object()) out_.stop("found " + json_excerpt(json_) + ", expected glTF");
+    if (!json_.is_object())
+      out_.stop(ErrorCode::wrong_value, "found " + json_excerpt(json_) + ", expected glTF");
     const GltfJson* asset = member(json_, "asset");
     const GltfJson* version = asset ? member(*asset, "version") : nullptr;
     if (!version || !version->is_string() ||
         !version->get_ref<const std::string&>().starts_with("2."))
-      out_.stop("found no asset.version 2.x, expected glTF 2.0");
+      out_.stop(ErrorCode::missing, "found no asset.version 2.x, expected glTF 2.0");
     extensions();
     std::vector<std::pair<std::size_t, GltfPlace>> open;
     for (const std::size_t n : roots()) open.emplace_back(n, GltfPlace{});
@@ -54,7 +55,9 @@ class GltfReader {
       const auto [n, above] = open.back();
       open.pop_back();
       const GltfJson& node = element("nodes", n);
-      if (seen[n]) out_.stop(fmt::format("found node {} twice, expected a tree of nodes", n));
+      if (seen[n])
+        out_.stop(ErrorCode::duplicate,
+                  fmt::format("found node {} twice, expected a tree of nodes", n));
       seen[n] = true;
       const GltfPlace own = place_of(node, n);
       const GltfPlace here{above.A * own.A, above.t + above.A * own.t};
@@ -77,12 +80,14 @@ class GltfReader {
   }
   const GltfJson& element(const char* list, std::size_t k) const {
     if (k >= size(list))
-      out_.stop(fmt::format("found number {} of '{}', expected one below {}", k, list, size(list)));
+      out_.stop(ErrorCode::wrong_value,
+                fmt::format("found number {} of '{}', expected one below {}", k, list, size(list)));
     return (*member(json_, list))[k];
   }
   std::size_t whole(const GltfJson& value, const char* key) const {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
-      out_.stop(fmt::format("{}: found {}, expected a whole number", key, json_excerpt(value)));
+      out_.stop(ErrorCode::out_of_range,
+                fmt::format("{}: found {}, expected a whole number", key, json_excerpt(value)));
     return value.get<std::size_t>();
   }
   std::optional<std::size_t> index(const GltfJson& object, const char* key) const {
@@ -91,7 +96,8 @@ class GltfReader {
   }
   std::size_t required(const GltfJson& object, const char* key) const {
     const auto value = index(object, key);
-    if (!value) out_.stop(fmt::format("'{}' is missing: the file is damaged", key));
+    if (!value)
+      out_.stop(ErrorCode::damaged, fmt::format("'{}' is missing: the file is damaged", key));
     return *value;
   }
   std::vector<std::size_t> indices(const GltfJson& object, const char* key) const {
@@ -110,8 +116,8 @@ class GltfReader {
       if (good) values[k] = (*items)[k].get<double>();
     }
     if (!good)
-      out_.stop(fmt::format("{}: found {}, expected {} numbers", key, json_excerpt(*items),
-                            values.size()));
+      out_.stop(ErrorCode::wrong_count, fmt::format("{}: found {}, expected {} numbers", key,
+                                                    json_excerpt(*items), values.size()));
     return true;
   }
 
@@ -123,8 +129,9 @@ class GltfReader {
       const std::string name = item.is_string() ? item.get<std::string>() : json_excerpt(item);
       if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") &&
           !name.starts_with("EXT_texture_") && !name.starts_with("KHR_lights_"))
-        out_.stop("found the required extension '" + excerpt(name) +
-                  "', expected glTF 2.0 without it (no compression, no quantization)");
+        out_.stop(ErrorCode::wrong_value,
+                  "found the required extension '" + excerpt(name) +
+                      "', expected glTF 2.0 without it (no compression, no quantization)");
     }
   }
 
@@ -159,7 +166,8 @@ class GltfReader {
       numbers(node, "translation", t);
       Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
       if (!(turn.norm() > 1e-6))
-        out_.stop(fmt::format("node {}: found a rotation of length zero", n));
+        out_.stop(ErrorCode::wrong_value,
+                  fmt::format("node {}: found a rotation of length zero", n));
       place.A = turn.normalized().toRotationMatrix() * Vec3(s[0], s[1], s[2]).asDiagonal();
       place.t = {t[0], t[1], t[2]};
     }
@@ -174,10 +182,12 @@ class GltfReader {
     const GltfJson* uri = member(json, "uri");
     if (!uri) {
       if (k != 0 || chunk_.empty())
-        out_.stop(fmt::format("buffer {} has no content: the file is cut short or damaged", k));
+        out_.stop(ErrorCode::damaged,
+                  fmt::format("buffer {} has no content: the file is cut short or damaged", k));
       return chunk_;
     }
-    if (!uri->is_string()) out_.stop("uri: found " + json_excerpt(*uri) + ", expected a text");
+    if (!uri->is_string())
+      out_.stop(ErrorCode::wrong_value, "uri: found " + json_excerpt(*uri) + ", expected a text");
     return buffers_.emplace(k, content(uri->get<std::string>())).first->second;
   }
 
@@ -186,26 +196,27 @@ class GltfReader {
       const std::size_t at = uri.find(";base64,");
       auto bytes = at == std::string::npos ? std::nullopt
                                            : from_base64(std::string_view(uri).substr(at + 8));
-      if (!bytes) out_.stop("found a data: address that is not base64: the file is damaged");
+      if (!bytes)
+        out_.stop(ErrorCode::damaged,
+                  "found a data: address that is not base64: the file is damaged");
       return std::move(*bytes);
     }
     std::string name;
     for (std::size_t k = 0; k < uri.size(); ++k) {
       int code = 0;
-      if (uri[k] == '%' && k + 2 < uri.size() && hex(uri[k + 1], code) && hex(uri[k + 2], code)) {
-        name += static_cast<char>(code);
-        k += 2;
-      } else {
-        name += uri[k];
-      }
+      const bool escaped =
+          uri[k] == '%' && k + 2 < uri.size() && hex(uri[k + 1], code) && hex(uri[k + 2], code);
+      name += escaped ? static_cast<char>(code) : uri[k];
+      if (escaped) k += 2;
     }
     if (!loader_ || name.find(':') != std::string::npos || name.find('\0') != std::string::npos)
-      out_.stop("found a buffer at '" + excerpt(uri) +
-                "', expected one inside or in a file beside");
+      out_.stop(ErrorCode::wrong_value, "found a buffer at '" + excerpt(uri) +
+                                            "', expected one inside or in a file beside");
     const auto place = std::filesystem::path(name).lexically_normal();
     if (name.empty() || place.is_absolute() || *place.begin() == "..")
-      out_.stop("found a buffer at '" + excerpt(uri) +
-                "', expected one in the folder of this file or below it");
+      out_.stop(ErrorCode::wrong_value,
+                "found a buffer at '" + excerpt(uri) +
+                    "', expected one in the folder of this file or below it");
     return loader_(name);
   }
   static bool hex(char c, int& code) {
@@ -221,9 +232,11 @@ class GltfReader {
     const GltfJson& json = element("accessors", k);
     const GltfJson* given = member(json, "type");
     if (!given || !given->is_string() || given->get_ref<const std::string&>() != type)
-      out_.stop(fmt::format("accessor {}: found another type, expected {}", k, type));
+      out_.stop(ErrorCode::wrong_count,
+                fmt::format("accessor {}: found another type, expected {}", k, type));
     if (member(json, "sparse"))
-      out_.stop(fmt::format("accessor {} is sparse, expected all of its numbers", k));
+      out_.stop(ErrorCode::wrong_value,
+                fmt::format("accessor {} is sparse, expected all of its numbers", k));
     GltfNumbers n;
     n.component = static_cast<int>(required(json, "componentType"));
     n.count = required(json, "count");
@@ -234,9 +247,9 @@ class GltfReader {
                                                       : 0;
     if (one == 0)
       out_.stop(
-          fmt::format("accessor {}: found numbers of type {}, expected 5121, 5123, 5125 or "
-                      "5126",
-                      k, n.component));
+          ErrorCode::wrong_value,
+          fmt::format("accessor {}: found numbers of type {}, expected 5121, 5123, 5125 or 5126", k,
+                      n.component));
     const GltfJson& view = element("bufferViews", required(json, "bufferView"));
     const std::string_view all = buffer(required(view, "buffer"));
     const std::size_t offset = index(view, "byteOffset").value_or(0);
@@ -250,9 +263,10 @@ class GltfReader {
                           n.count - 1 <= (length - start - one * values) / n.stride));
     if (!inside)
       out_.stop(
-          fmt::format("accessor {} reaches beyond its buffer of {} bytes: the file is cut "
-                      "short or damaged",
-                      k, all.size()));
+          ErrorCode::damaged,
+          fmt::format(
+              "accessor {} reaches beyond its buffer of {} bytes: the file is cut short or damaged",
+              k, all.size()));
     n.bytes = all.substr(offset + start);
     return n;
   }
@@ -274,11 +288,13 @@ class GltfReader {
   void mesh(std::size_t m, const GltfPlace& place) {
     const GltfJson* primitives = member(element("meshes", m), "primitives");
     if (!primitives || !primitives->is_array())
-      out_.stop(fmt::format("mesh {} has no primitives: the file is damaged", m));
+      out_.stop(ErrorCode::damaged,
+                fmt::format("mesh {} has no primitives: the file is damaged", m));
     for (const GltfJson& p : *primitives) {
       const std::size_t mode = index(p, "mode").value_or(4);
       if (mode < 4) continue;  // points and lines
-      if (mode > 6) out_.stop(fmt::format("mode: found {}, expected 0 to 6", mode));
+      if (mode > 6)
+        out_.stop(ErrorCode::out_of_range, fmt::format("mode: found {}, expected 0 to 6", mode));
       primitive(p, mode, place);
     }
   }
@@ -289,7 +305,8 @@ class GltfReader {
     if (!at) return;
     const GltfNumbers points = accessor(*at, "VEC3", 3);
     if (points.component != gltf_f32)
-      out_.stop(fmt::format("accessor {}: found positions of type {}, expected 5126 (float)", *at,
+      out_.stop(ErrorCode::wrong_value,
+                fmt::format("accessor {}: found positions of type {}, expected 5126 (float)", *at,
                             points.component));
     const std::size_t first = out_.points();
     for (std::size_t k = 0; k < points.count; ++k) {
@@ -303,12 +320,14 @@ class GltfReader {
     if (indexed) {
       order = accessor(*indexed, "SCALAR", 1);
       if (order.component == gltf_f32)
-        out_.stop(fmt::format("accessor {}: found floats, expected indices", *indexed));
+        out_.stop(ErrorCode::wrong_value,
+                  fmt::format("accessor {}: found floats, expected indices", *indexed));
     }
     const auto corner = [&](std::size_t k) {
       const std::size_t v = indexed ? whole_number(order, k) : k;
       if (v >= points.count)
-        out_.stop(fmt::format("accessor {}: found point {}, expected one below {}", *indexed, v,
+        out_.stop(ErrorCode::wrong_value,
+                  fmt::format("accessor {}: found point {}, expected one below {}", *indexed, v,
                               points.count));
       return static_cast<int>(first + v);
     };
@@ -319,6 +338,7 @@ class GltfReader {
     if (mode == 4) {
       if (order.count % 3 != 0)
         out_.stop(
+            ErrorCode::wrong_value,
             fmt::format("found {} corners of triangles, expected a multiple of 3", order.count));
       for (std::size_t k = 0; k + 2 < order.count; k += 3) add(k, k + 1, k + 2);
     } else {
@@ -343,12 +363,14 @@ std::uint32_t gltf_word(std::string_view bytes, std::size_t at) {
 /// JSON and the numbers of a .glb: chunks of a length, a type and their content.
 void gltf_chunks(std::string_view bytes, GeometryBuilder& out, std::string_view& json,
                  std::string_view& numbers) {
-  if (bytes.size() < 20) out.stop("the file ends in its header: it is cut short");
+  if (bytes.size() < 20)
+    out.stop(ErrorCode::damaged, "the file ends in its header: it is cut short");
   if (gltf_word(bytes, 4) != 2)
-    out.stop(fmt::format("found version {} of glTF, expected 2", gltf_word(bytes, 4)));
+    out.stop(ErrorCode::wrong_value,
+             fmt::format("found version {} of glTF, expected 2", gltf_word(bytes, 4)));
   if (gltf_word(bytes, 8) > bytes.size())
-    out.stop(fmt::format("found {} bytes, expected {}: it is cut short", bytes.size(),
-                         gltf_word(bytes, 8)));
+    out.stop(ErrorCode::wrong_value, fmt::format("found {} bytes, expected {}: it is cut short",
+                                                 bytes.size(), gltf_word(bytes, 8)));
   bytes = bytes.substr(0, gltf_word(bytes, 8));
   std::size_t at = 12;
   for (int k = 0; k < 2 && at + 8 <= bytes.size(); ++k) {
@@ -356,12 +378,12 @@ void gltf_chunks(std::string_view bytes, GeometryBuilder& out, std::string_view&
     const std::uint32_t type = gltf_word(bytes, at + 4);
     at += 8;
     if (length > bytes.size() - at)
-      out.stop("a chunk reaches beyond the end of the file: it is damaged");
+      out.stop(ErrorCode::damaged, "a chunk reaches beyond the end of the file: it is damaged");
     if (k == 0 && type == 0x4e4f534a) json = bytes.substr(at, length);
     if (k == 1 && type == 0x004e4942) numbers = bytes.substr(at, length);
     at += length;
   }
-  if (json.empty()) out.stop("found no JSON in the first chunk, expected glTF");
+  if (json.empty()) out.stop(ErrorCode::missing, "found no JSON in the first chunk, expected glTF");
 }
 
 }  // namespace
@@ -371,7 +393,7 @@ void parse_gltf(std::string_view bytes, const GeometryLoader& loader, GeometryBu
   if (bytes.starts_with("glTF")) gltf_chunks(bytes, out, text, chunk);
   std::string why;
   const GltfJson json = read_json(text, why);
-  if (json.is_discarded()) out.stop("the file is not glTF: " + why);
+  if (json.is_discarded()) out.stop(ErrorCode::wrong_value, "the file is not glTF: " + why);
   GltfReader(json, chunk, loader, out).read();
 }
 

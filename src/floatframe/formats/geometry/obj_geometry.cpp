@@ -14,7 +14,9 @@ Vec3 obj_point(std::string_view rest, int line, GeometryBuilder& out) {
   for (int k = 0; k < 3; ++k) {
     const std::string_view word = next_word(rest);
     const auto x = parse_real(word);
-    if (!x) out.stop("v: " + not_a_real(word) + ", expected three numbers", line);
+    if (!x)
+      out.stop(ErrorCode::not_a_number, "v: " + not_a_real(word) + ", expected three numbers",
+               line);
     p[k] = *x;
   }
   return p;
@@ -24,11 +26,14 @@ Vec3 obj_point(std::string_view rest, int line, GeometryBuilder& out) {
 int obj_corner(std::string_view word, int line, GeometryBuilder& out) {
   const std::string_view number = word.substr(0, word.find('/'));
   const auto index = parse_integer(number);
-  if (!index) out.stop("f: " + not_an_integer(number) + ", expected numbers of points", line);
+  if (!index)
+    out.stop(ErrorCode::not_a_number,
+             "f: " + not_an_integer(number) + ", expected numbers of points", line);
   const auto count = static_cast<long>(out.points());
   const long k = *index < 0 ? count + *index : static_cast<long>(*index) - 1;
   if (*index == 0 || k < 0 || k >= count)
     out.stop(
+        ErrorCode::wrong_value,
         fmt::format("f: found point {}, expected one of the {} points before it", *index, count),
         line);
   return static_cast<int>(k);
@@ -61,7 +66,8 @@ void parse_obj(std::string_view bytes, GeometryBuilder& out) {
       for (std::string_view w = next_word(words); !w.empty(); w = next_word(words))
         corners.push_back(obj_corner(w, line, out));
       if (corners.size() < 3)
-        out.stop(fmt::format("f: found {} corners, expected 3 or more", corners.size()), line);
+        out.stop(ErrorCode::wrong_value,
+                 fmt::format("f: found {} corners, expected 3 or more", corners.size()), line);
       for (std::size_t k = 2; k < corners.size(); ++k)
         out.triangle(corners[0], corners[k - 1], corners[k]);
     }

@@ -21,17 +21,15 @@ std::uint32_t stl_facets(std::string_view bytes) {
 
 void binary_stl(std::string_view bytes, GeometryBuilder& out) {
   if (bytes.size() < stl_head)
-    out.stop(
-        fmt::format("found {} bytes, expected an STL file: text that begins with 'solid', or "
-                    "84 bytes and facets",
-                    bytes.size()));
+    out.stop(ErrorCode::wrong_value, fmt::format("found {} bytes, expected an STL file: text that "
+                                                 "begins with 'solid', or 84 bytes and facets",
+                                                 bytes.size()));
   const std::uint32_t count = stl_facets(bytes);
   const std::size_t expected = stl_head + stl_facet * std::size_t{count};
   if (bytes.size() != expected)
-    out.stop(
-        fmt::format("found {} bytes, expected {} for the {} triangles that it announces: it "
-                    "is cut short or damaged",
-                    bytes.size(), expected, count));
+    out.stop(ErrorCode::damaged, fmt::format("found {} bytes, expected {} for the {} triangles "
+                                             "that it announces: it is cut short or damaged",
+                                             bytes.size(), expected, count));
   for (std::size_t k = 0; k < count; ++k) {
     std::array<float, 9> x{};
     std::memcpy(x.data(), bytes.data() + stl_head + k * stl_facet + 12, sizeof x);
@@ -48,7 +46,9 @@ Vec3 stl_vertex(std::string_view rest, int line, GeometryBuilder& out) {
   for (int k = 0; k < 3; ++k) {
     const std::string_view word = next_word(rest);
     const auto x = parse_real(word);
-    if (!x) out.stop("vertex: " + not_a_real(word) + ", expected three numbers", line);
+    if (!x)
+      out.stop(ErrorCode::not_a_number, "vertex: " + not_a_real(word) + ", expected three numbers",
+               line);
     p[k] = *x;
   }
   return p;
@@ -76,17 +76,19 @@ void text_stl(std::string_view text, GeometryBuilder& out) {
       corners.push_back(out.point(stl_vertex(rest, line, out), line));
     } else if (same_word(word, "endloop")) {
       if (corners.size() != 3)
-        out.stop(fmt::format("found {} vertices of a facet, expected 3", corners.size()), line);
+        out.stop(ErrorCode::wrong_value,
+                 fmt::format("found {} vertices of a facet, expected 3", corners.size()), line);
       out.triangle(corners[0], corners[1], corners[2]);
       corners.clear();
     } else {
-      out.stop("found " + shown(word) +
-                   ", expected facet, outer loop, vertex, endloop, endfacet "
-                   "or endsolid",
+      out.stop(ErrorCode::wrong_value,
+               "found " + shown(word) +
+                   ", expected facet, outer loop, vertex, endloop, endfacet or endsolid",
                line);
     }
   }
-  if (inside) out.stop("the file ends without endsolid: it is cut short", line);
+  if (inside)
+    out.stop(ErrorCode::wrong_value, "the file ends without endsolid: it is cut short", line);
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ class GmshParser {
       if (!in_.next_line(line)) break;
       if (line.empty()) continue;
       if (!line.starts_with('$')) {
-        in_.stop(at, fmt::format("found {}, expected a section such as $Nodes", shown(line)));
+        in_.stop(ErrorCode::wrong_value, at, "found {}, expected a section such as $Nodes",
+                 shown(line));
       }
       const std::string section(line.substr(1));
       if (section == "PhysicalNames") {
@@ -40,7 +41,7 @@ class GmshParser {
       } else if (section == "Nodes" || section == "Elements") {
         bool& there = section == "Nodes" ? nodes : elements;
         if (std::exchange(there, true)) {
-          in_.stop(at, fmt::format("section ${} is in the file twice", section));
+          in_.stop(ErrorCode::duplicate, at, "section ${} is in the file twice", section);
         }
         if (section == "Nodes") {
           version_4_ ? nodes_4() : nodes_2();
@@ -51,9 +52,9 @@ class GmshParser {
         in_.end_section(at, section);
         continue;
       } else if (section == "PartitionedEntities") {
-        in_.stop(at,
-                 "the mesh is partitioned; save it in one part (Mesh.PartitionSplitMeshFiles = "
-                 "0 and no partitions)");
+        in_.stop(ErrorCode::wrong_value, at,
+                 "the mesh is partitioned; save it in one part (Mesh.PartitionSplitMeshFiles = 0 "
+                 "and no partitions)");
       } else {
         mesh_.passed_over.push_back(section);
         in_.end_section(at, section);
@@ -61,8 +62,8 @@ class GmshParser {
       }
       in_.expect_end(section);
     }
-    if (!nodes) in_.stop("the file has no section $Nodes");
-    if (!elements) in_.stop("the file has no section $Elements");
+    if (!nodes) in_.stop(ErrorCode::missing, "the file has no section $Nodes");
+    if (!elements) in_.stop(ErrorCode::missing, "the file has no section $Elements");
     return std::move(mesh_);
   }
 
@@ -73,38 +74,42 @@ class GmshParser {
     std::string_view line;
     Place at = in_.here();
     if (!in_.next_line(line) || line != "$MeshFormat") {
-      in_.stop(at, fmt::format("found {}, expected '$MeshFormat'", shown(line)));
+      in_.stop(ErrorCode::wrong_value, at, "found {}, expected '$MeshFormat'", shown(line));
     }
     at = in_.here();
     std::vector<std::string_view> fields;
     if (in_.next_line(line)) split_blanks(line, fields);
     if (fields.size() != 3) {
-      in_.stop(at,
-               fmt::format("found {}, expected the version, 0 (ASCII) or 1 (binary) and the size "
-                           "of a number, as in '4.1 0 8'",
-                           shown(line)));
+      in_.stop(ErrorCode::wrong_value, at,
+               "found {}, expected the version, 0 (ASCII) or 1 (binary) and the size of a number, "
+               "as in '4.1 0 8'",
+               shown(line));
     }
     const auto version = parse_real(fields[0]);
     version_4_ = version == 4.1;
     mesh_.element_per_group = !version_4_;
     if (!version || (*version != 4.1 && !(*version >= 2.0 && *version <= 2.2))) {
-      in_.stop(at, fmt::format("the version of the format is {}, expected 4.1 or 2.2 (Gmsh writes "
-                               "them with Mesh.MshFileVersion)",
-                               shown(fields[0])));
+      in_.stop(ErrorCode::wrong_value, at,
+               "the version of the format is {}, expected 4.1 or 2.2 (Gmsh writes them with "
+               "Mesh.MshFileVersion)",
+               shown(fields[0]));
     }
     if (fields[1] != "0" && fields[1] != "1") {
-      in_.stop(at, fmt::format("found {}, expected 0 (ASCII) or 1 (binary)", shown(fields[1])));
+      in_.stop(ErrorCode::out_of_range, at, "found {}, expected 0 (ASCII) or 1 (binary)",
+               shown(fields[1]));
     }
     if (fields[1] == "1") {
       if (fields[2] != "8") {
-        in_.stop(at, fmt::format("numbers of {} bytes are not read, only of 8", shown(fields[2])));
+        in_.stop(ErrorCode::unsupported, at, "numbers of {} bytes are not read, only of 8",
+                 shown(fields[2]));
       }
       in_.set_binary(false);
       const int one = in_.integer("the number 1 that shows the order of bytes");
       if (one == 0x01000000) {
         in_.set_binary(true);
       } else if (one != 1) {
-        in_.stop(fmt::format("found {}, expected the number 1 that shows the order of bytes", one));
+        in_.stop(ErrorCode::wrong_value,
+                 "found {}, expected the number 1 that shows the order of bytes", one);
       }
     }
     in_.expect_end("MeshFormat");
@@ -116,7 +121,8 @@ class GmshParser {
     std::string_view line;
     const auto n = in_.next_line(line) ? parse_integer(line) : std::nullopt;
     if (!n || *n < 0) {
-      in_.stop(at, fmt::format("found {}, expected {}, a whole number from 0", shown(line), what));
+      in_.stop(ErrorCode::wrong_value, at, "found {}, expected {}, a whole number from 0",
+               shown(line), what);
     }
     in_.check_count(at, static_cast<std::uint64_t>(*n), what, numbers_each);
     return static_cast<std::uint64_t>(*n);
@@ -135,10 +141,10 @@ class GmshParser {
       const auto dimension = fields.size() == 2 ? parse_integer(fields[0]) : std::nullopt;
       const auto tag = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
       if (!dimension || *dimension < 0 || *dimension > 3 || !tag || open == close) {
-        in_.stop(group.at,
-                 fmt::format("found {}, expected dimension, number and name of a physical "
-                             "group, as in '2 1 \"BORE\"'",
-                             shown(line)));
+        in_.stop(ErrorCode::wrong_value, group.at,
+                 "found {}, expected dimension, number and name of a physical group, as in '2 1 "
+                 "\"BORE\"'",
+                 shown(line));
       }
       group.dimension = *dimension;
       group.tag = *tag;
@@ -181,7 +187,8 @@ class GmshParser {
 
   int label(std::uint64_t value, const Place& at, const char* what) const {
     if (value < 1 || value > largest_label) {
-      in_.stop(at, fmt::format("{} is {}, expected 1 to {}", what, value, largest_label));
+      in_.stop(ErrorCode::out_of_range, at, "{} is {}, expected 1 to {}", what, value,
+               largest_label);
     }
     return static_cast<int>(value);
   }
@@ -218,8 +225,8 @@ class GmshParser {
       }
     }
     if (mesh_.nodes.size() != total) {
-      in_.stop(at_total, fmt::format("section $Nodes says {} nodes, its blocks have {}", total,
-                                     mesh_.nodes.size()));
+      in_.stop(ErrorCode::contradiction, at_total,
+               "section $Nodes says {} nodes, its blocks have {}", total, mesh_.nodes.size());
     }
   }
 
@@ -237,13 +244,15 @@ class GmshParser {
   }
 
   int label(int value, const Place& at, const char* what) const {
-    if (value < 1) in_.stop(at, fmt::format("{} is {}, expected 1 or more", what, value));
+    if (value < 1)
+      in_.stop(ErrorCode::out_of_range, at, "{} is {}, expected 1 or more", what, value);
     return value;
   }
 
   const GmshType* type(int number, const Place& at) const {
     const GmshType* t = gmsh_type(number);
-    if (t == nullptr) in_.stop(at, fmt::format("the element type {} is not known", number));
+    if (t == nullptr)
+      in_.stop(ErrorCode::unknown_key, at, "the element type {} is not known", number);
     return t;
   }
 
@@ -261,8 +270,8 @@ class GmshParser {
       const int entity = in_.integer("the entity of a block of elements");
       const GmshType* t = type(in_.integer("a type of elements"), at);
       if (t->dimension != dimension) {
-        in_.stop(at, fmt::format("a block of dimension {} has elements of type {} ({})", dimension,
-                                 t->number, t->name));
+        in_.stop(ErrorCode::wrong_value, at, "a block of dimension {} has elements of type {} ({})",
+                 dimension, t->number, t->name);
       }
       const auto n = in_.count("the number of elements of a block", t->nodes + 1);
       const auto it = groups_of_entity_.find({dimension, entity});
@@ -282,8 +291,9 @@ class GmshParser {
       }
     }
     if (mesh_.elements.size() != total) {
-      in_.stop(at_total, fmt::format("section $Elements says {} elements, its blocks have {}",
-                                     total, mesh_.elements.size()));
+      in_.stop(ErrorCode::contradiction, at_total,
+               "section $Elements says {} elements, its blocks have {}", total,
+               mesh_.elements.size());
     }
   }
 
@@ -300,11 +310,11 @@ class GmshParser {
       const int n = in_.binary() ? in_.integer("the number of elements of a block") : 1;
       const int tags = in_.integer("the number of tags");
       if (n < 1 || static_cast<std::uint64_t>(n) > total - mesh_.elements.size()) {
-        in_.stop(element.at, fmt::format("a block has {} elements where {} are left", n,
-                                         total - mesh_.elements.size()));
+        in_.stop(ErrorCode::wrong_value, element.at, "a block has {} elements where {} are left", n,
+                 total - mesh_.elements.size());
       }
       if (tags < 0 || tags > 1000) {
-        in_.stop(element.at, fmt::format("an element with {} tags, expected 2", tags));
+        in_.stop(ErrorCode::wrong_value, element.at, "an element with {} tags, expected 2", tags);
       }
       for (int i = 0; i < n; ++i) {
         if (in_.binary()) element.at = in_.here();

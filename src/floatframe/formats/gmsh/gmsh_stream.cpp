@@ -16,13 +16,13 @@ GmshStream::Place GmshStream::here() {
   return {line_, at_};
 }
 
-ErrorEntry GmshStream::error(const Place& at, std::string message) const {
-  if (binary_) return {{name_, 0, 0}, fmt::format("byte {}: {}", at.byte, message)};
-  return {{name_, at.line, 0}, std::move(message)};
+ErrorEntry GmshStream::error(ErrorCode code, const Place& at, std::string message) const {
+  if (binary_) return {{name_, 0, 0}, code, fmt::format("byte {}: {}", at.byte, message)};
+  return {{name_, at.line, 0}, code, std::move(message)};
 }
 
-void GmshStream::stop(const Place& at, std::string message) const {
-  throw InputError({error(at, std::move(message))});
+void GmshStream::stop(ErrorCode code, const Place& at, std::string message) const {
+  throw InputError({error(code, at, std::move(message))});
 }
 
 bool GmshStream::next_line(std::string_view& line) {
@@ -38,7 +38,7 @@ void GmshStream::end_section(const Place& begin, std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   const std::size_t found = text_.find(end, at_);
   if (found == std::string_view::npos) {
-    stop(begin, fmt::format("section ${} has no end: '{}' is missing", section, end));
+    stop(ErrorCode::missing, begin, "section ${} has no end: '{}' is missing", section, end);
   }
   line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
                                        text_.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
@@ -53,12 +53,12 @@ void GmshStream::expect_end(std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   const std::string_view rest = text_.substr(at_);
   if (!rest.starts_with(end)) {
-    stop(at, rest.empty()
-                 ? fmt::format("the file ends where '{}' was expected", end)
-                 : fmt::format("found {}, expected '{}': section ${} has more than it "
-                               "counts",
-                               shown(rest.substr(0, std::min(rest.find('\n'), std::size_t{30}))),
-                               end, section));
+    stop(ErrorCode::damaged, at,
+         rest.empty()
+             ? fmt::format("the file ends where '{}' was expected", end)
+             : fmt::format("found {}, expected '{}': section ${} has more than it counts",
+                           shown(rest.substr(0, std::min(rest.find('\n'), std::size_t{30}))), end,
+                           section));
   }
   std::string_view line;
   next_line(line);
@@ -77,14 +77,15 @@ std::string_view GmshStream::token(const char* what) {
   skip_blanks();
   const std::size_t begin = at_;
   while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) > ' ') ++at_;
-  if (at_ == begin) stop(fmt::format("the file ends where {} was expected", what));
+  if (at_ == begin) stop(ErrorCode::damaged, "the file ends where {} was expected", what);
   return text_.substr(begin, at_ - begin);
 }
 
 template <class T>
 T GmshStream::raw(const char* what) {
   if (left() < sizeof(T)) {
-    stop(fmt::format("the file ends where {} was expected ({} bytes are left)", what, left()));
+    stop(ErrorCode::damaged, "the file ends where {} was expected ({} bytes are left)", what,
+         left());
   }
   unsigned char bytes[sizeof(T)];
   std::memcpy(bytes, text_.data() + at_, sizeof(T));
@@ -102,7 +103,7 @@ int GmshStream::integer(const char* what) {
   int value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    stop(at, fmt::format("found {}, expected {}, a whole number", shown(field), what));
+    stop(ErrorCode::wrong_value, at, "found {}, expected {}, a whole number", shown(field), what);
   }
   return value;
 }
@@ -114,7 +115,8 @@ std::uint64_t GmshStream::size(const char* what) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    stop(at, fmt::format("found {}, expected {}, a whole number from 0", shown(field), what));
+    stop(ErrorCode::wrong_value, at, "found {}, expected {}, a whole number from 0", shown(field),
+         what);
   }
   return value;
 }
@@ -123,12 +125,12 @@ double GmshStream::real(const char* what) {
   const Place at = here();
   if (binary_) {
     const double value = raw<double>(what);
-    if (!std::isfinite(value)) stop(at, fmt::format("{} is not a finite number", what));
+    if (!std::isfinite(value)) stop(ErrorCode::not_finite, at, "{} is not a finite number", what);
     return value;
   }
   const std::string_view field = token(what);
   const auto value = parse_real(field);
-  if (!value) stop(at, fmt::format("{}; expected {}", not_a_real(field), what));
+  if (!value) stop(ErrorCode::not_a_number, at, "{}; expected {}", not_a_real(field), what);
   return *value;
 }
 
@@ -143,8 +145,9 @@ void GmshStream::check_count(const Place& at, std::uint64_t count, const char* w
                              std::size_t numbers_each) const {
   const std::size_t smallest = binary_ ? 4 : 2;  // an ASCII number and its blank
   if (count > left() / (smallest * std::max(numbers_each, std::size_t{1})) + 1) {
-    stop(at, fmt::format("{} is {}, more than the {} bytes that are left of the file can hold",
-                         what, count, left()));
+    stop(ErrorCode::wrong_value, at,
+         "{} is {}, more than the {} bytes that are left of the file can hold", what, count,
+         left());
   }
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 // Numbers and lines of a .msh file in order, ASCII or binary of either byte order, with their
 // place. A count in the file is believed only if the bytes left can hold so many entries.
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "floatframe/core/diagnostics.hpp"
 
@@ -26,9 +29,21 @@ class GmshStream {
   };
   /// Of the next number.
   Place here();
-  ErrorEntry error(const Place& at, std::string message) const;
-  [[noreturn]] void stop(const Place& at, std::string message) const;
-  [[noreturn]] void stop(std::string message) { stop(here(), std::move(message)); }
+  ErrorEntry error(ErrorCode code, const Place& at, std::string message) const;
+  [[noreturn]] void stop(ErrorCode code, const Place& at, std::string message) const;
+  template <class First, class... Rest>
+  [[noreturn]] void stop(ErrorCode code, const Place& at, fmt::format_string<First, Rest...> text,
+                         First&& first, Rest&&... rest) const {
+    stop(code, at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  template <class First, class... Rest>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
+                         Rest&&... rest) {
+    stop(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  [[noreturn]] void stop(ErrorCode code, std::string message) {
+    stop(code, here(), std::move(message));
+  }
 
   /// The next line, trimmed, ASCII in all files; false at the end.
   bool next_line(std::string_view& line);

@@ -41,8 +41,8 @@ class GmshModel {
  private:
   using Place = GmshStream::Place;
 
-  void error(const Place& at, std::string message) {
-    errors_.push_back(in_.error(at, std::move(message)));
+  void error(ErrorCode code, const Place& at, std::string message) {
+    errors_.push_back(in_.error(code, at, std::move(message)));
     if (errors_.size() >= TextSource::most_errors) throw InputError(std::move(errors_));
   }
   FeSource source(const Place& at) const { return {0, in_.binary() ? 0 : at.line}; }
@@ -60,7 +60,7 @@ class GmshModel {
       const auto [it, fresh] = index_.try_emplace(node.id, model_.nodes());
       if (!fresh) {
         const GmshNode& first = mesh_.nodes[it->second];
-        error(node.at,
+        error(ErrorCode::duplicate, node.at,
               fmt::format("node {} is in the file twice, first {}", node.id, where(first.at)));
       }
       model_.positions.push_back(node.p);
@@ -91,8 +91,9 @@ class GmshModel {
       const int id = mesh_.element_nodes[e.first + k];
       const auto it = index_.find(id);
       if (it == index_.end()) {
-        error(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
-                                e.type->name, id));
+        error(ErrorCode::not_found, e.at,
+              fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
+                          e.type->name, id));
         invalid_.insert(e.first);
         return false;
       }
@@ -123,7 +124,8 @@ class GmshModel {
         for (const int tag : mesh_.group_lists[e.groups]) list->second.push_back(name_of(2, tag));
       const auto choice = thickness_.choose(
           std::span(nodes).first(static_cast<std::size_t>(surface_corners(*e.type))), list->second);
-      if (!choice.error.empty()) error(e.at, fmt::format("element {} {}", e.id, choice.error));
+      if (!choice.error.empty())
+        error(ErrorCode::wrong_value, e.at, fmt::format("element {} {}", e.id, choice.error));
       section_[i] = choice.section;
       skins += choice.section < 0 ? 1 : 0;
     }
@@ -136,7 +138,7 @@ class GmshModel {
     for (const auto& [key, name] : names_)
       if (key.first == 2) known.push_back(name);
     for (std::string& message : thickness_.not_found(known))
-      errors_.push_back({{model_.files[0], 0, 0}, std::move(message)});
+      errors_.push_back({{model_.files[0], 0, 0}, ErrorCode::not_found, std::move(message)});
   }
 
   /// Solids, and surfaces with a thickness.
@@ -153,11 +155,11 @@ class GmshModel {
                         : dimension == 1 ? std::string("no solid elements, only lines")
                                          : std::string("no solid elements, only points");
       throw InputError(
-          {{model_.files[0], 0, 0},
-           fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges "
-                       "(in Gmsh: mesh in 3D and give the volume a physical group), "
-                       "or surfaces to which a thickness is given (--thickness, key `thickness`)",
-                       what)});
+          ErrorCode::missing, {model_.files[0], 0, 0},
+          fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges (in Gmsh: "
+                      "mesh in 3D and give the volume a physical group), or surfaces to which a "
+                      "thickness is given (--thickness, key `thickness`)",
+                      what));
     }
     const bool repeats = mesh_.element_per_group && several_groups();
     std::map<int, std::pair<const GmshElement*, int>> unsupported;  // first of a type, number
@@ -170,7 +172,7 @@ class GmshModel {
       const GmshElement& e = mesh_.elements[i];
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
       if (!fresh) {
-        error(e.at,
+        error(ErrorCode::duplicate, e.at,
               fmt::format("element {} is in the file twice, first {}", e.id, where(it->second)));
       }
       if (!is_part(i)) continue;
@@ -183,8 +185,9 @@ class GmshModel {
       key = nodes;
       std::sort(key.begin(), key.end());
       if (const auto twice = std::adjacent_find(key.begin(), key.end()); twice != key.end()) {
-        error(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name,
-                                model_.node_ids[*twice]));
+        error(ErrorCode::duplicate, e.at,
+              fmt::format("element {} ({}) has node {} twice", e.id, e.type->name,
+                          model_.node_ids[*twice]));
         continue;
       }
       if (repeats) {
@@ -211,8 +214,9 @@ class GmshModel {
     }
     for (const auto& [number, first] : unsupported) {
       const GmshElement& e = *first.first;
-      error(e.at, fmt::format("element {} is a {} (there are {}), which is not supported{}", e.id,
-                              e.type->name, first.second, advice(number)));
+      error(ErrorCode::unsupported, e.at,
+            fmt::format("element {} is a {} (there are {}), which is not supported{}", e.id,
+                        e.type->name, first.second, advice(number)));
     }
     if (repeated > 0) {
       model_.notes.push_back(fmt::format(
@@ -226,9 +230,10 @@ class GmshModel {
     const int others = thickness_.others();
     if (section_[i] == known.section || section_[i] == others) return;
     if (known.section != others)
-      error(e.at, fmt::format("element {} is there again, and different thicknesses are given to "
-                              "its groups",
-                              e.id));
+      error(ErrorCode::contradiction, e.at,
+            fmt::format(
+                "element {} is there again, and different thicknesses are given to its groups",
+                e.id));
     known.section = section_[i];
   }
 
@@ -258,8 +263,9 @@ class GmshModel {
   void group_names() {
     for (const GmshGroup& group : mesh_.groups) {
       if (!names_.try_emplace({group.dimension, group.tag}, group.name).second) {
-        error(group.at, fmt::format("physical group {} of dimension {} has a second name {}",
-                                    group.tag, group.dimension, shown(group.name)));
+        error(ErrorCode::duplicate, group.at,
+              fmt::format("physical group {} of dimension {} has a second name {}", group.tag,
+                          group.dimension, shown(group.name)));
       }
     }
   }
@@ -279,9 +285,10 @@ class GmshModel {
       named += mesh_.group_lists[e.groups].size() *
                (e.type->dimension < 3 ? static_cast<std::size_t>(e.type->nodes) : 1);
       if (named <= most) continue;
-      error(e.at, fmt::format("the physical groups have more than {} members in all, too many for "
-                              "a mesh of {} nodes and {} elements",
-                              most, mesh_.nodes.size(), mesh_.elements.size()));
+      error(ErrorCode::too_large, e.at,
+            fmt::format("the physical groups have more than {} members in all, too many for a mesh "
+                        "of {} nodes and {} elements",
+                        most, mesh_.nodes.size(), mesh_.elements.size()));
       throw InputError(std::move(errors_));
     }
   }
@@ -303,10 +310,10 @@ class GmshModel {
         used.insert({dimension, tag});
         const auto [it, fresh] = dimension_of.try_emplace(name, dimension);
         if (!fresh && it->second != dimension && it->second >= 0) {
-          model_.notes.push_back(fmt::format(
-              "{}: there are physical groups of several dimensions with the name '{}'; those below "
-              "volumes make one node set",
-              model_.files[0], name));
+          model_.notes.push_back(
+              fmt::format("{}: there are physical groups of several dimensions with the name '{}'; "
+                          "those below volumes make one node set",
+                          model_.files[0], name));
           it->second = -1;
         }
         if (element_index_[i] >= 0) model_.element_sets[name].push_back(element_index_[i]);

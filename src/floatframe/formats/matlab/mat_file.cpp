@@ -31,7 +31,8 @@ std::string bytes_of(const void* values, std::size_t count) {
 }
 
 std::string tag(DataType type, std::size_t bytes) {
-  if (bytes > 0x7fffffff) throw InputError("a matrix is too large for a MATLAB file of version 7");
+  if (bytes > 0x7fffffff)
+    throw InputError(ErrorCode::too_large, "a matrix is too large for a MATLAB file of version 7");
   const std::uint32_t numbers[2] = {type, static_cast<std::uint32_t>(bytes)};
   return bytes_of(numbers, sizeof numbers);
 }
@@ -87,7 +88,7 @@ std::string compressed(const std::string& content) {
   if (compress2(reinterpret_cast<Bytef*>(out.data()), &size,
                 reinterpret_cast<const Bytef*>(content.data()), static_cast<uLong>(content.size()),
                 Z_BEST_COMPRESSION) != Z_OK)
-    throw InputError("a matrix cannot be compressed");
+    throw InputError(ErrorCode::unsupported, "a matrix cannot be compressed");
   out.resize(size);
   return tag(mi_compressed, size) + out;  // not filled up
 }

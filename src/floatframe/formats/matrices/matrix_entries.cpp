@@ -31,14 +31,15 @@ bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& 
   };
   const std::string_view first = next(), second = next(), third = next();
   if (third.empty() || !next().empty()) {
-    source.error("the line is not row, column and value");
+    source.error(ErrorCode::wrong_value, "the line is not row, column and value");
     return false;
   }
   const std::optional<int> i = parse_label(first), j = parse_label(second);
   const std::optional<double> v = parse_real(third);
   if (!i || !j)
-    source.error(fmt::format("{}: {}", !i ? "row" : "column", not_an_integer(!i ? first : second)));
-  if (!v) source.error("value: " + not_a_real(third));
+    source.error(ErrorCode::not_a_number, "{}: {}", !i ? "row" : "column",
+                 not_an_integer(!i ? first : second));
+  if (!v) source.error(ErrorCode::not_a_number, "value: " + not_a_real(third));
   if (!i || !j || !v) return false;
   row = *i - 1;
   column = *j - 1;
@@ -71,8 +72,8 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
   double largest = 0.0;
   for (const Entry& e : entries_) largest = std::max(largest, std::abs(e.value));
   const std::size_t errors = source_.errors();
-  const auto error = [&](const Entry& e, const std::string& text) {
-    source_.error({file_, std::abs(e.line)}, fmt::format("the {} {}", name(e, labels), text));
+  const auto error = [&](ErrorCode code, const Entry& e, const std::string& text) {
+    source_.error(code, {file_, std::abs(e.line)}, "the {} {}", name(e, labels), text);
   };
   std::size_t kept = 0;
   for (std::size_t k = 0; k < entries_.size();) {
@@ -80,20 +81,24 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
     for (int more = 0; k < entries_.size() && !before(e, entries_[k]); ++more, ++k) {
       const Entry& other = entries_[k];
       if (more > 0 || (e.line > 0) == (other.line > 0)) {
-        error(other, fmt::format("is there already (line {})", std::abs(e.line)));
+        error(ErrorCode::duplicate, other,
+              fmt::format("is there already (line {})", std::abs(e.line)));
       } else if (!(std::abs(e.value - other.value) <= half_tolerance * largest)) {
-        error(other, fmt::format("is {:g}, but {:g} in the other half (line {}): the matrix is not "
-                                 "symmetric",
-                                 other.value, e.value, std::abs(e.line)));
+        error(ErrorCode::contradiction, other,
+              fmt::format(
+                  "is {:g}, but {:g} in the other half (line {}): the matrix is not symmetric",
+                  other.value, e.value, std::abs(e.line)));
       }
     }
     if (e.row == e.column && e.value < 0.0) {
-      error(e, fmt::format("on the diagonal is {:g}, expected no negative value", e.value));
+      error(ErrorCode::out_of_range, e,
+            fmt::format("on the diagonal is {:g}, expected no negative value", e.value));
     }
     if (e.row == e.column && e.value >= penalty) {
-      error(e, fmt::format("on the diagonal is {:g}, the penalty of a support: write the matrices "
-                           "without supports",
-                           e.value));
+      error(ErrorCode::unsupported, e,
+            fmt::format("on the diagonal is {:g}, the penalty of a support: write the matrices "
+                        "without supports",
+                        e.value));
     }
     entries_[kept++] = e;
   }
@@ -112,11 +117,11 @@ SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& lab
     }
     const auto missing = std::find(there.begin(), there.end(), 0);
     if (missing != there.end()) {
-      source_.error(fmt::format(
-          "the {} ends without a diagonal entry for {} and {} more: "
-          "the file is truncated or does not belong to these degrees of "
-          "freedom",
-          what_, labels[missing - there.begin()], std::count(missing + 1, there.end(), 0)));
+      source_.error(ErrorCode::damaged,
+                    "the {} ends without a diagonal entry for {} and {} more: the file is "
+                    "truncated or does not belong to these degrees of freedom",
+                    what_, labels[missing - there.begin()],
+                    std::count(missing + 1, there.end(), 0));
       return full;
     }
   }
@@ -150,13 +155,15 @@ SymmetricEntries read_triples(TextSource& source, const std::string& what, int n
     double value = 0.0;
     if (!read_matrix_line(source, line, row, column, value)) continue;
     if (row >= n || column >= n) {
-      source.error(fmt::format("row {}, column {} is outside: {} has {} degrees of freedom",
-                               row + 1, column + 1, map, n));
+      source.error(ErrorCode::out_of_range,
+                   "row {}, column {} is outside: {} has {} degrees of freedom", row + 1,
+                   column + 1, map, n);
       continue;
     }
     entries.add(row, column, value);
   }
-  if (entries.size() == 0) source.error(FeSource{0, 0}, fmt::format("the {} has no entries", what));
+  if (entries.size() == 0)
+    source.error(ErrorCode::missing, FeSource{0, 0}, "the {} has no entries", what);
   source.throw_if_any();
   return entries;
 }

@@ -81,7 +81,7 @@ Path companion(const Path& file, const Path& given, const std::vector<Path>& can
   for (const Path& candidate : named) {
     names += (names.empty() ? "" : " or ") + shown(candidate.filename().string());
   }
-  errors.add({file.string()},
+  errors.add(ErrorCode::missing, {file.string()},
              fmt::format("{} missing: {}give the {} file", what,
                          names.empty() ? "" : "there is no " + names + " beside it; ", option));
   return {};

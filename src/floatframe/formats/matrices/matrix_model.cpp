@@ -137,8 +137,8 @@ std::vector<int> add_scalars(FeModel& model, const std::vector<DofLabel>& labels
   for (const DofLabel& label : labels) {
     if (label.direction != 0) continue;
     if (std::find(model.node_ids.begin(), model.node_ids.end(), label.node) != model.node_ids.end())
-      source.stop(label.at, fmt::format("node {} has a row without a component, expected 1 to 6",
-                                        label.node));
+      source.stop(ErrorCode::out_of_range, label.at,
+                  "node {} has a row without a component, expected 1 to 6", label.node);
     numbers.push_back(label.node);
   }
   const Vec3 place = model.positions.empty() ? Vec3::Zero().eval() : model.positions.front();
@@ -170,7 +170,7 @@ SparseMatrix in_model_axes(SparseMatrix A, const FeModel& model, const TextSourc
       const auto other = row_of.find({dofs[i].node, first + k});
       if (other == row_of.end())
         throw InputError(
-            {source.files().front()},
+            ErrorCode::wrong_value, {source.files().front()},
             fmt::format("{} has a system of its own (CD): give all three of its {}",
                         model.node_label(dofs[i].node), first == 0 ? "translations" : "rotations"));
       entries.emplace_back(other->second, i, turned->second(k, dofs[i].axis % 3));
@@ -210,15 +210,16 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
         fields.size() > 1 ? parse_integer(fields[1]) : std::optional<int>{};
     if (!node || !direction || fields.size() != 2 || *direction < 0 || *direction > 6) {
       source.error(
-          fmt::format("{} is no degree of freedom, expected node and direction 1 to 6, or "
-                      "0 of a scalar point",
-                      shown(line)));
+          ErrorCode::wrong_value,
+          "{} is no degree of freedom, expected node and direction 1 to 6, or 0 of a scalar point",
+          shown(line));
       return;
     }
     labels.push_back({*node, *direction, source.here()});
   });
   if (labels.empty() && source.errors() == 0)
-    source.error(FeSource{0, 0}, "there are no degrees of freedom in the file");
+    source.error(ErrorCode::wrong_value, FeSource{0, 0},
+                 "there are no degrees of freedom in the file");
   return labels;
 }
 
@@ -236,24 +237,26 @@ FeModel read_node_table(TextSource& source) {
   each_row(source, [&](std::string_view line) {
     split_blanks(line, fields);
     if (fields.size() != 4) {
-      source.error(fmt::format("the line has {} fields, expected node, x, y, z", fields.size()));
+      source.error(ErrorCode::wrong_value, "the line has {} fields, expected node, x, y, z",
+                   fields.size());
       return;
     }
     const std::optional<int> id = parse_label(fields[0]);
-    if (!id) return source.error("node number: " + not_an_integer(fields[0]));
+    if (!id)
+      return source.error(ErrorCode::not_a_number, "node number: " + not_an_integer(fields[0]));
     Vec3 p;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::optional<double> value = parse_real(fields[k + 1]);
       if (!value) {
-        source.error(
-            fmt::format("coordinate {} of node {}: {}", k + 1, *id, not_a_real(fields[k + 1])));
+        source.error(ErrorCode::not_a_number, "coordinate {} of node {}: {}", k + 1, *id,
+                     not_a_real(fields[k + 1]));
         return;
       }
       p[static_cast<Eigen::Index>(k)] = *value;
     }
     const auto [it, added] = lines.emplace(*id, source.here().line);
     if (!added) {
-      source.error(fmt::format("node {} is there already (line {})", *id, it->second));
+      source.error(ErrorCode::duplicate, "node {} is there already (line {})", *id, it->second);
       return;
     }
     model.positions.push_back(p);
@@ -261,7 +264,7 @@ FeModel read_node_table(TextSource& source) {
     model.node_sources.push_back(source.here());
   });
   if (model.positions.empty() && source.errors() == 0)
-    source.error(FeSource{0, 0}, "there are no nodes in the file");
+    source.error(ErrorCode::missing, FeSource{0, 0}, "there are no nodes in the file");
   source.throw_if_any();
   model.files = source.files();
   return model;
@@ -279,8 +282,9 @@ FeModel read_nodes(const std::filesystem::path& file) {
   for (const FeFormat& f : fe_formats())
     if (f.read_nodes && (f.recognise(beginning) || f.name == cards)) return f.read_nodes(file);
   if (deck_component().readers.empty() && !name.ends_with(".msh"))
-    throw InputError({file.string()}, std::string("expected nodes as a table (.csv) or a mesh") +
-                                          deck_component_missing());
+    throw InputError(
+        ErrorCode::missing, {file.string()},
+        std::string("expected nodes as a table (.csv) or a mesh") + deck_component_missing());
   FeModel model = read_fe_file(file);
   keep_nodes(model);
   return model;
@@ -303,9 +307,8 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
   for (const DofLabel& label : labels) {
     const auto node = index_of_id.find(label.node);
     if (node == index_of_id.end()) {
-      labels_source.error(label.at,
-                          fmt::format("node {} is not among the nodes of {}", label.node,
-                                      model.files.empty() ? "the model" : model.files.front()));
+      labels_source.error(ErrorCode::not_found, label.at, "node {} is not among the nodes of {}",
+                          label.node, model.files.empty() ? "the model" : model.files.front());
       continue;
     }
     Dof dof{node->second, label.direction == 0 ? 3 : label.direction - 1};
@@ -315,16 +318,16 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
     }
     const auto [first, added] = seen.emplace(std::pair(dof.node, dof.axis), label.at);
     if (!added) {
-      labels_source.stop(
-          label.at, fmt::format("degree of freedom {}.{} is there already (line {}); matrices in "
-                                "which beams and shells are expanded to solids cannot be read: "
-                                "read the deck",
-                                label.node, label.direction, first->second.line));
+      labels_source.stop(ErrorCode::unreadable, label.at,
+                         "degree of freedom {}.{} is there already (line {}); matrices in which "
+                         "beams and shells are expanded to solids cannot be read: read the deck",
+                         label.node, label.direction, first->second.line);
     }
     matrices.dofs.push_back(dof);
   }
   labels_source.throw_if_any();
-  if (K.nonZeros() == 0) labels_source.stop({0, 0}, "the stiffness is zero");
+  if (K.nonZeros() == 0)
+    labels_source.stop(ErrorCode::out_of_range, {0, 0}, "the stiffness is zero");
   remove_spiders(model, matrices.dofs);
   matrices.scalars.resize(scalars.size());  // the last nodes
   std::iota(matrices.scalars.rbegin(), matrices.scalars.rend(), 0);

@@ -31,9 +31,10 @@ bool check_header(Op4Matrix& m, const SourceMark& at) {
   m.rows = large ? -std::max(m.rows, -most_op4_rows) : m.rows;
   if (m.columns < 1 || m.columns > most_op4_rows || m.rows < 1 || m.rows > most_op4_rows ||
       m.type < 1 || m.type > 4)
-    throw InputError(at, fmt::format("a matrix has {} columns, {} rows and type {}, expected "
-                                     "positive numbers and a type of 1 to 4",
-                                     m.columns, m.rows, m.type));
+    throw InputError(ErrorCode::wrong_count, at,
+                     fmt::format("a matrix has {} columns, {} rows and type {}, expected positive "
+                                 "numbers and a type of 1 to 4",
+                                 m.columns, m.rows, m.type));
   return large;
 }
 
@@ -41,8 +42,9 @@ bool check_header(Op4Matrix& m, const SourceMark& at) {
 template <class Value>
 void keep(Op4Matrix& m, int column, int row, int count, const SourceMark& at, Value&& value) {
   if (row < 1 || count > m.rows || row - 1 > m.rows - count)
-    throw InputError(at, fmt::format("column {} of {} has {} values from row {} on, but {} rows",
-                                     column, m.name, count, row, m.rows));
+    throw InputError(ErrorCode::wrong_count, at,
+                     fmt::format("column {} of {} has {} values from row {} on, but {} rows",
+                                 column, m.name, count, row, m.rows));
   if (!m.real_square()) return;
   for (int i = 0; i < count; ++i)
     if (const double x = value(i); x != 0.0) m.entries.emplace_back(row - 1 + i, column - 1, x);
@@ -58,7 +60,7 @@ class BinaryOp4 {
     while (place_ < bytes_.size()) {
       record();
       if (record_.size() != op4_header_bytes)
-        fail("the header of a matrix has another length than 24");
+        fail(ErrorCode::wrong_value, "the header of a matrix has another length than 24");
       Op4Matrix m{upper_case(trimmed(record_.substr(16, 8))),
                   integer(1),
                   integer(0),
@@ -74,11 +76,11 @@ class BinaryOp4 {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(at_, fmt::format("byte {}: {}", place_, what));
+  [[noreturn]] void fail(ErrorCode code, const std::string& what) const {
+    throw InputError(code, at_, fmt::format("byte {}: {}", place_, what));
   }
   std::uint32_t word(std::string_view from, std::size_t at) const {
-    if (at + 4 > from.size()) fail("the file ends within a record");
+    if (at + 4 > from.size()) fail(ErrorCode::damaged, "the file ends within a record");
     std::uint32_t w = 0;
     std::memcpy(&w, from.data() + at, 4);
     return swapped_ ? __builtin_bswap32(w) : w;
@@ -86,9 +88,11 @@ class BinaryOp4 {
   int integer(std::size_t i) const { return std::bit_cast<int>(word(record_, 4 * i)); }
   void record() {
     const std::size_t length = word(bytes_, place_);
-    if (length > bytes_.size() - place_ - 4) fail("the file ends within a record");
+    if (length > bytes_.size() - place_ - 4)
+      fail(ErrorCode::damaged, "the file ends within a record");
     record_ = bytes_.substr(place_ + 4, length);
-    if (word(bytes_, place_ + 4 + length) != length) fail("a record does not end as it began");
+    if (word(bytes_, place_ + 4 + length) != length)
+      fail(ErrorCode::damaged, "a record does not end as it began");
     place_ += length + 8;
   }
   double value(int type, std::size_t first_word, int i) const {
@@ -103,7 +107,7 @@ class BinaryOp4 {
     record();
     const int number = integer(0), row = integer(1);
     if (number > m.columns) return false;
-    if (number < 1) fail(fmt::format("a column has the number {}", number));
+    if (number < 1) fail(ErrorCode::wrong_value, fmt::format("a column has the number {}", number));
     const int words = std::min<int>(most_op4_rows, std::ssize(record_) / 4);
     const auto values = [&](int first, int count, int from) {
       keep(m, number, from, count / words_of(m.type), at_,
@@ -118,7 +122,8 @@ class BinaryOp4 {
       const int length = large_ ? std::max(head, 0) - 1 : head / 65536 - 1;
       const int from = large_ ? integer(at++) : head % 65536;
       if (length < 1 || length > words - at)
-        fail(fmt::format("a string of column {} is longer than its record", number));
+        fail(ErrorCode::damaged,
+             fmt::format("a string of column {} is longer than its record", number));
       values(at, length, from);
       at += length;
     }
@@ -139,7 +144,7 @@ class TextOp4 {
     std::vector<Op4Matrix> out;
     while (next()) {
       const std::array<int, 4> size = integers<4>();
-      if (line_.size() < 40) fail("the header of a matrix is too short");
+      if (line_.size() < 40) fail(ErrorCode::wrong_value, "the header of a matrix is too short");
       Op4Matrix m{upper_case(trimmed(line_.substr(32, 8))), size[1], size[0], size[2], size[3], {}};
       // 1P,5E16.9
       const std::string_view format = trimmed(line_.substr(40));
@@ -147,7 +152,8 @@ class TextOp4 {
       const auto width = e < dot && dot != std::string_view::npos
                              ? parse_label(format.substr(e + 1, dot - e - 1))
                              : std::optional<int>(16);
-      if (!width) fail(fmt::format("{} is no format of numbers", shown(format)));
+      if (!width)
+        fail(ErrorCode::wrong_value, fmt::format("{} is no format of numbers", shown(format)));
       width_ = *width;
       large_ = check_header(m, at_);
       while (column(m)) {
@@ -158,7 +164,9 @@ class TextOp4 {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(at_, what); }
+  [[noreturn]] void fail(ErrorCode code, const std::string& what) const {
+    throw InputError(code, at_, what);
+  }
   /// The next line that is not empty.
   bool next() {
     for (line_ = {}; line_.empty(); ++at_.line) {
@@ -178,7 +186,7 @@ class TextOp4 {
       const std::string_view field =
           trimmed(line_.substr(std::min(8 * i, line_.size())).substr(0, 8));
       const auto value = parse_integer(field);
-      if (!value) fail(not_an_integer(field));
+      if (!value) fail(ErrorCode::not_a_number, not_an_integer(field));
       out[i] = *value;
     }
     return out;
@@ -194,33 +202,36 @@ class TextOp4 {
       for (std::size_t i = 0; i < line_.size(); i += width_) {
         const std::string_view field = trimmed(line_.substr(i, width_));
         const auto value = parse_real(field);
-        if (!value) fail(not_a_real(field));
+        if (!value) fail(ErrorCode::not_a_number, not_a_real(field));
         values_.push_back(*value);
       }
     }
   }
   bool column(Op4Matrix& m) {
-    if (!next()) fail("the file ends within a matrix");
+    if (!next()) fail(ErrorCode::damaged, "the file ends within a matrix");
     const auto [number, row, words] = integers<3>();
     const SourceMark at = at_;
     const auto take = [&](int from, int count) {
       values();
       const int found = static_cast<int>(values_.size()) / (m.type > 2 ? 2 : 1);
       if (number <= m.columns && count != found)
-        throw InputError(at, fmt::format("column {} of {} has {} values, expected {}", number,
-                                         m.name, found, count));
+        throw InputError(ErrorCode::wrong_count, at,
+                         fmt::format("column {} of {} has {} values, expected {}", number, m.name,
+                                     found, count));
       if (number <= m.columns) keep(m, number, from, count, at, [&](auto i) { return values_[i]; });
     };
-    if (number < 1) fail(fmt::format("a column has the number {}", number));
+    if (number < 1) fail(ErrorCode::wrong_value, fmt::format("a column has the number {}", number));
     if (row > 0) {  // here real numbers are counted, and real and imaginary parts
       take(row, std::max(words, 0) / (m.type > 2 ? 2 : 1));
       return number <= m.columns;
     }
     for (int left = words; left > 0;) {
-      if (!next()) fail("the file ends within a matrix");
+      if (!next()) fail(ErrorCode::damaged, "the file ends within a matrix");
       const auto head = large_ ? integers<2>() : std::array<int, 2>{integers<1>()[0], 0};
       const int length = large_ ? std::max(head[0], 0) - 1 : head[0] / 65536 - 1;
-      if (length < 1) fail(fmt::format("a string of column {} has {} words", number, length));
+      if (length < 1)
+        fail(ErrorCode::wrong_value,
+             fmt::format("a string of column {} has {} words", number, length));
       left -= length + (large_ ? 2 : 1);
       take(large_ ? head[1] : head[0] % 65536, length / words_of(m.type));
     }

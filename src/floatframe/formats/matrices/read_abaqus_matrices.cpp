@@ -45,34 +45,34 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     if (line.empty() || line.front() == '*') continue;
     split_blanks(line, fields);
     if (fields.size() != 5) {
-      source.error(
-          fmt::format("the line has {} fields, expected node, direction, node, direction, "
-                      "value",
-                      fields.size()));
+      source.error(ErrorCode::wrong_value,
+                   "the line has {} fields, expected node, direction, node, direction, value",
+                   fields.size());
       continue;
     }
     std::array<int, 4> number{};
     bool valid = true;
     for (std::size_t k = 0; k < 4 && valid; ++k) {
       const std::optional<int> value = parse_integer(fields[k]);
-      if (!value) source.error(fmt::format("label {}: {}", k + 1, not_an_integer(fields[k])));
+      if (!value)
+        source.error(ErrorCode::not_a_number, "label {}: {}", k + 1, not_an_integer(fields[k]));
       valid = value.has_value();
       number[k] = value.value_or(0);
     }
     const std::optional<double> value = parse_real(fields[4]);
-    if (valid && !value) source.error("value: " + not_a_real(fields[4]));
+    if (valid && !value) source.error(ErrorCode::not_a_number, "value: " + not_a_real(fields[4]));
     if (!valid || !value) continue;
     for (std::size_t k = 0; k < 4 && valid; k += 2) {
       if (number[k] < 1) {
-        source.stop(source.here(),
-                    fmt::format("node {} is internal to Abaqus (Lagrange multipliers of "
-                                "distributing couplings, connectors or hybrid elements): write the "
-                                "matrices without them and give the interfaces here",
-                                number[k]));
+        source.stop(ErrorCode::out_of_range, source.here(),
+                    "node {} is internal to Abaqus (Lagrange multipliers of distributing "
+                    "couplings, connectors or hybrid elements): write the matrices without them "
+                    "and give the interfaces here",
+                    number[k]);
       }
       if (number[k + 1] < 1 || number[k + 1] > 6) {
-        source.error(
-            fmt::format("direction {} of node {}: expected 1 to 6", number[k + 1], number[k]));
+        source.error(ErrorCode::out_of_range, "direction {} of node {}: expected 1 to 6",
+                     number[k + 1], number[k]);
         valid = false;
       }
     }
@@ -82,7 +82,7 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     entries.add(row, table.row(number[2], number[3], at), *value);
   }
   if (entries.size() == 0 && what != "damping")
-    source.error(FeSource{0, 0}, fmt::format("the {} has no entries", what));
+    source.error(ErrorCode::missing, FeSource{0, 0}, "the {} has no entries", what);
   source.throw_if_any();
   return entries;
 }
@@ -105,8 +105,8 @@ FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource
   const auto known = [&](TextSource& source) {
     if (table.labels.size() == n) return;
     const DofLabel& label = table.labels[n];
-    source.stop(label.at, fmt::format("degree of freedom {}.{} is not in the stiffness", label.node,
-                                      label.direction));
+    source.stop(ErrorCode::wrong_value, label.at, "degree of freedom {}.{} is not in the stiffness",
+                label.node, label.direction);
   };
   SymmetricEntries M = read_quintuples(mass, "mass", table);
   known(mass);

@@ -53,14 +53,13 @@ class DmigFile {
     if (matrices_.contains(letter + std::string("AAX"))) found = {letter + std::string("AAX")};
     const auto other = std::find_if(unfit_.begin(), unfit_.end(), of_letter);
     if (found.empty() && other != unfit_.end())
-      source_.stop(other->second.first, other->second.second);
+      source_.stop(ErrorCode::wrong_value, other->second.first, other->second.second);
     if (found.size() != 1) {
-      source_.stop({0, 0},
-                   fmt::format("the file has {} {} matrix (its matrices: {}); expected one "
-                               "whose name begins with {}{}",
-                               found.empty() ? "no" : "more than one", what,
-                               names_.empty() ? "none" : fmt::format("{}", fmt::join(names_, ", ")),
-                               letter, advice));
+      source_.stop(
+          ErrorCode::wrong_value, {0, 0},
+          "the file has {} {} matrix (its matrices: {}); expected one whose name begins with {}{}",
+          found.empty() ? "no" : "more than one", what,
+          names_.empty() ? "none" : fmt::format("{}", fmt::join(names_, ", ")), letter, advice);
     }
     name_ = found[0];
     used_.insert(name_);
@@ -89,7 +88,8 @@ class DmigFile {
 
   void header(const std::string& name, NastranFields& f) {
     const int form = f.integer(2, "the form IFO", 0), type = f.integer(3, "the type TIN", 0);
-    if (!names_.insert(name).second) f.error("the matrix has a second header");
+    if (!names_.insert(name).second)
+      f.error(ErrorCode::duplicate, "the matrix has a second header");
     if (!wanted(name)) return;
     if (form != 1 && form != 6)
       unfit_[name] = {
@@ -104,7 +104,7 @@ class DmigFile {
     if (unfit_.contains(name)) return;
     const auto it = matrices_.find(name);
     if (it == matrices_.end()) {
-      f.error("the matrix has no header before its first column");
+      f.error(ErrorCode::missing, "the matrix has no header before its first column");
       matrices_[name];
       names_.insert(name);
       return;
@@ -121,8 +121,8 @@ class DmigFile {
     const int node = f.label(i, "a node");
     const int component = f.integer(i + 1, "a component", 0);
     if (component < 0 || component > 6)
-      f.error(fmt::format("component {} of node {}, expected 1 to 6, or 0 of a scalar point",
-                          component, node));
+      f.error(ErrorCode::out_of_range,
+              "component {} of node {}, expected 1 to 6, or 0 of a scalar point", component, node);
     return {node, component};
   }
 
@@ -163,8 +163,8 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
     rows.emplace(e.column, 0);
   }
   if (rows.empty())
-    stiffness.stop(FeSource{0, 0},
-                   fmt::format("matrix {} has no entries, expected a stiffness", first.name()));
+    stiffness.stop(ErrorCode::missing, FeSource{0, 0},
+                   "matrix {} has no entries, expected a stiffness", first.name());
   std::vector<DofLabel> labels;
   for (auto& [row, index] : rows) {
     index = static_cast<int>(labels.size());
@@ -180,8 +180,8 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
     for (const DmigEntry& e : entries) {
       for (const Row& row : {e.row, e.column}) {
         if (rows.count(row) > 0) continue;
-        source.stop(e.at, fmt::format("degree of freedom {}.{} of {} is not in {}", row.first,
-                                      row.second, name, K_name));
+        source.stop(ErrorCode::wrong_value, e.at, "degree of freedom {}.{} of {} is not in {}",
+                    row.first, row.second, name, K_name);
       }
     }
   };
@@ -207,10 +207,9 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
     add_matrix_damping(model, std::move(C), source);
   }
   if (!first.others().empty()) {
-    model.notes.push_back(
-        fmt::format("{}: matrices that are neither stiffness, mass nor viscous damping are "
-                    "ignored: {}",
-                    stiffness.files().front(), first.others()));
+    model.notes.push_back(fmt::format(
+        "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}",
+        stiffness.files().front(), first.others()));
   }
   return model;
 }

@@ -16,15 +16,16 @@ bool read_banner(TextSource& source) {
   std::vector<std::string_view> words;
   if (source.next(line)) split_blanks(line, words);
   if (words.size() != 5 || !same_word(words[0], "%%MatrixMarket")) {
-    source.error("the first line is not '%%MatrixMarket matrix coordinate real symmetric'");
+    source.error(ErrorCode::wrong_file,
+                 "the first line is not '%%MatrixMarket matrix coordinate real symmetric'");
     return false;
   }
   const auto one_of = [&](std::size_t k, std::initializer_list<const char*> known) {
     for (const char* word : known) {
       if (same_word(words[k], word)) return true;
     }
-    source.error(
-        fmt::format("the banner says {}, expected {}", shown(words[k]), fmt::join(known, " or ")));
+    source.error(ErrorCode::contradiction, "the banner says {}, expected {}", shown(words[k]),
+                 fmt::join(known, " or "));
     return false;
   };
   return one_of(1, {"matrix"}) && one_of(2, {"coordinate"}) && one_of(3, {"real", "integer"}) &&
@@ -49,14 +50,14 @@ SymmetricEntries read_entries(TextSource& source, const std::string& what, int n
         return k < fields.size() ? parse_integer(fields[k]) : std::optional<int>{};
       };
       if (fields.size() != 3 || !number(0) || !number(1) || !number(2)) {
-        source.stop(source.here(),
-                    "the line is not rows, columns and number of entries, whole "
-                    "numbers up to 2147483647");
+        source.stop(
+            ErrorCode::wrong_count, source.here(),
+            "the line is not rows, columns and number of entries, whole numbers up to 2147483647");
       }
       if (*number(0) != n || *number(1) != n) {
-        source.stop(source.here(),
-                    fmt::format("the {} is {} x {}, but {} has {} degrees of freedom", what,
-                                *number(0), *number(1), map, n));
+        source.stop(ErrorCode::wrong_value, source.here(),
+                    "the {} is {} x {}, but {} has {} degrees of freedom", what, *number(0),
+                    *number(1), map, n);
       }
       count = *number(2);
       at = source.here();
@@ -68,15 +69,18 @@ SymmetricEntries read_entries(TextSource& source, const std::string& what, int n
     double value = 0.0;
     if (!read_matrix_line(source, line, row, column, value)) continue;
     if (row >= n || column >= n) {
-      source.error(fmt::format("row {}, column {} is outside: the matrix is {} x {}", row + 1,
-                               column + 1, n, n));
+      source.error(ErrorCode::out_of_range, "row {}, column {} is outside: the matrix is {} x {}",
+                   row + 1, column + 1, n, n);
       continue;
     }
     entries.add(row, column, value);
   }
-  if (!sized) source.error("the line with rows, columns and number of entries is missing");
+  if (!sized)
+    source.error(ErrorCode::missing,
+                 "the line with rows, columns and number of entries is missing");
   if (sized && found != count) {
-    source.error(at, fmt::format("the {} has {} entries, expected {}", what, found, count));
+    source.error(ErrorCode::wrong_count, at, "the {} has {} entries, expected {}", what, found,
+                 count);
   }
   source.throw_if_any();
   return entries;

@@ -76,9 +76,10 @@ const Op4Matrix* choose_op4(const std::vector<Op4Matrix>& matrices, char letter,
   if (found.size() == 1) return found.front();
   std::vector<std::string> names;
   for (const Op4Matrix* m : found) names.push_back(m->name);
-  throw InputError({file}, fmt::format("the file has the matrices {}; expected one whose name "
-                                       "begins with {}, or {}XX, {}AA or {}AAX",
-                                       fmt::join(names, ", "), letter, letter, letter, letter));
+  throw InputError(ErrorCode::wrong_value, {file},
+                   fmt::format("the file has the matrices {}; expected one whose name begins with "
+                               "{}, or {}XX, {}AA or {}AAX",
+                               fmt::join(names, ", "), letter, letter, letter, letter));
 }
 
 /// Both halves, also of a matrix that is stored as one.
@@ -105,9 +106,10 @@ FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options
     if (m.rows > 1) names.push_back(m.name);  // those of one row stand for none
   if (M == nullptr)
     throw InputError(
-        {name}, fmt::format("the file has no real, square {}; its matrices: {}",
-                            K == nullptr ? "stiffness K" : "mass M of the size of the stiffness",
-                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        ErrorCode::missing, {name},
+        fmt::format("the file has no real, square {}; its matrices: {}",
+                    K == nullptr ? "stiffness K" : "mass M of the size of the stiffness",
+                    names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
   const Op4Matrix* B = choose_op4(matrices, 'B', K->rows, name);
   ErrorList errors;
   std::vector<std::filesystem::path> beside;
@@ -125,20 +127,19 @@ FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options
       dofs.empty() ? rows_of_cards(source) : read_dof_labels(source);
   source.throw_if_any();
   if (std::ssize(labels) != K->rows)
-    source.stop({0, 0},
-                fmt::format("{} degrees of freedom for matrices of {} rows ({} of {}); give "
-                            "them as the dofs file, lines \"node,dir\"",
-                            labels.size(), K->rows, K->name, name));
+    source.stop(ErrorCode::wrong_count, {0, 0},
+                "{} degrees of freedom for matrices of {} rows ({} of {}); give them as the dofs "
+                "file, lines \"node,dir\"",
+                labels.size(), K->rows, K->name, name);
   FeModel model = matrix_model(read_nodes(nodes), labels, whole(*K), whole(*M), source, {name});
   if (B != nullptr) add_matrix_damping(model, whole(*B), source);
   std::erase_if(names, [&](const std::string& n) {
     return n == K->name || n == M->name || (B != nullptr && n == B->name);
   });
   if (!names.empty())
-    model.notes.push_back(
-        fmt::format("{}: matrices that are neither stiffness, mass nor viscous damping are "
-                    "ignored: {}",
-                    name, fmt::join(names, ", ")));
+    model.notes.push_back(fmt::format(
+        "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}", name,
+        fmt::join(names, ", ")));
   return model;
 }
 

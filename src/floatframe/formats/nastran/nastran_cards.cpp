@@ -67,7 +67,8 @@ void NastranCards::read_control() {
   while (source_.next(line)) {
     line = trimmed(line.substr(0, line.find('$')));
     if (begins(line)) return;
-    if (is_begin(line)) source_.stop(source_.here(), fmt::format(one_model, shown(line)));
+    if (is_begin(line))
+      source_.stop(ErrorCode::wrong_value, source_.here(), fmt::format(one_model, shown(line)));
     std::string_view rest = line;
     const std::string_view word = next_word(rest);
     control_.there = control_.there || !(word.empty() || same_word(word, "INCLUDE"));
@@ -166,8 +167,9 @@ void NastranCards::split(std::string_view text, Line& line) {
     // A line that is put back comes again.
     if (fields.size() > width + 2 &&
         std::exchange(too_long_, source_.here().line) != source_.here().line) {
-      source_.error(fmt::format("the line has {} fields; a line in free field has at most {}",
-                                fields.size(), width + 2));
+      source_.error(ErrorCode::out_of_range,
+                    "the line has {} fields; a line in free field has at most {}", fields.size(),
+                    width + 2);
     }
     for (std::size_t i = 1; i <= width; ++i) {
       line.data.push_back(i < fields.size() ? fields[i] : std::string_view{});
@@ -205,7 +207,7 @@ void NastranCards::include(std::string_view text, bool executive) {
   std::string_view line;
   while (quote != '\0' && path.find(quote, 1) == std::string::npos) {
     if (path.size() > 4096 || !source_.next(line)) {
-      source_.stop(at, "the name of the included file has no closing quote");
+      source_.stop(ErrorCode::missing, at, "the name of the included file has no closing quote");
     }
     path += trimmed(line);
   }
@@ -230,7 +232,8 @@ bool NastranCards::next(NastranCard& card) {
     }
     if (is_begin(text)) {
       if (begins(trimmed(text)) && !std::exchange(begun_, true)) continue;
-      source_.stop(source_.here(), fmt::format(one_model, shown(trimmed(text))));
+      source_.stop(ErrorCode::wrong_value, source_.here(),
+                   fmt::format(one_model, shown(trimmed(text))));
     }
     break;
   }
@@ -239,8 +242,8 @@ bool NastranCards::next(NastranCard& card) {
   Line line;
   split(text, line);
   if (is_continuation(line.name)) {
-    source_.stop(source_.here(),
-                 fmt::format("found a continuation {}, expected a card", shown(line.name)));
+    source_.stop(ErrorCode::wrong_value, source_.here(), "found a continuation {}, expected a card",
+                 shown(line.name));
   }
   card.name = upper_case(line.name);
   if (card.name.back() == '*') card.name.pop_back();
@@ -260,10 +263,10 @@ bool NastranCards::next(NastranCard& card) {
       break;
     }
     if (!same_mark(mark, line.name)) {
-      source_.error(
-          fmt::format("the continuation {} does not follow the card with this mark; the "
-                      "card before ({} in line {}) has {}",
-                      shown(line.name), card.name, card.at.line, shown(mark)));
+      source_.error(ErrorCode::incomplete,
+                    "the continuation {} does not follow the card with this mark; the card before "
+                    "({} in line {}) has {}",
+                    shown(line.name), card.name, card.at.line, shown(mark));
     }
     const std::size_t width = line.large ? 4 : 8;
     while (card.fields.size() % width != 0) card.fields.emplace_back();
@@ -275,9 +278,9 @@ bool NastranCards::next(NastranCard& card) {
   const auto repeats = [](std::string_view field) { return field == "=" || field == "=="; };
   if (card.name.starts_with('=') ||
       (card.name != "DEQATN" && std::any_of(card.fields.begin(), card.fields.end(), repeats)))
-    source_.stop(card.at,
-                 "a field is '=', which repeats one of the card before and is not read: "
-                 "write the cards out, as Nastran does with ECHO = PUNCH");
+    source_.stop(ErrorCode::unsupported, card.at,
+                 "a field is '=', which repeats one of the card before and is not read: write the "
+                 "cards out, as Nastran does with ECHO = PUNCH");
   return true;
 }
 

@@ -6,18 +6,20 @@
 
 namespace floatframe {
 
-void NastranFields::error_at(const FeSource& at, const std::string& message) {
+void NastranFields::error_at(ErrorCode code, const FeSource& at, const std::string& message) {
   const std::string_view id = card_.field(0);
-  source_.error(at, parse_label(id) ? fmt::format("{} {}: {}", card_.name, id, message)
-                                    : fmt::format("{}: {}", card_.name, message));
+  source_.error(code, at,
+                parse_label(id) ? fmt::format("{} {}: {}", card_.name, id, message)
+                                : fmt::format("{}: {}", card_.name, message));
 }
 
 int NastranFields::label(std::size_t i, const char* what) {
   const auto value = parse_label(card_.field(i));
   if (!value) {
-    error_in(i, blank(i) ? fmt::format("{} is missing", what)
-                         : fmt::format("{} is {}, expected a whole number from 1", what,
-                                       shown(card_.field(i))));
+    error_in(ErrorCode::missing, i,
+             blank(i) ? fmt::format("{} is missing", what)
+                      : fmt::format("{} is {}, expected a whole number from 1", what,
+                                    shown(card_.field(i))));
   }
   return value.value_or(0);
 }
@@ -28,21 +30,21 @@ std::pair<int, int> NastranFields::range(std::size_t& i, const char* what) {
   i += 2;
   const int last = label(i, "the last number after THRU");
   if (last == 0 || first <= last) return {first, last};
-  error_in(i,
-           fmt::format("found {} THRU {}, expected the first to be at most the last", first, last));
+  error_in(ErrorCode::out_of_range, i,
+           "found {} THRU {}, expected the first to be at most the last", first, last);
   return {0, 0};
 }
 
 int NastranFields::integer(std::size_t i, const char* what, int otherwise) {
   if (blank(i)) return otherwise;
   const auto value = parse_integer(card_.field(i));
-  if (!value) error_in(i, fmt::format("{}: {}", what, not_an_integer(card_.field(i))));
+  if (!value) error_in(ErrorCode::not_a_number, i, "{}: {}", what, not_an_integer(card_.field(i)));
   return value.value_or(otherwise);
 }
 
 double NastranFields::real(std::size_t i, const char* what) {
   if (blank(i)) {
-    error_in(i, fmt::format("{} is missing", what));
+    error_in(ErrorCode::missing, i, "{} is missing", what);
     return 1.0;
   }
   return real(i, what, 1.0);
@@ -51,7 +53,7 @@ double NastranFields::real(std::size_t i, const char* what) {
 double NastranFields::real(std::size_t i, const char* what, double otherwise) {
   if (blank(i)) return otherwise;
   const auto value = parse_real(card_.field(i));
-  if (!value) error_in(i, fmt::format("{}: {}", what, not_a_real(card_.field(i))));
+  if (!value) error_in(ErrorCode::not_a_number, i, "{}: {}", what, not_a_real(card_.field(i)));
   if (value && whole_ != nullptr && parse_integer(card_.field(i)) && whole_->count++ == 0) {
     const std::string_view id = card_.field(0);
     whole_->first = fmt::format("{}{}{}: {} is {}", card_.name, parse_label(id) ? " " : "",
@@ -72,8 +74,8 @@ unsigned NastranFields::components(std::size_t i, const char* what) {
     if (c == '0' || c == ' ') continue;
     const unsigned bit = c >= '1' && c <= '6' ? 1u << (c - '1') : 0u;
     if (bit == 0 || (mask & bit) != 0) {
-      error_in(i, fmt::format("{} are {}, expected some of the digits 1 to 6", what,
-                              shown(card_.field(i))));
+      error_in(ErrorCode::wrong_value, i, "{} are {}, expected some of the digits 1 to 6", what,
+               shown(card_.field(i)));
       return 0;
     }
     mask |= bit;
@@ -83,7 +85,8 @@ unsigned NastranFields::components(std::size_t i, const char* what) {
 
 void NastranFields::must_be_zero(std::size_t i, const char* what) {
   if (real(i, what, 0.0) != 0.0) {
-    error_in(i, fmt::format("{} is {}, which is not supported", what, shown(card_.field(i))));
+    error_in(ErrorCode::unsupported, i, "{} is {}, which is not supported", what,
+             shown(card_.field(i)));
   }
 }
 

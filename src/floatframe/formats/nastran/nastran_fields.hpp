@@ -1,5 +1,7 @@
 #pragma once
 // Fields of one Nastran card as numbers, with errors that name the card and what is expected.
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,15 +43,26 @@ class NastranFields {
   /// Errors of the file so far.
   std::size_t errors() const { return source_.errors(); }
   /// "CTETRA 12: ..." at the card, or at the line of a field.
-  void error(const std::string& message) { error_at(card_.at, message); }
-  void error_in(std::size_t field, const std::string& message) {
-    error_at(card_.place(field), message);
+  void error(ErrorCode code, const std::string& message) { error_at(code, card_.at, message); }
+  template <class First, class... Rest>
+  void error(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
+             Rest&&... rest) {
+    error(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  template <class First, class... Rest>
+  void error_in(ErrorCode code, std::size_t field, fmt::format_string<First, Rest...> text,
+                First&& first, Rest&&... rest) {
+    error_in(code, field,
+             fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  void error_in(ErrorCode code, std::size_t field, const std::string& message) {
+    error_at(code, card_.place(field), message);
   }
   /// Error if the field is neither blank nor zero.
   void must_be_zero(std::size_t i, const char* what);
 
  private:
-  void error_at(const FeSource& at, const std::string& message);
+  void error_at(ErrorCode code, const FeSource& at, const std::string& message);
 
   TextSource& source_;
   const NastranCard& card_;

@@ -32,8 +32,8 @@ class BlockReader {
       const SidItem item = next_sid_item(source_, wanted.c_str());
       if (item.key == end) break;
       if (!item.has_value) {
-        source_.stop(source_.here(), fmt::format("found {} in block {}, expected {}",
-                                                 shown(item.key), name_, wanted));
+        source_.stop(ErrorCode::wrong_count, source_.here(), "found {} in block {}, expected {}",
+                     shown(item.key), name_, wanted);
       }
       if (item.key.starts_with("m0(") || item.key.starts_with("m1(")) {
         if (sizes_fit_) read_entry(item);
@@ -47,26 +47,28 @@ class BlockReader {
  private:
   void read_header(const SidItem& item) {
     if (seen0_.size() > 0) {
-      source_.error(fmt::format("{} of block {} comes after its entries", shown(item.key), name_));
+      source_.error(ErrorCode::wrong_value, "{} of block {} comes after its entries",
+                    shown(item.key), name_);
       return;
     }
     const auto value = parse_integer(item.value);
     if (!value) {
-      source_.error(
-          fmt::format("{} of block {}: {}", shown(item.key), name_, not_an_integer(item.value)));
+      source_.error(ErrorCode::not_a_number, "{} of block {}: {}", shown(item.key), name_,
+                    not_an_integer(item.value));
       return;
     }
     const auto size = [&](Eigen::Index expected, const char* why) {
       if (*value == expected) return;
       sizes_fit_ = false;
-      source_.error(
-          fmt::format("block {}: {} is {}, expected {}{}", name_, item.key, *value, expected, why));
+      source_.error(ErrorCode::wrong_value, "block {}: {} is {}, expected {}{}", name_, item.key,
+                    *value, expected, why);
     };
     if (item.key == "order") {
       order_ = *value;
       if (order_ < 0 || order_ > 1) {
         sizes_fit_ = false;
-        source_.error(fmt::format("block {}: order is {}, expected 0 or 1", name_, *value));
+        source_.error(ErrorCode::out_of_range, "block {}: order is {}, expected 0 or 1", name_,
+                      *value);
       }
     } else if (item.key == "nrow") {
       if (name_ == "J" && *value == 3) {
@@ -88,19 +90,19 @@ class BlockReader {
       structure_ = *value;
       if (structure_ < 0 || structure_ > 4) {
         sizes_fit_ = false;
-        source_.error(fmt::format("block {}: structure is {}, expected 0 to 4", name_, *value));
+        source_.error(ErrorCode::out_of_range, "block {}: structure is {}, expected 0 to 4", name_,
+                      *value);
       } else if (structure_ == 4 && block_.m0.rows() != block_.m0.cols()) {
         sizes_fit_ = false;
-        source_.error(
-            fmt::format("block {}: structure 4 (unit matrix) needs a square block, not "
-                        "{} x {}",
-                        name_, block_.m0.rows(), block_.m0.cols()));
+        source_.error(ErrorCode::incomplete,
+                      "block {}: structure 4 (unit matrix) needs a square block, not {} x {}",
+                      name_, block_.m0.rows(), block_.m0.cols());
       }
     } else {
       source_.error(
-          fmt::format("unknown item {} in block {} (expected order, nrow, ncol, nq, nqn, "
-                      "structure, m0 or m1)",
-                      shown(item.key), name_));
+          ErrorCode::not_found,
+          "unknown item {} in block {} (expected order, nrow, ncol, nq, nqn, structure, m0 or m1)",
+          shown(item.key), name_);
     }
   }
 
@@ -115,10 +117,9 @@ class BlockReader {
     for (const std::string_view field : fields)
       index.push_back(parse_integer(field).value_or(0) - 1);
     if (close + 1 != key.size() || index.size() != (e.order == 1 ? 3u : 2u)) {
-      source_.error(
-          fmt::format("{} in block {} is no entry; expected m0(row,column) or "
-                      "m1(row,mode,column)",
-                      shown(key), name_));
+      source_.error(ErrorCode::wrong_value,
+                    "{} in block {} is no entry; expected m0(row,column) or m1(row,mode,column)",
+                    shown(key), name_);
       return std::nullopt;
     }
     e.row = index.front();
@@ -126,12 +127,13 @@ class BlockReader {
     if (e.order == 1) e.mode = index[1];
     if (e.row < 0 || e.row >= block_.m0.rows() || e.column < 0 || e.column >= block_.m0.cols() ||
         e.mode < 0 || (e.order == 1 && e.mode >= modes_)) {
-      source_.error(fmt::format("{} is outside of block {}, which is {} x {} with {} modes",
-                                shown(key), name_, block_.m0.rows(), block_.m0.cols(), modes_));
+      source_.error(ErrorCode::wrong_count,
+                    "{} is outside of block {}, which is {} x {} with {} modes", shown(key), name_,
+                    block_.m0.rows(), block_.m0.cols(), modes_);
       return std::nullopt;
     }
     if (e.order == 1 && order_ == 0) {
-      source_.error(fmt::format("{} in block {}, whose order is 0", shown(key), name_));
+      source_.error(ErrorCode::wrong_value, "{} in block {}, whose order is 0", shown(key), name_);
       return std::nullopt;
     }
     return e;
@@ -143,13 +145,13 @@ class BlockReader {
     const auto value = real(item.value);
     if (!value) return;
     if (structure_ == 0 || structure_ == 4) {
-      source_.error(fmt::format("{} in block {}, whose structure {} has no entries",
-                                shown(item.key), name_, structure_));
+      source_.error(ErrorCode::missing, "{} in block {}, whose structure {} has no entries",
+                    shown(item.key), name_, structure_);
       return;
     }
     if (structure_ == 1 && e->row != e->column && *value != 0.0) {
-      source_.error(
-          fmt::format("{} in block {}, whose structure 1 is diagonal", shown(item.key), name_));
+      source_.error(ErrorCode::wrong_value, "{} in block {}, whose structure 1 is diagonal",
+                    shown(item.key), name_);
       return;
     }
     if (seen0_.size() == 0) seen0_ = MatX::Zero(block_.m0.rows(), block_.m0.cols());
@@ -162,8 +164,8 @@ class BlockReader {
     MatX& values = e->order == 1 ? block_.m1[mode] : block_.m0;
     double& line = (e->order == 1 ? seen1_[mode] : seen0_)(e->row, e->column);
     if (line > 0.0) {
-      source_.error(fmt::format("{} of block {} is in the file twice, first in line {}",
-                                shown(item.key), name_, line));
+      source_.error(ErrorCode::duplicate, "{} of block {} is in the file twice, first in line {}",
+                    shown(item.key), name_, line);
       return;
     }
     line = source_.here().line;
@@ -187,10 +189,9 @@ class BlockReader {
           upper = lower;
         } else if (std::abs(upper - lower) > 1e-6 * scale) {
           source_.error(
-              {0, static_cast<int>(std::max(seen0_(r, c), seen0_(c, r)))},
-              fmt::format("block {} is symmetric by its structure 2, but m0({},{}) = {} and "
-                          "m0({},{}) = {}",
-                          name_, r + 1, c + 1, lower, c + 1, r + 1, upper));
+              ErrorCode::wrong_value, {0, static_cast<int>(std::max(seen0_(r, c), seen0_(c, r)))},
+              "block {} is symmetric by its structure 2, but m0({},{}) = {} and m0({},{}) = {}",
+              name_, r + 1, c + 1, lower, c + 1, r + 1, upper);
         }
       }
     }
@@ -198,7 +199,7 @@ class BlockReader {
 
   std::optional<double> real(std::string_view field) {
     const auto value = parse_real(field);
-    if (!value) source_.error(not_a_real(field));
+    if (!value) source_.error(ErrorCode::not_a_number, not_a_real(field));
     return value;
   }
 

@@ -56,9 +56,7 @@ class BodyOfSid {
 
  private:
   SourceMark mark(int line) const { return {name_, line, 0}; }
-  void note(int line, const std::string& text) {
-    out_.notes.push_back(ErrorEntry{mark(line), text}.text());
-  }
+  void note(int line, const std::string& text) { out_.notes.push_back(mark(line).before(text)); }
 
   static Mat3 inertia(const MatX& j) {
     Mat3 J = Mat3::Zero();
@@ -77,7 +75,7 @@ class BodyOfSid {
     const double scale = block.m0.size() > 0 ? block.m0.cwiseAbs().maxCoeff() : 0.0;
     const double skew = scale > 0.0 ? (block.m0 - block.m0.transpose()).cwiseAbs().maxCoeff() : 0.0;
     if (skew > same_in_sid * scale) {
-      errors_.add(mark(block.line),
+      errors_.add(ErrorCode::contradiction, mark(block.line),
                   fmt::format("block {} is not symmetric: entries differ by {:.3g} of the largest",
                               name, skew / scale));
     }
@@ -92,9 +90,9 @@ class BodyOfSid {
       const double scale = std::max(m1.norm(), v.S.norm());
       if ((m1 - v.S.col(k)).norm() > same_in_sid * scale) {
         errors_.add(
-            mark(c_.Ct.line),
-            fmt::format("row {} of block Ct is ({:.6g} {:.6g} {:.6g}), but m1 of mdCM in "
-                        "line {} is ({:.6g} {:.6g} {:.6g}): they must be equal",
+            ErrorCode::contradiction, mark(c_.Ct.line),
+            fmt::format("row {} of block Ct is ({:.6g} {:.6g} {:.6g}), but m1 of mdCM in line {} "
+                        "is ({:.6g} {:.6g} {:.6g}): they must be equal",
                         k + 1, v.S(0, k), v.S(1, k), v.S(2, k), c_.mdCM.line, m1(0), m1(1), m1(2)));
       }
     }
@@ -104,11 +102,9 @@ class BodyOfSid {
   void first_moments(InertiaInvariants& v) {
     const bool from_Oe = c_.J.m1.empty() && nq_ > 0;
     if (from_Oe) {
-      note(c_.J.line,
-           c_.Oe.line > 0
-               ? "block J has no first-order terms; they are taken from Oe"
-               : "block J has no first-order terms and there is no Oe: the inertia tensor "
-                 "does not change with the deformation");
+      note(c_.J.line, c_.Oe.line > 0 ? "block J has no first-order terms; they are taken from Oe"
+                                     : "block J has no first-order terms and there is no Oe: the "
+                                       "inertia tensor does not change with the deformation");
     }
     double of_Gr = 0.0, of_Oe = 0.0, scale_Gr = 0.0, scale_Oe = 0.0;
     for (int k = 0; k < nq_; ++k) {
@@ -145,16 +141,15 @@ class BodyOfSid {
       scale_Oe = std::max(scale_Oe, Oe.cwiseAbs().maxCoeff());
     }
     if (c_.Gr.line > 0 && of_Gr > same_in_sid * scale_Gr) {
-      note(c_.Gr.line,
-           fmt::format("block Gr differs from what J and Cr imply by {:.2g} of its largest entry; "
-                       "J and Cr are used",
-                       of_Gr / scale_Gr));
+      note(c_.Gr.line, fmt::format("block Gr differs from what J and Cr imply by {:.2g} of its "
+                                   "largest entry; J and Cr are used",
+                                   of_Gr / scale_Gr));
     }
     if (c_.Oe.line > 0 && !from_Oe && of_Oe > same_in_sid * scale_Oe) {
       note(c_.Oe.line,
-           fmt::format("block Oe differs from what J implies by {:.2g} of its largest entry; J is "
-                       "used",
-                       of_Oe / std::max(scale_Oe, 1e-300)));
+           fmt::format(
+               "block Oe differs from what J implies by {:.2g} of its largest entry; J is used",
+               of_Oe / std::max(scale_Oe, 1e-300)));
     }
   }
 
@@ -173,7 +168,7 @@ class BodyOfSid {
       const auto column = static_cast<Eigen::Index>(k);
       const double scale = std::max(f.origin.m1[k].norm(), f.phi.m0.norm());
       if ((f.origin.m1[k] - f.phi.m0.col(column)).norm() > same_in_sid * scale) {
-        errors_.add(mark(f.phi.line),
+        errors_.add(ErrorCode::contradiction, mark(f.phi.line),
                     fmt::format("column {} of phi of node {} differs from m1 of origin in line {}: "
                                 "they must be equal",
                                 k + 1, f.node, f.origin.line));
@@ -185,7 +180,7 @@ class BodyOfSid {
 
   void left_out() {
     if (c_.ksigma.m0.size() > 0 && c_.ksigma.m0.cwiseAbs().maxCoeff() > 0.0) {
-      errors_.add(mark(c_.ksigma.line),
+      errors_.add(ErrorCode::unsupported, mark(c_.ksigma.line),
                   "block ksigma holds forces of an initial stress, which a body cannot have; write "
                   "the file about the unstressed state");
     }
@@ -208,21 +203,20 @@ class BodyOfSid {
     const double size = moments.cwiseAbs().maxCoeff();
     const double digits = 1e-12 * v.inertia_about_origin().cwiseAbs().maxCoeff();
     if (moments(0) < -own_digits * size - digits) {
-      errors_.add(
-          mark(c_.J.line),
-          fmt::format("block J gives a moment of inertia of {:.6g} about the centre of mass "
-                      "(with mass and mdCM), expected none below zero",
-                      moments(0)));
+      errors_.add(ErrorCode::out_of_range, mark(c_.J.line),
+                  fmt::format("block J gives a moment of inertia of {:.6g} about the centre of "
+                              "mass (with mass and mdCM), expected none below zero",
+                              moments(0)));
       return;
     }
     const double excess = moments(2) - moments(0) - moments(1);
     if (excess <= own_digits * size + digits) return;
     const std::string text = fmt::format(
-        "the moments of inertia about the centre of mass are {:.6g}, {:.6g} and {:.6g}: "
-        "the largest is more than the sum of the others, which no body has",
+        "the moments of inertia about the centre of mass are {:.6g}, {:.6g} and {:.6g}: the "
+        "largest is more than the sum of the others, which no body has",
         moments(0), moments(1), moments(2));
     if (excess > close * size)
-      errors_.add(mark(c_.J.line), text);
+      errors_.add(ErrorCode::wrong_value, mark(c_.J.line), text);
     else
       note(c_.J.line, text);
   }
@@ -240,7 +234,7 @@ class BodyOfSid {
               ? (*matrix)(k, k)
               : symmetric_eigenvalues(unit.asDiagonal() * *matrix * unit.asDiagonal())(0);
       if (least < -same_in_sid)
-        errors_.add(mark(block->line),
+        errors_.add(ErrorCode::out_of_range, mark(block->line),
                     fmt::format("block {} holds a negative {} ({:.3g}), expected none below zero",
                                 block == &c_.Ke ? "Ke" : "De", what, least));
     }
@@ -265,7 +259,7 @@ class BodyOfSid {
     for (int i = 0; i < 6 + nq_; ++i) {
       if (M(i, i) >= 0.0) continue;
       const int line = i < 3 ? c_.mass_line : i < 6 ? c_.J.line : c_.Me.line;
-      errors_.add(mark(line),
+      errors_.add(ErrorCode::out_of_range, mark(line),
                   fmt::format("a diagonal entry of the mass matrix is negative: {:.6g}", M(i, i)));
       return;
     }
@@ -275,11 +269,11 @@ class BodyOfSid {
     const double least = symmetric_eigenvalues(scaled)(0);
     if (!(least >= -same_in_sid)) {
       errors_.add(
-          mark(c_.Me.line),
-          fmt::format("the mass matrix at zero deformation is not positive: scaled to a unit "
-                      "diagonal its smallest eigenvalue is {:.3g}; mass, mdCM, J, Ct, Cr "
-                      "and Me contradict each other",
-                      least));
+          ErrorCode::out_of_range, mark(c_.Me.line),
+          fmt::format(
+              "the mass matrix at zero deformation is not positive: scaled to a unit diagonal its "
+              "smallest eigenvalue is {:.3g}; mass, mdCM, J, Ct, Cr and Me contradict each other",
+              least));
     }
   }
 

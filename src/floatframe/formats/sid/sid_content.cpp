@@ -138,6 +138,7 @@ SidContent sid_content(const FlexibleBody& body) {
   const auto fits = [nq](const MatX& m) { return m.rows() == nq && m.cols() == nq; };
   if (!fits(body.K) || (body.D.size() > 0 && !fits(body.D))) {
     throw InputError(
+        ErrorCode::wrong_count,
         fmt::format("the body has {} modes, but its stiffness is {} x {} and its damping {} x {}",
                     nq, body.K.rows(), body.K.cols(), body.D.rows(), body.D.cols()));
   }

@@ -21,7 +21,7 @@ SidItem next_sid_item(TextSource& source, const char* wanted) {
     if (!text.empty()) break;
   }
   if (text.empty()) {
-    source.stop(source.here(), fmt::format("the file ends where {} was expected", wanted));
+    source.stop(ErrorCode::damaged, source.here(), "the file ends where {} was expected", wanted);
   }
   SidItem item;
   const std::size_t equals = text.find('=');
@@ -37,7 +37,8 @@ void expect_sid_item(TextSource& source, const char* key) {
                                                                  : key;
   const SidItem item = next_sid_item(source, fmt::format("'{}'", words).c_str());
   if (item.key != key) {
-    source.stop(source.here(), fmt::format("found {}, expected '{}'", shown(item.key), words));
+    source.stop(ErrorCode::wrong_value, source.here(), "found {}, expected '{}'", shown(item.key),
+                words);
   }
 }
 
@@ -48,7 +49,7 @@ void skip_sid_block(TextSource& source, const std::string& key) {
   while (source.next(text)) {
     if (without_blanks(text) == end) return;
   }
-  source.stop(begin, fmt::format("{} has no end", shown(key)));
+  source.stop(ErrorCode::missing, begin, "{} has no end", shown(key));
 }
 
 }  // namespace floatframe

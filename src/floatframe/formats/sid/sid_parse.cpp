@@ -37,15 +37,15 @@ class SidParser {
         frames();
       } else if (SidTaylor* block = modal_block(item.key)) {
         if (block->line > 0) {
-          source_.error(fmt::format("block {} is in the file twice, first in line {}", item.key,
-                                    block->line));
+          source_.error(ErrorCode::duplicate, "block {} is in the file twice, first in line {}",
+                        item.key, block->line);
         }
         read_sid_block(source_, item.key, content_.modes, *block);
       } else {
-        source_.error(fmt::format(
-            "unknown block {} (expected refmod, frame, mdCM, J, Ct, Cr, Me, Gr, Ge, Oe, ksigma, Ke "
-            "or De)",
-            shown(item.key)));
+        source_.error(ErrorCode::not_found,
+                      "unknown block {} (expected refmod, frame, mdCM, J, Ct, Cr, Me, Gr, Ge, Oe, "
+                      "ksigma, Ke or De)",
+                      shown(item.key));
         skip_sid_block(source_, item.key);
       }
     }
@@ -56,13 +56,15 @@ class SidParser {
   }
 
  private:
-  [[noreturn]] void stop(std::string message) { source_.stop(source_.here(), std::move(message)); }
+  [[noreturn]] void stop(ErrorCode code, std::string message) {
+    source_.stop(code, source_.here(), std::move(message));
+  }
 
   SidItem next(const char* wanted) { return next_sid_item(source_, wanted); }
 
   void first_line() {
     std::string_view text;
-    if (!source_.next(text)) stop("the file is empty");
+    if (!source_.next(text)) stop(ErrorCode::missing, "the file is empty");
     const std::string_view numbers = text.substr(0, text.find(':'));
     std::vector<std::string_view> fields;
     split_blanks(numbers, fields);
@@ -70,11 +72,13 @@ class SidParser {
     const auto modes = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
     if (!nodes || !modes || *nodes < 0 || *modes < 0) {
       stop(
+          ErrorCode::wrong_value,
           fmt::format("found {}, expected the numbers of nodes and of modes, as in '3 1 : comment'",
                       shown(trimmed(text))));
     }
     if (*modes > most_modes) {
-      stop(fmt::format("{} modes are more than the {} that can be read", *modes, most_modes));
+      stop(ErrorCode::too_large,
+           fmt::format("{} modes are more than the {} that can be read", *modes, most_modes));
     }
     nodes_ = *nodes;
     const int nq = content_.modes = *modes;
@@ -119,18 +123,21 @@ class SidParser {
       if (item.key == "mass") {
         content_.mass_line = source_.here().line;
         content_.mass = real(item.value).value_or(1.0);
-        if (content_.mass <= 0.0) source_.error("the mass is not positive");
+        if (content_.mass <= 0.0)
+          source_.error(ErrorCode::out_of_range, "the mass is not positive");
       } else if (item.key == "nelastq") {
         const auto n = parse_integer(item.value);
         if (!n || *n != content_.modes) {
-          source_.error(fmt::format("nelastq is {}, the first line of the file says {} modes",
-                                    shown(item.value), content_.modes));
+          source_.error(ErrorCode::contradiction,
+                        "nelastq is {}, the first line of the file says {} modes",
+                        shown(item.value), content_.modes);
         }
       } else if (item.key.starts_with("ielastq")) {
         mode_name(item);
       } else {
-        source_.error(fmt::format("unknown item {} in refmod (expected mass, nelastq or ielastq)",
-                                  shown(item.key)));
+        source_.error(ErrorCode::not_found,
+                      "unknown item {} in refmod (expected mass, nelastq or ielastq)",
+                      shown(item.key));
       }
     }
   }
@@ -140,8 +147,8 @@ class SidParser {
     if (number.size() > 2) number = number.substr(1, number.size() - 2);
     const auto k = parse_integer(number);
     if (!k || *k < 1 || *k > content_.modes) {
-      source_.error(
-          fmt::format("{} names no mode (there are {})", shown(item.key), content_.modes));
+      source_.error(ErrorCode::wrong_value, "{} names no mode (there are {})", shown(item.key),
+                    content_.modes);
       return;
     }
     content_.mode_names.resize(content_.modes);
@@ -152,21 +159,23 @@ class SidParser {
 
   void frames() {
     if (frame_line_ > 0) {
-      source_.error(fmt::format("block frame is in the file twice, first in line {}", frame_line_));
+      source_.error(ErrorCode::duplicate, "block frame is in the file twice, first in line {}",
+                    frame_line_);
     }
     frame_line_ = source_.here().line;
     while (true) {
       const SidItem item = next("'new node' or 'end frame'");
       if (item.key == "endframe") break;
       if (item.key != "newnode") {
-        stop(fmt::format("found {}, expected 'new node' or 'end frame'", shown(item.key)));
+        stop(ErrorCode::wrong_value,
+             fmt::format("found {}, expected 'new node' or 'end frame'", shown(item.key)));
       }
       node(std::string(item.value));
     }
     if (static_cast<int>(content_.frames.size()) != nodes_) {
-      source_.error({0, frame_line_},
-                    fmt::format("block frame has {} nodes, the first line of the file says {}",
-                                content_.frames.size(), nodes_));
+      source_.error(ErrorCode::contradiction, {0, frame_line_},
+                    "block frame has {} nodes, the first line of the file says {}",
+                    content_.frames.size(), nodes_);
     }
   }
 
@@ -194,38 +203,38 @@ class SidParser {
       } else if (item.key == "rframe") {
         if (!same_word(without_blanks(item.value), "bodyref")) {
           source_.error(
-              fmt::format("rframe is {}, expected 'body ref': nodes relative to another "
-                          "frame are not read",
-                          shown(item.value)));
+              ErrorCode::unsupported,
+              "rframe is {}, expected 'body ref': nodes relative to another frame are not read",
+              shown(item.value));
         }
       } else {
-        source_.error(fmt::format(
-            "unknown item {} in a node (expected rframe, origin, phi, psi, AP or sigma)",
-            shown(item.key)));
+        source_.error(ErrorCode::not_found,
+                      "unknown item {} in a node (expected rframe, origin, phi, psi, AP or sigma)",
+                      shown(item.key));
         if (!item.has_value) skip_sid_block(source_, item.key);
       }
     }
     if (f.origin.line == 0) {
-      source_.error(begin, fmt::format("node {} has no origin", shown(f.node)));
+      source_.error(ErrorCode::missing, begin, "node {} has no origin", shown(f.node));
     }
     if (f.phi.line == 0 && nq > 0) {
-      source_.error(begin, fmt::format("node {} has no phi", shown(f.node)));
+      source_.error(ErrorCode::missing, begin, "node {} has no phi", shown(f.node));
     }
     if (!taken_.insert(f.node).second) {
-      source_.error(begin, fmt::format("node {} is in the file twice", shown(f.node)));
+      source_.error(ErrorCode::duplicate, begin, "node {} is in the file twice", shown(f.node));
     }
     content_.frames.push_back(std::move(f));
   }
 
   std::optional<double> real(std::string_view field) {
     const auto value = parse_real(field);
-    if (!value) source_.error(not_a_real(field));
+    if (!value) source_.error(ErrorCode::not_a_number, not_a_real(field));
     return value;
   }
 
   void check_complete() {
     const auto need = [&](const char* name, bool there) {
-      if (!there) source_.error(fmt::format("the file has no {}", name));
+      if (!there) source_.error(ErrorCode::missing, "the file has no {}", name);
     };
     need("mass in block refmod", content_.mass_line > 0);
     if (nodes_ > 0) need("block frame", frame_line_ > 0);

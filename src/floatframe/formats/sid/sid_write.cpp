@@ -18,8 +18,10 @@ void line(Out& out, int indent, const std::string& key, const std::string& value
 
 std::string real(double x, const char* block) {
   if (!std::isfinite(x)) {
-    throw InputError(fmt::format(
-        "block {} holds a number that is not finite; a SID file cannot hold it", block));
+    throw InputError(
+        ErrorCode::not_finite,
+        fmt::format("block {} holds a number that is not finite; a SID file cannot hold it",
+                    block));
   }
   std::string text = fmt::format("{:23.16E}", x);
   std::replace(text.begin(), text.end(), 'E', 'D');

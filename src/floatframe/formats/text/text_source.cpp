@@ -27,7 +27,8 @@ struct Inflater {
   z_stream stream{};
   Inflater() {
     // 16: gzip with header and checksum.
-    if (inflateInit2(&stream, 15 + 16) != Z_OK) throw InputError("zlib cannot be started");
+    if (inflateInit2(&stream, 15 + 16) != Z_OK)
+      throw InputError(ErrorCode::unavailable, "zlib cannot be started");
   }
   ~Inflater() { inflateEnd(&stream); }
   Inflater(const Inflater&) = delete;
@@ -64,15 +65,16 @@ std::string inflate_bytes(std::string_view bytes, const std::string& name, std::
     text.append(chunk.data(), chunk.size() - z.avail_out);
     if (!whole && text.size() >= most) return text.substr(0, most);
     if (text.size() > most) {
-      throw InputError({name}, fmt::format("the compressed file holds more than {} GiB, which is "
-                                           "not read",
-                                           most >> 30));
+      throw InputError(
+          ErrorCode::unsupported, {name},
+          fmt::format("the compressed file holds more than {} GiB, which is not read", most >> 30));
     }
     if (text.size() > compression_matters_from &&
         text.size() / largest_compression > bytes.size()) {
-      throw InputError({name}, fmt::format("the file of {} bytes is compressed more than {} times, "
-                                           "which no deck is: it is not read",
-                                           bytes.size(), largest_compression));
+      throw InputError(ErrorCode::unsupported, {name},
+                       fmt::format("the file of {} bytes is compressed more than {} times, which "
+                                   "no deck is: it is not read",
+                                   bytes.size(), largest_compression));
     }
     if (status == Z_STREAM_END) {
       const std::string_view rest = bytes.substr(taken - z.avail_in);  // another member, or filling
@@ -83,12 +85,14 @@ std::string inflate_bytes(std::string_view bytes, const std::string& name, std::
     if (status == Z_BUF_ERROR || (status == Z_OK && z.avail_in == 0 && taken == bytes.size() &&
                                   z.avail_out == chunk.size())) {
       if (!whole) return text;
-      throw InputError({name}, "the gzip data end too early: the file is truncated");
+      throw InputError(ErrorCode::damaged, {name},
+                       "the gzip data end too early: the file is truncated");
     }
     if (status != Z_OK) {
       if (!whole) return text;
-      throw InputError({name}, fmt::format("the gzip data are damaged ({})",
-                                           z.msg != nullptr ? z.msg : "no reason given"));
+      throw InputError(ErrorCode::damaged, {name},
+                       fmt::format("the gzip data are damaged ({})",
+                                   z.msg != nullptr ? z.msg : "no reason given"));
     }
   }
 }
@@ -112,7 +116,7 @@ std::string read_whole_file(const std::filesystem::path& file) {
 std::string read_beginning(const std::filesystem::path& file, std::size_t bytes) {
   std::string beginning;
   const std::string why = read_regular_beginning(file, bytes, beginning);
-  if (!why.empty()) throw InputError({file.string()}, why);
+  if (!why.empty()) throw InputError(ErrorCode::unreadable, {file.string()}, why);
   if (!is_gzip(beginning)) return beginning;
   return inflate_bytes(beginning, file.string(), bytes, false);
 }
@@ -156,7 +160,7 @@ TextSource::TextSource(std::string text, std::string name, FileLoader loader)
 
 int TextSource::add_file(std::string name, std::string text) {
   const std::string error = not_text(text);
-  if (!error.empty()) throw InputError({name}, error);
+  if (!error.empty()) throw InputError(ErrorCode::unreadable, {name}, error);
   keys_.push_back(name);
   names_.push_back(std::move(name));
   texts_.push_back(std::make_unique<const std::string>(std::move(text)));
@@ -214,10 +218,11 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
       path.back() == path.front()) {
     path = path.substr(1, path.size() - 2);
   }
-  if (path.empty()) stop(at, "the include names no file");
+  if (path.empty()) stop(ErrorCode::missing, at, "the include names no file");
   std::string target(path);
   std::replace(target.begin(), target.end(), '\\', '/');
-  if (!loader_) stop(at, fmt::format("the include file {} cannot be read here", shown(target)));
+  if (!loader_)
+    stop(ErrorCode::unreadable, at, "the include file {} cannot be read here", shown(target));
 
   const auto folder_of = [this](int file) {
     return std::filesystem::path(names_[file]).parent_path();
@@ -238,8 +243,8 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
   if (!exists && !required) return false;
   if (!exists) {
     const std::string where = folder_of(at.file).string();
-    stop(at, fmt::format("the include file {} does not exist in {}", shown(target),
-                         where.empty() ? "the folder of this file" : shown(where)));
+    stop(ErrorCode::not_found, at, "the include file {} does not exist in {}", shown(target),
+         where.empty() ? "the folder of this file" : shown(where));
   }
   std::error_code error;
   const std::filesystem::path canonical = std::filesystem::weakly_canonical(file, error);
@@ -250,15 +255,15 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
     for (std::size_t i = k; i < stack_.size(); ++i) {
       chain += names_[stack_[i].file] + " -> ";
     }
-    stop(at, "circular include: " + chain + names_[stack_[k].file]);
+    stop(ErrorCode::cycle, at, "circular include: " + chain + names_[stack_[k].file]);
   }
   if (++includes_ > most_includes) {
-    stop(at, fmt::format("the files include each other more than {} times", most_includes));
+    stop(ErrorCode::too_large, at, "the files include each other more than {} times",
+         most_includes);
   }
   if (stack_.size() >= deepest_include) {
-    stop(at,
-         fmt::format("includes are nested deeper than {}: {} -> ... -> {} -> {}", deepest_include,
-                     names_.front(), names_[stack_.back().file], file.string()));
+    stop(ErrorCode::too_large, at, "includes are nested deeper than {}: {} -> ... -> {} -> {}",
+         deepest_include, names_.front(), names_[stack_.back().file], file.string());
   }
   const auto known = index_of_key_.find(key);
   int index = 0;
@@ -268,8 +273,8 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
     try {
       index = add_file(file.string(), loader_(file));
     } catch (const InputError& e) {
-      stop(at, fmt::format("the include file {} cannot be read: {}", shown(target),
-                           e.errors().front().message));
+      stop(ErrorCode::unreadable, at, "the include file {} cannot be read: {}", shown(target),
+           e.errors().front().message);
     }
     keys_.back() = key;
     index_of_key_.emplace(key, index);
@@ -277,7 +282,7 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
   open(index);
   // A file that includes another twice, which includes another twice, ...
   if (expanded_ > largest_text) {
-    stop(at, fmt::format("the includes hold more than {} GiB in all", largest_text >> 30));
+    stop(ErrorCode::too_large, at, "the includes hold more than {} GiB in all", largest_text >> 30);
   }
   return true;
 }
@@ -287,23 +292,25 @@ SourceMark TextSource::mark(const FeSource& source) const {
   return {names_[source.file], source.line, 0};
 }
 
-void TextSource::error(const FeSource& at, const std::string& message) {
-  errors_.add(mark(at), message_text(message));
+void TextSource::error(ErrorCode code, const FeSource& at, const std::string& message) {
+  errors_.add(code, mark(at), message_text(message));
   if (errors_.size() < most_errors) return;
-  errors_.add({}, fmt::format("reading ends after {} errors", most_errors), 0);
+  errors_.add(ErrorCode::too_large, {}, fmt::format("reading ends after {} errors", most_errors),
+              0);
   errors_.throw_if_any();
 }
 
 void TextSource::make(std::int64_t count) {
   if (count > 0) made_ += std::min(count, may_make_ + 1);
   if (made_ > may_make_)
-    stop(here_, fmt::format("the lines that generate, copy or repeat make more than {} nodes, "
-                            "elements and cards; write the deck with its nodes and elements",
-                            may_make_));
+    stop(ErrorCode::too_large, here_,
+         "the lines that generate, copy or repeat make more than {} nodes, elements and cards; "
+         "write the deck with its nodes and elements",
+         may_make_);
 }
 
-void TextSource::stop(const FeSource& at, const std::string& message) {
-  errors_.add(mark(at), message_text(message));
+void TextSource::stop(ErrorCode code, const FeSource& at, const std::string& message) {
+  errors_.add(code, mark(at), message_text(message));
   errors_.throw_if_any();
   std::abort();  // not reached: there is an error
 }

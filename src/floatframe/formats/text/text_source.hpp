@@ -1,6 +1,8 @@
 #pragma once
 // Text files of finite-element programs: read whole (decompressed if they are gzip), given line by
 // line with their place, through includes. Errors are collected with file and line, as UTF-8.
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -71,10 +73,26 @@ class TextSource {
 
   SourceMark mark(const FeSource& source) const;
   /// Collects an error; throws all of them when there are `most_errors`.
-  void error(const FeSource& at, const std::string& message);
+  void error(ErrorCode code, const FeSource& at, const std::string& message);
   /// Collects an error at the last line.
-  void error(const std::string& message) { error(here_, message); }
-  [[noreturn]] void stop(const FeSource& at, const std::string& message);
+  void error(ErrorCode code, const std::string& message) { error(code, here_, message); }
+  [[noreturn]] void stop(ErrorCode code, const FeSource& at, const std::string& message);
+  /// Each also with a text of fmt and its values.
+  template <class First, class... Rest>
+  void error(ErrorCode code, const FeSource& at, fmt::format_string<First, Rest...> text,
+             First&& first, Rest&&... rest) {
+    error(code, at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  template <class First, class... Rest>
+  void error(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
+             Rest&&... rest) {
+    error(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  template <class First, class... Rest>
+  [[noreturn]] void stop(ErrorCode code, const FeSource& at,
+                         fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
+    stop(code, at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
   void throw_if_any() { errors_.throw_if_any(); }
   std::size_t errors() const noexcept { return errors_.size(); }
   static constexpr std::size_t most_errors = 50;

@@ -172,8 +172,8 @@ constexpr ForceKey bearing_keys[] = {
      .vector = {1.0, 0.0, 0.0}},
     {.name = "stiffness",
      .kind = ForceKeyKind::stiffness_matrix,
-     .about = "displacements along e₁, e₂, e₃ and tilts about e₁, e₂ to forces and moments; "
-              "2 x 2: along e₁, e₂ alone"},
+     .about = "displacements along e₁, e₂, e₃ and tilts about e₁, e₂ to forces and moments; 2 x 2: "
+              "along e₁, e₂ alone"},
     {.name = "damping",
      .kind = ForceKeyKind::damping_matrix,
      .about = "the same of their rates, the sixth that of the spin about e₃"},
@@ -204,11 +204,11 @@ void bearing_validate(const ForceCheck& check) {
   if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
     if (const auto complaint =
             sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
-      check.error("axis_2", *complaint);
+      check.error(ErrorCode::geometry, "axis_2", *complaint);
   check.some_law();
   if (check.good("stiffness"))
     if (const auto complaint = sentences::bearing_stiffness(check.matrix("stiffness")))
-      check.error("stiffness", *complaint);
+      check.error(ErrorCode::out_of_range, "stiffness", *complaint);
 }
 
 /// Directions in which A and B are both diagonal, and their diagonals there:
@@ -357,10 +357,9 @@ ForceExample bearing_example(std::size_t regime, ExampleNumbers& numbers) {
 constinit const ForceKind bearing_element = {
     .about =
         "a shaft in a housing, held by full matrices of stiffness and damping with their cross "
-        "terms, symmetric or not; the shaft may turn about its axis. Displacements count from "
-        "the design configuration, along axes fixed in the body of `from`; tilts are those of "
-        "the shaft's axis. Results: size of the force, distance from the design position and "
-        "its rate",
+        "terms, symmetric or not; the shaft may turn about its axis. Displacements count from the "
+        "design configuration, along axes fixed in the body of `from`; tilts are those of the "
+        "shaft's axis. Results: size of the force, distance from the design position and its rate",
     .keys = bearing_keys,
     .validate = bearing_validate,
     .build = bearing_build,

@@ -255,7 +255,7 @@ void bushing_validate(const ForceCheck& check) {
   if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
     if (const auto complaint =
             sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
-      check.error("axis_2", *complaint);
+      check.error(ErrorCode::geometry, "axis_2", *complaint);
   check.some_law();
 }
 
@@ -332,10 +332,8 @@ constinit const ForceKind bushing_element = {
         "elastic connection of two bodies with a law for each displacement along and each rotation "
         "about axes fixed in the body of `from`; the rotations are the components of the rotation "
         "vector of the other body in these axes, of less than half a turn, and the dampers of "
-        "rotations "
-        "are laws of its rates unless `rotation_rate` says otherwise. Displacements of laws that "
-        "are "
-        "a number count from the design configuration; a preload goes into the law. "
+        "rotations are laws of its rates unless `rotation_rate` says otherwise. Displacements of "
+        "laws that are a number count from the design configuration; a preload goes into the law. "
         "Results: size of the force, distance of the points and its rate",
     .keys = bushing_keys,
     .free_value = design_displacement,

@@ -189,13 +189,14 @@ void joint_spring_validate(const ForceCheck& check) {
     const std::string joint = check.text("joint");
     const auto type = check.joint_type(joint);
     if (type && !joint_has_one_coordinate(*type))
-      check.error("joint", "found '" + check.written(joint) + "', expected a " +
-                               joints_of_one_coordinate() + " joint");
+      check.error(ErrorCode::wrong_value, "joint",
+                  "found '" + check.written(joint) + "', expected a " + joints_of_one_coordinate() +
+                      " joint");
   }
   if (!check.given("target") && !check.given("target_rate")) check.some_law();
   if (check.given("spring") || check.given("damper")) return;
   for (const char* key : {"target", "target_rate"})
-    if (check.given(key)) check.error(key, sentences::target_without_law());
+    if (check.given(key)) check.error(ErrorCode::incomplete, key, sentences::target_without_law());
 }
 
 bool joint_spring_build(ForceBuild& b) {

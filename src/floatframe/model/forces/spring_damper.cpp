@@ -138,7 +138,7 @@ void spring_damper_validate(const ForceCheck& check) {
     const AttachmentDescription a = check.place("from"), b = check.place("to");
     if (check.from_file || (!a.node && !b.node))
       if (const auto complaint = sentences::spring_ends(a.point, b.point))
-        check.error("", *complaint);
+        check.error(ErrorCode::out_of_range, "", *complaint);
   }
   check.some_law();
 }
