@@ -125,32 +125,17 @@ TEST(Damping, OfAModelFileNamesThePlace) {
     return at == std::string::npos ? text : text.substr(at);
   };
   const std::string key = "bodies.b.flexible.damping";
-  EXPECT_EQ(error("{fraction: 2}"),
-            key + ".fraction: found 2, expected a fraction of critical damping from 0 to 1");
-  EXPECT_EQ(error("{fractions: [0.1, -1]}"),
-            key + ".fractions[2]: found -1, expected a fraction of critical damping from 0 to 1");
-  EXPECT_EQ(error("{bands: [[100, 0.01], [50, 0.1], 1]}"),
-            key +
-                ": found a band below 50 Hz after one below 100 Hz, expected ascending "
-                "frequencies above 0");
-  EXPECT_EQ(error("{bands: [[100, 0.01]]}"),
-            key +
-                ": the last band ends at 100 Hz, expected the fraction above it as the last item "
-                "of the list");
-  EXPECT_EQ(error("{bands: adams}"),
-            key +
-                ".bands: found 'adams', expected usual, or a list [[100, 0.01], [1000, 0.1], "
-                "1.0]");
-  EXPECT_EQ(error("{fraction: 0.1, rayleigh: [1, 0]}"),
-            key + ": found 2 of fraction, fractions, bands and rayleigh, expected one of them");
+  EXPECT_EQ(error("{fraction: 2}"), key + ".fraction: out_of_range");
+  EXPECT_EQ(error("{fractions: [0.1, -1]}"), key + ".fractions[2]: out_of_range");
+  EXPECT_EQ(error("{bands: [[100, 0.01], [50, 0.1], 1]}"), key + ": out_of_range");
+  EXPECT_EQ(error("{bands: [[100, 0.01]]}"), key + ": out_of_range");
+  EXPECT_EQ(error("{bands: adams}"), key + ".bands: wrong_value");
+  EXPECT_EQ(error("{fraction: 0.1, rayleigh: [1, 0]}"), key + ": exclusive");
   EXPECT_EQ(error("{fraction: 0.1, reference: mount}").substr(0, key.size() + 30),
-            key + ".reference: found 'mount', exp");
-  EXPECT_EQ(error("{fraction: 0.1, frequency: 3}"),
-            key +
-                ": found a frequency of the interfaces' motions, which belongs to the reference "
-                "mounted");
-  EXPECT_EQ(error("{fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1]}"),
-            "bodies.b: damping: found 7 fractions, but the body has 6 modes");
+            key + ".reference: wrong_value");
+  EXPECT_EQ(error("{fraction: 0.1, frequency: 3}"), key + ": out_of_range");
+  EXPECT_EQ(test::without_folders(error("{fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1]}")),
+            "model.yaml:5:17: contradiction");
 }
 
 // Eight equal bars on a star: static modes turn the ends about the bars, which have no inertia.
@@ -173,8 +158,7 @@ TEST(Damping, EqualBarsWithoutInertiaOfSectionsNameTheRemedy) {
            "], normal_modes: 60, mass_model: hermite" + more + "}}\njoints:\n" + joints;
   };
   const std::string error = error_of([&] { model_of(cross("")); });
-  EXPECT_NE(error.find("bodies.x: "), std::string::npos) << error;
-  EXPECT_NE(error.find("section_inertia: true"), std::string::npos) << error;
+  EXPECT_EQ(test::without_folders(error), "model.yaml:4:17: wrong_value") << error;
   EXPECT_EQ(error.find("Tridiag"), std::string::npos) << error;
   EXPECT_EQ(model_of(cross(", section_inertia: true")).bodies[0].modes(), 108);
 }

@@ -61,12 +61,12 @@ TEST(GrowingFile, IsContinuedFromAPosition) {
   EXPECT_EQ(folder.read("x.csv"), "first\nsecond\nother\nmore\n") << "it is only looked at";
   folder.write("x.csv", "first\nsecond\n");
   EXPECT_EQ(looked_at(), refused());
-  EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: found 13 bytes, expected 19 or more");
+  EXPECT_EQ(refused(), "wrong_value");
   folder.write("x.csv", "first\nSecond\nother\n");
-  EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: its content is not what was written");
+  EXPECT_EQ(refused(), "damaged");
   EXPECT_EQ(folder.read("x.csv"), "first\nSecond\nother\n") << "nothing is cut off";
   std::filesystem::remove(path);
-  EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: No such file or directory");
+  EXPECT_EQ(refused(), "unreadable");
 }
 
 TEST(GrowingFile, AtALimitABlockIsKeptWholeOrNotAtAll) {
@@ -123,10 +123,7 @@ TEST(FolderLock, IsHeldByOneAndLeavesNothing) {
   };
   {
     const FolderLock lock(folder.path().string());
-    EXPECT_NE(refused().find("is in use: a run of process " + std::to_string(::getpid()) +
-                             " writes there; give another --out, or wait for its end"),
-              std::string::npos)
-        << refused();
+    EXPECT_EQ(refused(), "in_use") << refused();
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   EXPECT_EQ(refused(), "no error");
@@ -142,8 +139,7 @@ TEST(FolderLock, WritesIntoNothingButItsOwnFiles) {
   other.write("letter.txt", "dear reader\n");
   const auto letter = other.path() / "letter.txt", lock = folder.path() / FolderLock::file_name;
   const auto refused = [&] {
-    const std::string text = folder.without(error_of([&] { FolderLock(folder.path().string()); }));
-    return text.find("is not a lock of this program") != std::string::npos;
+    return error_of([&] { FolderLock(folder.path().string()); }) == "exists";
   };
   std::filesystem::create_symlink(letter, lock);
   EXPECT_TRUE(refused());

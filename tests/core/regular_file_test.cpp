@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
@@ -62,7 +63,7 @@ TEST_F(RegularFile, WhatIsNoRegularFile) {
     regular_file(pipe);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.errors().front().text(), pipe.string() + ": this is not a regular file");
+    EXPECT_EQ(test::code_of(error.errors().front()), pipe.string() + ": unreadable");
   }
 }
 

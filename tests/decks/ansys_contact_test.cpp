@@ -36,9 +36,7 @@ TEST(AnsysContact, BondedPairsAreTiedOthersAsTheOptionsSay) {
   EXPECT_TRUE(ansys_of(two_bricks(0), options).equations.empty());
   options.contact = DeckContact::tied;
   EXPECT_EQ(ansys_of(two_bricks(0), options).equations.size(), 12u);
-  EXPECT_EQ(ansys_error(two_bricks(0)),
-            "a.cdb:36: the contact pair of real constants 4 is not linear: --contact ignore (key "
-            "`contact`) leaves its surfaces free, --contact tied joins them where they touch");
+  EXPECT_EQ(ansys_error(two_bricks(0)), "a.cdb:36: wrong_value");
 }
 
 TEST(AnsysContact, RemotePoints) {
@@ -75,9 +73,7 @@ TEST(AnsysContact, ShapesOfTargets) {
     EXPECT_EQ(m.node_ids[m.spiders[0].reference], 50);
     EXPECT_EQ(m.spiders[0].nodes, (std::vector<int>{1, 2, 5, 6}));
   }
-  EXPECT_EQ(ansys_error(deck("TSHAP,SPHE")),
-            "a.cdb:29: TSHAP: targets of the shape 'SPHE' are not read, expected one of nodes "
-            "(LINE, PARA, TRIA, TRI6, QUAD, QUA8, POINT) or a pilot node (PILO)");
+  EXPECT_EQ(ansys_error(deck("TSHAP,SPHE")), "a.cdb:29: unsupported");
 }
 
 /// Faces of different size and kind, with and without mid-side nodes.

@@ -10,6 +10,7 @@
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/text/text_source.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe::test {
 
@@ -23,7 +24,7 @@ inline std::string ansys_error(const std::string& text, const FeReadOptions& opt
   try {
     static_cast<void>(ansys_of(text, options));
   } catch (const InputError& e) {
-    return e.what();
+    return test::codes_of(e);
   }
   return {};
 }

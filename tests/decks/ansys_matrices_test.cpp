@@ -103,22 +103,13 @@ TEST(AnsysMatrices, Errors) {
   K(3, 3) = K(9, 9) = 40.0;
   K(3, 9) = K(9, 3) = -60.0;
   const std::string constants = matrix_constants_of(K), at = "element 2 (MATRIX27): ";
-  EXPECT_EQ(ansys_error(matrix_deck(constants)),
-            "a.cdb:40: " + at + "its stiffness has negative eigenvalues, expected none below 0");
+  EXPECT_EQ(ansys_error(matrix_deck(constants)), "a.cdb:40: out_of_range");
   K.setZero();
   K(1, 1) = 5.0;
-  EXPECT_EQ(ansys_error(matrix_deck(matrix_constants_of(K))),
-            "a.cdb:40: " + at +
-                "it holds its nodes to the ground: a translation of both has a force in it; only "
-                "stiffness between its nodes is read");
-  EXPECT_EQ(ansys_error(matrix_deck(constants, "3")),
-            "a.cdb:40: " + at +
-                "KEYOPT(2) = 0, KEYOPT(3) = 3: expected a symmetric stiffness (0, 4) or mass (0, "
-                "2)");
-  EXPECT_EQ(ansys_error(matrix_deck(constants + "RMORE,3\n")),
-            "a.cdb:25: real constants 7: constant 79 is 3, expected 78 of a symmetric matrix");
-  EXPECT_EQ(ansys_error(matrix_deck("R,8,1\n")),
-            "a.cdb:28: " + at + "its real constants 7 are not in the file");
+  EXPECT_EQ(ansys_error(matrix_deck(matrix_constants_of(K))), "a.cdb:40: unsupported");
+  EXPECT_EQ(ansys_error(matrix_deck(constants, "3")), "a.cdb:40: wrong_value");
+  EXPECT_EQ(ansys_error(matrix_deck(constants + "RMORE,3\n")), "a.cdb:25: out_of_range");
+  EXPECT_EQ(ansys_error(matrix_deck("R,8,1\n")), "a.cdb:28: not_found");
   const FeModel damper = ansys_of(matrix_deck(constants, "5"));
   EXPECT_TRUE(damper.springs.empty());
   EXPECT_EQ(damper.notes.at(0), "a.cdb:40: " + at +
@@ -152,11 +143,7 @@ TEST(AnsysMatrices, MassesOfPoints) {
   one.diagonal().head<3>().setConstant(4.0);
   EXPECT_EQ(ansys_of(deck(one)).masses.size(), 1u);
 
-  const std::string wrong =
-      "a.cdb:40: element 2 (MATRIX27): its mass is not that of a rigid point at each node: "
-      "expected "
-      "equal masses in three directions, moments of inertia and nothing between the nodes, or "
-      "between displacements and rotations";
+  const std::string wrong = "a.cdb:40: out_of_range";
   Mat12 bad = M;
   bad(1, 1) = 2.5;
   EXPECT_EQ(ansys_error(deck(bad)), wrong);
@@ -167,10 +154,7 @@ TEST(AnsysMatrices, MassesOfPoints) {
   bad(0, 6) = bad(6, 0) = 0.5;
   EXPECT_EQ(ansys_error(deck(bad)), wrong);
   bad = -M;
-  EXPECT_EQ(
-      ansys_error(deck(bad)),
-      "a.cdb:40: element 2 (MATRIX27): its mass has a negative term on its diagonal, expected "
-      "none below 0");
+  EXPECT_EQ(ansys_error(deck(bad)), "a.cdb:40: out_of_range");
 }
 
 /// A node that only a spring turns keeps its inertia.

@@ -51,8 +51,7 @@ TEST(CalculixHabits, FurtherNodesOfShellsAreAnError) {
         "7, 1, 2, 3, 4\n*SHELL SECTION, ELSET=E, MATERIAL=STEEL\n0.1\n" +
         std::string(steel_of_deck));
   });
-  EXPECT_NE(error.find("deck.inp:7: element 7 (S3) has 4 nodes, expected 3"), std::string::npos)
-      << error;
+  EXPECT_EQ(test::without_folders(error), "deck.inp:7: wrong_count") << error;
 }
 
 /// The same bar, its section written in two ways.
@@ -102,7 +101,7 @@ TEST(CalculixHabits, SurfacesOpenedAgainGrow) {
               options.dialect = DeckDialect::abaqus;
               read_abaqus(source, options);
             }),
-            "deck.inp:11: *SURFACE names the surface 'S' a second time");
+            "deck.inp:11: duplicate");
 }
 
 TEST(CalculixHabits, TheLastSectionOfAnElementCounts) {

@@ -38,13 +38,8 @@ TEST(CutDecks, AnsysBlocksEndWithMinusOne) {
   const FeModel whole = ansys_of(deck + "      -1\n");
   EXPECT_EQ(whole.elements.size(), 2u);
   EXPECT_FALSE(has_note_of(whole, "cut short"));
-  EXPECT_EQ(
-      ansys_error(deck),
-      "a.cdb:16: the file ends within EBLOCK, which begins in line 13 and ends with -1: it is "
-      "cut short");
-  EXPECT_EQ(ansys_error(cut_types + cut_nodes),
-            "a.cdb:11: the file ends within NBLOCK, which begins in line 5 and ends with -1: it is "
-            "cut short");
+  EXPECT_EQ(ansys_error(deck), "a.cdb:16: damaged");
+  EXPECT_EQ(ansys_error(cut_types + cut_nodes), "a.cdb:11: damaged");
 }
 
 TEST(CutDecks, CountsOfAnsysBlocksAreCompared) {
@@ -66,12 +61,9 @@ TEST(CutDecks, WhatWorkbenchWritesAroundTheMesh) {
       mesh + "/golist\n/auto,1\n/dist,1,5\ncm,_X,node\ntblist\n*abset,'Working','MSG'\nfinish\n");
   EXPECT_EQ(m.elements.size(), 2u);
   // A value of the session is an error where it is used.
-  EXPECT_NE(ansys_error("*get,h,active,,time,wall\n" + mesh + "R,1,h\nMP,EX,1,h\n")
-                .find("'h' is not a number"),
-            std::string::npos);
-  EXPECT_NE(ansys_error(mesh + "PSMESH,1,bolt\n")
-                .find("PSMESH: take the cut and its tension out of the model"),
-            std::string::npos);
+  EXPECT_EQ(ansys_error("*get,h,active,,time,wall\n" + mesh + "R,1,h\nMP,EX,1,h\n"),
+            "a.cdb:19: unsupported");
+  EXPECT_EQ(ansys_error(mesh + "PSMESH,1,bolt\n"), "a.cdb:18: wrong_value");
 }
 
 const std::string nastran_cut =
@@ -101,8 +93,7 @@ TEST(CutDecks, NastranSaysWhatIsMissingOrPassedOver) {
 TEST(CutDecks, ALongLineOfNastranIsOneError) {
   const std::string text =
       "SOL 103\nCEND\nBEGIN BULK\n" + nastran_cut + "GRID,5,,1.,1.,1.,,,,,,7\nENDDATA\n";
-  EXPECT_EQ(error_of([&] { nastran_deck(text); }),
-            "a.bdf:11: the line has 12 fields; a line in free field has at most 10");
+  EXPECT_EQ(error_of([&] { nastran_deck(text); }), "a.bdf:11: out_of_range");
 }
 
 const std::string two_blocks =
@@ -140,14 +131,8 @@ TEST(CutDecks, GeneralContactIsLeftOutOnRequest) {
   const auto refusal = [&](DeckContact how) {
     return error_of([&] { blocks_with(contact, how); });
   };
-  EXPECT_NE(
-      refusal(DeckContact::refuse)
-          .find(
-              "*CONTACT is not linear: --contact ignore (key `contact`) leaves all surfaces free"),
-      std::string::npos);
-  EXPECT_NE(refusal(DeckContact::tied)
-                .find("*CONTACT is general contact, which names no surfaces to tie"),
-            std::string::npos);
+  EXPECT_EQ(refusal(DeckContact::refuse), "a.inp:38: wrong_value");
+  EXPECT_EQ(refusal(DeckContact::tied), "a.inp:38: wrong_value");
 }
 
 }  // namespace

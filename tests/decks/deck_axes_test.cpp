@@ -147,8 +147,7 @@ TEST(DeckAxes, PointsOnALine) {
         [&] { axes_deck("RECTANGULAR\n" + points + "\n*ORIENTATION, NAME=UNUSED", {}, dialect); });
   };
   const std::string with_c = "1, 0, 0, 0, 1, 0, .5, .5, 0", without = "1, 0, 0, 2, 0, 0, 0, 0, 1";
-  const std::string error =
-      "axes.inp:15: orientation 'O' has its points a, b and the origin on a line";
+  const std::string error = "axes.inp:15: wrong_value";
   EXPECT_EQ(deck(with_c, DeckDialect::abaqus), error);
   EXPECT_EQ(deck(with_c, DeckDialect::calculix), "no error");
   EXPECT_EQ(deck(without, DeckDialect::abaqus), "no error");

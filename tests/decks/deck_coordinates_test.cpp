@@ -115,58 +115,40 @@ TEST(DeckCoordinates, Errors) {
   };
   const std::string general = "*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=1.\n";
   const Case cases[] = {
-      {"*SYSTEM\n0., 0., 0., 1., 0., 0.\n2., 0., 0.\n*NODE\n1\n",
-       "deck.inp:1: *SYSTEM has its three points on a line"},
-      {"*SYSTEM\n0., 0., 0., 0., 0., 1.\n*NODE\n1\n",
-       "deck.inp:1: *SYSTEM has its two points at one place as seen along the third axis"},
-      {"*SYSTEM\n0., zero, 0.\n*NODE\n1\n",
-       "deck.inp:2: coordinate of *SYSTEM: 'zero' is not a number"},
-      {"*NODE, SYSTEM=S\n1, 1., 2., 3.\n",
-       "deck.inp:1: *NODE has SYSTEM='S', expected R (rectangular) or C (cylindrical)"},
+      {"*SYSTEM\n0., 0., 0., 1., 0., 0.\n2., 0., 0.\n*NODE\n1\n", "deck.inp:1: geometry"},
+      {"*SYSTEM\n0., 0., 0., 0., 0., 1.\n*NODE\n1\n", "deck.inp:1: geometry"},
+      {"*SYSTEM\n0., zero, 0.\n*NODE\n1\n", "deck.inp:2: not_a_number"},
+      {"*NODE, SYSTEM=S\n1, 1., 2., 3.\n", "deck.inp:1: wrong_value"},
       {"*NODE\n1\n5, 1.\n*SYSTEM\n1., 1., 1.\n*NGEN, LINE=C\n1, 5, 1, , 0., 0., 0.\n",
-       "deck.inp:6: *NGEN has LINE=C while *SYSTEM holds: put *SYSTEM without lines before it"},
+       "deck.inp:6: wrong_value"},
       {"*NODE, NSET=A\n1\n*SYSTEM\n1., 1., 1.\n*NCOPY, CHANGE NUMBER=10, OLD SET=A, SHIFT\n1., 1., "
        "1.\n\n",
-       "deck.inp:5: *NCOPY shifts while *SYSTEM holds: put *SYSTEM without lines before it"},
-      {beams(general + "1., 1., 0., 1.\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has 4 constants, expected A, I11, I12, I22, J"},
-      {beams(general + "1., 1., .5, 1., 1.\n1., .4\n"),
-       "deck.inp:9: I12 is 0.5, expected 0: give the moments and direction 1 of the principal "
-       "axes"},
-      {beams(general + "1., 0., 0., 1., 1.\n1., .4\n"),
-       "deck.inp:9: moment I11 is 0, expected more than 0"},
-      {beams(general + "1., 1., 0., 1., 1., 0., 2.\n1., .4\n"),
-       "deck.inp:9: sectorial moment and warping constant are not read: expected 0"},
-      {beams(general + "1., 1., 0., 1., 1.\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has no line with E and G behind its dimensions"},
+       "deck.inp:5: wrong_value"},
+      {beams(general + "1., 1., 0., 1.\n"), "deck.inp:8: wrong_count"},
+      {beams(general + "1., 1., .5, 1., 1.\n1., .4\n"), "deck.inp:9: out_of_range"},
+      {beams(general + "1., 0., 0., 1., 1.\n1., .4\n"), "deck.inp:9: out_of_range"},
+      {beams(general + "1., 1., 0., 1., 1., 0., 2.\n1., .4\n"), "deck.inp:9: unsupported"},
+      {beams(general + "1., 1., 0., 1., 1.\n"), "deck.inp:8: unsupported"},
       {beams(general + "1., 1., 0., 1., 1.\n0., 1., 0.\n1., .4\n2., .4\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION depends on temperature or fields (a second line of E and "
-       "G), "
-       "which is not supported"},
-      {beams(general + "1., 1., 0., 1., 1.\n0., 0., 0.\n1., .4\n"),
-       "deck.inp:10: direction 1 of the section is zero"},
-      {beams(general + "1., 1., 0., 1., 1.\n3.\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has one number in its last line, expected E and G"},
-      {beams(general + "1., 1., 0., 1., 1.\n3., .5\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has E = 3 and G = 0.5, which no isotropic material has: "
-       "expected G from E/3 on"},
+       "deck.inp:8: unsupported"},
+      {beams(general + "1., 1., 0., 1., 1.\n0., 0., 0.\n1., .4\n"), "deck.inp:10: out_of_range"},
+      {beams(general + "1., 1., 0., 1., 1.\n3.\n"), "deck.inp:8: wrong_count"},
+      {beams(general + "1., 1., 0., 1., 1.\n3., .5\n"), "deck.inp:8: contradiction"},
       {beams("*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=1., LUMPED=NO\n1., 1., 0., 1., 1.\n1., "
              ".4\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has LUMPED='NO', expected YES: leave it out, and read "
-       "the "
-       "deck with --mass-form consistent"},
+       "deck.inp:8: exclusive"},
       {beams("*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=nan\n1., 1., 0., 1., 1.\n1., .4\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has the density 'nan', expected a number from 0"},
+       "deck.inp:8: out_of_range"},
       {beams("*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=heavy\n1., 1., 0., 1., 1.\n1., .4\n"),
-       "deck.inp:8: *BEAM GENERAL SECTION has the density 'heavy', expected a number from 0"},
+       "deck.inp:8: out_of_range"},
       {beams("*MATERIAL, NAME=M\n*ELASTIC\n1., .3\n*BEAM SECTION, ELSET=BEAM, MATERIAL=M, "
              "SECTION=RECT, "
              "DENSITY=1.\n1., 1.\n"),
-       "deck.inp:11: *BEAM SECTION has MATERIAL and DENSITY: leave the density to the material"},
+       "deck.inp:11: exclusive"},
       // One error, not those that follow from it.
       {"*MATERIAL, NAME=A\n*ELASTIC\n1., .3\n*DENSITY\n1.\n*MATERIAL, NAME=A\n*ELASTIC\n2., "
        ".3\n*DENSITY\n1.\n",
-       "deck.inp:6: *MATERIAL names the material 'A' a second time (deck.inp:1)"},
+       "deck.inp:6: duplicate"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);

@@ -33,8 +33,7 @@ std::string error(const std::string& text, DeckDialect dialect = DeckDialect::by
 
 TEST(DeckKeywords, UnknownOnesStop) {
   EXPECT_EQ(error(tetrahedron + "*SPECIAL LAYER\n1, 2\n*SPECIAL LAYER\n3\n"),
-            "deck.inp:14: *SPECIAL LAYER is not known and may change stiffness, mass or "
-            "constraints: take it out of the deck if it does not");
+            "deck.inp:14: unknown_key");
 }
 
 TEST(DeckKeywords, MeansOfRotations) {
@@ -55,31 +54,19 @@ TEST(DeckKeywords, MeansOfRotations) {
             "deck.inp:19: *DISTRIBUTING, COUPLING=STRUCTURAL is taken as CONTINUUM: the reference "
             "follows the displacements of its nodes, rotations of nodes of shells and beams do not "
             "count");
-  EXPECT_EQ(error(deck(", COUPLING=BOTH")),
-            "deck.inp:19: *DISTRIBUTING has COUPLING='BOTH', expected CONTINUUM or STRUCTURAL");
+  EXPECT_EQ(error(deck(", COUPLING=BOTH")), "deck.inp:19: wrong_value");
 }
 
 TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
   const std::pair<const char*, const char*> cases[] = {
-      {"*REBAR, ELEMENT=CONTINUUM, MATERIAL=STEEL, NAME=R\nBODY, 1.\n",
-       "*REBAR is not supported: use elements of their own"},
-      {"*Surface Section, elset=BODY, density=0.1\n",
-       "*SURFACE SECTION has the density '0.1': the mass of surface elements is not read, use "
-       "*MASS or shells"},
-      {"*FOUNDATION\nBODY, F1, 3.\n",
-       "*FOUNDATION is not supported: put springs, dampers and connectors into the multibody "
-       "model"},
-      {"*CONNECTOR DAMPING, COMPONENT=1\n3.\n",
-       "*CONNECTOR DAMPING is not supported: cut the deck there: each body is a part of its own, "
-       "and the joint is one of the model"},
-      {"*ELEMENT, TYPE=CONN3D2, ELSET=HINGE\n2, 1, 2\n",
-       "*ELEMENT has the type 'CONN3D2', which is not supported: cut the deck there, each body is "
-       "a part of its own, and the joint is one of the model"},
-      {"*TRANSVERSE SHEAR STIFFNESS\n1., 1., 1.\n",
-       "*TRANSVERSE SHEAR STIFFNESS is not supported: the stiffness in shear follows from the "
-       "section"},
-      {"*ELASTIC\n7.e4, .3\n", "*ELASTIC is given a second time for its material"},
-      {"*DENSITY\n1.\n", "*DENSITY is given a second time for its material"}};
+      {"*REBAR, ELEMENT=CONTINUUM, MATERIAL=STEEL, NAME=R\nBODY, 1.\n", "unsupported"},
+      {"*Surface Section, elset=BODY, density=0.1\n", "unsupported"},
+      {"*FOUNDATION\nBODY, F1, 3.\n", "unsupported"},
+      {"*CONNECTOR DAMPING, COMPONENT=1\n3.\n", "unsupported"},
+      {"*ELEMENT, TYPE=CONN3D2, ELSET=HINGE\n2, 1, 2\n", "unsupported"},
+      {"*TRANSVERSE SHEAR STIFFNESS\n1., 1., 1.\n", "unsupported"},
+      {"*ELASTIC\n7.e4, .3\n", "duplicate"},
+      {"*DENSITY\n1.\n", "duplicate"}};
   for (const auto& [keyword, sentence] : cases)
     EXPECT_EQ(error(tetrahedron + keyword), std::string("deck.inp:14: ") + sentence);
 }
@@ -97,7 +84,7 @@ TEST(DeckKeywords, BoltsWithoutTheirPreload) {
 TEST(DeckKeywords, BoltsOfASurfaceThatIsNotThere) {
   EXPECT_EQ(error(tetrahedron +
                   "*SURFACE, NAME=SHANK\n1, S1\n*PRE-TENSION SECTION, SURFACE=SHANC, NODE=4\n"),
-            "deck.inp:16: surface 'SHANC' does not exist, did you mean 'SHANK'?");
+            "deck.inp:16: not_found");
 }
 
 TEST(DeckKeywords, SurfaceSectionWithoutMassIsNoted) {
@@ -164,11 +151,9 @@ TEST(DeckKeywords, BesideMatricesOnlyNodesCount) {
 
 TEST(DeckKeywords, StepsDoNotChangeThePart) {
   EXPECT_EQ(error(tetrahedron + "*STEP\n*STATIC\n*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n"),
-            "deck.inp:16: *ELEMENT is inside the *STEP of line 14, but the part must be complete "
-            "before the first step");
+            "deck.inp:16: contradiction");
   EXPECT_EQ(error(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nBODY\n*END STEP\n"),
-            "deck.inp:15: *MODEL CHANGE is inside the *STEP of line 14, but the part must be "
-            "complete before the first step");
+            "deck.inp:15: contradiction");
   EXPECT_EQ(error(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nA, B\n"
                                 "*CHANGE FRICTION\n*BOUNDARY\n1, 1, 3\n*EQUATION, REMOVE\n1, 1\n"
                                 "*EQUATION, REMOVE ALL\n"
@@ -192,15 +177,8 @@ const std::string calculix_clue = "*STEP\n*FREQUENCY, SOLVER=PARDISO\n3\n*END ST
 const std::string abaqus_clue = "*STEP, NAME=Step-1\n*FREQUENCY\n3\n*END STEP\n";
 
 TEST(DeckDialects, ARoundSectionWithoutClueIsRefused) {
-  EXPECT_EQ(error(beam("CIRC\n2.")),
-            "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is a radius in Abaqus and a diameter in "
-            "CalculiX, and nothing in the deck shows whose it is: give --dialect abaqus or "
-            "--dialect calculix (in a model file 'dialect:')");
-  EXPECT_EQ(error(beam("CIRC\n2.", calculix_clue + abaqus_clue)),
-            "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is a radius in Abaqus and a diameter in "
-            "CalculiX, and the deck has things of both (*STEP, NAME=STEP-1, *FREQUENCY, "
-            "SOLVER=PARDISO): give --dialect abaqus or --dialect calculix (in a model file "
-            "'dialect:')");
+  EXPECT_EQ(error(beam("CIRC\n2.")), "deck.inp:13: out_of_range");
+  EXPECT_EQ(error(beam("CIRC\n2.", calculix_clue + abaqus_clue)), "deck.inp:13: out_of_range");
 }
 
 TEST(DeckDialects, TheUserMayTell) {
@@ -248,21 +226,14 @@ TEST(DeckDialects, TwoNumbersAreAnEllipseOfCalculix) {
                                    "2.\n"));
   EXPECT_NEAR(both.sections.at(0).A, 9.0, 1e-14);
   EXPECT_NEAR(both.sections.at(1).A, pi, 1e-14);
-  EXPECT_EQ(error(beam("CIRC\n4., 2."), DeckDialect::abaqus),
-            "deck.inp:13: *BEAM SECTION has 2 dimensions, expected 1");
-  EXPECT_EQ(error(beam("CIRC\n4., 2.", abaqus_clue)),
-            "deck.inp:13: *BEAM SECTION, SECTION=CIRC has dimensions as in CalculiX, but the deck "
-            "has *STEP, NAME=STEP-1 (deck.inp:15), which only Abaqus has; if it is one of CalculiX "
-            "give --dialect calculix");
-  EXPECT_EQ(error(beam("CIRC\n4., 2., 1.")),
-            "deck.inp:13: *BEAM SECTION has 3 dimensions, expected 1 or 2");
-  EXPECT_EQ(error(beam("PIPE\n4.")), "deck.inp:13: *BEAM SECTION has 1 dimension, expected 2");
+  EXPECT_EQ(error(beam("CIRC\n4., 2."), DeckDialect::abaqus), "deck.inp:13: wrong_count");
+  EXPECT_EQ(error(beam("CIRC\n4., 2.", abaqus_clue)), "deck.inp:13: unsupported");
+  EXPECT_EQ(error(beam("CIRC\n4., 2., 1.")), "deck.inp:13: wrong_count");
+  EXPECT_EQ(error(beam("PIPE\n4.")), "deck.inp:13: wrong_count");
   // One sentence for a number that is wrong.
-  EXPECT_EQ(error(beam("PIPE\n-4., 1.")), "deck.inp:14: outer radius is -4, expected more than 0");
-  EXPECT_EQ(error(beam("BOX\n1., 0., .1, .1, .1, .1")),
-            "deck.inp:14: height of the box is 0, expected more than 0");
-  EXPECT_EQ(error(beam("RECT\nwide, 1.")),
-            "deck.inp:14: width of the rectangle: 'wide' is not a number");
+  EXPECT_EQ(error(beam("PIPE\n-4., 1.")), "deck.inp:14: out_of_range");
+  EXPECT_EQ(error(beam("BOX\n1., 0., .1, .1, .1, .1")), "deck.inp:14: out_of_range");
+  EXPECT_EQ(error(beam("RECT\nwide, 1.")), "deck.inp:14: not_a_number");
 }
 
 }  // namespace

@@ -50,22 +50,19 @@ std::string include_errors(const TemporaryFolder& folder, const std::string& inc
 
 TEST(DeckLimits, IncludesThatMultiply) {
   const TemporaryFolder folder;
-  const std::string sentence = ": the files include each other more than 10000 times";
   const std::string abaqus = include_errors(folder, "*INCLUDE, INPUT={}", ".inp", "abaqus");
-  EXPECT_NE(abaqus.find(sentence), std::string::npos) << abaqus;
+  EXPECT_TRUE(abaqus.ends_with(": too_large")) << abaqus;
   EXPECT_NE(abaqus.find(".inp:"), std::string::npos) << abaqus;
   const std::string nastran = include_errors(folder, "INCLUDE '{}'", ".bdf", "nastran");
-  EXPECT_NE(nastran.find(sentence), std::string::npos) << nastran;
+  EXPECT_TRUE(nastran.ends_with(": too_large")) << nastran;
 }
 
 TEST(DeckLimits, LongKeywordLines) {
   EXPECT_EQ(abaqus_errors("*NODE\n1\n*" + std::string(20'000'000, 'A') + "\n1\n"),
-            "deck.inp:3: the keyword line '*AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA...' has more "
-            "than 65536 characters");
+            "deck.inp:3: too_large");
   std::string parameters = "*NODE";
   for (int k = 0; k < 90; ++k) parameters += ",\n" + std::string(1000, 'B') + "=1";
-  EXPECT_EQ(abaqus_errors("** many lines\n" + parameters + "\n1\n"),
-            "deck.inp:2: the keyword line '*NODE,' has more than 65536 characters");
+  EXPECT_EQ(abaqus_errors("** many lines\n" + parameters + "\n1\n"), "deck.inp:2: too_large");
 }
 
 TEST(DeckLimits, UnknownKeywordsAreNamedOnce) {
@@ -76,7 +73,25 @@ TEST(DeckLimits, UnknownKeywordsAreNamedOnce) {
   for (int k = 0; k < 1000; ++k) different += fmt::format("*SPECIAL LAYER {}\n", k);
   const std::string errors = abaqus_errors(different);
   EXPECT_EQ(lines_of(errors), TextSource::most_errors + 1);
-  EXPECT_NE(errors.find("\nreading ends after 50 errors"), std::string::npos);
+  EXPECT_EQ(errors,
+            "deck.inp:3: unknown_key\ndeck.inp:4: unknown_key\ndeck.inp:5: "
+            "unknown_key\ndeck.inp:6: unknown_key\ndeck.inp:7: unknown_key\ndeck.inp:8: "
+            "unknown_key\ndeck.inp:9: unknown_key\ndeck.inp:10: unknown_key\ndeck.inp:11: "
+            "unknown_key\ndeck.inp:12: unknown_key\ndeck.inp:13: unknown_key\ndeck.inp:14: "
+            "unknown_key\ndeck.inp:15: unknown_key\ndeck.inp:16: unknown_key\ndeck.inp:17: "
+            "unknown_key\ndeck.inp:18: unknown_key\ndeck.inp:19: unknown_key\ndeck.inp:20: "
+            "unknown_key\ndeck.inp:21: unknown_key\ndeck.inp:22: unknown_key\ndeck.inp:23: "
+            "unknown_key\ndeck.inp:24: unknown_key\ndeck.inp:25: unknown_key\ndeck.inp:26: "
+            "unknown_key\ndeck.inp:27: unknown_key\ndeck.inp:28: unknown_key\ndeck.inp:29: "
+            "unknown_key\ndeck.inp:30: unknown_key\ndeck.inp:31: unknown_key\ndeck.inp:32: "
+            "unknown_key\ndeck.inp:33: unknown_key\ndeck.inp:34: unknown_key\ndeck.inp:35: "
+            "unknown_key\ndeck.inp:36: unknown_key\ndeck.inp:37: unknown_key\ndeck.inp:38: "
+            "unknown_key\ndeck.inp:39: unknown_key\ndeck.inp:40: unknown_key\ndeck.inp:41: "
+            "unknown_key\ndeck.inp:42: unknown_key\ndeck.inp:43: unknown_key\ndeck.inp:44: "
+            "unknown_key\ndeck.inp:45: unknown_key\ndeck.inp:46: unknown_key\ndeck.inp:47: "
+            "unknown_key\ndeck.inp:48: unknown_key\ndeck.inp:49: unknown_key\ndeck.inp:50: "
+            "unknown_key\ndeck.inp:51: unknown_key\ndeck.inp:52: unknown_key\ntoo_large (0)")
+      << errors;
   std::string cards;
   for (int k = 0; k < 100'000; ++k) cards += fmt::format("X{},1\n", k);
   EXPECT_EQ(lines_of(nastran_errors(cards)), TextSource::most_errors + 1);
@@ -93,7 +108,7 @@ TEST(DeckLimits, SetsThatDouble) {
   // Each set names the one before it twice: the members are found once.
   std::string text = nodes(2) + "*NSET, NSET=S0\n1, 2\n";
   for (int k = 1; k < 150; ++k) text += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, k - 1);
-  EXPECT_EQ(abaqus_errors(text), "deck.inp: the deck has no element with stiffness");
+  EXPECT_EQ(abaqus_errors(text), "deck.inp: missing");
 }
 
 TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
@@ -104,9 +119,7 @@ TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
     supports += "ALL, 1, 3\n";
     ranges += "1, 2000000000, 1\n";
   }
-  const std::string end =
-      "the sets of nodes, and what names them, have more than 10100000 members in all, too many "
-      "for a deck of 1000 nodes";
+  const std::string end = ": too_large";
   const auto ends = [&](const std::string& text) {
     const std::string errors = abaqus_errors(text);
     return errors.ends_with(end) ? end : errors;
@@ -151,17 +164,13 @@ TEST(DeckLimits, RangesOfNastranAgainAndAgain) {
     supports += "SPC1,1,123,1,THRU,2000000000\n";
     sets += "SET3,7,GRID,1,THRU,2000000000\n";
   }
-  const std::string end =
-      "the sets and supports have more than 10100100 members in all, too many for a file of 1000 "
-      "nodes and 1 elements";
   for (const std::string& more : {supports, sets}) {
     const std::string errors = nastran_errors(text + more);
-    EXPECT_TRUE(errors.ends_with(end)) << errors;
+    EXPECT_TRUE(errors.ends_with(": too_large")) << errors;
   }
   // Masses with an offset get a node of their own each, and no number is above the largest.
   EXPECT_EQ(nastran_errors("GRID,2147483647,,3.,0.,0.\n" + text + "CONM2,5,1,,1.,1.\n"),
-            "deck.bdf:1005: CONM2 5 needs a node of its own, but there is no number above "
-            "2147483647");
+            "deck.bdf:1005: incomplete");
 }
 
 TEST(DeckLimits, GroupsOfGmshAgainAndAgain) {
@@ -176,10 +185,7 @@ TEST(DeckLimits, GroupsOfGmshAgainAndAgain) {
   for (int k = 0; k < triangles; ++k) text += fmt::format("{} 1 2 3\n", k + 2);
   text += "$EndElements\n";
   const std::string errors = error_of([&] { parse_gmsh(text, "mesh.msh", {}); });
-  EXPECT_NE(errors.find("the physical groups have more than 10006500 members in all, too many for "
-                        "a mesh of 4 nodes and 61 elements"),
-            std::string::npos)
-      << errors;
+  EXPECT_TRUE(errors.ends_with(": too_large")) << errors;
 }
 
 }  // namespace

@@ -31,11 +31,7 @@ TEST(Density, MissingOnesAreAskedFor) {
   const FeModel model = read(folder, {});
   ASSERT_EQ(model.without_density.size(), 2u);
   const std::string text = error_of([&] { validate(model); });
-  EXPECT_NE(text.find("two.inp:11: material 'STEEL' has no density: give one in the file or as an "
-                      "option (--density, key `density`; 0 if all mass is in point masses)"),
-            std::string::npos)
-      << text;
-  EXPECT_NE(text.find("two.inp:14: material 'FOAM' has no density"), std::string::npos) << text;
+  EXPECT_EQ(test::without_folders(text), "two.inp:11: missing\ntwo.inp:14: missing") << text;
 }
 
 TEST(Density, OneForAllOrByName) {
@@ -61,20 +57,18 @@ TEST(Density, OneForAllOrByName) {
 TEST(Density, ThatNobodyNeedsIsAnError) {
   TemporaryFolder folder;
   folder.write("two.inp", two_materials_deck);
-  EXPECT_NE(error_of([&] {
+  EXPECT_EQ(test::without_folders(error_of([&] {
               read(folder, {{"STEAL", 7.0}});
-            })
-                .find("two.inp: a density is given for the material 'STEAL', but no material "
-                      "without a density has this name, did you mean 'STEEL'?"),
-            std::string::npos);
+            })),
+            "two.inp: missing");
   std::string deck = two_materials_deck;
   for (const char* elastic : {"210000., 0.3\n", "100., 0.2\n"})
     deck.insert(deck.find(elastic) + std::string(elastic).size(), "*DENSITY\n7.85e-9\n");
   folder.write("two.inp", deck);
-  EXPECT_NE(error_of([&] {
+  EXPECT_EQ(test::without_folders(error_of([&] {
               read(folder, {{"", 7.0}});
-            }).find("two.inp: a density is given, but every material of the file has one"),
-            std::string::npos);
+            })),
+            "two.inp: exclusive");
 }
 
 TEST(Density, OfNastranIsThatOfTheFile) {

@@ -60,8 +60,7 @@ TEST(ElementKinds, ShearFactorsOfNastran) {
   const std::string negative = bar_nodes +
                                "CBAR,1,1,1,2,0.,0.,1.\nPBAR,1,1,1.-3,1.-7,2.-7,2.-7,,\n,,,,,,,,\n"
                                ",-.8,.5\nMAT1,1,2.+11,,.3,8000.\n";
-  EXPECT_EQ(error_of([&] { nastran(negative); }),
-            "deck.bdf:5: PBAR 1: a shear factor (K1, K2) is negative");
+  EXPECT_EQ(error_of([&] { nastran(negative); }), "deck.bdf:5: out_of_range");
 }
 
 const std::string steel_deck = "*MATERIAL, NAME=M\n*ELASTIC\n2.e11, .3\n*DENSITY\n8000.\n";
@@ -142,8 +141,7 @@ TEST(ElementKinds, ShellsWithMiddles) {
   EXPECT_TRUE(noted(m, "1 CQUAD8 elements without mid-side nodes are read as CQUAD4"));
   EXPECT_TRUE(noted(m, "1 CQUADR elements are read as CQUAD4"));
   EXPECT_EQ(error_of([] { nastran(square + "CQUAD8,1,1,1,2,3,4,5,6\n"); }),
-            "deck.bdf:12: CQUAD8 1: only a part of its mid-side nodes is given; all or none must "
-            "be");
+            "deck.bdf:12: incomplete");
 
   const FeModel s8 = abaqus(
       "*NODE\n1\n2, 2.\n3, 2., 2.\n4, 0., 2.\n5, 1.\n6, 2., 1.\n7, 1., 2.\n8, 0., 1.\n9, 1., 1.\n"

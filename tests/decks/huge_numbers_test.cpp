@@ -26,16 +26,15 @@ std::string huge_stick(const std::string& section) {
 
 TEST(HugeNumbers, OffsetsOfBeams) {
   const std::string square = "*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT\n.1, .1\n";
-  const std::string numbers = " of the node, expected numbers whose squares do not overflow";
   EXPECT_EQ(huge_error(huge_stick(square + "0., 1., 0.\n*BEAM SECTION OFFSET\n1e300, 0.\n")),
-            "huge.inp:11: *BEAM SECTION: its centroid is at (1e+300, 0)" + numbers);
+            "huge.inp:11: not_finite");
   EXPECT_EQ(huge_error(huge_stick("*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT, "
                                   "OFFSET2=1e308\n100., 100.\n0., 1., 0.\n")),
-            "huge.inp:11: *BEAM SECTION: its centroid is at (0, -inf)" + numbers);
+            "huge.inp:11: not_finite");
   EXPECT_EQ(huge_error(huge_stick("*BEAM GENERAL SECTION, ELSET=S, SECTION=GENERAL\n.01, 1e-5, 0., "
                                   "2e-5, 1e-6\n0., 1., 0.\n2e11, 8e10\n*CENTROID\n0., 1e300\n"
                                   "*SHEAR CENTER\n0., 2.\n")),
-            "huge.inp:11: *BEAM GENERAL SECTION: its centroid is at (0, 1e+300)" + numbers);
+            "huge.inp:11: not_finite");
   // A direction 1 of that size is a direction.
   TextSource source(huge_stick(square + "0., 1e300, 0.\n*BEAM SECTION OFFSET\n.5, 0.\n"), "a.inp");
   const FeModel m = read_abaqus(source, {});
@@ -46,8 +45,7 @@ TEST(HugeNumbers, OffsetsOfBeams) {
 TEST(HugeNumbers, SectionsOfBeams) {
   EXPECT_EQ(
       huge_error(huge_stick("*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT\n1e80, 1e80\n")),
-      "huge.inp:11: *BEAM SECTION: its area is 1e+160, its moments are inf and inf, its "
-      "torsion constant is inf and its mass over length 2.7e+163, expected finite numbers");
+      "huge.inp:11: not_finite");
 }
 
 /// A cube and a plate apart from it; sections begin in line 20.
@@ -60,12 +58,10 @@ const std::string huge_things =
 TEST(HugeNumbers, LayersOfShells) {
   const auto error = [](const std::string& plate) { return huge_error(huge_things + plate); };
   EXPECT_EQ(error("*SHELL SECTION, ELSET=PLATE, COMPOSITE\n1e308, 3, M\n1e308, 3, M\n"),
-            "huge.inp:20: *SHELL SECTION: its thickness is inf, expected a number whose cube "
-            "does not overflow");
+            "huge.inp:20: not_finite");
   EXPECT_EQ(error("*SHELL SECTION, ELSET=PLATE, MATERIAL=M, NODAL THICKNESS\n*NODAL THICKNESS\n"
                   "1, 1e308\n2, 1e308\n3, 1e308\n4, 1e308\n"),
-            "huge.inp:20: *SHELL SECTION: its thickness is inf, expected a number whose cube "
-            "does not overflow");
+            "huge.inp:20: not_finite");
 }
 
 TEST(HugeNumbers, NonstructuralMass) {
@@ -73,19 +69,16 @@ TEST(HugeNumbers, NonstructuralMass) {
   const auto error = [&](const std::string& more) {
     return huge_error(huge_things + plate + "*NONSTRUCTURAL MASS, ELSET=" + more);
   };
-  const std::string at = "huge.inp:22: *NONSTRUCTURAL MASS ";
   EXPECT_EQ(error("PLATE, UNITS=TOTAL MASS, DISTRIBUTION=VOLUME PROPORTIONAL\n1.7e308\n"),
-            at + "gives element 2 (S4) a mass over area of inf, expected a finite number");
+            "huge.inp:22: not_finite");
   EXPECT_EQ(huge_error("*NODE\n1, 0., 0.\n2, 4., 0.\n3, 4., 4.\n4, 0., 4.\n*ELEMENT, TYPE=S4, "
                        "ELSET=PLATE\n2, 1, 2, 3, 4\n" +
                        huge_material + plate +
                        "*NONSTRUCTURAL MASS, ELSET=PLATE, UNITS=MASS PER AREA\n1e308\n"),
-            "huge.inp:15: *NONSTRUCTURAL MASS gives its 1 elements a mass of inf, expected a "
-            "finite number");
+            "huge.inp:15: not_finite");
   EXPECT_EQ(error("CUBE, UNITS=MASS PER VOLUME\n1e308\n*NONSTRUCTURAL MASS, ELSET=CUBE, "
                   "UNITS=MASS PER VOLUME\n1e308\n"),
-            "huge.inp:24: *NONSTRUCTURAL MASS gives element 1 (C3D8) a density of inf, expected a "
-            "finite number");
+            "huge.inp:24: not_finite");
 }
 
 const std::string huge_block = cdb_square + cdb_steel;  // 18 lines
@@ -93,66 +86,50 @@ const std::string huge_block = cdb_square + cdb_steel;  // 18 lines
 TEST(HugeNumbers, LayersOfAnsys) {
   const std::string layers = "SECTYPE,1,SHELL\nSECDATA,1e308,1\nSECDATA,1e308,1,90\n";
   EXPECT_EQ(ansys_error("ET,1,190\n" + huge_block + layers + "E,1,2,3,4,5,6,7,8\n"),
-            "a.cdb:20: section 1: the thickness of its layers is inf and their mass over area "
-            "1.57e+300, expected finite numbers");
+            "a.cdb:20: not_finite");
   EXPECT_EQ(ansys_error("ET,1,181\n" + huge_block + layers + "E,1,2,3,4\n"),
-            "a.cdb:20: element 1 (SHELL181): its thickness is inf, expected a number whose cube "
-            "does not overflow");
+            "a.cdb:20: not_finite");
 }
 
 TEST(HugeNumbers, PlacesAndMaterials) {
-  const std::string cubes = ", expected numbers whose cubes do not overflow";
-  const std::string square = ", expected a number whose square does not overflow";
   EXPECT_EQ(huge_error("*NODE\n1, 0., 0., 0.\n2, 1e308, 0., 0.\n*ELEMENT, TYPE=B31, ELSET=S\n1, 1, "
                        "2\n"),
-            "huge.inp:3: node 2: it is at (1e+308, 0, 0)" + cubes);
-  EXPECT_EQ(ansys_error("ET,1,185\nN,1,0,1e160\n"),
-            "a.cdb:2: node 1: it is at (0, 1e+160, 0)" + cubes);
+            "huge.inp:3: not_finite");
+  EXPECT_EQ(ansys_error("ET,1,185\nN,1,0,1e160\n"), "a.cdb:2: not_finite");
   const auto stick_of = [](const std::string& material) {
     return huge_error(
         "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*ELEMENT, TYPE=T3D2, ELSET=S\n1, 1, 2\n"
         "*MATERIAL, NAME=M\n" +
         material + "*SOLID SECTION, ELSET=S, MATERIAL=M\n1.\n");
   };
-  EXPECT_EQ(stick_of("*ELASTIC\n1., 0.\n*DENSITY\n1e308\n"),
-            "huge.inp:6: material 'M': its density is 1e+308" + square);
-  EXPECT_EQ(stick_of("*ELASTIC\n1e300, 0.\n*DENSITY\n1.\n"),
-            "huge.inp:6: material 'M': its Young's modulus is 1e+300" + square);
+  EXPECT_EQ(stick_of("*ELASTIC\n1., 0.\n*DENSITY\n1e308\n"), "huge.inp:6: not_finite");
+  EXPECT_EQ(stick_of("*ELASTIC\n1e300, 0.\n*DENSITY\n1.\n"), "huge.inp:6: not_finite");
   EXPECT_EQ(ansys_error(cdb_brick + "MP,EX,1,2e5\nMP,PRXY,1,.3\nMP,DENS,1,1e200\n"),
-            "a.cdb:11: material 1: its density is 1e+200" + square);
+            "a.cdb:11: not_finite");
 }
 
 TEST(HugeNumbers, PointMasses) {
-  const std::string square = ", expected a number whose square does not overflow";
   EXPECT_EQ(
       huge_error(huge_stick("*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT\n.1, .1\n0., 1., "
                             "0.\n*ELEMENT, TYPE=MASS, ELSET=P\n2, 1\n*MASS, ELSET=P\n1e308\n")),
-      "huge.inp:16: *MASS of element 2 (MASS): its mass is 1e+308" + square);
+      "huge.inp:16: not_finite");
   EXPECT_EQ(ansys_error(cdb_brick + cdb_steel + "ET,2,21\nKEYOPT,2,3,2\nTYPE,2\nR,1,1e308\nE,1\n"),
-            "a.cdb:25: element 2 (MASS21): its mass is 1e+308" + square);
+            "a.cdb:25: not_finite");
 }
 
 TEST(HugeNumbers, BeamsOfAnsys) {
   const std::string beam = "ET,1,188\n" + huge_block + "SECTYPE,1,BEAM,RECT\nSECDATA,";
-  EXPECT_EQ(ansys_error(beam + "1e160,1\nE,1,2\n"),
-            "a.cdb:20: section 1 (RECT): its area is 1e+160, its moments are 8.33333e+158 and inf, "
-            "its torsion constant is 3.33333e+159, its areas in shear 8.33333e+159 and "
-            "8.33333e+159 and its "
-            "centroid (0, 0) from the node, expected finite numbers");
-  EXPECT_EQ(ansys_error(beam + "1,1\nSECOFFSET,USER,1e200\nE,1,2\n"),
-            "a.cdb:23: the end of a beam is (0, -1e+200, 0) from node 1, expected numbers whose "
-            "squares do not overflow");
+  EXPECT_EQ(ansys_error(beam + "1e160,1\nE,1,2\n"), "a.cdb:20: wrong_value");
+  EXPECT_EQ(ansys_error(beam + "1,1\nSECOFFSET,USER,1e200\nE,1,2\n"), "a.cdb:23: not_finite");
   EXPECT_EQ(ansys_error("ET,1,180\n" + huge_block + "R,1,1e-10,1e300\nE,1,2\n"),
-            "a.cdb:21: element 1 (LINK180): the density of its material 1 and its added mass make "
-            "inf, expected a finite number");
+            "a.cdb:21: not_finite");
 }
 
 TEST(HugeNumbers, MatricesOfAnsys) {
   for (const char* kind : {"4", "2"}) {
     EXPECT_EQ(ansys_error(cdb_brick + cdb_steel + "ET,2,27\nKEYOPT,2,3," + kind +
                           "\nR,7,1e308\nTYPE,2\nREAL,7\nE,1,2\n"),
-              "a.cdb:23: real constants 7: constant 1 is 1e+308, expected a number whose square "
-              "does not overflow");
+              "a.cdb:23: not_finite");
   }
 }
 

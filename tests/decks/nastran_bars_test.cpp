@@ -224,8 +224,7 @@ TEST(NastranBars, OffsetAgainstClosedForm) {
   EXPECT_LT((element.positions[2] - Vec3(0, 0, 2)).norm(), 1e-12);
   EXPECT_LT((element.positions[3] - Vec3(0, 10, 2)).norm(), 1e-12);
   EXPECT_NEAR(compliance(element, 1, 1), L / (E * A) + h * h * L / (E * I), 1e-9);
-  EXPECT_EQ(bars_error(upright + "GXO\n"),
-            "arm.bdf:5: CBAR 1: OFFT is 'GXO', expected GGG, BGG, GGO, BGO, GOG, BOG, GOO or BOO");
+  EXPECT_EQ(bars_error(upright + "GXO\n"), "arm.bdf:5: wrong_value");
 }
 
 TEST(NastranBars, PinsAgainstClosedForm) {
@@ -310,10 +309,9 @@ TEST(NastranBars, DefaultsOfBars) {
   const FeModel model = bars_of(nodes + "CBAR,1,,1,2\nBAROR,,7,,,0.,0.6,0.8\n");
   EXPECT_EQ(model.elements.at(0).reference, Vec3(0, 0.6, 0.8));
   EXPECT_EQ(model.element_sets.count("PID 7"), 1u);
-  EXPECT_EQ(bars_error(nodes + "CBAR,1,,1,2\nBEAMOR,,7,,,0.,0.6,0.8\n"),
-            "arm.bdf:5: CBAR 1: the orientation vector is missing");
+  EXPECT_EQ(bars_error(nodes + "CBAR,1,,1,2\nBEAMOR,,7,,,0.,0.6,0.8\n"), "arm.bdf:5: missing");
   EXPECT_EQ(bars_error(nodes + "CBAR,1,,1,2\nBAROR,,7,,,0.,1.,0.\nBAROR,,7,,,0.,1.,0.\n"),
-            "arm.bdf:7: BAROR: it is in the file twice, first in line 6");
+            "arm.bdf:7: duplicate");
 }
 
 // Bars without bending stiffness are rods, with torsion if they have a J.
@@ -373,11 +371,9 @@ TEST(NastranBars, BarsWithoutSomeOfTheirStiffness) {
   EXPECT_EQ(model.notes.at(0),
             "arm.bdf:7: PBAR 1: without I2, J its elements are rods and springs that bend as the "
             "beam does (without rotary inertia, stress and stress stiffness of bending)");
-  EXPECT_EQ(bars_error(nodes + "PBAR,1,1,.5,.2,-.3,.4\n"),
-            "arm.bdf:7: PBAR 1: I2 is -0.3, expected more than 0");
+  EXPECT_EQ(bars_error(nodes + "PBAR,1,1,.5,.2,-.3,.4\n"), "arm.bdf:7: out_of_range");
   std::string pinned = nodes + "PBAR,1,1,.5,.2,.3\n";
-  EXPECT_EQ(bars_error(pinned.insert(pinned.find("PBAR"), ",45\n")),
-            "arm.bdf:8: PBAR 1: J is 0, expected more than 0");
+  EXPECT_EQ(bars_error(pinned.insert(pinned.find("PBAR"), ",45\n")), "arm.bdf:8: out_of_range");
 }
 
 }  // namespace

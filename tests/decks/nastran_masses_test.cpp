@@ -74,32 +74,20 @@ TEST(NastranMasses, MatrixOfARigidBody) {
 }
 
 TEST(NastranMasses, Errors) {
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1\nCMASS2,6,3.,1,2\n"),
-            "arm.bdf:8: CMASS2 5: node 1 has the masses 3, 3 and 0 along x, y and z; a part that "
-            "moves freely has one mass in all directions (CONM2)");
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1,2,1\n"),
-            "arm.bdf:8: CMASS2 5: a mass between two nodes is not supported; give CONM2 at each");
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,12\n"),
-            "arm.bdf:8: CMASS2 5: the component is '12', expected one of 1 to 6");
-  EXPECT_EQ(mass_error(bar + "CMASS1,5,3,1,1\n"),
-            "arm.bdf:8: CMASS1 5: property 3 (PMASS) is not in the file");
-  EXPECT_EQ(
-      mass_error(bar + "CONM1,5,1,,2.,,2.,,\n,2.,.3\n"),
-      "arm.bdf:8: CONM1 5: the mass matrix of node 1 is not that of a rigid body; give CONM2");
+  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1\nCMASS2,6,3.,1,2\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1,2,1\n"), "arm.bdf:8: unsupported");
+  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,12\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(mass_error(bar + "CMASS1,5,3,1,1\n"), "arm.bdf:8: not_found");
+  EXPECT_EQ(mass_error(bar + "CONM1,5,1,,2.,,2.,,\n,2.,.3\n"), "arm.bdf:8: wrong_value");
 }
 
 // What only the reduction refuses has the place of its card too.
 TEST(NastranMasses, NoBodies) {
-  EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,3.\n"),
-            "arm.bdf:8: CONM2 5 on node 2: the principal moments of inertia break the triangle "
-            "inequality");
-  EXPECT_EQ(mass_error(bar + "CMASS2,6,3.,2,4\n"),
-            "arm.bdf:8: CMASS2 6 on node 2: the principal moments of inertia break the triangle "
-            "inequality");
-  EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.+300\n"),
-            "arm.bdf:9: CONM2 5 on node 2: the mass is inf, expected a finite number from 0");
+  EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,3.\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(mass_error(bar + "CMASS2,6,3.,2,4\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.+300\n"), "arm.bdf:9: not_finite");
   EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.\n,1.+300,,1.+300\n"),
-            "arm.bdf:9: CONM2 5 on node 2: the inertia must be finite and symmetric");
+            "arm.bdf:9: not_finite");
   EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,2.\n"), "no error");  // a flat one
 }
 
@@ -129,13 +117,10 @@ TEST(NastranMasses, CornersOfShells) {
   EXPECT_EQ(section("CQUAD4,1,1,1,2,3,4,,,\n,,,.02,.02,.02,.02\n"), (std::pair{.02, 0l}));
   EXPECT_EQ(section("CQUAD4,1,1,1,2,3,4,,,\n,,1,2.,2.,2.,2.\n"), (std::pair{.02, 0l}));
   EXPECT_EQ(section("CQUAD4,1,1,1,2,3,4,,,\n,,,.03,.03\n"), (std::pair{.02, 1l}));
-  EXPECT_EQ(mass_error(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,2,.03,.03\n"),
-            "arm.bdf:7: CQUAD4 1: TFLAG is 2, expected 0 or 1");
-  EXPECT_EQ(mass_error(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,,.03,0.\n"),
-            "arm.bdf:7: CQUAD4 1: the thickness of a corner is 0, expected more than 0");
-  EXPECT_EQ(
-      mass_error(shell + "PCOMP,2\n,1,.01\nCQUAD4,1,2,1,2,3,4,,,\n,,,.03,.03\n"),
-      "arm.bdf:9: CQUAD4 1: it has thicknesses of its corners, and its property 2 is a PCOMP");
+  EXPECT_EQ(mass_error(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,2,.03,.03\n"), "arm.bdf:7: out_of_range");
+  EXPECT_EQ(mass_error(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,,.03,0.\n"), "arm.bdf:7: out_of_range");
+  EXPECT_EQ(mass_error(shell + "PCOMP,2\n,1,.01\nCQUAD4,1,2,1,2,3,4,,,\n,,,.03,.03\n"),
+            "arm.bdf:9: wrong_value");
 }
 
 }  // namespace

@@ -138,14 +138,13 @@ TEST(NastranPanels, RodsAlongTheEdges) {
 
 TEST(NastranPanels, Errors) {
   const auto error = [](const std::string& text) { return error_of([&] { panel_deck(text); }); };
-  EXPECT_EQ(error(panel(",,-1.")), "arm.bdf:6: PSHEAR 1: F1 is -1, expected no negative number");
+  EXPECT_EQ(error(panel(",,-1.")), "arm.bdf:6: out_of_range");
   std::string text = panel();
   text.replace(text.find("1,2,3,4"), 7, "1,3,2,4");
-  EXPECT_EQ(error(text),
-            "arm.bdf:5: element 1 (shear4) is not convex, or its corners are in the wrong order");
+  EXPECT_EQ(error(text), "arm.bdf:5: wrong_value");
   text = panel();
   text.replace(text.find("MAT1,1,7.+10,,.25"), 17, "MAT8,1,7.+10,7.+10,.25,2.+10");
-  EXPECT_EQ(error(text), "arm.bdf:6: PSHEAR: material 1 is a MAT8, expected a MAT1");
+  EXPECT_EQ(error(text), "arm.bdf:6: wrong_value");
 }
 
 }  // namespace

@@ -63,70 +63,32 @@ TEST(NastranPassing, MissingIncludesOfTheExecutiveControl) {
                            "ignored: /dmap/alter.v9";
   EXPECT_EQ(std::count(m.notes.begin(), m.notes.end(), note), 1);
   folder.write("arm.bdf", "SOL 103\nCEND\nINCLUDE 'alter.v9'\nBEGIN BULK\n" + tetra);
-  EXPECT_NE(error_of([&] {
-              read_fe_file(folder / "arm.bdf");
-            }).find("arm.bdf:3: the include file 'alter.v9' does not exist in "),
-            std::string::npos);
+  EXPECT_EQ(test::without_folders(error_of([&] { read_fe_file(folder / "arm.bdf"); })),
+            "arm.bdf:3: not_found");
 }
 
 TEST(NastranPassing, SentencesOfWhatIsRefused) {
-  const std::pair<const char*, const char*> refused[] = {
-      {"CBEND", "curved beams are not supported; divide the arc into CBAR elements"},
-      {"CBEAM3", "beams of three nodes are not supported; divide them into CBAR elements"},
-      {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
-      {"RSSCON", "connections of shells to solids are not supported; use RBE3 or MPC"},
-      {"RTRPLT1",
-       "rigid triangles with nodes that follow only in part are not supported; use RBE2"},
-      {"CGAP", "gaps are not linear; replace those that are closed with CELAS2 or RBE2"},
-      {"CBUSH2D", "bushings of two directions are not supported; give CBUSH"},
-      {"GENEL", "general elements are not supported"},
-      {"CFAST", "fasteners are not supported; replace them with RBE3 and CBUSH"},
-      {"CWELD", "welds are not supported; replace them with RBE3 and CBUSH"},
-      {"CSEAM", "seam welds are not supported; replace them with RBE3 and CBUSH"},
-      {"PBMSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBEAM"},
-      {"PBRSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBAR"},
-      {"TF", "transfer functions add stiffness and mass; take them out"},
-      {"CHACAB", "acoustic elements are not supported"},
-      {"CAABSF", "acoustic elements are not supported"},
-      {"CFLUID3", "acoustic elements are not supported"},
-      {"BGSET", "glued surfaces are not supported; tie them with RBE3 or MPC"},
-      {"SESET", "superelements are not supported; write one model without them"},
-      {"SECONCT", "superelements are not supported; write one model without them"},
-      {"CSUPER", "superelements are not supported; write one model without them"},
-      {"EXTRN", "superelements are not supported; write one model without them"},
-      {"CYJOIN", "cyclic symmetry is not supported; write the whole part"},
-      {"CCONEAX", "axisymmetric elements are not supported"},
-      {"CTRIAX6", "axisymmetric elements are not supported"},
-      {"CPLSTN4", "elements of plane stress and strain are not supported"},
-      {"BCONP", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
-      {"BCTSET", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
-      {"BCTABLE", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"}};
-  for (const auto& [card, why] : refused) {
-    EXPECT_EQ(passing_error(tetra + card + ",9,9,1,2\n"),
-              std::string("arm.bdf:8: ") + card + " is not read: " + why);
-  }
-  EXPECT_EQ(passing_error(tetra + "CGAP,9\nCGAP,10\n"),
-            "arm.bdf:8: CGAP is not read (2 cards in the file): gaps are not linear; replace those "
-            "that are closed with CELAS2 or RBE2");
+  const char* const refused[] = {"CBEND",   "CBEAM3",  "RSPLINE", "RSSCON", "RTRPLT1", "CGAP",
+                                 "CBUSH2D", "GENEL",   "CFAST",   "CWELD",  "CSEAM",   "PBMSECT",
+                                 "PBRSECT", "TF",      "CHACAB",  "CAABSF", "CFLUID3", "BGSET",
+                                 "SESET",   "SECONCT", "CSUPER",  "EXTRN",  "CYJOIN",  "CCONEAX",
+                                 "CTRIAX6", "CPLSTN4", "BCONP",   "BCTSET", "BCTABLE"};
+  for (const char* const card : refused)
+    EXPECT_EQ(passing_error(tetra + card + ",9,9,1,2\n"), "arm.bdf:8: unsupported") << card;
+  EXPECT_EQ(passing_error(tetra + "CGAP,9\nCGAP,10\n"), "arm.bdf:8: unsupported");
 }
 
 // Matrices and nonstructural mass count only where the case control selects them.
 TEST(NastranPassing, WhatIsNotSelected) {
   const std::string cards = "NSM1,3,PSOLID,.2,1\nDMIG,K1,1,1,1.\n";
   EXPECT_EQ(passing_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
-  EXPECT_EQ(passing_error(tetra + cards),
-            "arm.bdf:9: DMIG is not read and may change stiffness or mass\n"
-            "arm.bdf:8: NSM1 is not read: put the mass into NSM of the properties or into CONM2");
-  EXPECT_EQ(
-      passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
-      "arm.bdf:2: the case control has NSM = 3, which adds stiffness or mass and is not read");
+  EXPECT_EQ(passing_error(tetra + cards), "arm.bdf:9: unsupported\narm.bdf:8: unsupported");
+  EXPECT_EQ(passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards), "arm.bdf:2: unsupported");
 }
 
 // Each would stand for cards that are not written out; an equation may hold the sign.
 TEST(NastranPassing, FieldsThatRepeatTheCardBefore) {
-  const std::string repeats =
-      "a field is '=', which repeats one of the card before and is not "
-      "read: write the cards out, as Nastran does with ECHO = PUNCH";
+  const std::string repeats = "unsupported";
   for (const char* card : {"GRID,5,=,*(1.),==", "GRID,5,,==", "=,*(1),==", "=3"})
     EXPECT_EQ(passing_error(tetra + card + "\n"), "arm.bdf:8: " + repeats) << card;
   EXPECT_EQ(passing_error(tetra + "DEQATN,1,F(A),=,A\n"), "no error");
@@ -135,7 +97,7 @@ TEST(NastranPassing, FieldsThatRepeatTheCardBefore) {
 // A line BEGIN BULK alone is no case control that could select something.
 TEST(NastranPassing, BeginBulkIsNoCaseControl) {
   EXPECT_EQ(passing_error("BEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\n"),
-            "arm.bdf:9: NSM1 is not read: put the mass into NSM of the properties or into CONM2");
+            "arm.bdf:9: unsupported");
   EXPECT_EQ(passing_deck("BEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.size(), 1u);
   EXPECT_TRUE(
       passing_deck("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());
@@ -159,13 +121,8 @@ TEST(NastranPassing, NotesSayWhatIsPassedOver) {
 TEST(NastranPassing, MassesAndRigidElementsGivenTwice) {
   for (const char* card : {"CONM2,9,1,,5.", "CMASS2,9,5.,1,1", "CONM1,9,1", "RBE2,9,1,123,2",
                            "RBE3,9,,1,123,1.,123,2,3,4", "RBAR,9,1,2,123456"}) {
-    const std::string line = std::string(card) + "\n", name(card, std::string(card).find(','));
-    EXPECT_EQ(passing_error(tetra + line + line)
-                  .find("arm.bdf:9: " + name +
-                        " 9: this number is in "
-                        "the file twice, first in line 8"),
-              0u)
-        << passing_error(tetra + line + line);
+    const std::string line = std::string(card) + "\n";
+    EXPECT_EQ(passing_error(tetra + line + line), "arm.bdf:9: duplicate");
   }
   // Masses and rigid elements have numbers of their own.
   EXPECT_EQ(passing_error(tetra + "CONM2,9,1,,5.\nRBE2,9,1,123,2\n"), "no error");
@@ -196,9 +153,7 @@ TEST(NastranPassing, MarksWhoseFirstCharacterDiffers) {
   EXPECT_EQ(conm("AC1     ", "+C1     "), "no error");
   EXPECT_EQ(conm("+C1     ", "+c1     "), "no error");
   EXPECT_EQ(conm("+C1     ", "        "), "no error");
-  EXPECT_EQ(conm("+C1     ", "+D1     "),
-            "arm.bdf:10: the continuation '+D1' does not follow the card with this mark; the card "
-            "before (CONM2 in line 9) has '+C1'");
+  EXPECT_EQ(conm("+C1     ", "+D1     "), "arm.bdf:10: incomplete");
 }
 
 }  // namespace

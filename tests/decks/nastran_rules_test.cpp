@@ -34,18 +34,13 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 TEST(NastranRules, SuperelementsAreRefused) {
-  const std::string sentence =
-      " begins the bulk data of a superelement or of another model, which is not read: write one "
-      "model with one BEGIN BULK";
   EXPECT_EQ(error_in("SOL 103\nCEND\nBEGIN SUPER=1\n" + bulk + "BEGIN BULK\n" + bulk + "ENDDATA\n"),
-            "arm.bdf:3: 'BEGIN SUPER=1'" + sentence);
-  EXPECT_EQ(error_in("SOL 103\nCEND\nBEGIN BULK SUPER=2\n" + bulk),
-            "arm.bdf:3: 'BEGIN BULK SUPER=2'" + sentence);
+            "arm.bdf:3: wrong_value");
+  EXPECT_EQ(error_in("SOL 103\nCEND\nBEGIN BULK SUPER=2\n" + bulk), "arm.bdf:3: wrong_value");
   EXPECT_EQ(error_in("BEGIN BULK\n" + bulk + "begin super = 3\n" + bulk),
-            "arm.bdf:11: 'begin super = 3'" + sentence);
+            "arm.bdf:11: wrong_value");
   EXPECT_EQ(error_in("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no error");
-  EXPECT_EQ(error_in("BEGIN BULK\n" + bulk + "BEGIN BULK\n"),
-            "arm.bdf:11: 'BEGIN BULK'" + sentence);
+  EXPECT_EQ(error_in("BEGIN BULK\n" + bulk + "BEGIN BULK\n"), "arm.bdf:11: wrong_value");
 }
 
 TEST(NastranRules, FactorsOfMassAndStiffness) {
@@ -59,10 +54,8 @@ TEST(NastranRules, FactorsOfMassAndStiffness) {
   EXPECT_EQ(stiffness.materials.at(0).poisson, plain.materials.at(0).poisson);
   EXPECT_EQ(stiffness.materials.at(0).density, plain.materials.at(0).density);
   EXPECT_NEAR(both.materials.at(0).density, 0.3 * plain.materials.at(0).density, 1e-12);
-  EXPECT_EQ(error_in(bulk + "PARAM,CM1,0.\n"),
-            "arm.bdf:10: PARAM: CM1 is '0.', expected more than 0");
-  EXPECT_EQ(error_in(bulk + "PARAM,CK1,1.,.1\n"),
-            "arm.bdf:10: PARAM: an imaginary part is '.1', which is not supported");
+  EXPECT_EQ(error_in(bulk + "PARAM,CM1,0.\n"), "arm.bdf:10: out_of_range");
+  EXPECT_EQ(error_in(bulk + "PARAM,CK1,1.,.1\n"), "arm.bdf:10: unsupported");
 }
 
 TEST(NastranRules, ParametersOfTheCaseControlCount) {
@@ -79,20 +72,12 @@ TEST(NastranRules, FactorsThatDisagreeStop) {
     return "SOL 103\nCEND\nSUBCASE 1\n PARAM," + first + "\nSUBCASE 2\n PARAM," + second +
            "\nBEGIN BULK\n" + bulk;
   };
-  EXPECT_EQ(error_in(subcases("CM1,2.0", "CM1,5.0")),
-            "arm.bdf:6: PARAM: CM1 is '5.0', but 2 in arm.bdf:4; a part can have only one of them, "
-            "remove the other");
+  EXPECT_EQ(error_in(subcases("CM1,2.0", "CM1,5.0")), "arm.bdf:6: exclusive");
   for (const char* word : {"WTMASS", "CK1"}) {
     const std::string name = word;
-    EXPECT_EQ(error_in(subcases(name + ",2.", name + ",1.")),
-              "arm.bdf:6: PARAM: " + name +
-                  " is '1.', but 2 in arm.bdf:4; a part can have only one of them, remove the "
-                  "other");
+    EXPECT_EQ(error_in(subcases(name + ",2.", name + ",1.")), "arm.bdf:6: exclusive");
   }
-  EXPECT_EQ(
-      error_in(bulk + "PARAM,CM1,2.\nPARAM,CM1,3.\n"),
-      "arm.bdf:11: PARAM: CM1 is '3.', but 2 in arm.bdf:10; a part can have only one of them, "
-      "remove the other");
+  EXPECT_EQ(error_in(bulk + "PARAM,CM1,2.\nPARAM,CM1,3.\n"), "arm.bdf:11: exclusive");
   EXPECT_DOUBLE_EQ(read_deck(subcases("CM1,2.0", "CM1,2.")).materials.at(0).density, 16000.0);
 }
 
@@ -102,9 +87,7 @@ TEST(NastranRules, BeginAloneBeginsTheBulkData) {
     const FeModel model = read_deck(std::string("SOL 103\nCEND\nPARAM,WTMASS,.5\n") + begin + bulk);
     EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
   }
-  EXPECT_EQ(error_in("BEGIN\n" + bulk + "BEGIN\n"),
-            "arm.bdf:11: 'BEGIN' begins the bulk data of a superelement or of another model, which "
-            "is not read: write one model with one BEGIN BULK");
+  EXPECT_EQ(error_in("BEGIN\n" + bulk + "BEGIN\n"), "arm.bdf:11: wrong_value");
 }
 
 // Sets of large models are written out in the case control; its end is where it is.
@@ -118,25 +101,20 @@ TEST(NastranRules, ControlOfAnyLengthIsRead) {
 }
 
 TEST(NastranRules, UnknownParametersStop) {
-  EXPECT_EQ(error_in(bulk + "PARAM,STIFFER,2.\n"),
-            "arm.bdf:10: PARAM STIFFER is not read and may change stiffness or mass");
+  EXPECT_EQ(error_in(bulk + "PARAM,STIFFER,2.\n"), "arm.bdf:10: unsupported");
   for (const char* name :
        {"POST",  "AUTOSPC", "GRDPNT",   "PRGPST", "MAXRATIO", "BAILOUT", "COUPMASS",
         "K6ROT", "SNORM",   "OGEOM",    "RESVEC", "CM2",      "CK2",     "CB1",
         "G",     "W3",      "USETSTR1", "lgdisp", "EXTOUT",   "CHECKEL"}) {
     EXPECT_EQ(error_in(bulk + "PARAM," + name + ",1\n"), "no error") << name;
   }
-  EXPECT_EQ(error_in(bulk + "MATT1,1,7\n"),
-            "arm.bdf:10: MATT1 is not read and may change stiffness or mass");
+  EXPECT_EQ(error_in(bulk + "MATT1,1,7\n"), "arm.bdf:10: unsupported");
   EXPECT_EQ(error_in(bulk + "DTI,UNITS,1,KG,N,M,S\n"), "no error");
 }
 
 TEST(NastranRules, MatricesAndMassOfTheCaseControlStop) {
   EXPECT_EQ(error_in("SOL 103\nCEND\nK2GG = STIFF\nM2GG(X)=HEAVY\nNSM = 3\nBEGIN BULK\n" + bulk),
-            "arm.bdf:3: the case control has K2GG = STIFF, which adds stiffness or mass and is not "
-            "read\n"
-            "arm.bdf:4: the case control has M2GG = HEAVY, which adds stiffness or mass and is not "
-            "read");
+            "arm.bdf:3: unsupported\narm.bdf:4: unsupported");
 }
 
 TEST(NastranRules, BarsTwistByTheirOwnShearModulus) {
@@ -149,8 +127,7 @@ TEST(NastranRules, BarsTwistByTheirOwnShearModulus) {
   EXPECT_EQ(model.notes.at(0),
             "arm.bdf:9: MAT1 1: G is 2e+10, but E and NU give 8e+10: bars twist by G, shells and "
             "solids have E and NU, as in Nastran");
-  EXPECT_EQ(error_in(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,0.,.25")),
-            "arm.bdf:9: MAT1 1: G is 0, expected more than 0 for bars");
+  EXPECT_EQ(error_in(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,0.,.25")), "arm.bdf:9: out_of_range");
 }
 
 const std::string equations = "MPC,8,1,1,1.,2,1,-.5\nMPC,9,1,2,1.,2,2,-1.\n";
@@ -168,11 +145,9 @@ TEST(NastranRules, TheCaseControlSelectsEquations) {
   EXPECT_EQ(none.notes.at(0),
             "arm.bdf:13: 2 MPC equations are in sets that the case control does not select: they "
             "are not applied");
-  EXPECT_EQ(error_in(control + "MPC = 3\n" + begin + bulk + equations),
-            "arm.bdf:3: the case control selects MPC set 3, which is not in the file");
+  EXPECT_EQ(error_in(control + "MPC = 3\n" + begin + bulk + equations), "arm.bdf:3: not_found");
   EXPECT_EQ(error_in(control + "MPC = 8\nSUBCASE 2\nMPC = 9\n" + begin + bulk + equations),
-            "arm.bdf:5: the case control selects MPC sets 8 and 9; only one can be read, remove "
-            "the other");
+            "arm.bdf:5: exclusive");
 }
 
 TEST(NastranRules, NodesThatAreThereTwice) {
@@ -181,8 +156,7 @@ TEST(NastranRules, NodesThatAreThereTwice) {
   EXPECT_EQ(model.notes.back(),
             "arm.bdf: 2 nodes are in the file twice with the same numbers, first in line 10: each "
             "is one, as in Nastran");
-  EXPECT_EQ(error_in(bulk + "GRID,3,,0.,1.,.1\n"),
-            "arm.bdf:10: node 3 is in the file twice, first in line 3");
+  EXPECT_EQ(error_in(bulk + "GRID,3,,0.,1.,.1\n"), "arm.bdf:10: duplicate");
 }
 
 TEST(NastranRules, WholeNumbersForRealOnes) {
@@ -202,7 +176,7 @@ TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
   EXPECT_NEAR(other.shells.at(0).shear, .4 * .01 / 200.0, 1e-12);
   EXPECT_EQ(error_in(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.833333\n"), "no error");
   EXPECT_EQ(error_in(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,TUBE2\n,.01,.015")),
-            "arm.bdf:8: PBARL 2: the wall of the TUBE2 is more than its outer radius");
+            "arm.bdf:8: contradiction");
   const FeModel bar =
       read_deck(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,1.-3,1.-7,1.-7,2.-7\n,\n,.5,.5"));
   EXPECT_EQ(bar.sections.at(0).shear_z, 5e-4);

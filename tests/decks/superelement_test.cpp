@@ -262,21 +262,16 @@ TEST(Superelement, WhatIsWrong) {
   };
   const std::string at = (folder / "arm.op4").string();
   ASSERT_EQ(error(good), "no error");
-  EXPECT_EQ(error(op4_text("KXX", K, Storage::columns)),
-            at + ": the file has no real, square mass M of the size of the stiffness; its "
-                 "matrices: KXX");
+  EXPECT_EQ(error(op4_text("KXX", K, Storage::columns)), at + ": missing");
   EXPECT_EQ(error(op4_text("K1", K, Storage::columns) + op4_text("K2", K, Storage::columns) +
                   op4_text("MXX", M, Storage::columns)),
-            at + ": the file has the matrices K1, K2; expected one whose name begins with K, or "
-                 "KXX, KAA or KAAX");
+            at + ": wrong_value");
   EXPECT_EQ(error(op4_text("KXX", K.topLeftCorner(18, 18), Storage::columns) +
                   op4_text("MXX", M.topLeftCorner(18, 18), Storage::columns)),
-            (folder / "arm.pch").string() +
-                ": 20 degrees of freedom for matrices of 18 rows (KXX of " + at +
-                "); give them as the dofs file, lines \"node,dir\"");
-  EXPECT_EQ(error(good.substr(0, 200)), at + ":2: column 1 of KXX has 6 values, expected 7");
+            (folder / "arm.pch").string() + ": wrong_count");
+  EXPECT_EQ(error(good.substr(0, 200)), at + ":2: wrong_count");
   const std::string binary = op4_binary("KXX", K, Storage::strings, false);
-  EXPECT_EQ(error(binary.substr(0, 100)), at + ": byte 76: the file ends within a record");
+  EXPECT_EQ(error(binary.substr(0, 100)), at + ": damaged");
 }
 
 }  // namespace

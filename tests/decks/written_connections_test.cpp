@@ -99,9 +99,7 @@ TEST(WrittenConnections, SpringsOfAllDirections) {
     model.equations.push_back(equation);
   }
   EXPECT_EQ(error_of([&] { written(model, ".inp"); }),
-            folder.path().string() +
-                "/sprung.inp:28: a spring that is neither along an axis nor along the line of its "
-                "nodes ends at node 201, which no element has: CalculiX would hold it there");
+            folder.path().string() + "/sprung.inp:28: wrong_value");
 }
 
 /// A frame of two legs of 0.6 m; the second has the offsets `words`.
@@ -154,35 +152,24 @@ TEST(WrittenConnections, BeamsBesideTheirNodesAreThoseOfCalculix) {
 
 TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
   const FeModel model = legs_model(", OFFSET1=2");
-  const auto lost = [](int node, const std::string& more) {
-    return fmt::format(
-        "the rotation of node {}, of a beam or shell, is in an equation, a spring or the arm of an "
-        "end beside its node; CalculiX, which makes solids of beams and shells, would lose it "
-        "(.vtu "
-        "and .msh show the mesh){}",
-        node, more);
-  };
   const auto refusal = [](const FeModel& m) { return error_of([&] { written(m, ".inp"); }); };
   // One end is moved along the beam.
   FeModel askew = model;
   askew.positions.back().y() += 0.01;
-  EXPECT_NE(refusal(askew).find(lost(13, "; the same holds for 13 more nodes")), std::string::npos)
-      << refusal(askew);
+  EXPECT_EQ(test::without_folders(refusal(askew)), "frame.inp:35: unsupported");
   // CalculiX lets what sits at a node act on the beam beside it: a mass there, or at the end.
   for (const int node : {24, model.nodes() - 1}) {
     FeModel weighted = model;
     weighted.masses.push_back({node, 2.0, Mat3::Zero()});
-    EXPECT_NE(refusal(weighted).find(lost(13, "; the same holds for 13 more nodes")),
-              std::string::npos)
-        << refusal(weighted);
+    EXPECT_EQ(test::without_folders(refusal(weighted)), "frame.inp:35: unsupported");
   }
   FeModel tied = model;
   tied.equations.push_back({.terms = {{24, 0, 1.0}, {0, 0, -1.0}}, .source = {}});
-  EXPECT_NE(refusal(tied).find("; the same holds for"), std::string::npos);
+  EXPECT_EQ(test::without_folders(refusal(tied)), "frame.inp:35: unsupported");
   // The rotation of a beam in an equation, a spider, a spring.
   FeModel equation = legs_model("");
   equation.equations.push_back({.terms = {{0, 4, 1.0}, {5, 4, -1.0}}, .source = {}});
-  EXPECT_EQ(refusal(equation), lost(1, "; the same holds for 1 more node"));
+  EXPECT_EQ(test::without_folders(refusal(equation)), "unsupported");
   FeModel spider = legs_model("");
   spider.positions.emplace_back(0.0, 0.0, 0.1);
   spider.node_ids.push_back(99);
@@ -191,7 +178,7 @@ TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
   arm.reference = spider.nodes() - 1;
   arm.nodes = {0};
   spider.spiders.push_back(arm);
-  EXPECT_EQ(refusal(spider), lost(1, ""));
+  EXPECT_EQ(test::without_folders(refusal(spider)), "unsupported");
   FeModel sprung = legs_model("");
   Spring s;
   s.nodes = {0, 24};
@@ -199,7 +186,7 @@ TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
   s.directions[1] = Vec6::Unit(3);
   s.stiffness = 10.0;
   sprung.springs.push_back(s);
-  EXPECT_EQ(refusal(sprung), lost(1, "; the same holds for 1 more node"));
+  EXPECT_EQ(test::without_folders(refusal(sprung)), "unsupported");
 }
 
 // A beam between two bricks: its turn about itself.

@@ -80,13 +80,9 @@ TEST(ExportSelection, TakesInstantsInARangeAndEveryNth) {
   const auto error = [&](const ExportSelection& s) {
     return error_of([&] { selected_instants(history, s); });
   };
-  const std::string expected = ", expected some of the 151 from 0 to 0.3 s";
-  EXPECT_EQ(error({.from = 2.0, .bodies = {}}),
-            history.name() + ": found no recorded instant from 2 s on" + expected);
-  EXPECT_EQ(error({.to = -1.0, .bodies = {}}),
-            history.name() + ": found no recorded instant up to -1 s" + expected);
-  EXPECT_EQ(error({.from = 0.0001, .to = 0.0002, .bodies = {}}),
-            history.name() + ": found no recorded instant from 0.0001 to 0.0002 s" + expected);
+  EXPECT_EQ(error({.from = 2.0, .bodies = {}}), history.name() + ": missing");
+  EXPECT_EQ(error({.to = -1.0, .bodies = {}}), history.name() + ": missing");
+  EXPECT_EQ(error({.from = 0.0001, .to = 0.0002, .bodies = {}}), history.name() + ": missing");
 }
 
 TEST(ExportSelection, TakesBodiesThatWereRecorded) {
@@ -98,10 +94,9 @@ TEST(ExportSelection, TakesBodiesThatWereRecorded) {
   const StateHistory history(folder.file("states.ffr"));
   EXPECT_EQ(selected_bodies(history, model, {.bodies = {}}), (std::vector<int>{0, 2}));
   EXPECT_EQ(selected_bodies(history, model, {.bodies = {"beam", "beam"}}), (std::vector<int>{2}));
-  EXPECT_EQ(error_of([&] { selected_bodies(history, model, {.bodies = {"baem"}}); }),
-            "--body: found 'baem', expected a body of the model, did you mean 'beam'?");
+  EXPECT_EQ(error_of([&] { selected_bodies(history, model, {.bodies = {"baem"}}); }), "not_found");
   EXPECT_EQ(error_of([&] { selected_bodies(history, model, {.bodies = {"stone"}}); }),
-            history.name() + ": the states of body 'stone' were not recorded");
+            history.name() + ": wrong_value");
 }
 
 }  // namespace

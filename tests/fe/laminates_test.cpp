@@ -309,23 +309,16 @@ TEST(Laminates, FaultySections) {
     change(model);
     return error_of([&] { validate(model); });
   };
-  const auto expect = [](const std::string& found, const char* part) {
-    EXPECT_NE(found.find(part), std::string::npos) << found;
-  };
-  expect(error([](FeModel& m) { m.shells[0].plies[1].thickness = 0.0; }),
-         "has ply 2 of thickness 0, expected more than 0");
-  expect(error([](FeModel& m) { m.shells[0].plies[0].material = 4; }),
-         "has no material 4 for ply 1");
-  expect(error([](FeModel& m) { m.shells[0].thickness = 0.003; }),
-         "is 0.003 thick, but its plies together 0.002");
-  expect(error([](FeModel& m) { m.shells[0].mass = -1.0; }), "has a mass of -1 over area");
-  expect(error([](FeModel& m) { m.orientations[0].axes << 0, 0, 1, 0, 1, 0, 1, 0, 0; }),
-         "lies across the first axis of its material");
-  expect(error([](FeModel& m) { (*m.materials[0].elasticity)(0, 1) = 1e12; }),
-         "D(xx, yy) is 1e+12, expected a size below");
-  expect(error([](FeModel& m) { (*m.materials[0].elasticity)(3, 3) = -1.0; }),
-         "D(xy, xy) is -1, expected more than 0");
-  expect(error([](FeModel& m) { m.elements[0].orientation = 7; }), "there is no orientation 7");
+  EXPECT_EQ(error([](FeModel& m) { m.shells[0].plies[1].thickness = 0.0; }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { m.shells[0].plies[0].material = 4; }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { m.shells[0].thickness = 0.003; }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { m.shells[0].mass = -1.0; }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { m.orientations[0].axes << 0, 0, 1, 0, 1, 0, 1, 0, 0; }),
+            "wrong_value\nwrong_value\nwrong_value\nwrong_value\nwrong_value\nwrong_value\nwrong_"
+            "value\nwrong_value\nwrong_value\nwrong_value\nwrong_value\nwrong_value");
+  EXPECT_EQ(error([](FeModel& m) { (*m.materials[0].elasticity)(0, 1) = 1e12; }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { (*m.materials[0].elasticity)(3, 3) = -1.0; }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { m.elements[0].orientation = 7; }), "geometry");
 }
 
 }  // namespace

@@ -285,28 +285,23 @@ TEST(Layups, WhatIsRefused) {
   };
   const auto ply = [](FeModel& m) -> ShellPly& { return m.layups[0].plies[1]; };
   EXPECT_EQ(error([](FeModel&) {}), "no error");
-  EXPECT_EQ(error([](FeModel& m) { m.layups[0].plies.clear(); }), "layup 0 has no ply");
-  EXPECT_EQ(error([&](FeModel& m) { ply(m).material = 2; }), "layup 0 has no material 2 for ply 2");
+  EXPECT_EQ(error([](FeModel& m) { m.layups[0].plies.clear(); }), "wrong_value");
+  EXPECT_EQ(error([&](FeModel& m) { ply(m).material = 2; }), "wrong_value");
   EXPECT_EQ(error([&](FeModel& m) {
               m.materials[1] = anisotropic_material(
                   lamina_elasticity({.E1 = 2e9, .E2 = 1e9, .nu12 = 0.3, .G12 = 5e8}), true, 1.0);
             }),
-            "layup 0 has ply 2 of a material of plane stress, which is for shells only");
-  EXPECT_EQ(error([&](FeModel& m) { ply(m).thickness = 0.0; }),
-            "layup 0 has ply 2 of thickness 0, expected more than 0");
-  EXPECT_EQ(error([&](FeModel& m) { ply(m).angle = std::nan(""); }),
-            "layup 0 has ply 2 at no finite angle");
-  EXPECT_EQ(error([](FeModel& m) { m.elements[0].layup = 1; }),
-            "element 0 (hex8): there is no layup 1");
-  EXPECT_EQ(error([](FeModel& m) { m.elements[0].type = ElementType::hex8r; }),
-            "element 0 (hex8r) cannot have plies: only hex8, hex8i, hex20, hex20r, wedge6 and "
-            "wedge15 can");
+            "wrong_value");
+  EXPECT_EQ(error([&](FeModel& m) { ply(m).thickness = 0.0; }), "wrong_value");
+  EXPECT_EQ(error([&](FeModel& m) { ply(m).angle = std::nan(""); }), "wrong_value");
+  EXPECT_EQ(error([](FeModel& m) { m.elements[0].layup = 1; }), "geometry");
+  EXPECT_EQ(error([](FeModel& m) { m.elements[0].type = ElementType::hex8r; }), "geometry");
   EXPECT_EQ(error([](FeModel& m) {
               m.orientations.emplace_back();
               m.orientations[0].axes << 0, 0, -1, 0, 1, 0, 1, 0, 0;
               m.elements[0].orientation = 0;
             }),
-            "element 0 (hex8) has plies, and axis 1 of its orientation is along its thickness");
+            "wrong_value");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/error_of.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
@@ -120,7 +121,7 @@ std::string refusal(const FeModel& model) {
     validate(model);
     assemble(model);
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }
@@ -156,33 +157,27 @@ TEST(Spiders, Refusals) {
   second.nodes = {3, 9};
   second.source = {0, 88};
   f.spiders.push_back(second);
-  EXPECT_EQ(refusal(f),
-            "deck.inp:88: spider 'SECOND': ux of node 9 depends already on spider 'FLANGE'; a "
-            "degree of freedom can depend only once");
+  EXPECT_EQ(refusal(f), "deck.inp:88: dependent");
   f = good;
   f.spiders[0].kind = Spider::Kind::mean;
   f.spiders[0].nodes = {8, 9};
-  EXPECT_EQ(
-      refusal(f),
-      "spider 'FLANGE': its 2 nodes lie on a line or in a point and cannot define a rotation");
+  EXPECT_EQ(refusal(f), "singular");
   f = good;
   second.reference = 8;
   second.nodes = {12};
   second.source = {};
   f.spiders.push_back(second);
-  EXPECT_EQ(refusal(f),
-            "spider 'SECOND': ux of node 12 would depend on itself, by a chain of spiders or "
-            "equations");
+  EXPECT_EQ(refusal(f), "cycle");
   f = good;
   LinearEquation e;
   e.terms = {{0, 0, 1.0}, {1, 4, 1.0}};
   f.equations.push_back(e);
-  EXPECT_EQ(refusal(f), "equation for node 0: node 1 has no degree of freedom ry");
+  EXPECT_EQ(refusal(f), "missing");
   f.positions.emplace_back(1, 2, 3);  // 14: nothing uses it, nor an equation with another node
   f.equations[0].terms = {{14, 0, 1.0}};
-  EXPECT_EQ(refusal(f), "equation for node 14: node 14 has no degree of freedom ux");
+  EXPECT_EQ(refusal(f), "missing");
   f.equations[0].terms = {{0, 0, 0.0}, {1, 1, 1.0}};
-  EXPECT_EQ(refusal(f), "equation 1: the factor of its first term must not be zero");
+  EXPECT_EQ(refusal(f), "wrong_value");
 }
 
 }  // namespace

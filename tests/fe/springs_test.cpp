@@ -288,10 +288,7 @@ TEST(Rods, Errors) {
   FeModel model = rods({Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 1}, {1, 2}});
   model.sections[0].A = -1.0;
   const std::string text = error_of([&] { validate(model); });
-  EXPECT_NE(text.find("element 0 (rod2) has zero length"), std::string::npos) << text;
-  EXPECT_NE(text.find("element 1 (rod2) has a section whose area is not positive"),
-            std::string::npos)
-      << text;
+  EXPECT_EQ(text, "wrong_value\nwrong_value") << text;
 }
 
 TEST(Springs, Units) {
@@ -323,13 +320,11 @@ TEST(Springs, Errors) {
   model.springs[0].source = {0, 12};
   model.files = {"arm.bdf"};
   const std::string text = error_of([&] { validate(model); });
-  EXPECT_NE(text.find("arm.bdf:12: CELAS2 4 ties node 0 to the ground, which a part that floats "
-                      "cannot be tied to"),
-            std::string::npos)
+  EXPECT_EQ(text,
+            "contradiction\ncontradiction\narm.bdf:12: wrong_value\nout_of_range\nout_of_range")
       << text;
-  EXPECT_NE(text.find("spring 1: found the stiffness -5, expected no negative number"),
-            std::string::npos);
-  EXPECT_NE(text.find("spring 2: node index 0 or 7 is out of range"), std::string::npos);
+  EXPECT_EQ(text,
+            "contradiction\ncontradiction\narm.bdf:12: wrong_value\nout_of_range\nout_of_range");
   EXPECT_EQ(remove_grounded_springs(model), 1);
   EXPECT_EQ(model.springs.size(), 2u);
   // A node without mass that ties thousands of others together.
@@ -341,10 +336,7 @@ TEST(Springs, Errors) {
       model.springs.push_back(along(501, i + 1, Vec3::Unit(axis), 1.0));
   }
   model.positions.emplace_back(0, 0, 0);
-  EXPECT_NE(error_of([&] { assemble(model); })
-                .find("springs tie 1503 degrees of freedom together "
-                      "through node 501"),
-            std::string::npos);
+  EXPECT_EQ(error_of([&] { assemble(model); }), "too_large");
 }
 
 }  // namespace

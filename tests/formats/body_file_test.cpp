@@ -167,25 +167,18 @@ TEST(BodyFile, FileOfVersion1) {
 
 TEST(BodyFile, ErrorsOfTheArchive) {
   const std::string good = body_file_bytes(bracket());
-  EXPECT_EQ(error_of_bytes(""), "arm.ffb: this is not a zip archive (it does not begin with PK)");
-  EXPECT_EQ(error_of_bytes("*NODE\n1,0,0,0\n"),
-            "arm.ffb: this is not a zip archive (it does not begin with PK)");
-  EXPECT_EQ(error_of_bytes(good.substr(0, good.size() / 2)),
-            "arm.ffb: the archive has no directory at its end: it is truncated or damaged");
-  EXPECT_EQ(error_of_bytes(zip_archive({{"a.txt", "b"}})),
-            "arm.ffb: this is not a body file (it has no member 'header.json')");
-  EXPECT_EQ(error_of_bytes(zip_archive({{"K.npy", "b"}, {"K.npy", "b"}})),
-            "arm.ffb: member 'K.npy': found twice, expected once");
+  EXPECT_EQ(error_of_bytes(""), "arm.ffb: wrong_file");
+  EXPECT_EQ(error_of_bytes("*NODE\n1,0,0,0\n"), "arm.ffb: wrong_file");
+  EXPECT_EQ(error_of_bytes(good.substr(0, good.size() / 2)), "arm.ffb: damaged");
+  EXPECT_EQ(error_of_bytes(zip_archive({{"a.txt", "b"}})), "arm.ffb: wrong_file");
+  EXPECT_EQ(error_of_bytes(zip_archive({{"K.npy", "b"}, {"K.npy", "b"}})), "arm.ffb: duplicate");
   std::string changed = good;
   const std::size_t at = changed.find("K.npy") + 200;
   changed[at] = static_cast<char>(changed[at] ^ 1);
-  EXPECT_TRUE(error_of_bytes(changed).starts_with("arm.ffb: member 'K.npy': found the checksum "))
-      << error_of_bytes(changed);
-  EXPECT_TRUE(error_of_bytes(changed).ends_with(": its bytes were changed"));
+  EXPECT_EQ(error_of_bytes(changed), "arm.ffb: damaged") << error_of_bytes(changed);
   std::string compressed = good;  // of the first directory entry
   compressed[compressed.find("PK\1\2") + 10] = 8;
-  EXPECT_EQ(error_of_bytes(compressed),
-            "arm.ffb: member 'header.json': is compressed (method 8), expected a stored member");
+  EXPECT_EQ(error_of_bytes(compressed), "arm.ffb: unsupported");
 }
 
 TEST(BodyFile, ErrorsOfTheHeader) {
@@ -194,24 +187,13 @@ TEST(BodyFile, ErrorsOfTheHeader) {
   const auto with = [&](const std::string& from, const std::string& to) {
     return error_of_bytes(with_member(good, "header.json", replaced(header, from, to)));
   };
-  EXPECT_EQ(with("\"format_version\": 1", "\"format_version\": 2"),
-            "arm.ffb: member 'header.json': found format version 2, this program reads version 1 "
-            "(the file was written by Floatframe 0.1.0-test)");
-  const std::string not_ours =
-      "arm.ffb: this is not a body file (member 'header.json' does not say format 'floatframe "
-      "body')";
+  EXPECT_EQ(with("\"format_version\": 1", "\"format_version\": 2"), "arm.ffb: mismatch");
+  const std::string not_ours = "arm.ffb: wrong_file";
   EXPECT_EQ(with("floatframe body", "something"), not_ours);
-  EXPECT_EQ(with("{", "["),
-            "arm.ffb: this is not a body file (member 'header.json' is no header: damaged, or not "
-            "JSON)");
-  EXPECT_EQ(with("\"eye\"", "\"foot\""),
-            "arm.ffb: member 'header.json': found the marker name 'foot', expected names that are "
-            "not empty and differ");
-  EXPECT_EQ(with("isoparametric", "lumped"),
-            "arm.ffb: member 'header.json': found the mass model 'lumped', expected isoparametric, "
-            "six_dof or hermite");
-  EXPECT_EQ(with("\"elements\": 4", "\"elements\": \"4\""),
-            "arm.ffb: member 'header.json': health: found a wrong value of 'elements'");
+  EXPECT_EQ(with("{", "["), "arm.ffb: wrong_file");
+  EXPECT_EQ(with("\"eye\"", "\"foot\""), "arm.ffb: contradiction");
+  EXPECT_EQ(with("isoparametric", "lumped"), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("\"elements\": 4", "\"elements\": \"4\""), "arm.ffb: wrong_value");
 }
 
 TEST(BodyFile, ErrorsOfTheArrays) {
@@ -226,45 +208,30 @@ TEST(BodyFile, ErrorsOfTheArrays) {
     values.back() = last;
     return npy_bytes({shape, values});
   };
-  EXPECT_EQ(with("S", ""), "arm.ffb: member 'S.npy': is missing");
-  EXPECT_EQ(with("S", doubles({3, 4}, 0, 0)),
-            "arm.ffb: member 'S.npy': found 3 x 4, expected 3 x 5");
+  EXPECT_EQ(with("S", ""), "arm.ffb: missing");
+  EXPECT_EQ(with("S", doubles({3, 4}, 0, 0)), "arm.ffb: wrong_count");
   EXPECT_EQ(with("S", npy_bytes({{3, 5}, std::vector<std::int32_t>(15, 1)})),
-            "arm.ffb: member 'S.npy': found 3 x 5 of integers, expected 3 x 5");
+            "arm.ffb: wrong_count");
   EXPECT_EQ(with("K", doubles({5, 5}, 0, std::numeric_limits<double>::quiet_NaN())),
-            "arm.ffb: member 'K.npy': found nan as value 25, expected finite numbers");
+            "arm.ffb: not_finite");
   std::vector<double> skew(25, 0.0);
   skew[1] = 2.0;
-  EXPECT_EQ(
-      with("K", npy_bytes({{5, 5}, skew})),
-      "arm.ffb: member 'K.npy': found 0 in row 2, column 1 and 2 in row 1, column 2, expected "
-      "a symmetric matrix");
-  EXPECT_EQ(with("S21", doubles({5, 5}, 1.0, 2.0)),
-            "arm.ffb: member 'S21.npy': found another matrix than the transpose of S12, expected "
-            "the same");
-  EXPECT_EQ(with("m", npy_bytes({{}, std::vector<double>{-1.0}})),
-            "arm.ffb: member 'm.npy': found -1, expected a positive mass [kg]");
+  EXPECT_EQ(with("K", npy_bytes({{5, 5}, skew})), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("S21", doubles({5, 5}, 1.0, 2.0)), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("m", npy_bytes({{}, std::vector<double>{-1.0}})), "arm.ffb: wrong_value");
   EXPECT_EQ(with("surface_triangles", npy_bytes({{1, 3}, std::vector<std::int32_t>{0, 1, 3}})),
-            "arm.ffb: member 'surface_triangles.npy': found 3 as value 3, expected a number from 0 "
-            "to 2");
+            "arm.ffb: out_of_range");
   EXPECT_EQ(with("surface_lines", npy_bytes({{1, 3}, std::vector<std::int32_t>{0, 1, 2}})),
-            "arm.ffb: member 'surface_lines.npy': found 1 x 3, expected rows of 2 integers");
+            "arm.ffb: wrong_count");
   EXPECT_EQ(with("projection_M_s_indptr", npy_bytes({{2}, std::vector<std::int64_t>{0, 0}})),
-            "arm.ffb: member 'projection_M_s_indptr.npy': found 1 rows for 13 values in 13 "
-            "columns, expected the 5 rows of a sparse matrix");
-  EXPECT_EQ(with("D", "garbage"),
-            "arm.ffb: member 'D.npy': found no array, expected the .npy format of NumPy");
-  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "<f8", ">f8")),
-            "arm.ffb: member 'D.npy': found values of the type '>f8', expected <f8, <i4 or <i8 "
-            "(little-endian doubles and integers)");
-  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "(5, 5)", "(5, 6)")),
-            "arm.ffb: member 'D.npy': found 200 bytes of values, expected 240 for the shape 5 x 6");
-  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "'shape'", "'shap'")),
-            "arm.ffb: member 'D.npy': found a damaged header, expected descr, fortran_order and "
-            "shape");
+            "arm.ffb: wrong_count");
+  EXPECT_EQ(with("D", "garbage"), "arm.ffb: wrong_file");
+  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "<f8", ">f8")), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "(5, 5)", "(5, 6)")), "arm.ffb: wrong_count");
+  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "'shape'", "'shap'")), "arm.ffb: damaged");
   // Two errors at once.
   EXPECT_EQ(error_of_bytes(with_member(with_member(good, "P_u.npy", ""), "D.npy", "")),
-            "arm.ffb: member 'P_u.npy': is missing\narm.ffb: member 'D.npy': is missing");
+            "arm.ffb: missing\narm.ffb: missing");
 }
 
 /// Arrays of the right shape that no body has, or that are not those of the header.
@@ -280,47 +247,26 @@ TEST(BodyFile, NumbersThatContradictEachOther) {
     return error_of_bytes(with_member(good, name + ".npy", npy_bytes(array)));
   };
   const auto number = [](double x) { return MatX::Constant(1, 1, x); };
-  EXPECT_EQ(with("m", number(0.0)),
-            "arm.ffb: member 'm.npy': found 0, expected a positive mass [kg]");
+  EXPECT_EQ(with("m", number(0.0)), "arm.ffb: wrong_value");
   const std::string mass = with("m", number(1000.0 * v.m));
-  EXPECT_NE(mass.find("arm.ffb: member 'm.npy': found 1396.4 kg, but the health report says 1.3964 "
-                      "kg"),
-            std::string::npos)
-      << mass;
-  EXPECT_EQ(with("P_u", MatX::Zero(3, 3)),
-            "arm.ffb: member 'P_u.npy': found zeros, expected the second moments of a body with "
-            "1.3964 kg [kg m2]");
-  EXPECT_TRUE(with("P_u", 1.01 * v.P_u)
-                  .starts_with("arm.ffb: member 'P_u.npy': found moments of inertia ("));
-  EXPECT_TRUE(with("m_u", MatX(0.99 * v.m_u))
-                  .starts_with("arm.ffb: member 'S.npy': the integrals m, m_u, P_u, S, S1 to S3"));
-  EXPECT_EQ(with("K", MatX::Zero(5, 5)),
-            "arm.ffb: member 'K.npy': found the stiffness 0 of mode 1, expected a positive number "
-            "(rigid motions are not among the modes)");
-  EXPECT_TRUE(
-      with("K", -file.part.body.K).starts_with("arm.ffb: member 'K.npy': found the stiffness -"));
-  EXPECT_TRUE(
-      with("K", 2.0 * file.part.body.K)
-          .starts_with("arm.ffb: member 'header.json': found 144.452 Hz for mode 1, but K and "
-                       "the modal mass S11 + S22 + S33 give 204.286 Hz"));
-  EXPECT_TRUE(
-      with("S11", -v.Sij[0][0]).starts_with("arm.ffb: member 'S11.npy': found the modal mass -"));
-  EXPECT_TRUE(with("S", 10.0 * v.S)
-                  .starts_with("arm.ffb: member 'S.npy': the integrals m, m_u, P_u, S, S1 to S3"));
-  EXPECT_TRUE(with("D", -file.part.body.D)
-                  .starts_with("arm.ffb: member 'D.npy': found a combination of modes that gains"));
+  EXPECT_EQ(mass, "arm.ffb: out_of_range\narm.ffb: contradiction") << mass;
+  EXPECT_EQ(with("P_u", MatX::Zero(3, 3)), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("P_u", 1.01 * v.P_u), "arm.ffb: contradiction");
+  EXPECT_EQ(with("m_u", MatX(0.99 * v.m_u)), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("K", MatX::Zero(5, 5)), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("K", -file.part.body.K), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("K", 2.0 * file.part.body.K), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("S11", -v.Sij[0][0]), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("S", 10.0 * v.S), "arm.ffb: wrong_value");
+  EXPECT_EQ(with("D", -file.part.body.D), "arm.ffb: wrong_value");
   const std::string header = member(good, "header.json");
   const auto with_header = [&](const std::string& from, const std::string& to) {
     return error_of_bytes(with_member(good, "header.json", replaced(header, from, to)));
   };
-  EXPECT_EQ(
-      with_header("\"SI (m, kg, s, rad)\"", "\"mm\""),
-      "arm.ffb: member 'header.json': found the units \"mm\", expected \"SI (m, kg, s, rad)\": "
-      "all members are in SI units");
+  EXPECT_EQ(with_header("\"SI (m, kg, s, rad)\"", "\"mm\""), "arm.ffb: wrong_value");
   EXPECT_EQ(with_header("\"mass_kg\": 1.3964", "\"mass_kg\": 2.3964").substr(0, 78),
-            "arm.ffb: member 'm.npy': found 1.3964 kg, but the health report says 2.3964 kg");
-  EXPECT_EQ(with_header("\"modes\": 5", "\"modes\": 6"),
-            "arm.ffb: member 'header.json': health: found 6 modes, expected the 5 of this file");
+            "arm.ffb: contradiction");
+  EXPECT_EQ(with_header("\"modes\": 5", "\"modes\": 6"), "arm.ffb: wrong_value");
 }
 
 /// Of a part whose nodes have rotary inertia, or of an earlier program, only M(0) is checked.
@@ -334,12 +280,10 @@ TEST(BodyFile, IntegralsOfRotaryInertia) {
     EXPECT_EQ(error_of_bytes(body_file_bytes(file)), "no error");
   }
   file.part.health.rotary_inertia = false;
-  EXPECT_TRUE(
-      error_of_bytes(body_file_bytes(file)).starts_with("arm.ffb: member 'S.npy': the integrals"));
+  EXPECT_EQ(error_of_bytes(body_file_bytes(file)), "arm.ffb: wrong_value");
   file.part.health.rotary_inertia = true;
   v.S *= 10.0;
-  EXPECT_TRUE(error_of_bytes(body_file_bytes(file))
-                  .starts_with("arm.ffb: member 'S.npy': the mass matrix at zero deformation"));
+  EXPECT_EQ(error_of_bytes(body_file_bytes(file)), "arm.ffb: wrong_value");
 }
 
 TEST(BodyFile, IsWrittenWhole) {
@@ -354,8 +298,8 @@ TEST(BodyFile, IsWrittenWhole) {
 
 TEST(BodyFile, FilesThatCannotBeRead) {
   const auto error = [](const char* path) { return test::error_of([&] { read_body_file(path); }); };
-  EXPECT_EQ(error("/nowhere/x.ffb"), "/nowhere/x.ffb: the file does not exist");
-  EXPECT_EQ(error("/dev/null"), "/dev/null: this is not a regular file");
+  EXPECT_EQ(error("/nowhere/x.ffb"), "/nowhere/x.ffb: unreadable");
+  EXPECT_EQ(error("/dev/null"), "/dev/null: unreadable");
 }
 
 TEST(BodyFile, NoDamageCrashesTheReader) {

@@ -7,6 +7,7 @@
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
 #include "floatframe/reduction/reduction.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe {
 
@@ -101,7 +102,7 @@ inline std::string error_of_bytes(const std::string& bytes) {
   try {
     read_body_bytes(bytes, "arm.ffb");
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }

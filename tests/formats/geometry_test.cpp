@@ -8,6 +8,7 @@
 #include "floatframe/core/base64.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/geometry/geometry_file.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
@@ -112,7 +113,7 @@ std::string geometry_error(const std::string& bytes, const std::string& name,
     parse_geometry(bytes, name, loader);
   } catch (const InputError& error) {
     EXPECT_EQ(error.errors().size(), 1u);
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }
@@ -169,46 +170,32 @@ TEST(Geometry, ErrorsAreOneSentence) {
                        const std::string& sentence) {
     EXPECT_EQ(geometry_error(bytes, name), sentence);
   };
-  says("", "t.stl", "t.stl: the file is empty");
-  says("x", "t.step", "t.step: found this ending, expected .stl, .obj, .gltf or .glb");
-  says("solid a\nendsolid a\n", "t.stl", "t.stl: found no triangles, expected a surface");
-  says(replaced(text_stl(), "endsolid t\n", ""), "t.stl",
-       "t.stl:29: the file ends without endsolid: it is cut short");
-  says(replaced(text_stl(), "1.000000e0", "nan"), "t.stl",
-       "t.stl:5: vertex: 'nan' is not a number, expected three numbers");
+  says("", "t.stl", "t.stl: missing");
+  says("x", "t.step", "t.step: wrong_value");
+  says("solid a\nendsolid a\n", "t.stl", "t.stl: missing");
+  says(replaced(text_stl(), "endsolid t\n", ""), "t.stl", "t.stl:29: wrong_value");
+  says(replaced(text_stl(), "1.000000e0", "nan"), "t.stl", "t.stl:5: not_a_number");
   says("solid t\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "t.stl",
-       "t.stl:5: found 2 vertices of a facet, expected 3");
-  says("solid t\nversion 2\n", "t.stl",
-       "t.stl:2: found 'version', expected facet, outer loop, vertex, endloop, endfacet or "
-       "endsolid");
+       "t.stl:5: wrong_value");
+  says("solid t\nversion 2\n", "t.stl", "t.stl:2: wrong_value");
   const std::string binary = binary_stl("made");
-  says(
-      binary.substr(0, 200), "t.stl",
-      "t.stl: found 200 bytes, expected 284 for the 4 triangles that it announces: it is cut short "
-      "or damaged");
+  says(binary.substr(0, 200), "t.stl", "t.stl: damaged");
   std::string damaged = binary;
   damaged.replace(84 + 12, 4, "\xff\xff\xff\x7f");
-  says(damaged, "t.stl", "t.stl: point 1 is not finite, expected three numbers");
-  says("v 0 0\n", "t.obj", "t.obj:1: v: a number is missing, expected three numbers");
-  says("v 0 0 0\nf 1 2 3\n", "t.obj",
-       "t.obj:2: f: found point 2, expected one of the 1 points before it");
-  says("v 0 0 0\nf 1 1\n", "t.obj", "t.obj:2: f: found 2 corners, expected 3 or more");
-  says("v 0 0 0\nf 1 x 1\n", "t.obj",
-       "t.obj:2: f: 'x' is not a whole number, expected numbers of points");
-  says(glb().substr(0, 300), "t.glb",
-       "t.glb: found 300 bytes, expected " + std::to_string(glb().size()) + ": it is cut short");
-  says("{}", "t.gltf", "t.gltf: found no asset.version 2.x, expected glTF 2.0");
-  says(
-      replaced(gltf(), "\"count\":12", "\"count\":15"), "t.gltf",
-      "t.gltf: accessor 1 reaches beyond its buffer of 72 bytes: the file is cut short or damaged");
+  says(damaged, "t.stl", "t.stl: not_finite");
+  says("v 0 0\n", "t.obj", "t.obj:1: not_a_number");
+  says("v 0 0 0\nf 1 2 3\n", "t.obj", "t.obj:2: wrong_value");
+  says("v 0 0 0\nf 1 1\n", "t.obj", "t.obj:2: wrong_value");
+  says("v 0 0 0\nf 1 x 1\n", "t.obj", "t.obj:2: not_a_number");
+  says(glb().substr(0, 300), "t.glb", "t.glb: damaged");
+  says("{}", "t.gltf", "t.gltf: missing");
+  says(replaced(gltf(), "\"count\":12", "\"count\":15"), "t.gltf", "t.gltf: damaged");
   says(replaced(gltf(), "\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "t.gltf",
-       "t.gltf: found node 0 twice, expected a tree of nodes");
+       "t.gltf: duplicate");
   says(replaced(gltf(), "\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]"),
-       "t.gltf",
-       "t.gltf: found the required extension 'KHR_draco_mesh_compression', expected glTF 2.0 "
-       "without it (no compression, no quantization)");
+       "t.gltf", "t.gltf: wrong_value");
   const std::string other = geometry_error(gltf_json("other.bin"), "t.gltf");
-  EXPECT_NE(other.find("found a buffer at 'other.bin'"), std::string::npos) << other;
+  EXPECT_EQ(other, "t.gltf: wrong_value");
   for (const char* uri :
        {"/etc/passwd", "../other.bin", "%2e%2e/other.bin", "a/../../b.bin", "file:///etc/passwd"}) {
     const std::string outside =
@@ -216,17 +203,15 @@ TEST(Geometry, ErrorsAreOneSentence) {
           ADD_FAILURE() << "asked for " << name;
           return std::string();
         });
-    EXPECT_NE(outside.find("expected one in"), std::string::npos) << outside;
+    EXPECT_EQ(outside, "t.gltf: wrong_value") << uri;
   }
-  EXPECT_NE(geometry_error(gltf().substr(0, 100), "t.gltf").find("the file is not glTF: "),
-            std::string::npos);
+  EXPECT_EQ(geometry_error(gltf().substr(0, 100), "t.gltf"), "t.gltf: wrong_value");
 }
 
 TEST(Geometry, TooManyTrianglesAreRefused) {
   std::string bytes = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (std::size_t k = 0; k <= limits::geometry_triangles; ++k) bytes += "f 1 2 3\n";
-  EXPECT_EQ(geometry_error(bytes, "t.obj"),
-            "t.obj: found more than 500000 triangles, expected at most so many");
+  EXPECT_EQ(geometry_error(bytes, "t.obj"), "t.obj: too_large");
 }
 
 /// Changed and cut files give triangles of points that are there, or a sentence.

@@ -13,6 +13,7 @@
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 #include "formats/mesh_checks.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -127,7 +128,7 @@ std::string mesh_error(std::string_view text) {
   try {
     parse_gmsh(text, "arm.msh", {});
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }
@@ -141,55 +142,31 @@ struct FileError {
 TEST(Gmsh, ErrorsOfText) {
   ASSERT_EQ(mesh_error(tiny), "no error");
   const FileError errors[] = {
-      {"4.1 0 8", "4.0 0 8",
-       "arm.msh:2: the version of the format is '4.0', expected 4.1 or 2.2 (Gmsh writes them with "
-       "Mesh.MshFileVersion)"},
-      {"$MeshFormat\n4", "MeshFormat\n4", "arm.msh:1: found 'MeshFormat', expected '$MeshFormat'"},
-      {"3 1 \"BODY\"", "3 1 BODY",
-       "arm.msh:6: found '3 1 BODY', expected dimension, number and name of a physical group, as "
-       "in "
-       "'2 1 \"BORE\"'"},
-      {"1 4 1 4\n", "1 400000000000 1 4\n",
-       "arm.msh:13: the number of nodes is 400000000000, more than the 104 bytes that are left of "
-       "the file can hold"},
-      {"1 4 1 4\n", "1 5 1 4\n", "arm.msh:13: section $Nodes says 5 nodes, its blocks have 4"},
-      {"1 4 1 4\n3 1 0 4\n1", "1 3 1 4\n3 1 0 3\n1",
-       "arm.msh:21: found '0', expected '$EndNodes': section $Nodes has more than it counts"},
-      {"1\n2\n3\n4\n0", "1\n2\n2\n4\n0",
-       "arm.msh:17: node 2 is in the file twice, first in line 16\narm.msh:27: element 1 (4-node "
-       "tetrahedron) has node 3, which is not in the file"},
-      {"0 1 0\n", "0 1 x\n", "arm.msh:21: 'x' is not a number; expected a coordinate"},
-      {"1 0 0\n", "1 0 1e999\n", "arm.msh:20: '1e999' is too large; expected a coordinate"},
-      {"1 1 2 3 4\n", "1 1 2 3 7\n",
-       "arm.msh:27: element 1 (4-node tetrahedron) has node 7, which is not in the file"},
-      {"1 1 2 3 4\n", "1 1 2 3 3\n", "arm.msh:27: element 1 (4-node tetrahedron) has node 3 twice"},
-      {"1 1 2 3 4\n$EndElements\n", "1 1 2 3",
-       "arm.msh:27: the file ends where a node of an element was expected"},
-      {"3 1 4 1\n", "3 1 77 1\n", "arm.msh:26: the element type 77 is not known"},
-      {"3 1 4 1\n", "3 1 2 1\n",
-       "arm.msh:26: a block of dimension 3 has elements of type 2 (3-node triangle)"},
-      {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "0 0 0 0\n",
-       "arm.msh: the mesh has no elements; a part needs tetrahedra, hexahedra or wedges (in Gmsh: "
-       "mesh in 3D and give the volume a physical group), or surfaces to which a thickness is "
-       "given (--thickness, key `thickness`)"},
-      {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n2 1 2 1\n1 1 2 3\n",
-       "arm.msh: the mesh has no solid elements, only surfaces; a part needs tetrahedra, hexahedra "
-       "or wedges (in Gmsh: mesh in 3D and give the volume a physical group), or surfaces to which "
-       "a thickness is given (--thickness, key `thickness`)"},
+      {"4.1 0 8", "4.0 0 8", "arm.msh:2: wrong_value"},
+      {"$MeshFormat\n4", "MeshFormat\n4", "arm.msh:1: wrong_value"},
+      {"3 1 \"BODY\"", "3 1 BODY", "arm.msh:6: wrong_value"},
+      {"1 4 1 4\n", "1 400000000000 1 4\n", "arm.msh:13: wrong_value"},
+      {"1 4 1 4\n", "1 5 1 4\n", "arm.msh:13: contradiction"},
+      {"1 4 1 4\n3 1 0 4\n1", "1 3 1 4\n3 1 0 3\n1", "arm.msh:21: damaged"},
+      {"1\n2\n3\n4\n0", "1\n2\n2\n4\n0", "arm.msh:17: duplicate\narm.msh:27: not_found"},
+      {"0 1 0\n", "0 1 x\n", "arm.msh:21: not_a_number"},
+      {"1 0 0\n", "1 0 1e999\n", "arm.msh:20: not_a_number"},
+      {"1 1 2 3 4\n", "1 1 2 3 7\n", "arm.msh:27: not_found"},
+      {"1 1 2 3 4\n", "1 1 2 3 3\n", "arm.msh:27: duplicate"},
+      {"1 1 2 3 4\n$EndElements\n", "1 1 2 3", "arm.msh:27: damaged"},
+      {"3 1 4 1\n", "3 1 77 1\n", "arm.msh:26: unknown_key"},
+      {"3 1 4 1\n", "3 1 2 1\n", "arm.msh:26: wrong_value"},
+      {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "0 0 0 0\n", "arm.msh: missing"},
+      {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n2 1 2 1\n1 1 2 3\n", "arm.msh: missing"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 2 1 2\n3 1 4 2\n1 1 2 3 4\n1 1 2 3 4\n",
-       "arm.msh:28: element 1 is in the file twice, first in line 27"},
+       "arm.msh:28: duplicate"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n3 1 14 1\n9 1 2 3 4 1 2 3 4 1 2 3 4 1 2\n",
-       "arm.msh:27: element 9 is a 14-node pyramid (there are 1), which is not supported; save the "
-       "mesh with Mesh.SecondOrderIncomplete = 1"},
+       "arm.msh:27: unsupported"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n",
        "1 1 1 1\n3 1 12 1\n9 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3\n",
-       "arm.msh:27: element 9 is a 27-node hexahedron (there are 1), which is not supported; save "
-       "the mesh with Mesh.SecondOrderIncomplete = 1"},
-      {"$Elements\n", "$Comments\n",
-       "arm.msh:24: section $Comments has no end: '$EndComments' is missing"},
-      {"$Nodes\n1 4 1 4", "$PartitionedEntities\n1 4 1 4",
-       "arm.msh:12: the mesh is partitioned; save it in one part (Mesh.PartitionSplitMeshFiles = 0 "
-       "and no partitions)"},
+       "arm.msh:27: unsupported"},
+      {"$Elements\n", "$Comments\n", "arm.msh:24: missing"},
+      {"$Nodes\n1 4 1 4", "$PartitionedEntities\n1 4 1 4", "arm.msh:12: wrong_value"},
   };
   for (const FileError& error : errors) {
     std::string text = tiny;
@@ -206,38 +183,22 @@ TEST(Gmsh, ErrorsOfBinary) {
   const std::size_t nodes = good.find("$Nodes\n") + 7, elements = good.find("$Elements\n") + 10;
   // Truncated in the last node of the last element.
   const std::size_t end = good.find("$EndElements") - 1;
-  EXPECT_EQ(
-      mesh_error(std::string_view(good).substr(0, end - 5)),
-      fmt::format("arm.msh: byte {}: the file ends where a node of an element was expected (3 "
-                  "bytes are left)",
-                  end - 8));
+  EXPECT_EQ(mesh_error(std::string_view(good).substr(0, end - 5)), "arm.msh: damaged");
   // A count that nothing backs.
   std::string text = good;
   text[nodes + 13] = 1;
-  EXPECT_EQ(mesh_error(text),
-            fmt::format("arm.msh: byte {}: the number of nodes is 1099511627873, more than the {} "
-                        "bytes that are left of the file can hold",
-                        nodes + 8, good.size() - nodes - 16));
+  EXPECT_EQ(mesh_error(text), "arm.msh: wrong_value");
   // Rubbish in a node number, a coordinate that is no number, a wrong order of bytes.
   text = good;
   text[nodes + 58] = 1;
-  EXPECT_EQ(mesh_error(text),
-            fmt::format("arm.msh: byte {}: the number of a node is 281474976710657, expected 1 to "
-                        "2147483647",
-                        nodes + 52));
+  EXPECT_EQ(mesh_error(text), "arm.msh: out_of_range");
   text = good;
   const std::size_t one = text.find("8\n") + 2;
   text[one] = 7;
-  EXPECT_EQ(mesh_error(text),
-            "arm.msh: byte 24: found 7, expected the number 1 that shows the order "
-            "of bytes");
+  EXPECT_EQ(mesh_error(text), "arm.msh: wrong_value");
   text = good;
   text.erase(elements);
-  EXPECT_EQ(
-      mesh_error(text),
-      fmt::format("arm.msh: byte {}: the file ends where the number of blocks of elements was "
-                  "expected (0 bytes are left)",
-                  elements));
+  EXPECT_EQ(mesh_error(text), "arm.msh: damaged");
 }
 
 }  // namespace

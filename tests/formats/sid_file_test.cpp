@@ -236,23 +236,15 @@ TEST(SidFile, InertiaAboutTheCentreOfMass) {
   c.J.line = 7;
   const double about_centre = body.invariants.inertia_about_centre()(2, 2);
   c.J.m0(2, 0) -= 3.0 * about_centre;
-  EXPECT_TRUE(error(c).starts_with("far.SID_FEM:7: block J gives a moment of inertia of -"))
-      << error(c);
+  EXPECT_EQ(error(c), "far.SID_FEM:7: out_of_range") << error(c);
   c.J.m0(2, 0) += 7.0 * about_centre;
-  EXPECT_NE(error(c).find("the largest is more than the sum of the others, which no body has"),
-            std::string::npos)
-      << error(c);
+  EXPECT_EQ(error(c), "far.SID_FEM:7: wrong_value") << error(c);
   c = sid_content(body);
   c.Me.m0 *= 0.01;
-  EXPECT_NE(error(c).find("the mass matrix at zero deformation is not positive: scaled to a unit "
-                          "diagonal its smallest eigenvalue is -"),
-            std::string::npos)
-      << error(c);
+  EXPECT_EQ(error(c), "far.SID_FEM: out_of_range") << error(c);
   c = sid_content(body);
   c.Ke.m0 *= -1.0;
-  EXPECT_NE(error(c).find("block Ke holds a negative stiffness (-1e+04), expected none below zero"),
-            std::string::npos)
-      << error(c);
+  EXPECT_EQ(error(c), "far.SID_FEM: out_of_range") << error(c);
 }
 
 /// tests/data/fe/classical.SID_FEM: four points with two modes in the classical dialect (12 digits,
@@ -338,36 +330,25 @@ struct SidError {
 
 TEST(SidFile, Errors) {
   const SidError errors[] = {
-      {"    2   2    :No", "    two   2    :No",
-       "arm.SID_FEM:1: found 'two   2    :No. nodes, No. modes: four p...', expected the numbers "
-       "of "
-       "nodes and of modes, as in '3 1 : comment'"},
-      {"    2   2    :No", "    2   900000000  :No",
-       "arm.SID_FEM:1: 900000000 modes are more than the 500 that can be read"},
-      {"    2   2    :No", "    3   2    :No",
-       "arm.SID_FEM:10: block frame has 2 nodes, the first line of the file says 3"},
-      {"nelastq                         =     2", "nelastq = 3",
-       "arm.SID_FEM:6: nelastq is '3', the first line of the file says 2 modes"},
+      {"    2   2    :No", "    two   2    :No", "arm.SID_FEM:1: wrong_value"},
+      {"    2   2    :No", "    2   900000000  :No", "arm.SID_FEM:1: too_large"},
+      {"    2   2    :No", "    3   2    :No", "arm.SID_FEM:10: contradiction"},
+      {"nelastq                         =     2", "nelastq = 3", "arm.SID_FEM:6: contradiction"},
       {"mass                            = 4.00000000000D+00", "mass = -4",
-       "arm.SID_FEM:5: the mass is not positive"},
-      {"nrow                  =    6", "nrow = 5",
-       "arm.SID_FEM:148: block J: nrow is 5, expected 6"},
-      {"m0( 5, 1)             =-1.72500000000D-01", "nrow = 3",
-       "arm.SID_FEM:157: 'nrow' of block J comes after its entries"},
+       "arm.SID_FEM:5: out_of_range"},
+      {"nrow                  =    6", "nrow = 5", "arm.SID_FEM:148: wrong_value"},
+      {"m0( 5, 1)             =-1.72500000000D-01", "nrow = 3", "arm.SID_FEM:157: wrong_value"},
       {"m0( 2, 1)             = 2.50000000000D-01", "m0( 2, 1) = 2.5D-0x",
-       "arm.SID_FEM:137: '2.5D-0x' is not a number"},
+       "arm.SID_FEM:137: not_a_number"},
       {"m0( 2, 1)             = 2.50000000000D-01", "m0( 4, 1) = 2.5D-01",
-       "arm.SID_FEM:137: 'm0(4,1)' is outside of block mdCM, which is 3 x 1 with 2 modes"},
+       "arm.SID_FEM:137: wrong_count"},
       {"m0( 2, 1)             = 2.50000000000D-01", "m0( 1, 1) = 2.5D-01",
-       "arm.SID_FEM:137: 'm0(1,1)' of block mdCM is in the file twice, first in line 136"},
-      {"           Gr\n", "           Gz\n",
-       "arm.SID_FEM:214: unknown block 'Gz' (expected refmod, frame, mdCM, J, Ct, Cr, Me, Gr, Ge, "
-       "Oe, ksigma, Ke or De)"},
+       "arm.SID_FEM:137: duplicate"},
+      {"           Gr\n", "           Gz\n", "arm.SID_FEM:214: not_found"},
       {"m0( 1, 3)             = 1.09733984152D+00", "m0( 1, 3) = 1.1",
-       "arm.SID_FEM:172: row 1 of block Ct is (0.0267644 0.347937 1.1), but m1 of mdCM in line 129 "
-       "is (0.0267644 0.347937 1.09734): they must be equal"},
+       "arm.SID_FEM:172: contradiction"},
       {"m0( 2, 2)             = 7.50000000000D-01", "m0( 2, 1)             = 7.50000000000D-01",
-       "arm.SID_FEM:301: 'm0(2,1)' in block De, whose structure 1 is diagonal"},
+       "arm.SID_FEM:301: wrong_value"},
   };
   for (const SidError& c : errors) {
     std::string text = classical();
@@ -378,7 +359,7 @@ TEST(SidFile, Errors) {
       parse_sid(text, "arm.SID_FEM");
       ADD_FAILURE() << "read without error: " << c.sentence;
     } catch (const InputError& error) {
-      const std::string what = error.what();
+      const std::string what = test::codes_of(error);
       EXPECT_EQ(what.substr(0, what.find('\n')), c.sentence);
     }
   }
@@ -386,17 +367,12 @@ TEST(SidFile, Errors) {
     return error_of([&] { parse_sid(text, "arm.SID_FEM"); });
   };
   const std::string text = classical();
-  EXPECT_EQ(error_in(text.substr(0, text.find(" end part"))),
-            "arm.SID_FEM:303: the file ends where 'end part' was expected");
-  EXPECT_EQ(error_in(text.substr(0, text.find("           Ke\n"))),
-            "arm.SID_FEM:281: the file ends where 'end modal' was expected");
+  EXPECT_EQ(error_in(text.substr(0, text.find(" end part"))), "arm.SID_FEM:303: damaged");
+  EXPECT_EQ(error_in(text.substr(0, text.find("           Ke\n"))), "arm.SID_FEM:281: damaged");
   std::string wrong = text;
   const std::size_t Me = wrong.find("mass                            = 4");
   wrong.replace(Me, 36, "mass = 0.1");
-  EXPECT_EQ(error_in(wrong),
-            "arm.SID_FEM:146: block J gives a moment of inertia of -11.5692 about the centre of "
-            "mass (with "
-            "mass and mdCM), expected none below zero");
+  EXPECT_EQ(error_in(wrong), "arm.SID_FEM:146: out_of_range");
 }
 
 }  // namespace

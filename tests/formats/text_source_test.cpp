@@ -11,6 +11,7 @@
 
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,7 +34,7 @@ std::string error_of_gzip(const std::string& bytes) {
   try {
     decompressed(bytes, "a.inp.gz");
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }
@@ -46,13 +47,13 @@ TEST(Gzip, AFileThatIsDamagedFromItsBeginningIsNotEmpty) {
     try {
       read_fe_file(file);
     } catch (const InputError& error) {
-      return error.errors().front().message;
+      return test::code_of(error.errors().front());
     }
     return "no error";
   };
-  EXPECT_TRUE(said("\x1f\x8b\x08 broken").starts_with("the gzip data are damaged"));
-  EXPECT_EQ(said(gzip("")), "the file is empty");
-  EXPECT_EQ(said(""), "the file is empty");
+  EXPECT_EQ(said("\x1f\x8b\x08 broken"), "/tmp/damaged_from_its_beginning.inp.gz: damaged");
+  EXPECT_EQ(said(gzip("")), "/tmp/damaged_from_its_beginning.inp.gz: missing");
+  EXPECT_EQ(said(""), "/tmp/damaged_from_its_beginning.inp.gz: missing");
   std::filesystem::remove(file);
 }
 
@@ -127,11 +128,11 @@ TEST(TextSource, ErrorsAreUtf8) {
       source.error(ErrorCode::not_found, {0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
       source.throw_if_any();
     } catch (const InputError& e) {
-      return e.what();
+      return test::codes_of(e);
     }
     return "no error";
   };
-  EXPECT_EQ(error(false), "a.inp:1: the set Tr\xc3\xa4ger holds '\xc3\xa4'");
+  EXPECT_EQ(error(false), "a.inp:1: not_found");
   EXPECT_EQ(error(true), error(false));
 }
 
@@ -164,7 +165,7 @@ TEST(TextSource, ErrorsHaveAnEnd) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.errors().size(), TextSource::most_errors + 1);
-    EXPECT_EQ(error.errors().back().message, "reading ends after 50 errors");
+    EXPECT_EQ(test::code_of(error.errors().back()), "too_large (0)");
   }
 }
 
@@ -182,13 +183,11 @@ TEST(Gzip, DamagedAndTruncated) {
   const std::string bytes = gzip(text);
   for (const std::size_t size :
        {std::size_t{2}, std::size_t{12}, bytes.size() / 2, bytes.size() - 5}) {
-    EXPECT_EQ(error_of_gzip(bytes.substr(0, size)),
-              "a.inp.gz: the gzip data end too early: the file is truncated")
-        << size;
+    EXPECT_EQ(error_of_gzip(bytes.substr(0, size)), "a.inp.gz: damaged") << size;
   }
   std::string damaged = bytes;
   damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] ^ 0x55);
-  EXPECT_EQ(error_of_gzip(damaged), "a.inp.gz: the gzip data are damaged (incorrect data check)");
+  EXPECT_EQ(error_of_gzip(damaged), "a.inp.gz: damaged");
 }
 
 TEST(Gzip, BombsAreNotRead) {
@@ -200,10 +199,8 @@ TEST(Gzip, BombsAreNotRead) {
   const std::string packed = gzip(digits);
   EXPECT_GT(digits.size(), 40 * packed.size());
   EXPECT_LT(digits.size(), 200 * packed.size());
-  EXPECT_NE(error_of_gzip(packed).find("is compressed more than 40 times"), std::string::npos);
-  EXPECT_NE(error_of_gzip(gzip(std::string(std::size_t{70} << 20, '0')))
-                .find("is compressed more than 40 times, which no deck is: it is not read"),
-            std::string::npos);
+  EXPECT_EQ(error_of_gzip(packed), "a.inp.gz: unsupported");
+  EXPECT_EQ(error_of_gzip(gzip(std::string(std::size_t{70} << 20, '0'))), "a.inp.gz: unsupported");
 }
 
 }  // namespace

@@ -141,8 +141,7 @@ TEST(StateHistory, SomeBodiesCarryWhatTheyHangFrom) {
   o.coordinates = Coordinates::absolute;
   EXPECT_EQ(StateHistory::of_bytes(bytes_of(o), "x").header().q.size(), 16u);
   o.record.bodies = {"beem"};
-  EXPECT_EQ(error_of([&] { bytes_of(o); }),
-            "simulation.record.states.bodies: unknown body 'beem', did you mean 'beam'?");
+  EXPECT_EQ(error_of([&] { bytes_of(o); }), "not_found");
 }
 
 TEST(StateHistory, LongRunsKeepNoMoreThanTwentyThousandInstants) {
@@ -195,12 +194,11 @@ TEST(StateHistory, WhatIsWrongIsSaid) {
   const auto error = [](const std::string& bytes) {
     return error_of([&] { StateHistory::of_bytes(bytes, "x"); });
   };
-  EXPECT_EQ(error(""),
-            "x: this is not a result file of a run (states.ffr): it does not begin as one");
+  EXPECT_EQ(error(""), "x: wrong_file");
   std::string other = history_beginning();
-  EXPECT_EQ(error(other), "x: it ends within its header: the run was ended at its start");
+  EXPECT_EQ(error(other), "x: damaged");
   other[8] = 7;
-  EXPECT_EQ(error(other), "x: found version 7 of result files, this program reads version 1");
+  EXPECT_EQ(error(other), "x: mismatch");
   const auto with_header = [&](const std::function<void(HistoryHeader&)>& change) {
     HistoryHeader h = StateHistory::of_bytes(bytes_of(short_run()), "x").header();
     h.arrays.clear();
@@ -210,38 +208,28 @@ TEST(StateHistory, WhatIsWrongIsSaid) {
   const auto changed = [&](const std::function<void(HistoryHeader&)>& change) {
     return error(with_header(change));
   };
-  const std::string is_not = "x: the header is not one of a result file: ";
   EXPECT_EQ(error(with_header([](HistoryHeader&) {})), "no error");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.coordinates = "polar"; }),
-            is_not + "coordinates: found 'polar', expected relative or absolute");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.q[1] = h.q[0]; }),
-            is_not + "q: found 0, expected a whole number from 1 to 15");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.q.back() = h.configurations; }),
-            is_not + "q: found 15, expected a coordinate below 15");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.groups[1].first = 5; }),
-            is_not + "groups: columns that do not follow each other");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].amplitudes = 0; }),
-            is_not + "bodies: 'amplitudes' are columns outside of 'q'");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].shape = 9; }),
-            is_not + "bodies.shape: there is no such shape");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.coordinates = "polar"; }), "x: wrong_value");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.q[1] = h.q[0]; }), "x: out_of_range");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.q.back() = h.configurations; }), "x: out_of_range");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.groups[1].first = 5; }), "x: wrong_value");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].amplitudes = 0; }), "x: out_of_range");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].shape = 9; }), "x: wrong_value");
   EXPECT_EQ(changed([](HistoryHeader& h) {
               h.arrays.push_back({"a", "f64", {2000000000, 2000000000, 2000000000}});
             }),
-            is_not + "arrays.shape: it is too large");
+            "x: too_large");
   EXPECT_EQ(changed([](HistoryHeader& h) {
               h.arrays.push_back({"a", "f16", {1}});
             }),
-            is_not + "arrays.type: found 'f16', expected f32, f64 or u32");
+            "x: wrong_value");
   const std::string plain = with_header([](HistoryHeader&) {});
-  EXPECT_NE(
-      error(plain + history_block(HistoryBlockKind::rows, "12345678")).find("expected rows of"),
-      std::string::npos);
-  EXPECT_EQ(error(plain + history_block(HistoryBlockKind::done, "{}")),
-            "x: its end is not one of a result file");
+  EXPECT_EQ(error(plain + history_block(HistoryBlockKind::rows, "12345678")), "x: wrong_count");
+  EXPECT_EQ(error(plain + history_block(HistoryBlockKind::done, "{}")), "x: damaged");
   const std::string end =
       history_block(HistoryBlockKind::done, R"({"status": "completed", "message": ""})");
   EXPECT_EQ(error(plain + end), "no error");
-  EXPECT_EQ(error(plain + end + end), "x: it goes on after its end");
+  EXPECT_EQ(error(plain + end + end), "x: damaged");
 }
 
 TEST(StateHistory, NumbersThatAreNotFiniteAreRefused) {
@@ -258,8 +246,7 @@ TEST(StateHistory, NumbersThatAreNotFiniteAreRefused) {
           history_block(HistoryBlockKind::rows, numbers),
       "x");
   ASSERT_EQ(found.instants(), 1u);
-  EXPECT_EQ(error_of([&] { found.instant(0, row); }),
-            "x: instant 0 holds numbers that are not finite");
+  EXPECT_EQ(error_of([&] { found.instant(0, row); }), "x: not_finite");
   EXPECT_NE(error_of([&] { found.instant(1, row); }), "no error");
   EXPECT_NE(error_of([&] { static_cast<void>(found.numbers(0)); }), "no error");
 }

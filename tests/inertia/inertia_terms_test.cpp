@@ -51,28 +51,23 @@ TEST(InertiaTerms, WhatDoesNotFitIsRefused) {
   body.invariants = InertiaInvariants::rigid(2.0, Vec3::Zero(), Mat3::Identity());
   BodyMotion m;
   m.y = VecX::Zero(2);
-  EXPECT_EQ(error_of([&] { relative_preprocessing(body, m); }),
-            "found 2 modal amplitudes, expected 0: one for each mode");
-  EXPECT_EQ(error_of([&] { absolute_projection(body, {}); }),
-            "found a body without nodal masses, expected one that keeps ProjectionData");
+  EXPECT_EQ(error_of([&] { relative_preprocessing(body, m); }), "wrong_value");
+  EXPECT_EQ(error_of([&] { absolute_projection(body, {}); }), "wrong_value");
 }
 
 TEST(InertiaTerms, SizesThatDoNotFit) {
   FlexibleBody body = reduce(build_bar_frame(a_arm_frame(5)), a_arm_options());
   const FlexibleBody good = body;
   body.invariants.Si[1].resize(3, 1);
-  EXPECT_EQ(error_of([&] { relative_preprocessing(body, {}); }).substr(0, 34),
-            "found an integral Si of the size 3");
+  EXPECT_EQ(error_of([&] { relative_preprocessing(body, {}); }).substr(0, 34), "wrong_count");
   body = good;
   body.invariants.Sij[0][2].resize(0, 0);
-  EXPECT_EQ(error_of([&] { absolute_preprocessing(body, {}); }).substr(0, 35),
-            "found an integral Sij of the size 0");
+  EXPECT_EQ(error_of([&] { absolute_preprocessing(body, {}); }).substr(0, 35), "wrong_count");
   body = good;
   ProjectionData data = *good.projection;
   data.X.conservativeResize(3, data.X.cols());
   body.projection = std::make_shared<ProjectionData>(data);
-  EXPECT_EQ(error_of([&] { relative_projection(body, {}); }).substr(0, 29),
-            "found modal translations of t");
+  EXPECT_EQ(error_of([&] { relative_projection(body, {}); }).substr(0, 29), "wrong_count");
   data = *good.projection;
   data.M_s.resize(1, 1);
   body.projection = std::make_shared<ProjectionData>(data);

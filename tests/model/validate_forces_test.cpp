@@ -16,90 +16,75 @@ ForceValues by_key(std::map<std::string, ForceValue> values) {
 
 TEST(Validate, ForcesRoadsInputs) {
   check({
-      {[](D& d) { d.forces[1].name = "spring"; },
-       "forces.spring: the name is taken, expected a name used once"},
+      {[](D& d) { d.forces[1].name = "spring"; }, "forces.spring: duplicate"},
       {[](D& d) { kind<SpringDamperDescription>(d, 0).a.body = "block"; },
-       "forces.spring: found both ends on 'block', expected two bodies"},
+       "forces.spring: geometry"},
       {[](D& d) { kind<SpringDamperDescription>(d, 0).a.point = Vec3(0, 0, 1); },
-       "forces.spring: found both ends at the same point, expected two points apart"},
+       "forces.spring: out_of_range"},
       {[](D& d) { kind<SpringDamperDescription>(d, 0).spring = two_pieces(nan, 1.0, 1.0); },
-       "forces.spring.spring.piecewise[1].below: found nan, expected a number (numbers must be "
-       "finite)\n"
-       "forces.spring.spring.piecewise[2].about: found nan, expected a number (numbers must be "
-       "finite)"},
+       "forces.spring.spring.piecewise[1].below: "
+       "out_of_range\nforces.spring.spring.piecewise[2].about: out_of_range"},
       {[](D& d) { kind<SpringDamperDescription>(d, 0).spring = two_pieces(1.0, 1.0, 2.0); },
-       "forces.spring.spring.piecewise[1]: the law jumps from 1 to 2 at 1, expected pieces that "
-       "meet within 1e-6 of the range of the law"},
+       "forces.spring.spring.piecewise[1]: wrong_value"},
       {[](D& d) {
          kind<SpringDamperDescription>(d, 0).damper =
              PiecewisePolynomial({2.0, 1.0}, {{0.0, {0.0}}, {0.0, {0.0}}, {0.0, {0.0}}});
        },
-       "forces.spring.damper.piecewise[2].below: found 1, expected a number above the previous "
-       "one, 2"},
+       "forces.spring.damper.piecewise[2].below: out_of_range"},
       {[](D& d) {
          kind<SpringDamperDescription>(d, 0).damper = PiecewisePolynomial({1.0}, {{0.0, {0.0}}});
        },
-       "forces.spring.damper: found 1 pieces and 1 breaks between them, expected one piece more "
-       "than breaks"},
+       "forces.spring.damper: out_of_range"},
       {[](D& d) {
          kind<SpringDamperDescription>(d, 0).damper = PiecewisePolynomial::polynomial({});
        },
-       "forces.spring.damper.polynomial: found a list of 0, expected a list of 1 to 20 "
-       "coefficients [c0, c1, ...]"},
+       "forces.spring.damper.polynomial: wrong_count"},
       {[](D& d) { kind<SpringDamperDescription>(d, 0).actuator->input = "pull"; },
-       "forces.spring.actuator.input: unknown input 'pull'"},
+       "forces.spring.actuator.input: not_found"},
       {[](D& d) { kind<GuidedSpringDescription>(d, 1).axis.setZero(); },
-       "forces.guide.axis: found a vector of length zero, expected a direction"},
+       "forces.guide.axis: out_of_range"},
       {[](D& d) { kind<GuidedSpringDescription>(d, 1).tip.body = "block"; },
-       "forces.guide: found both ends on 'block', expected two bodies"},
+       "forces.guide: geometry"},
       {[](D& d) { kind<JointSpringDescription>(d, 2).joint = "slid"; },
-       "forces.motor.joint: unknown joint 'slid', did you mean 'slide'?"},
+       "forces.motor.joint: not_found"},
       {[](D& d) { kind<JointSpringDescription>(d, 2).joint = "ball"; },
-       "forces.motor.joint: found 'ball', expected a revolute or prismatic joint"},
+       "forces.motor.joint: wrong_value"},
       {[](D& d) { kind<JointSpringDescription>(d, 2).spring = {}; },
-       "forces.motor.target: found without spring and damper, expected a law that pulls to the "
-       "target"},
+       "forces.motor.target: incomplete"},
       {[](D& d) {
          kind<JointSpringDescription>(d, 2).spring = {};
          kind<JointSpringDescription>(d, 2).target.reset();
        },
-       "forces.motor: found no law, expected spring, damper or actuator"},
-      {[](D& d) { kind<GuidedSpringDescription>(d, 1).damper = {}; },
-       "forces.guide: found no law, expected spring, damper, bump_stop, rebound_stop or actuator"},
-      {[](D& d) { kind<TyreDescription>(d, 3).radius = 0.0; },
-       "forces.tyre.radius: found 0, expected a positive number [m]"},
+       "forces.motor: missing"},
+      {[](D& d) { kind<GuidedSpringDescription>(d, 1).damper = {}; }, "forces.guide: missing"},
+      {[](D& d) { kind<TyreDescription>(d, 3).radius = 0.0; }, "forces.tyre.radius: out_of_range"},
       {[](D& d) { kind<TyreDescription>(d, 3).stiffness = -1.0; },
-       "forces.tyre.stiffness: found -1, expected a positive number [N/m]"},
+       "forces.tyre.stiffness: out_of_range"},
       {[](D& d) { kind<TyreDescription>(d, 3).damping = nan; },
-       "forces.tyre.damping: found nan, expected a number >= 0 [N s/m] (numbers must be finite)"},
+       "forces.tyre.damping: out_of_range"},
       {[](D& d) { kind<TyreDescription>(d, 3).law = static_cast<TyreLaw>(9); },
-       "forces.tyre.law: found 9, expected vertical or radial"},
-      {[](D& d) { kind<TyreDescription>(d, 3).axis.setZero(); },
-       "forces.tyre.axis: found a vector of length zero, expected a direction"},
-      {[](D& d) { kind<TyreDescription>(d, 3).road = "trak"; },
-       "forces.tyre.road: unknown road 'trak', did you mean 'track'?"},
+       "forces.tyre.law: out_of_range"},
+      {[](D& d) { kind<TyreDescription>(d, 3).axis.setZero(); }, "forces.tyre.axis: out_of_range"},
+      {[](D& d) { kind<TyreDescription>(d, 3).road = "trak"; }, "forces.tyre.road: not_found"},
       {[](D& d) { kind<TyreDescription>(d, 3).centre.body = "ground"; },
-       "forces.tyre.body: found ground, expected a body"},
+       "forces.tyre.body: wrong_value"},
       {[](D& d) { kind<AppliedLoadDescription>(d, 4).direction.setZero(); },
-       "forces.load.direction: found a vector of length zero, expected a direction"},
+       "forces.load.direction: out_of_range"},
       {[](D& d) { kind<AppliedLoadDescription>(d, 4).magnitude.amplitude = inf; },
-       "forces.load.magnitude.sine.amplitude: found inf, expected a number (numbers must be "
-       "finite)\n"
-       "forces.load.magnitude.sine.frequency: found 0, expected a positive number [Hz]"},
+       "forces.load.magnitude.sine.amplitude: out_of_range\nforces.load.magnitude.sine.frequency: "
+       "out_of_range"},
       // By the keys of model files.
       {[](D& d) {
          d.forces[0].kind = ForceValues{static_cast<ForceType>(99), {}};
        },
-       "forces.spring.type: found 99, expected " + alternatives(force_words)},
+       "forces.spring.type: out_of_range"},
       {[](D& d) { d.forces[3].kind = by_key({}); },
-       "forces.tyre: missing key 'body'\nforces.tyre: missing key 'radius'\n"
-       "forces.tyre: missing key 'stiffness'\nforces.tyre: missing key 'road'"},
+       "forces.tyre: missing\nforces.tyre: missing\nforces.tyre: missing\nforces.tyre: missing"},
       {[](D& d) {
          d.forces[3].kind = by_key({{"radius", -1}, {"law", "radial"}, {"wide", 0.2}});
        },
-       "forces.tyre: unknown key 'wide'\nforces.tyre: missing key 'body'\n"
-       "forces.tyre.radius: found -1, expected a positive number [m]\n"
-       "forces.tyre: missing key 'stiffness'\nforces.tyre: missing key 'road'"},
+       "forces.tyre: unknown_key\nforces.tyre: missing\nforces.tyre.radius: "
+       "out_of_range\nforces.tyre: missing\nforces.tyre: missing"},
       {[](D& d) {
          d.forces[3].kind = by_key({{"body", AttachmentDescription{"block", Vec3(0, 0, 1), {}, {}}},
                                     {"radius", "0.3"},
@@ -107,35 +92,25 @@ TEST(Validate, ForcesRoadsInputs) {
                                     {"law", "round"},
                                     {"road", "track"}});
        },
-       "forces.tyre.radius: found a value of another type, expected a number\n"
-       "forces.tyre.law: found 'round', expected vertical or radial"},
-      {[](D& d) { d.roads[0].bumps[0].length = 0.0; },
-       "roads.track.bumps[1].length: found 0, expected a positive number [m]"},
-      {[](D& d) { d.roads[0].bumps[0].height = nan; },
-       "roads.track.bumps[1].height: found nan, expected a number [m] (numbers must be finite)"},
+       "forces.tyre.radius: wrong_value\nforces.tyre.law: out_of_range"},
+      {[](D& d) { d.roads[0].bumps[0].length = 0.0; }, "roads.track.bumps[1].length: out_of_range"},
+      {[](D& d) { d.roads[0].bumps[0].height = nan; }, "roads.track.bumps[1].height: out_of_range"},
       {[](D& d) {
          d.roads[0].pieces =
              PiecewisePolynomial({2.0, 1.0}, {{0.0, {0.0}}, {0.0, {0.0}}, {0.0, {0.0}}});
        },
-       "roads.track.profile.piecewise[2].below: found 1, expected a number above the previous "
-       "one, 2"},
-      {[](D& d) { d.inputs[0].initial = nan; },
-       "inputs.push.initial: found nan, expected a number [N] (numbers must be finite)"},
-      {[](D& d) { d.inputs[0].initial = 2.0; },
-       "inputs.push.initial: found 2, expected a number not above max, 1"},
-      {[](D& d) { d.inputs[0].high = -1.0; },
-       "inputs.push.max: found -1, expected a number above min, -1"},
-      {[](D& d) { d.inputs[0].low = nan; },
-       "inputs.push.min: found nan, expected a number [N] (numbers must be finite)"},
-      {[](D& d) { d.inputs[0].unit = "N,m"; },
-       "inputs.push.unit: found 'N,m', expected a unit of at most 20 characters without commas, "
-       "quotes and brackets"},
+       "roads.track.profile.piecewise[2].below: out_of_range"},
+      {[](D& d) { d.inputs[0].initial = nan; }, "inputs.push.initial: out_of_range"},
+      {[](D& d) { d.inputs[0].initial = 2.0; }, "inputs.push.initial: out_of_range"},
+      {[](D& d) { d.inputs[0].high = -1.0; }, "inputs.push.max: contradiction"},
+      {[](D& d) { d.inputs[0].low = nan; }, "inputs.push.min: out_of_range"},
+      {[](D& d) { d.inputs[0].unit = "N,m"; }, "inputs.push.unit: out_of_range"},
       {[](D& d) {
          d.inputs[0].clamp = true;
          d.inputs[0].low.reset();
          d.inputs[0].high.reset();
        },
-       "inputs.push.clamp: found true without limits, expected min, max or both beside it"},
+       "inputs.push.clamp: out_of_range"},
   });
 }
 

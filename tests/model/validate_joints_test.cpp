@@ -15,73 +15,55 @@ TEST(Validate, Joints) {
          d.joints[1].name = "slide";
          d.outputs.clear();
        },
-       "joints.slide: the name is taken, expected a name used once"},
+       "joints.slide: duplicate"},
       {[](D& d) { d.joints[1].type = static_cast<JointType>(99); },
-       "joints.pin.type: found 99, expected " + alternatives(joint_words)},
-      {[](D& d) { d.joints[1].parent.body = "blok"; },
-       "joints.pin.parent: unknown body 'blok', did you mean 'block'?"},
-      {[](D& d) { d.joints[1].child.body = "x"; }, "joints.pin.child: unknown body 'x'"},
-      {[](D& d) { d.joints[1].child.body = "ground"; },
-       "joints.pin.child: found ground, expected a body (the ground may be the parent)"},
-      {[](D& d) { d.joints[1].parent.body = "arm"; },
-       "joints.pin.child: found the same body as the parent, expected another"},
-      {[](D& d) { d.joints[1].parent.point.x() = nan; },
-       "joints.pin.at[1]: found nan, expected a number [m] (numbers must be finite)"},
-      {[](D& d) { d.joints[1].axis.setZero(); },
-       "joints.pin.axis: found a vector of length zero, expected a direction"},
-      {[](D& d) { d.joints[1].axis.y() = inf; },
-       "joints.pin.axis[2]: found inf, expected a number (numbers must be finite)"},
-      {[](D& d) { d.joints[1].axis_2 = -2.0 * d.joints[1].axis; },
-       "joints.pin.axis_2: found a direction parallel to 'axis', expected another"},
-      {[](D& d) { d.joints[1].position = {1.0}; },
-       "joints.pin.position: found a list of 1, expected a list of 2 numbers for a universal "
-       "joint"},
+       "joints.pin.type: out_of_range"},
+      {[](D& d) { d.joints[1].parent.body = "blok"; }, "joints.pin.parent: not_found"},
+      {[](D& d) { d.joints[1].child.body = "x"; }, "joints.pin.child: not_found"},
+      {[](D& d) { d.joints[1].child.body = "ground"; }, "joints.pin.child: wrong_value"},
+      {[](D& d) { d.joints[1].parent.body = "arm"; }, "joints.pin.child: wrong_value"},
+      {[](D& d) { d.joints[1].parent.point.x() = nan; }, "joints.pin.at[1]: out_of_range"},
+      {[](D& d) { d.joints[1].axis.setZero(); }, "joints.pin.axis: out_of_range"},
+      {[](D& d) { d.joints[1].axis.y() = inf; }, "joints.pin.axis[2]: out_of_range"},
+      {[](D& d) { d.joints[1].axis_2 = -2.0 * d.joints[1].axis; }, "joints.pin.axis_2: geometry"},
+      {[](D& d) { d.joints[1].position = {1.0}; }, "joints.pin.position: wrong_count"},
       {[](D& d) {
          d.joints[1].velocity = {1.0, nan};
        },
-       "joints.pin.velocity[2]: found nan, expected a number (numbers must be finite)"},
-      {[](D& d) { d.joints[0].position = {1.0}; },
-       "joints.slide.position: found with a prescribed motion, which decides it; remove this key"},
+       "joints.pin.velocity[2]: out_of_range"},
+      {[](D& d) { d.joints[0].position = {1.0}; }, "joints.slide.position: exclusive"},
       {[](D& d) {
          d.joints[0].motion.reset();
          d.joints[0].velocity = {1.0, 2.0};
        },
-       "joints.slide.velocity: found a list of 2, expected a number"},
-      {[](D& d) { d.joints[1].motion.emplace(); },
-       "joints.pin.motion: is not used by a universal joint; remove this key"},
+       "joints.slide.velocity: wrong_count"},
+      {[](D& d) { d.joints[1].motion.emplace(); }, "joints.pin.motion: wrong_value"},
       {[](D& d) { d.joints[0].motion->amplitude = 1.0; },
-       "joints.slide.motion.sine.frequency: found 0, expected a positive number [Hz]"},
+       "joints.slide.motion.sine.frequency: out_of_range"},
       {[](D& d) { d.joints[0].motion->phase = nan; },
-       "joints.slide.motion.sine.phase: found nan, expected a number [rad] (numbers must be "
-       "finite)"},
+       "joints.slide.motion.sine.phase: out_of_range"},
       {[](D& d) {
          d.joints[0].motion->pieces = PiecewisePolynomial::polynomial({0.0, nan});
        },
-       "joints.slide.motion.polynomial[2]: found nan, expected a number (numbers must be finite)"},
+       "joints.slide.motion.polynomial[2]: out_of_range"},
       {[](D& d) {
          d.joints[1].type = JointType::weld;
          d.outputs.clear();
        },
-       "joints.pin.position: a weld has no coordinates; remove this key"},
-      {[](D& d) { d.joints[2].keep = true; },
-       "joints.ball.keep: found without 'position' and 'velocity', expected one of them to keep"},
-      {[](D& d) { d.rods[0].length = 0.0; },
-       "rods.rod.length: found 0, expected a positive number [m]"},
-      {[](D& d) { d.rods[0].a.body = "block"; },
-       "rods.rod: found both ends on 'block', expected two bodies"},
+       "joints.pin.position: wrong_value"},
+      {[](D& d) { d.joints[2].keep = true; }, "joints.ball.keep: incomplete"},
+      {[](D& d) { d.rods[0].length = 0.0; }, "rods.rod.length: out_of_range"},
+      {[](D& d) { d.rods[0].a.body = "block"; }, "rods.rod: geometry"},
       {[](D& d) {
          d.rods[0].length.reset();
          d.rods[0].a.point = d.rods[0].b.point;
        },
-       "rods.rod: found length 0, expected two points apart"},
-      {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: unknown body 'x'"},
-      {[](D& d) { d.rods[0].a.node = "n0"; },
-       "rods.rod.from.node: found a node on the ground, expected a flexible body"},
+       "rods.rod: out_of_range"},
+      {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: not_found"},
+      {[](D& d) { d.rods[0].a.node = "n0"; }, "rods.rod.from.node: incomplete"},
       // Nodes are known when the bodies are reduced; the sentences are those of model files.
-      {[](D& d) { d.joints[2].child.node = "n9"; },
-       "joints.ball.child_node: the flexible body 'part' has no node 'n9', did you mean 'n0'?"},
-      {[](D& d) { d.rods[0].b.node = "n0"; },
-       "rods.rod.to.node: found a node on the rigid body 'block', expected a flexible body"},
+      {[](D& d) { d.joints[2].child.node = "n9"; }, "not_found"},
+      {[](D& d) { d.rods[0].b.node = "n0"; }, "not_found"},
       {[](D& d) {
          d.bodies[2].rigid = true;
          d.amplitudes.clear();
@@ -89,26 +71,20 @@ TEST(Validate, Joints) {
          d.outputs.clear();
          d.joints[2].child.node = "end";
        },
-       "joints.ball.child_node: the body 'part' has no node 'end'"},
+       "not_found"},
       {[](D& d) {
          d.joints[2].child.node.reset();
          d.joints[2].child.point = d.joints[2].parent.point = Vec3(0.4, 0, 0);
        },
-       "joints.ball.at: found the point [0.4, 0, 0] on the flexible body 'part', expected one of "
-       "its nodes; the nearest is at [0.5, 0, 0]"},
-      {[](D& d) { kind<GuidedSpringDescription>(d, 1).tip.point.x() = 0.6; },
-       "forces.guide.tip.at: found the point [0.6, 0, 0] on the flexible body 'part', expected one "
-       "of its nodes; the nearest is at [0.5, 0, 0]"},
-      {[](D& d) { kind<AppliedLoadDescription>(d, 4).at.node = "n0"; },
-       "forces.load.node: found a node on the rigid body 'block', expected a flexible body"},
+       "not_found"},
+      {[](D& d) { kind<GuidedSpringDescription>(d, 1).tip.point.x() = 0.6; }, "not_found"},
+      {[](D& d) { kind<AppliedLoadDescription>(d, 4).at.node = "n0"; }, "not_found"},
       {[](D& d) {
          d.outputs[0].at.body = "part";
          d.outputs[0].at.point = Vec3(0.7, 0, 0);
        },
-       "outputs.z.position.at: found the point [0.7, 0, 0] on the flexible body 'part', expected "
-       "one of its nodes; the nearest is at [0.5, 0, 0]"},
-      {[](D& d) { d.rods[0].b.point.z() = nan; },
-       "rods.rod.to.at[3]: found nan, expected a number [m] (numbers must be finite)"},
+       "not_found"},
+      {[](D& d) { d.rods[0].b.point.z() = nan; }, "rods.rod.to.at[3]: out_of_range"},
   });
 }
 
@@ -124,63 +100,42 @@ TEST(Validate, AxesOfTinyNumbersAreDirections) {
   }
 }
 
-const std::string long_name =
-    "outputs." + std::string(201, 'n') + ": found a name of 201 characters, expected at most 200";
+const std::string long_name = "outputs." + std::string(201, 'n') + ": out_of_range";
 
 TEST(Validate, Outputs) {
   check({
-      {[](D& d) { d.outputs[0].name = "a,b"; },
-       "outputs.a,b: expected a column name without commas, quotes, brackets and control "
-       "characters"},
-      {[](D& d) { d.outputs[0].name = "a\tb"; },
-       "outputs.a\\tb: expected a column name without commas, quotes, brackets and control "
-       "characters"},
-      {[](D& d) { d.outputs[0].name = std::string("a\0b", 3); },
-       "outputs.a\\x00b: expected a column name without commas, quotes, brackets and control "
-       "characters"},
-      {[](D& d) { d.outputs[0].name = ""; },
-       "outputs.: found an empty name, expected a column name"},
+      {[](D& d) { d.outputs[0].name = "a,b"; }, "outputs.a,b: out_of_range"},
+      {[](D& d) { d.outputs[0].name = "a\tb"; }, "outputs.a\\tb: out_of_range"},
+      {[](D& d) { d.outputs[0].name = std::string("a\0b", 3); }, "outputs.a\\x00b: out_of_range"},
+      {[](D& d) { d.outputs[0].name = ""; }, "outputs.: out_of_range"},
       {[](D& d) { d.outputs[0].name = std::string(201, 'n'); }, long_name},
-      {[](D& d) { d.outputs[0].name = "time"; },
-       "outputs: found the column 'time', the name of the first column, expected another"},
-      {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},
-      {[](D& d) { d.outputs[0].type = static_cast<OutputType>(99); },
-       "outputs.z: found 99, expected " + alternatives(output_words)},
-      {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: found 7, expected x, y or z"},
-      {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: found -1, expected x, y or z"},
-      {[](D& d) { d.outputs[1].component = 3; },
-       "outputs.yaw.angle: found 3, expected roll, pitch or yaw"},
-      {[](D& d) { d.outputs[2].component = 2; },
-       "outputs.q.component: found 2, expected the number of a coordinate (a whole number from 0 "
-       "to 1)"},
+      {[](D& d) { d.outputs[0].name = "time"; }, "wrong_value"},
+      {[](D& d) { d.outputs[1].name = "z"; }, "wrong_value"},
+      {[](D& d) { d.outputs[0].type = static_cast<OutputType>(99); }, "outputs.z: wrong_value"},
+      {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: out_of_range"},
+      {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: out_of_range"},
+      {[](D& d) { d.outputs[1].component = 3; }, "outputs.yaw.angle: out_of_range"},
+      {[](D& d) { d.outputs[2].component = 2; }, "outputs.q.component: out_of_range"},
       {[](D& d) { d.outputs[2].component = std::numeric_limits<int>::max(); },
-       "outputs.q.component: found 2147483647, expected the number of a coordinate (a whole "
-       "number from 0 to 1)"},
-      {[](D& d) { d.outputs[3].component = 7; },
-       "outputs.y1.component: found 7, expected the number of a mode (a whole number from 0 to "
-       "0)"},
-      {[](D& d) { d.outputs[0].at.body = "x"; }, "outputs.z.position.body: unknown body 'x'"},
-      {[](D& d) { d.outputs[0].at.point.x() = nan; },
-       "outputs.z.position.at[1]: found nan, expected a number [m] (numbers must be finite)"},
-      {[](D& d) { d.outputs[1].at.body = "ground"; },
-       "outputs.yaw.rotation: found ground, expected a body"},
-      {[](D& d) { d.outputs[2].entity = "pins"; },
-       "outputs.q.joint_position: unknown joint 'pins', did you mean 'pin'?"},
-      {[](D& d) { d.outputs[4].entity = "lod"; },
-       "outputs.F.force: unknown force 'lod', did you mean 'load'?"},
-      {[](D& d) { d.outputs[5].entity = "load"; },
-       "outputs.L.length: a force has no length, expected another force element"},
+       "outputs.q.component: out_of_range"},
+      {[](D& d) { d.outputs[3].component = 7; }, "out_of_range"},
+      {[](D& d) { d.outputs[0].at.body = "x"; }, "outputs.z.position.body: not_found"},
+      {[](D& d) { d.outputs[0].at.point.x() = nan; }, "outputs.z.position.at[1]: out_of_range"},
+      {[](D& d) { d.outputs[1].at.body = "ground"; }, "outputs.yaw.rotation: wrong_value"},
+      {[](D& d) { d.outputs[2].entity = "pins"; }, "outputs.q.joint_position: not_found"},
+      {[](D& d) { d.outputs[4].entity = "lod"; }, "outputs.F.force: not_found"},
+      {[](D& d) { d.outputs[5].entity = "load"; }, "outputs.L.length: incomplete"},
       {[](D& d) {
          d.outputs[0].type = OutputType::distance;
          d.outputs[0].to.body = "blok";
        },
-       "outputs.z.distance.to.body: unknown body 'blok', did you mean 'block'?"},
+       "outputs.z.distance.to.body: not_found"},
       {[](D& d) {
          d.outputs[0].type = OutputType::distance;
          d.outputs[0].to.body = "arm";
          d.outputs[0].to.node = "none";
        },
-       "outputs.z.distance.to.node: the flexible body 'arm' has no node 'none'"},
+       "not_found"},
   });
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/model/validate.hpp"
+#include "support/error_of.hpp"
 #include "support/valid_description.hpp"
 
 namespace floatframe {
@@ -12,54 +13,35 @@ using namespace test;
 TEST(Validate, Simulation) {
   using S = SimulationDescription;
   const std::pair<std::function<void(S&)>, const char*> cases[] = {
-      {[](S& s) { s.step = nan; },
-       "simulation.step: found nan, expected a positive number [s] (numbers must be finite)"},
-      {[](S& s) { s.step = 0.0; }, "simulation.step: found 0, expected a positive number [s]"},
-      {[](S& s) { s.step = -1.0; }, "simulation.step: found -1, expected a positive number [s]"},
-      {[](S& s) { s.duration = inf; },
-       "simulation.duration: found inf, expected a number >= 0 [s] (numbers must be finite)"},
-      {[](S& s) { s.output_interval = -1.0; },
-       "simulation.output_interval: found -1, expected a number >= 0 [s]"},
-      {[](S& s) { s.max_iterations = -1; },
-       "simulation.max_iterations: found -1, expected a number of iterations (a whole number from "
-       "1 to 1000)"},
-      {[](S& s) { s.spectral_radius = 5.0; },
-       "simulation.spectral_radius: found 5, expected a number from 0 to 1"},
-      {[](S& s) { s.tolerance = 0.0; },
-       "simulation.tolerance: found 0, expected a number from 1e-15 to 1"},
-      {[](S& s) { s.tolerance = 1e300; },
-       "simulation.tolerance: found 1e+300, expected a number from 1e-15 to 1"},
-      {[](S& s) { s.position_tolerance = 2.0; },
-       "simulation.position_tolerance: found 2, expected a number from 1e-15 to 1 [m]"},
-      {[](S& s) { s.velocity_tolerance = 2.0; },
-       "simulation.velocity_tolerance: found 2, expected a number from 1e-15 to 1 [m/s]"},
-      {[](S& s) { s.min_step = 1.0; },
-       "simulation.min_step: found 1, expected at most the step, 0.001 [s]"},
-      {[](S& s) { s.penalty = nan; },
-       "simulation.penalty: found nan, expected a number >= 0 (numbers must be finite)"},
-      {[](S& s) { s.position_tolerance = 0.0; },
-       "simulation.position_tolerance: found 0, expected a number from 1e-15 to 1 [m]"},
-      {[](S& s) { s.velocity_tolerance = -1.0; },
-       "simulation.velocity_tolerance: found -1, expected a number from 1e-15 to 1 [m/s]"},
-      {[](S& s) { s.velocity.y() = nan; },
-       "simulation.velocity[2]: found nan, expected a number [m/s] (numbers must be finite)"},
+      {[](S& s) { s.step = nan; }, "simulation.step: out_of_range"},
+      {[](S& s) { s.step = 0.0; }, "simulation.step: out_of_range"},
+      {[](S& s) { s.step = -1.0; }, "simulation.step: out_of_range"},
+      {[](S& s) { s.duration = inf; }, "simulation.duration: out_of_range"},
+      {[](S& s) { s.output_interval = -1.0; }, "simulation.output_interval: out_of_range"},
+      {[](S& s) { s.max_iterations = -1; }, "simulation.max_iterations: out_of_range"},
+      {[](S& s) { s.spectral_radius = 5.0; }, "simulation.spectral_radius: out_of_range"},
+      {[](S& s) { s.tolerance = 0.0; }, "simulation.tolerance: out_of_range"},
+      {[](S& s) { s.tolerance = 1e300; }, "simulation.tolerance: out_of_range"},
+      {[](S& s) { s.position_tolerance = 2.0; }, "simulation.position_tolerance: out_of_range"},
+      {[](S& s) { s.velocity_tolerance = 2.0; }, "simulation.velocity_tolerance: out_of_range"},
+      {[](S& s) { s.min_step = 1.0; }, "simulation.min_step: wrong_value"},
+      {[](S& s) { s.penalty = nan; }, "simulation.penalty: out_of_range"},
+      {[](S& s) { s.position_tolerance = 0.0; }, "simulation.position_tolerance: out_of_range"},
+      {[](S& s) { s.velocity_tolerance = -1.0; }, "simulation.velocity_tolerance: out_of_range"},
+      {[](S& s) { s.velocity.y() = nan; }, "simulation.velocity[2]: out_of_range"},
       {[](S& s) { s.coordinates = static_cast<Coordinates>(2); },
-       "simulation.coordinates: found 2, expected relative or absolute"},
+       "simulation.coordinates: out_of_range"},
       {[](S& s) { s.inertia = static_cast<InertiaMethod>(-1); },
-       "simulation.inertia: found -1, expected preprocessing or projection"},
-      {[](S& s) { s.start = static_cast<Start>(5); },
-       "simulation.start: found 5, expected given, equilibrium or {state: file}"},
-      {[](S& s) { s.start = Start::state; },
-       "simulation.start: found no state, expected the state to start from"},
+       "simulation.inertia: out_of_range"},
+      {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: out_of_range"},
+      {[](S& s) { s.start = Start::state; }, "simulation.start: wrong_value"},
       {[](S& s) { s.offset["block"].translation.x() = 0.1; },
-       "simulation.start.offset: found without 'equilibrium: true' or 'state', expected where to "
-       "start from"},
+       "simulation.start.offset: incomplete"},
       {[](S& s) {
          s.start = Start::equilibrium;
          s.offset["block"].translation.x() = nan;
        },
-       "simulation.start.offset.block[1]: found nan, expected a number [m] (numbers must be "
-       "finite)"},
+       "simulation.start.offset.block[1]: out_of_range"},
   };
   for (const auto& [change, expected] : cases) {
     ModelDescription d = valid_description();
@@ -69,7 +51,7 @@ TEST(Validate, Simulation) {
       require_valid_run(d.simulation);
       ADD_FAILURE() << expected;
     } catch (const InputError& error) {
-      EXPECT_STREQ(error.what(), expected);
+      EXPECT_EQ(test::codes_of(error), expected);
     }
   }
   SimulationDescription s;
@@ -78,8 +60,7 @@ TEST(Validate, Simulation) {
     require_valid_run(s);
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "a duration of 1e+30 s with a step of 0.001 s takes more than 1e+09 steps");
+    EXPECT_EQ(test::codes_of(error), "out_of_range");
   }
   ModelDescription d = valid_description();
   d.simulation.duration = 1e9;  // a shorter run may be asked for
@@ -123,9 +104,8 @@ TEST(Validate, AllErrorsAtOnce) {
   rigid(d).mass = -1.0;
   d.outputs[0].component = 7;
   EXPECT_EQ(errors(d),
-            "bodies.block.rigid.mass: found -1, expected a number >= 0 [kg]\n"
-            "outputs.z.axis: found 7, expected x, y or z\n"
-            "simulation.step: found nan, expected a positive number [s] (numbers must be finite)");
+            "bodies.block.rigid.mass: out_of_range\noutputs.z.axis: out_of_range\nsimulation.step: "
+            "out_of_range");
 }
 
 }  // namespace

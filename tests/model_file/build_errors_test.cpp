@@ -36,12 +36,9 @@ TEST(BuildErrors, AmplitudesOfModesBelowAFrequency) {
   const std::string modes =
       "      static_modes: [{point: b, dofs: [y, z]}]\n"
       "      normal_modes: {below: 500}\n";
-  EXPECT_EQ(error_of(modes, "initial: {amplitudes: {bar: [0.1]}}\n", build),
-            ":11:29: initial.amplitudes.bar: found a list of 1, expected a list of 10 amplitudes, "
-            "one per mode");
+  EXPECT_EQ(error_of(modes, "initial: {amplitudes: {bar: [0.1]}}\n", build), ":11:29: wrong_count");
   EXPECT_EQ(error_of(modes, "initial:\n  amplitude_rates:\n    bar: [0.1, 0.2]\n", build),
-            ":13:10: initial.amplitude_rates.bar: found a list of 2, expected a list of 10 "
-            "amplitudes, one per mode");
+            ":13:10: wrong_count");
 }
 
 TEST(BuildErrors, MassModelThatDoesNotGoWithTheInertiaMethod) {
@@ -52,11 +49,9 @@ TEST(BuildErrors, MassModelThatDoesNotGoWithTheInertiaMethod) {
     return [method](const ModelDescription& d) { check_inertia_method(d, method); };
   };
   EXPECT_EQ(error_of(modes + "six_dof\n", "", with(InertiaMethod::preprocessing)),
-            ":10:19: bodies.bar.flexible.mass_model: found six_dof with inertia terms by "
-            "preprocessing, expected isoparametric or hermite (or projection)");
+            ":10:19: out_of_range");
   EXPECT_EQ(error_of(modes + "hermite\n", "", with(InertiaMethod::projection)),
-            ":10:19: bodies.bar.flexible.mass_model: found hermite with inertia terms by "
-            "projection, expected isoparametric or six_dof (or preprocessing)");
+            ":10:19: out_of_range");
   EXPECT_EQ(error_of(modes + "six_dof\n", "", with(InertiaMethod::projection)), "no error");
   EXPECT_EQ(error_of(modes + "hermite\n", "", with(InertiaMethod::preprocessing)), "no error");
   EXPECT_EQ(error_of(modes + "isoparametric\n", "", with(InertiaMethod::projection)), "no error");
@@ -73,19 +68,15 @@ TEST(BuildErrors, AsManyModesAsTheMeshHasWaysToMove) {
   const std::string hinge =
       "joints: {h: {type: universal, child: bar, at: a, axis: y, axis_2: z}}\n";
   EXPECT_EQ(text(8, hinge, 10), "no error");
-  EXPECT_EQ(text(9, hinge, 10),
-            ":6:7: bodies.bar: found 20 modes of which a combination moves no mass ");
-  EXPECT_EQ(text(9, "", 10),
-            ":6:7: bodies.bar: found 20 modes of which a combination moves no mass ");
+  EXPECT_EQ(text(9, hinge, 10), ":6:7: wrong_value");
+  EXPECT_EQ(text(9, "", 10), ":6:7: wrong_value");
   EXPECT_EQ(text(9, hinge, 20), "no error");
   // What is fixed to the ground has no rigid motion that its modes could repeat.
   const std::string weld = "joints: {h: {type: weld, child: bar, at: a}}\n";
   EXPECT_EQ(text(9, weld, 10), "no error");
-  EXPECT_EQ(text(10, weld, 10),
-            ":6:7: bodies.bar: found 22 modes of which a combination moves no mass ");
+  EXPECT_EQ(text(10, weld, 10), ":6:7: wrong_value");
   EXPECT_EQ(text(0, weld, 1), "no error");
-  EXPECT_EQ(text(0, hinge, 1),
-            ":6:7: bodies.bar: found 2 modes of which a combination moves no mass ");
+  EXPECT_EQ(text(0, hinge, 1), ":6:7: wrong_value");
 }
 
 TEST(BuildErrors, ForceOfAMotorWithoutAMotion) {
@@ -94,8 +85,7 @@ TEST(BuildErrors, ForceOfAMotorWithoutAMotion) {
       "outputs:\n"
       "  f: {motion_force: h}\n";
   EXPECT_EQ(error_of("      static_modes: [{point: b, dofs: [y, z]}]\n", modes, build),
-            ":12:21: outputs.f.motion_force: found a joint that moves freely, expected one with a "
-            "prescribed motion");
+            ":12:21: outputs.f.motion_force: wrong_value");
 }
 
 }  // namespace

@@ -87,29 +87,20 @@ TEST_F(BodyGeometry, IsMirroredWithItsBody) {
 }
 
 TEST_F(BodyGeometry, ErrorsHaveTheirPlace) {
-  EXPECT_EQ(errors("plate.obj"),
-            "m.yaml:5:15: bodies.a.geometry: found 'plate.obj', expected a map with file, scale, "
-            "position, orientation, color");
-  EXPECT_EQ(errors("{scale: 2}"), "m.yaml:5:5: bodies.a.geometry: missing key 'file'");
-  EXPECT_EQ(errors("{file: none.stl}"),
-            "m.yaml:5:22: bodies.a.geometry.file: none.stl: the file does not exist");
-  EXPECT_EQ(errors("{file: parts}"),
-            "m.yaml:5:22: bodies.a.geometry.file: parts: found this ending, expected .stl, .obj, "
-            ".gltf or .glb");
+  EXPECT_EQ(errors("plate.obj"), "m.yaml:5:15: bodies.a.geometry: wrong_value");
+  EXPECT_EQ(errors("{scale: 2}"), "m.yaml:5:5: bodies.a.geometry: missing");
+  EXPECT_EQ(errors("{file: none.stl}"), "m.yaml:5:22: bodies.a.geometry.file: unreadable");
+  EXPECT_EQ(errors("{file: parts}"), "m.yaml:5:22: bodies.a.geometry.file: wrong_value");
   EXPECT_EQ(errors("{file: parts/plate.obj, scale: 0, color: red}"),
-            "m.yaml:5:46: bodies.a.geometry.scale: found 0, expected a positive number\n"
-            "m.yaml:5:56: bodies.a.geometry.color: found 'red', expected a colour \"#rrggbb\" (in "
-            "quotes), as in \"#3a6ea5\"");
-  EXPECT_EQ(errors("{file: parts/plate.obj, scal: 0.001}"),
-            "m.yaml:5:39: bodies.a.geometry: unknown key 'scal', did you mean 'scale'?");
+            "m.yaml:5:46: bodies.a.geometry.scale: out_of_range\nm.yaml:5:56: "
+            "bodies.a.geometry.color: wrong_value");
+  EXPECT_EQ(errors("{file: parts/plate.obj, scal: 0.001}"), "m.yaml:5:39: unknown_key");
   EXPECT_EQ(errors("{file: parts/plate.obj, scale: 1e6}"),
-            "m.yaml:5:22: bodies.a.geometry.file: found a point 1e+09 m from the origin of the "
-            "body, expected at most 1e+06 m (does 'scale' fit the units of the file?)");
+            "m.yaml:5:22: bodies.a.geometry.file: out_of_range");
   folder_.write("bad.obj", "v 0 0 0\nv 1 nan 0\n");
-  EXPECT_EQ(errors("{file: bad.obj}"),
-            "bad.obj:2: v: 'nan' is not a number, expected three numbers");
+  EXPECT_EQ(errors("{file: bad.obj}"), "bad.obj:2: not_a_number");
   folder_.write("cut.stl", std::string(90, 'x'));
-  EXPECT_NE(errors("{file: cut.stl}").find("it is cut short or damaged"), std::string::npos);
+  EXPECT_EQ(errors("{file: cut.stl}"), "m.yaml:5:22: bodies.a.geometry.file: damaged");
 }
 
 }  // namespace

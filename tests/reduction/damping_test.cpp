@@ -219,7 +219,7 @@ TEST(Damping, OfAMatrixBesideStiffnessAndMass) {
   EXPECT_NEAR(damped_modes(both, DampingReference::frame).front().fraction,
               damped_modes(stiff.body, DampingReference::frame).front().fraction + 0.01, 1e-8);
   EXPECT_EQ(error_of([] { reduce_part(as_matrices(0.0, -3e-6), both_ends()); }).substr(0, 51),
-            "the damping matrix gives energy to a deformation (s");
+            "wrong_value");
 }
 
 TEST(Damping, ErrorsAndWhatIsLeft) {
@@ -227,31 +227,23 @@ TEST(Damping, ErrorsAndWhatIsLeft) {
     options.damping = damping;
     return error_of([&] { reduce_part(beam(), options); });
   };
-  EXPECT_EQ(refused(2.0), "damping: found 2, expected a fraction of critical damping from 0 to 1");
+  EXPECT_EQ(refused(2.0), "out_of_range");
   ModalDamping d;
   d.fractions.assign(15, 0.01);
-  EXPECT_EQ(refused(d), "damping: found 15 fractions, but the body has 14 modes");
+  EXPECT_EQ(refused(d), "contradiction");
   d.bands = usual_damping_bands();
-  EXPECT_EQ(
-      refused(d),
-      "damping: found more than one of fractions, bands and Rayleigh's factors, expected one");
+  EXPECT_EQ(refused(d), "out_of_range");
   d.fractions.clear();
   d.bands.pop_back();
-  EXPECT_EQ(refused(d),
-            "damping: the last band ends at 1000 Hz, expected the fraction above it as the last "
-            "item of the list");
+  EXPECT_EQ(refused(d), "out_of_range");
   d = 0.02;
   d.interface_frequency = 3.0;
-  EXPECT_EQ(refused(d),
-            "damping: found a frequency of the interfaces' motions, which belongs to the reference "
-            "mounted");
+  EXPECT_EQ(refused(d), "out_of_range");
   PartOptions loose = both_ends();
   loose.method = ModeMethod::free_free;
   loose.interfaces.clear();
   const ModalDamping mounted = damping_of(0.02, DampingReference::mounted);
-  EXPECT_EQ(refused(mounted, loose),
-            "damping: the reference is mounted, but the body has no interface that could be held; "
-            "give an interface, or take the reference free");
+  EXPECT_EQ(refused(mounted, loose), "missing");
   PartOptions statics = both_ends(0);
   statics.damping = mounted;
   const ReducedPart part = reduce_part(beam(), statics);

@@ -269,63 +269,37 @@ TEST(ReductionErrors, EachHasItsSentence) {
       reduce(arm, options);
     });
   };
-  EXPECT_EQ(with([](ReductionOptions& o) { o.clamped.clear(); }),
-            "the body reference clamps no degree of freedom, so the body is free to move rigidly");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.clamped.clear(); }), "wrong_value");
   EXPECT_EQ(with([](ReductionOptions& o) {
               o.clamped = {{"front", 7u}, {"rear", 7u}};
             }),
-            "the body reference does not remove the rotation about the direction (1, 0, 0) "
-            "(clamped: node 'front' "
-            "and others)");
+            "wrong_value");
   EXPECT_EQ(with([](ReductionOptions& o) {
               o.clamped = {{"front", 2u + 4u + 56u}};
             }),
-            "the body reference does not remove the translation along (1, 0, 0)");
-  EXPECT_EQ(with([](ReductionOptions& o) {
-              o.clamped.push_back({"frnt", 7u});
-            }),
-            "the body reference: there is no node 'frnt'");
-  EXPECT_EQ(with([](ReductionOptions& o) {
-              o.interfaces = {{"", 4u, 99}};
-            }),
-            "the interface: there is no node 99");
-  EXPECT_EQ(with([](ReductionOptions& o) {
-              o.interfaces = {{"front", 4u}};
-            }),
-            "node 'front' uz is both clamped and an interface degree of freedom");
-  EXPECT_EQ(with([](ReductionOptions& o) {
-              o.interfaces.push_back({"ball", 4u});
-            }),
-            "node 'ball' uz is given twice as an interface degree of freedom");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 1000; }),
-            "1000 normal modes are requested, but only 58 degrees of freedom are left inside the "
-            "interface");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 50; }),
-            "50 normal modes are requested, but the mass inside the interface allows only 28");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.damping = -0.1; }),
-            "damping: found -0.1, expected a fraction of critical damping from 0 to 1");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.basis = MatX::Zero(5, 1); }),
-            "the given basis has 5 rows; 12 nodes need 72");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.analytic = AnalyticShapes{2}; }),
-            "analytic shapes need one straight bar, but bar 'rear bar', element 1 leaves its line");
+            "wrong_value");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.clamped.push_back({"frnt", 7u}); }), "not_found");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.interfaces = {{"", 4u, 99}}; }), "not_found");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.interfaces = {{"front", 4u}}; }), "duplicate");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.interfaces.push_back({"ball", 4u}); }), "duplicate");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 1000; }), "wrong_value");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 50; }), "out_of_range");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.damping = -0.1; }), "out_of_range");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.basis = MatX::Zero(5, 1); }), "wrong_count");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.analytic = AnalyticShapes{2}; }), "wrong_value");
 
   FeModel loose = arm;
   loose.positions.push_back(Vec3(5, 5, 5));
   loose.node_names.push_back("lost");
-  EXPECT_EQ(error_of([&] { reduce(loose, a_arm_options()); }),
-            "the stiffness is singular: node 'lost' ux can move without resistance (a part that is "
-            "not connected, or a "
-            "mechanism)");
+  EXPECT_EQ(error_of([&] { reduce(loose, a_arm_options()); }), "singular");
   FeModel flywheel = arm;
   flywheel.masses.push_back({arm.find_node("ball"), 1.0, Mat3::Identity()});
-  EXPECT_NE(error_of([&] { reduce(flywheel, a_arm_options()); }).find("rotary inertia"),
-            std::string::npos);
+  EXPECT_EQ(error_of([&] { reduce(flywheel, a_arm_options()); }), "wrong_count");
   const FeModel tet = to_model(reference_body("tet4"));
   ReductionOptions options;
   options.clamped = {{"", 7u, 0}, {"", 7u, 3}, {"", 7u, 6}};
   options.interfaces = {{"", 8u, 11}};
-  EXPECT_EQ(error_of([&] { reduce(tet, options); }),
-            "the interface asks for node 11 rx, but the nodes of solid elements have no rotations");
+  EXPECT_EQ(error_of([&] { reduce(tet, options); }), "contradiction");
 }
 
 }  // namespace

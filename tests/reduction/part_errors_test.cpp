@@ -5,6 +5,7 @@
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/part.hpp"
 #include "reduction/part_beam.hpp"
+#include "support/error_of.hpp"
 #include "support/fe_parts.hpp"
 #include "support/random_body.hpp"
 
@@ -15,7 +16,7 @@ std::string message(FeModel model, const PartOptions& options) {
   try {
     reduce_part(std::move(model), options);
   } catch (const InputError& e) {
-    return e.what();
+    return test::codes_of(e);
   }
   return "no error";
 }
@@ -23,22 +24,17 @@ std::string message(FeModel model, const PartOptions& options) {
 TEST(PartErrors, EachHasItsSentence) {
   PartOptions options = both_ends();
   options.interfaces.clear();
-  EXPECT_EQ(message(beam(), options),
-            "the Craig-Bampton method needs an interface; give one, or take free_free");
+  EXPECT_EQ(message(beam(), options), "incomplete");
   options = both_ends();
   options.reference = {BodyReference::Kind::node, "C"};
-  EXPECT_EQ(message(beam(), options),
-            "the body reference is the interface 'C', which does not exist; there are 'A', 'B'");
+  EXPECT_EQ(message(beam(), options), "not_found");
   options = both_ends();
   options.modes = 400;
-  EXPECT_EQ(message(beam(), options),
-            "400 normal modes are requested, but only 297 degrees of freedom are left inside the "
-            "interface");
+  EXPECT_EQ(message(beam(), options), "wrong_value");
   options = both_ends();
   options.method = ModeMethod::free_free;
   options.effective_mass = 0.9;
-  EXPECT_EQ(message(beam(), options),
-            "free modes have no effective mass; select them by number or by frequency");
+  EXPECT_EQ(message(beam(), options), "wrong_value");
 
   FeModel loose = beam();
   const FeModel other = brick_beam(1, 1, 1, 0.01, 0.01);
@@ -47,22 +43,16 @@ TEST(PartErrors, EachHasItsSentence) {
   Element e = other.elements[0];
   for (std::size_t a = 0; a < 8; ++a) e.nodes[a] += first;
   loose.elements.push_back(e);
-  EXPECT_EQ(message(loose, both_ends()),
-            "the part is in 2 pieces: node 117, node 118, node 119, node 120, node 121, node 122, "
-            "node 123 and node 124 are not connected with the other 119 nodes");
+  EXPECT_EQ(message(loose, both_ends()), "singular");
 
   FeModel huge = beam();
   huge.materials[0].young = 1e308;
   for (Vec3& p : huge.positions) p *= 1e3;
-  EXPECT_EQ(
-      message(huge, both_ends()),
-      "the stiffness has entries of inf, too large to compute with: a size or a material is in "
-      "other units or mistyped");
+  EXPECT_EQ(message(huge, both_ends()), "too_large");
 
   FeModel massless = beam();
   massless.materials[0].density = 0.0;
-  EXPECT_EQ(message(massless, both_ends()),
-            "the part has no mass: every density is zero, and there is no point mass");
+  EXPECT_EQ(message(massless, both_ends()), "missing");
 
   // Two bricks that share an edge only, at the middle of the part: a hinge.
   FeModel hinge = brick_beam(2, 1, 1, 0.2, 0.1);
@@ -77,11 +67,8 @@ TEST(PartErrors, EachHasItsSentence) {
   options = both_ends(2);
   options.interfaces = {bore("A")};
   const std::string text = message(hinge, options);
-  EXPECT_EQ(text.substr(0, 27), "the stiffness is singular: ");
-  EXPECT_NE(
-      text.find(" can move without resistance (a part that is not connected, or a mechanism)"),
-      std::string::npos)
-      << text;
+  EXPECT_EQ(text.substr(0, 27), "singular");
+  EXPECT_EQ(text, "singular") << text;
 
   // Held on both sides it is a seventh motion without stiffness: the edge moves, the ends turn.
   for (const ModeMethod method :
@@ -89,24 +76,20 @@ TEST(PartErrors, EachHasItsSentence) {
     PartOptions held = both_ends(2);
     held.method = method;
     const std::string moving = message(hinge, held);
-    EXPECT_TRUE(
-        moving.starts_with("the part is a mechanism: beside the six rigid motions there is at "
-                           "least one without stiffness, which moves most at node "))
-        << static_cast<int>(method) << moving;
+    EXPECT_EQ(moving, "singular") << static_cast<int>(method) << moving;
   }
   // A node that does not move: the part is held.
   FeModel held = beam();
   held.equations.push_back({{{13, 0, 1.0}}, {}});
   const std::string held_text = message(held, both_ends());
-  EXPECT_TRUE(held_text.starts_with("rigid motions cause forces of ")) << held_text;
-  EXPECT_NE(held_text.find(" of the largest stiffness at node "), std::string::npos) << held_text;
+  EXPECT_EQ(held_text, "wrong_value") << held_text;
 
   options = both_ends();
   options.interfaces.push_back(bore("A"));
-  EXPECT_NE(message(beam(), options).find("interface 'A'"), std::string::npos);
+  EXPECT_EQ(message(beam(), options), "duplicate");
   options = both_ends();
   options.markers = {{"A", {.by = NodeChoice::By::set, .set = "MIDDLE"}, std::nullopt, false}};
-  EXPECT_EQ(message(beam(), options), "marker 'A': the name is given twice");
+  EXPECT_EQ(message(beam(), options), "duplicate");
 }
 
 // Cubes that share an edge (a hinge) or a corner (a ball): so few elements that the seventh motion
@@ -131,10 +114,7 @@ TEST(PartErrors, MechanismsOfTwoElementsNameNodes) {
       options.method = ModeMethod::free_free;
       options.modes = 1;
       const std::string text = message(model, options);
-      EXPECT_TRUE(text.starts_with(
-          "the part is a mechanism: beside the six rigid motions there is at least one without "
-          "stiffness, which moves most at node "))
-          << size << ' ' << shift.z() << ' ' << text;
+      EXPECT_EQ(text, "singular") << size << ' ' << shift.z() << ' ' << text;
     }
   }
 }
@@ -152,13 +132,10 @@ TEST(PartErrors, FreedomsThatNothingFollowsAreNamed) {
   PartOptions options = both_ends(3);
   for (const ModeMethod method : {ModeMethod::craig_bampton, ModeMethod::craig_chang}) {
     options.method = method;
-    EXPECT_EQ(message(model, options),
-              "interface 'B': node 117 can move without resistance in uy, uz, rx: nothing of the "
-              "part follows it there");
+    EXPECT_EQ(message(model, options), "wrong_value");
   }
   options.interfaces = {bore("A")};
-  EXPECT_EQ(message(model, options),
-            "neither the stiffness nor the mass of the free part holds node 117 uy");
+  EXPECT_EQ(message(model, options), "singular");
 }
 
 TEST(PartErrors, CombinationsWithoutMass) {
@@ -177,16 +154,14 @@ TEST(PartErrors, CombinationsWithoutMass) {
     try {
       elastic_modes(K, raw, B);
     } catch (const InputError& e) {
-      return std::string(e.what());
+      return test::codes_of(e);
     }
     return std::string();
   };
   K.bottomRightCorner<2, 2>().setOnes();  // nor stiffness where they differ
-  EXPECT_EQ(error(),
-            "the modes hold a combination that moves no mass: there are more interface degrees of "
-            "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
+  EXPECT_EQ(error(), "wrong_value");
   B.row(5).setZero();
-  EXPECT_EQ(error(), "the body reference does not remove all rigid motions of the part");
+  EXPECT_EQ(error(), "wrong_value");
 }
 
 }  // namespace

@@ -325,8 +325,7 @@ TEST(Part, BeyondAllNumbersIsNotWithoutElasticity) {
   huge.materials[0].young = 1e308;
   PartOptions options;
   options.method = ModeMethod::free_free;
-  EXPECT_NE(error_of([&] { reduce_part(huge, options); }).find("too large to compute with"),
-            std::string::npos);
+  EXPECT_EQ(error_of([&] { reduce_part(huge, options); }), "too_large");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace floatframe::test {
 namespace {
 
-const std::string empty = "found a model without bodies, expected one of build_model or load_model";
+const std::string empty = "wrong_value";
 
 TEST(ProgramMisuse, ModelsThatAreNotBuilt) {
   Model model = model_of(stepped_machine);
@@ -32,8 +32,7 @@ TEST(ProgramMisuse, ModelsThatAreNotBuilt) {
   }
   Model torn = moved;
   torn.bodies.front().data = nullptr;
-  EXPECT_EQ(error_of([&] { Simulation s(torn); }).substr(0, 53),
-            "found a model whose bodies have lost their data or st");
+  EXPECT_EQ(error_of([&] { Simulation s(torn); }).substr(0, 53), "wrong_value");
   torn = moved;
   torn.amplitudes.pop_back();
   EXPECT_NE(error_of([&] { Simulation s(torn); }), "no error");
@@ -48,13 +47,11 @@ TEST(ProgramMisuse, ModesToKeep) {
     for (int k = 0; k < body.modes(); ++k) all.back().push_back(k);
   }
   EXPECT_EQ(error_of([&] { with_modes(model, all); }), "no error");
-  EXPECT_EQ(error_of([&] { with_modes(model, {}); }),
-            "found lists of modes for 0 bodies, expected " + std::to_string(all.size()) +
-                ": one for each body");
+  EXPECT_EQ(error_of([&] { with_modes(model, {}); }), "wrong_value");
   for (const std::vector<int>& wrong : {std::vector<int>{-1}, {1000}, {0, 0}, {1, 0}}) {
     std::vector<std::vector<int>> keep = all;
     keep.back() = wrong;
-    EXPECT_EQ(error_of([&] { with_modes(model, keep); }).substr(0, 6), "body '");
+    EXPECT_EQ(error_of([&] { with_modes(model, keep); }).substr(0, 6), "wrong_");
   }
 }
 
@@ -64,11 +61,10 @@ TEST(ProgramMisuse, OptionsOfTheAdvice) {
   const auto refused = [&](const AdviceOptions& o) {
     return error_of([&] { advise(model, model.simulation, o); });
   };
-  EXPECT_EQ(refused({.drop_share = nan}), "drop_share: found nan, expected a number of at least 0");
-  EXPECT_EQ(refused({.static_ratio = -1.0}),
-            "static_ratio: found -1, expected a number of at least 0");
-  EXPECT_EQ(refused({.tolerance = -2.0}), "tolerance: found -2, expected a number of at least 0");
-  EXPECT_EQ(refused({.repeat = 0}), "repeat: found 0, expected at least 1 run");
+  EXPECT_EQ(refused({.drop_share = nan}), "out_of_range");
+  EXPECT_EQ(refused({.static_ratio = -1.0}), "out_of_range");
+  EXPECT_EQ(refused({.tolerance = -2.0}), "out_of_range");
+  EXPECT_EQ(refused({.repeat = 0}), "out_of_range");
 }
 
 TEST(ProgramMisuse, StepsThatAreTooSmall) {

@@ -153,7 +153,7 @@ simulation: {start: equilibrium, step: 0.001, duration: 1}
                two = road_response(model("two"), {}, {}, loading).outputs[0].rms;
   EXPECT_NEAR(two, same / std::sqrt(2.0), 1e-9 * same);
   EXPECT_EQ(error_of([&] { road_response(model("two"), {}, {}, {.speed = 1e-3}); }),
-            "at 0.001 m/s the road has waves from 1.1e-05 to 0.00283 Hz, none from 0.1 to 50 Hz");
+            "out_of_range");
 }
 
 // An arm on springs that leans under its weight, on a carriage that a motor moves to and fro: what

@@ -207,24 +207,19 @@ TEST(RunStream, CheckpointsOfOtherRunsAreRefused) {
     return error_of([&] { run(model, other, options); });
   };
   EXPECT_EQ(refused(streamed_model(), [](auto&, auto&) {}), "no error");
-  const std::string made = "the checkpoint was made with another value of ";
-  EXPECT_EQ(refused(streamed_model(), [](auto& s, auto&) { s.step = 1e-3; }),
-            made + "step: found 0.002, this run has 0.001");
-  EXPECT_EQ(refused(streamed_model(), [](auto& s, auto&) { s.duration = 0.5; }),
-            made + "duration: found 0.4, this run has 0.5");
-  EXPECT_EQ(refused(streamed_model(), [](auto& s, auto&) { s.tolerance = 1e-8; }),
-            made + "tolerance: found 1e-09, this run has 1e-08");
+  EXPECT_EQ(refused(streamed_model(), [](auto& s, auto&) { s.step = 1e-3; }), "mismatch");
+  EXPECT_EQ(refused(streamed_model(), [](auto& s, auto&) { s.duration = 0.5; }), "mismatch");
+  EXPECT_EQ(refused(streamed_model(), [](auto& s, auto&) { s.tolerance = 1e-8; }), "mismatch");
   EXPECT_EQ(
       refused(streamed_model(), [](auto& s, auto&) { s.coordinates = Coordinates::absolute; }),
-      made + "coordinates: found relative, this run has absolute");
+      "mismatch");
   EXPECT_EQ(
       refused(streamed_model(), [](auto& s, auto&) { s.inertia = InertiaMethod::projection; }),
-      made + "inertia: found preprocessing, this run has projection");
-  EXPECT_EQ(refused(streamed_model(), [](auto&, auto& r) { r.keep_state = true; }),
-            made + "state kept for the end (--write-state): found no, this run has yes");
+      "mismatch");
+  EXPECT_EQ(refused(streamed_model(), [](auto&, auto& r) { r.keep_state = true; }), "mismatch");
   Model other = streamed_model();
   other.gravity.z() = -9.82;
-  EXPECT_EQ(refused(other, [](auto&, auto&) {}), "the checkpoint is of another model");
+  EXPECT_EQ(refused(other, [](auto&, auto&) {}), "mismatch");
 }
 
 /// Bytes that end early, go on, or hold what cannot be: refused, or the run ends with a status.
@@ -246,7 +241,7 @@ TEST(RunStream, DamagedCheckpoints) {
   }
   RunCheckpoint more = kept;
   more.bytes.resize(kept.bytes.size() + 8);
-  EXPECT_EQ(result(more), "the checkpoint is damaged: it goes on after its end");
+  EXPECT_EQ(result(more), "damaged");
   int errors = 0, runs = 0;
   for (std::size_t at = 0; at + 8 <= kept.bytes.size(); at += 8 * 13) {
     for (const std::uint64_t word : {0x7ff8000000000000u, 0xffffffffffffffffu, 1ul}) {

@@ -24,7 +24,7 @@ const Model& machine_model() {
   return m;
 }
 
-/// The beginning of the text of the InputError; nothing may have changed.
+/// The code of the InputError; nothing may have changed.
 struct Misuse {
   std::function<void(Simulation&)> action;
   std::string expected;
@@ -36,8 +36,7 @@ void expect_refused(const std::vector<Misuse>& cases) {
   trace(other, 0, 3);
   int number = 0;
   for (const Misuse& m : cases) {
-    const std::string text = error_of([&] { m.action(s); });
-    EXPECT_EQ(text.substr(0, m.expected.size()), m.expected) << "case " << number;
+    EXPECT_EQ(error_of([&] { m.action(s); }), m.expected) << "case " << number;
     ++number;
   }
   EXPECT_TRUE(equal_bits(trace(s, 3, 6), trace(other, 3, 6)));
@@ -50,25 +49,23 @@ TEST(SteppingMisuse, Inputs) {
   };
   for (const double x : {not_a_number, infinite, -infinite, 50.000001, -51.0, 1e308})
     for (const bool by_name : {false, true}) {
-      const std::string expected = "input 'push': found " + fmt::format("{:g}", x) +
-                                   ", expected a number from -50 to 50 [N]";
       if (by_name)
-        add("push", x, expected);
+        add("push", x, "out_of_range");
       else
-        add(0, x, expected);
+        add(0, x, "out_of_range");
     }
   for (const double x : {not_a_number, infinite, -infinite}) {
-    add("aim", x, "input 'aim': found ");
-    add("shove", x, "input 'shove': found " + fmt::format("{:g}", x) + ", expected a number");
+    add("aim", x, "out_of_range");
+    add("shove", x, "out_of_range");
   }
   for (const std::ptrdiff_t k : {std::ptrdiff_t{-1}, std::ptrdiff_t{3}, std::ptrdiff_t{4}, least,
                                  most, std::ptrdiff_t{1} << 32, -(std::ptrdiff_t{1} << 32)})
-    add(k, 0.0, "found index " + std::to_string(k) + " of an input, expected 0 to 2");
+    add(k, 0.0, "out_of_range");
   for (const char* name : {"", "PUSHES", "push ", "spin", "push\n", "pull.push", "0"})
-    add(name, 0.0, "unknown input '");
-  add("psuh", 0.0, "unknown input 'psuh', did you mean 'push'?");
-  add(std::string(100000, 'x'), 0.0, "unknown input 'xxx");
-  add(std::string("push\0", 5), 0.0, "unknown input 'push");
+    add(name, 0.0, "not_found");
+  add("psuh", 0.0, "not_found");
+  add(std::string(100000, 'x'), 0.0, "not_found");
+  add(std::string("push\0", 5), 0.0, "not_found");
   EXPECT_GE(cases.size(), 30u);
   expect_refused(cases);
 }
@@ -78,13 +75,10 @@ TEST(SteppingMisuse, Outputs) {
   const auto n = static_cast<std::ptrdiff_t>(machine_model().outputs.size());
   for (const std::ptrdiff_t k :
        {std::ptrdiff_t{-1}, n, n + 1, least, most, std::ptrdiff_t{1} << 32})
-    cases.push_back({[=](Simulation& s) { s.output(k); }, "found index " + std::to_string(k) +
-                                                              " of an output, expected 0 to " +
-                                                              std::to_string(n - 1)});
+    cases.push_back({[=](Simulation& s) { s.output(k); }, "out_of_range"});
   for (const char* name : {"", "time", "push", "spin ", "Spin_", "tip."})
-    cases.push_back({[=](Simulation& s) { s.output(name); }, "unknown output '"});
-  cases.push_back(
-      {[](Simulation& s) { s.output("psin"); }, "unknown output 'psin', did you mean 'spin'?"});
+    cases.push_back({[=](Simulation& s) { s.output(name); }, "not_found"});
+  cases.push_back({[](Simulation& s) { s.output("psin"); }, "not_found"});
   expect_refused(cases);
 }
 
@@ -92,9 +86,8 @@ TEST(SteppingMisuse, ModelsWithoutInputsAndOutputs) {
   Model m = machine_model();
   m.outputs.clear();
   Simulation s(m);
-  EXPECT_EQ(error_of([&] { s.output(0); }),
-            "found index 0 of an output, but the model has no outputs");
-  EXPECT_EQ(error_of([&] { s.output("spin"); }), "unknown output 'spin'");
+  EXPECT_EQ(error_of([&] { s.output(0); }), "missing");
+  EXPECT_EQ(error_of([&] { s.output("spin"); }), "not_found");
   EXPECT_TRUE(s.outputs().empty());
   EXPECT_TRUE(s.step());
 }
@@ -154,14 +147,12 @@ TEST(SteppingMisuse, Options) {
     for (const double x : c.values) {
       SimulationOptions o;
       c.set(o, x);
-      const std::string expected = "simulation." + c.key + ": found ";
       const std::string text = error_of([&] { Simulation(machine_model(), o); });
-      EXPECT_EQ(text.substr(0, expected.size()), expected) << x;
+      EXPECT_TRUE(text.starts_with("simulation." + c.key + ": ")) << text << " for " << x;
     }
   SimulationOptions o;
   o.state = std::make_shared<SystemState>();  // of no model
-  EXPECT_NE(error_of([&] { Simulation(machine_model(), o); }).find("expected it once"),
-            std::string::npos);
+  EXPECT_EQ(error_of([&] { Simulation(machine_model(), o); }), "duplicate");
 }
 
 TEST(SteppingMisuse, Callbacks) {
@@ -196,28 +187,26 @@ TEST(SteppingMisuse, Callbacks) {
     for (const std::function<void()>& f : std::vector<std::function<void()>>{
              [&] { s.set_input(0, 1.0); }, [&] { s.set_input("push", 1.0); }, [&] { s.save(); },
              [&] { s.restore(saved); }, [&] { s.state(); }, [&] { s.on_force(nullptr); }})
-      inside.push_back(error_of(f).substr(0, 15));
+      inside.push_back(error_of(f));
   });
   drive_inputs(s, 3);
   drive_inputs(other, 3);
   EXPECT_TRUE(s.step());
   EXPECT_TRUE(other.step());
-  EXPECT_EQ(inside, (std::vector<std::string>{"busy", "busy", "found a call of", "found a call of",
-                                              "found a call of", "found a call of",
-                                              "found a call of", "found a call of"}));
+  EXPECT_EQ(inside, (std::vector<std::string>{"busy", "busy", "in_use", "in_use", "in_use",
+                                              "in_use", "in_use", "in_use"}));
   s.on_force(nullptr);
   EXPECT_TRUE(equal_bits(trace(s, 4, 7), trace(other, 4, 7)));
 }
 
 TEST(SteppingMisuse, StatesOfOtherSimulations) {
   std::vector<Misuse> cases;
-  const auto add = [&](const Model& m, const SimulationOptions& o, const std::string& expected) {
+  const auto add = [&](const Model& m, const SimulationOptions& o) {
     const SimulationState state = Simulation(m, o).save();
-    cases.push_back({[state](Simulation& s) { s.restore(state); }, "the saved state " + expected});
+    cases.push_back({[state](Simulation& s) { s.restore(state); }, "mismatch"});
   };
-  cases.push_back({[](Simulation& s) { s.restore({}); }, "found a saved state that is empty"});
-  cases.push_back(
-      {[](Simulation&) { SimulationState().to_bytes(); }, "found a saved state that is "});
+  cases.push_back({[](Simulation& s) { s.restore({}); }, "missing"});
+  cases.push_back({[](Simulation&) { SimulationState().to_bytes(); }, "missing"});
   const std::vector<std::function<void(Model&)>> changes = {
       [](Model& m) { m.gravity.z() = -9.82; },
       [](Model& m) { m.forces[0].name = "other"; },
@@ -230,26 +219,25 @@ TEST(SteppingMisuse, StatesOfOtherSimulations) {
   for (const auto& change : changes) {
     Model m = machine_model();
     change(m);
-    add(m, {}, "is of another model");
+    add(m, {});
   }
-  const auto option = [&](const std::function<void(SimulationOptions&)>& change,
-                          const std::string& name) {
+  const auto option = [&](const std::function<void(SimulationOptions&)>& change) {
     SimulationOptions o;
     change(o);
-    add(machine_model(), o, "was made with another option '" + name + "': found ");
+    add(machine_model(), o);
   };
-  option([](auto& o) { o.step = 0.0021; }, "step");
-  option([](auto& o) { o.coordinates = Coordinates::absolute; }, "coordinates");
-  option([](auto& o) { o.inertia = InertiaMethod::projection; }, "inertia");
-  option([](auto& o) { o.tolerance = 1e-8; }, "tolerance");
-  option([](auto& o) { o.spectral_radius = 0.9; }, "spectral_radius");
-  option([](auto& o) { o.max_iterations = 21; }, "max_iterations");
-  option([](auto& o) { o.min_step = 1e-4; }, "min_step");
-  option([](auto& o) { o.penalty = 1e12; }, "penalty");
-  option([](auto& o) { o.position_tolerance = 2e-9; }, "position_tolerance");
-  option([](auto& o) { o.velocity_tolerance = 2e-8; }, "velocity_tolerance");
-  option([](auto& o) { o.locate_edges = true; }, "locate_edges");
-  option([](auto& o) { o.input = InputUse::ramp; }, "input");
+  option([](auto& o) { o.step = 0.0021; });
+  option([](auto& o) { o.coordinates = Coordinates::absolute; });
+  option([](auto& o) { o.inertia = InertiaMethod::projection; });
+  option([](auto& o) { o.tolerance = 1e-8; });
+  option([](auto& o) { o.spectral_radius = 0.9; });
+  option([](auto& o) { o.max_iterations = 21; });
+  option([](auto& o) { o.min_step = 1e-4; });
+  option([](auto& o) { o.penalty = 1e12; });
+  option([](auto& o) { o.position_tolerance = 2e-9; });
+  option([](auto& o) { o.velocity_tolerance = 2e-8; });
+  option([](auto& o) { o.locate_edges = true; });
+  option([](auto& o) { o.input = InputUse::ramp; });
   expect_refused(cases);
   // The values a run starts from are no part of the model's motion.
   Model m = machine_model();
@@ -288,11 +276,11 @@ TEST(SteppingMisuse, DamagedBytes) {
   }
   auto more = bytes;
   more.insert(more.end() - 32, 8, std::byte{});
-  EXPECT_EQ(refused(sealed(more)), "the saved state is damaged: it goes on after its end");
+  EXPECT_EQ(refused(sealed(more)), "damaged");
   auto newer = bytes;
   newer[8] = std::byte{4};
-  EXPECT_EQ(refused(sealed(newer)), "the saved state has version 4, this program reads version 3");
-  EXPECT_EQ(refused({}).substr(0, 43), "this is not the saved state of a simulation");
+  EXPECT_EQ(refused(sealed(newer)), "mismatch");
+  EXPECT_EQ(refused({}).substr(0, 43), "wrong_value");
 }
 
 /// Every word of a state replaced by one that cannot be, with a checksum that fits: refused, or the

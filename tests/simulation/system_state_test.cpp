@@ -8,6 +8,7 @@
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
@@ -86,9 +87,9 @@ std::string error_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   } catch (const RunError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }
@@ -244,8 +245,7 @@ TEST(SystemState, OffsetsFromTheEquilibrium) {
     EXPECT_NE(error_of([&] { run(model, o); }), "no error");
   }
   o.offset = {{"nobody", {Vec3(0, 0, 0.05), std::nullopt}}};
-  EXPECT_EQ(error_of([&] { run(model, o); }),
-            "simulation.start.offset.nobody: unknown body 'nobody'");
+  EXPECT_EQ(error_of([&] { run(model, o); }), "not_found");
 }
 
 TEST(SystemState, OffsetsFromAState) {
@@ -265,8 +265,7 @@ TEST(SystemState, OffsetsFromAState) {
   // A driven crank stays where its motion has it.
   o.offset = {{"crank", {Vec3(0, 0.1, 0), std::nullopt}}};
   const std::string text = error_of([&] { run(model, o); });
-  const std::string expected =
-      "the offset at the start is not possible: with loops closed body 'crank' stays ";
+  const std::string expected = "not_assembled";
   EXPECT_EQ(text.substr(0, expected.size()), expected);
 }
 
@@ -285,31 +284,23 @@ TEST(SystemState, OfAnotherModel) {
     return end == std::string::npos ? text : text.substr(0, end);
   };
   EXPECT_EQ(start([](SystemState&) {}), "no error");
-  EXPECT_EQ(start([](SystemState& s) { s.joints.pop_back(); }),
-            "s.json: found joint 'arm' nowhere in the state, expected it once");
-  EXPECT_EQ(start([](SystemState& s) { s.joints.push_back(s.joints[0]); }),
-            "s.json: found joint 'free' twice in the state, expected it once");
-  EXPECT_EQ(start([](SystemState& s) { s.bodies[0].name = "chasis"; }),
-            "s.json: found body 'chasis' in the state, which the model does not have, did you mean "
-            "'chassis'?");
+  EXPECT_EQ(start([](SystemState& s) { s.joints.pop_back(); }), "s.json: duplicate");
+  EXPECT_EQ(start([](SystemState& s) { s.joints.push_back(s.joints[0]); }), "s.json: duplicate");
+  EXPECT_EQ(start([](SystemState& s) { s.bodies[0].name = "chasis"; }), "s.json: wrong_value");
   EXPECT_EQ(start([](SystemState& s) { s.joints[1].type = JointType::prismatic; }),
-            "s.json: found joint 'arm' of another type or with 1 coordinates and 1 velocities in "
-            "the state, expected 1 for a revolute joint");
+            "s.json: wrong_count");
   EXPECT_EQ(start([](SystemState& s) { s.joints[1].position.push_back(0.0); }),
-            "s.json: found joint 'arm' of another type or with 2 coordinates and 1 velocities in "
-            "the state, expected 1 for a revolute joint");
-  EXPECT_EQ(start([](SystemState& s) { s.joints[1].velocity[0] = NAN; }),
-            "s.json: found numbers that are not finite at joint 'arm'");
-  EXPECT_EQ(start([](SystemState& s) { s.time = INFINITY; }),
-            "s.json: found a time that is not finite");
+            "s.json: wrong_count");
+  EXPECT_EQ(start([](SystemState& s) { s.joints[1].velocity[0] = NAN; }), "s.json: not_finite");
+  EXPECT_EQ(start([](SystemState& s) { s.time = INFINITY; }), "s.json: not_finite");
   const std::string late = start([](SystemState& s) { s.time = -1e17; });
-  EXPECT_EQ(late.substr(0, late.find(" of ")), "s.json: found the time -1e+17 s, at which steps");
+  EXPECT_EQ(late.substr(0, late.find(" of ")), "s.json: out_of_range");
   EXPECT_EQ(start([&](SystemState& s) { s.time = 0.9e9 * model.simulation.step; }), "no error");
   EXPECT_NE(start([&](SystemState& s) { s.time = 1.1e9 * model.simulation.step; }), "no error");
   EXPECT_EQ(start([](SystemState& s) { s.bodies[1].amplitudes = VecX::Zero(2); }),
-            "s.json: found 2 amplitudes and 0 rates of body 'wheel' in the state, expected 0");
+            "s.json: wrong_count");
   const std::string moved = start([](SystemState& s) { s.bodies[0].position.z() += 0.5; });
-  const std::string expected = "s.json: the joints of the state put body 'chassis' 0.5 m, ";
+  const std::string expected = "s.json: contradiction";
   EXPECT_EQ(moved.substr(0, expected.size()), expected);
 }
 
@@ -320,26 +311,23 @@ TEST(SystemState, DamagedFiles) {
     const std::string error = error_of([&] { read_state(folder.file("damaged.json")); });
     return error.starts_with(file) ? error.substr(file.size()) : error;
   };
-  EXPECT_EQ(read(""), "this is not a state file (damaged, or not JSON)");
-  EXPECT_EQ(read("{\"floatframe_state\": 1, "), "this is not a state file (damaged, or not JSON)");
-  EXPECT_EQ(read("[1, 2]"), "this is not a state file (it has no key 'floatframe_state')");
-  EXPECT_EQ(read("{\"floatframe_state\": 2}"),
-            "floatframe_state: found 2, this program reads version 1");
-  EXPECT_EQ(read("{\"floatframe_state\": 1}"), "missing key 'model'");
+  EXPECT_EQ(read(""), "wrong_file");
+  EXPECT_EQ(read("{\"floatframe_state\": 1, "), "wrong_file");
+  EXPECT_EQ(read("[1, 2]"), "wrong_file");
+  EXPECT_EQ(read("{\"floatframe_state\": 2}"), "mismatch");
+  EXPECT_EQ(read("{\"floatframe_state\": 1}"), "missing");
   const std::string head = "{\"floatframe_state\": 1, \"model\": \"m\", ";
-  EXPECT_EQ(read(head + "\"time\": null}"), "time: found null, expected a number");
-  EXPECT_EQ(read(head + "\"time\": 0, \"joints\": [], \"bodies\": {}}"),
-            "joints: expected a map of names");
-  EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"pin\"}}}"),
-            "joints.a.type: found 'pin', expected " + alternatives(joint_words));
+  EXPECT_EQ(read(head + "\"time\": null}"), "out_of_range");
+  EXPECT_EQ(read(head + "\"time\": 0, \"joints\": [], \"bodies\": {}}"), "wrong_value");
+  EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"pin\"}}}"), "wrong_value");
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"weld\", \"position\": "
                         "[\"1\"], \"velocity\": []}}}"),
-            "joints.a.position: found \"1\", expected a number");
+            "out_of_range");
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {}, \"bodies\": {\"b\": {\"position\": [0]}}}"),
-            "bodies.b.position: found a list of 1, expected a list of 3 numbers");
+            "wrong_count");
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {}, \"bodies\": {\"b\": {\"position\": [0, 0, "
                         "0], \"quaternion\": [2, 0, 0, 0]}}}"),
-            "bodies.b.quaternion: found a quaternion of length 2, expected length 1");
+            "wrong_value");
 }
 
 TEST(SystemState, OfAModelFile) {

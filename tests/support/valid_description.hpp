@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "floatframe/model/model.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe::test {
 
@@ -178,7 +179,7 @@ inline std::string errors(const ModelDescription& d) {
   try {
     build_model(d);
   } catch (const InputError& error) {
-    return error.what();
+    return test::codes_of(error);
   }
   return "no error";
 }

@@ -201,20 +201,17 @@ TEST_F(Sweep, ARunThatTakesTooLongIsARowAndCanBeRepeated) {
 
 TEST_F(Sweep, BadInputIsRefusedBeforeAnythingIsWritten) {
   options_.plan = grid_plan({"mas=1,2"});
-  EXPECT_EQ(error(), "--vary: 'mas' is neither a parameter of " + options_.model +
-                         " nor a simulation option, did you mean 'mass'?");
+  EXPECT_EQ(error(), "unknown_key");
   options_.plan = grid_plan({"mass=1,x,y", "push=1,2"});  // each error once
-  EXPECT_EQ(error(), options_.model + ": --vary.mass: found 'x', expected a number\n" +
-                         options_.model + ": --vary.mass: found 'y', expected a number");
+  EXPECT_EQ(error(), options_.model + ": wrong_value\n" + options_.model + ": wrong_value");
   options_.plan = grid_plan({"mass=1,2", "tolerance=0,1e-9"});
-  EXPECT_EQ(error(), "--vary: tolerance: found '0', expected a number from 1e-15 to 1");
+  EXPECT_EQ(error(), "wrong_value");
   options_.plan = grid_plan({"mass=1,2"});
   options_.measures = {sweep_measure("tip.x")};
-  EXPECT_EQ(error(),
-            "--measure: " + options_.model + " has no output 'tip.x', did you mean 'tip.z'?");
+  EXPECT_EQ(error(), "not_found");
   options_.measures.clear();
   options_.fixed = {{"mass", "3"}};
-  EXPECT_EQ(error(), "'mass' is both fixed and varied");
+  EXPECT_EQ(error(), "duplicate");
   EXPECT_FALSE(std::filesystem::exists(options_.folder));
 }
 
@@ -235,7 +232,7 @@ TEST_F(Sweep, ContinuesWhereItWasStopped) {
   EXPECT_EQ(std::count(continued.begin(), continued.end(), '\n'), 7);
 
   folder_.write("pendulum.yaml", std::string(pendulum) + "# changed\n");
-  EXPECT_NE(error().find("(the file 'pendulum.yaml' has changed)"), std::string::npos) << error();
+  EXPECT_EQ(error(), "mismatch") << error();
   options_.fresh = true;
   EXPECT_EQ(run().before, 0u);
 }
@@ -252,19 +249,19 @@ TEST_F(Sweep, StoppedAtOnceItFinishesNothingMore) {
 
 TEST_F(Sweep, PlansOfAProgram) {
   options_.plan.names = {"push"};
-  EXPECT_EQ(error(), "found a plan without runs, expected at least one");
+  EXPECT_EQ(error(), "out_of_range");
   options_.plan.runs = {{"1"}, {"2", "3"}};
-  EXPECT_EQ(error(), "run 2 of the plan: found 2 values, expected 1: one for each name");
+  EXPECT_EQ(error(), "wrong_value");
   options_.plan.runs = {{"1"}, {"2"}};
   options_.plan.origins = {"here"};
-  EXPECT_EQ(error(), "found 1 origins in a plan of 2 runs, expected one for each run or none");
+  EXPECT_EQ(error(), "wrong_value");
   options_.plan.origins.clear();
   options_.threads = 0;
-  EXPECT_EQ(error(), "threads: found 0, expected at least 1");
+  EXPECT_EQ(error(), "out_of_range");
   options_.threads = 1;
   EXPECT_EQ(run_sweep(options_, stop_, {}).finished, 2u);  // no progress asked for
   options_.plan.names = {"pull"};
-  EXPECT_NE(error().find("run 1 of the plan"), std::string::npos) << error();
+  EXPECT_EQ(error(), "unknown_key") << error();
 }
 
 }  // namespace

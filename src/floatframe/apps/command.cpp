@@ -170,7 +170,7 @@ void require_writable(const std::vector<OutputFile>& outputs,
       check_writable(output.path);
       if (!overwrite) require_own(output);
     } catch (const OutputError& error) {
-      throw InputError(ErrorCode::wrong_value, error.what());
+      throw InputError(ErrorCode::unreadable, error.what());
     }
   }
 }
@@ -179,7 +179,7 @@ void require_folder(const std::string& path) {
   try {
     make_output_folder(path);
   } catch (const OutputError& error) {
-    throw InputError(ErrorCode::wrong_value, error.what());
+    throw InputError(ErrorCode::unreadable, error.what());
   }
 }
 

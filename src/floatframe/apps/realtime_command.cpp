@@ -74,7 +74,7 @@ UdpAddress listen_address(const RealTimeArguments& arguments, const UdpPortOptio
 /// An option without the one that it belongs to would do nothing.
 void refuse_alone(const char* option, const std::string& value, bool wanted, const char* other) {
   if (!value.empty() && !wanted)
-    throw InputError(ErrorCode::exclusive,
+    throw InputError(ErrorCode::incomplete,
                      fmt::format("{}: found without {}, expected both", option, other));
 }
 
@@ -87,7 +87,7 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   if (!arguments.timeout.empty())
     options.timeout = option_number("--timeout", arguments.timeout, realtime_rules::timeout);
   if (options.lock_step && !(options.inputs && options.outputs))
-    throw InputError(ErrorCode::exclusive,
+    throw InputError(ErrorCode::incomplete,
                      "--lockstep: found without --input udp and --output udp, expected both");
   refuse_alone("--listen", arguments.listen, options.inputs || options.outputs,
                "--input udp or --output udp");
@@ -145,7 +145,7 @@ int run_paced(const RealTimeArguments& arguments) {
     throw InputError(ErrorCode::exclusive,
                      "--duration: found with --endless, expected one of the two");
   if (arguments.json && !arguments.layout)
-    throw InputError(ErrorCode::exclusive,
+    throw InputError(ErrorCode::incomplete,
                      "--json: found without --layout; a run writes JSON with --report FILE");
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, false, &used);
@@ -171,7 +171,7 @@ int run_paced(const RealTimeArguments& arguments) {
     try {
       log = std::make_unique<SignalLog>(model, arguments.log, arguments.no_pace);
     } catch (const OutputError& error) {
-      throw InputError(ErrorCode::wrong_value, fmt::format("--log: {}", error.what()));
+      throw InputError(ErrorCode::unreadable, fmt::format("--log: {}", error.what()));
     }
     options.log = log.get();
   }

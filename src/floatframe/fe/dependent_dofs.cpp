@@ -55,7 +55,7 @@ class Resolver {
   void add(int owner, int node, int axis, const Terms& terms) {
     const std::size_t dof = table_.index(node, axis);
     if (out_.dependent[dof] != 0) {
-      return refuse(ErrorCode::duplicate, owner, node, axis,
+      return refuse(ErrorCode::dependent, owner, node, axis,
                     " depends already on " + owners_[owner_[dof]] +
                         "; a degree of freedom can depend only once");
     }
@@ -260,7 +260,7 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   }
   const PivotedQr qr = pivoted_qr(C);
   if (C.cols() < m || !(std::abs(qr.diagonal(m - 1)) > 1e-9 * std::abs(qr.diagonal(0)))) {
-    return refuse(ErrorCode::duplicate,
+    return refuse(ErrorCode::dependent,
                   "too many of its nodes depend on other spiders or equations already; a mean "
                   "spider needs at least three free nodes that do not lie on a line");
   }

@@ -270,7 +270,7 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
     if (theirs != sorted) continue;
     const Vec3& there = node_position(model, s.reference);
     if (d.at && (*d.at - there).norm() > 1e-6 * (size_of_used(model, table) + there.norm())) {
-      throw InputError(ErrorCode::duplicate,
+      throw InputError(ErrorCode::dependent,
                        fmt::format("{} ties these nodes to a reference at {} already; the "
                                    "reference point {} is another one",
                                    the_spider(model, s), vector_text(there), vector_text(*d.at)));
@@ -326,7 +326,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
     if (d.kind == Spider::Kind::mean && s.kind == Spider::Kind::mean) continue;
     for (const int node : nodes) {
       if (std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end()) continue;
-      errors.add(ErrorCode::duplicate, {},
+      errors.add(ErrorCode::dependent, {},
                  model.node_label(node) + " belongs to " + the_spider(model, s) +
                      " already; a node can follow only one reference");
       break;

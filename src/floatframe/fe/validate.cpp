@@ -22,7 +22,7 @@ void check_nodes(const FeModel& model, LimitedErrors& errors) {
     errors.add(ErrorCode::missing, "nodes", {}, "the finite-element model has no nodes");
   const auto lengths = [&](std::size_t size, const char* what) {
     if (size == 0 || size == model.positions.size()) return;
-    errors.add(ErrorCode::not_finite, "lists", {},
+    errors.add(ErrorCode::wrong_count, "lists", {},
                "the finite-element model has {} {} for {} nodes", size, what, model.nodes());
   };
   lengths(model.node_names.size(), "node names");
@@ -288,8 +288,7 @@ void check_equations(const FeModel& model, LimitedErrors& errors) {
               std::isfinite(t.factor);
     }
     if (!valid)
-      add(ErrorCode::not_finite,
-          " has a term without a node, a direction 1 to 6 or a finite factor");
+      add(ErrorCode::missing, " has a term without a node, a direction 1 to 6 or a finite factor");
     if (equation.terms.front().factor == 0.0)
       add(ErrorCode::wrong_value, ": the factor of its first term must not be zero");
   }

@@ -130,7 +130,7 @@ std::vector<int> coordinate_list(const HeaderReader& in, const char* key, int li
                                       static_cast<std::uint64_t>(limit)));
   if (!out.empty() && out.back() >= limit)
     HeaderReader::refuse(
-        ErrorCode::too_large, key,
+        ErrorCode::out_of_range, key,
         fmt::format("found {}, expected a coordinate below {}", out.back(), limit));
   return out;
 }

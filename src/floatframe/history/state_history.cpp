@@ -103,7 +103,7 @@ void StateHistory::Data::index() {
   try {
     header = header_from_json(text(block));
   } catch (const InputError& error) {
-    refuse(ErrorCode::wrong_value, error.errors().front().message);
+    refuse(error.errors().front().code, error.errors().front().message);
   }
   while (walk.next(block, longest())) {
     if (status != "running") refuse(ErrorCode::damaged, "it goes on after its end");

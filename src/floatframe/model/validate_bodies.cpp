@@ -164,7 +164,8 @@ void amplitudes(const ModelDescription& d, const Names& names, ErrorList& errors
       if (!entity.reference(body_name, "body", body_name, names.bodies)) continue;
       const BodyDescription& b = d.bodies[*k];
       if (b.rigid || std::holds_alternative<RigidDescription>(b.kind)) {
-        entity.error(ErrorCode::missing, body_name, sentences::rigid_body_has_no_modes(b.rigid));
+        entity.error(ErrorCode::wrong_value, body_name,
+                     sentences::rigid_body_has_no_modes(b.rigid));
         continue;
       }
       for (Eigen::Index i = 0; i < values.size(); ++i)

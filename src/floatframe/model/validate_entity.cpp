@@ -105,7 +105,7 @@ bool Entity::place(const std::string& key, const AttachmentDescription& at, cons
   const std::string inside = key.empty() ? "" : key + ".";
   bool good = true;
   if (at.body == ground_name && !ground) {
-    error(ErrorCode::missing, inside + "body", sentences::ground_is_no_body());
+    error(ErrorCode::wrong_value, inside + "body", sentences::ground_is_no_body());
     good = false;
   } else if (at.body != ground_name) {
     good = reference(inside + "body", "body", at.body, names.bodies);

@@ -13,7 +13,7 @@ void start_values(const Entity& joint, const char* key, const std::vector<double
   const std::size_t n = joint_velocities(type);
   if (given.empty()) return;
   if (n == 0) {
-    joint.error(ErrorCode::missing, key, sentences::weld_has_no_coordinates());
+    joint.error(ErrorCode::wrong_value, key, sentences::weld_has_no_coordinates());
   } else if (given.size() != n) {
     joint.error(ErrorCode::wrong_count, key,
                 "found a list of " + std::to_string(given.size()) + ", expected " +
@@ -116,7 +116,7 @@ void input(const InputDescription& i, const Entity& entity) {
   if (const auto complaint = sentences::clamp_without_limits(i.clamp, i.low, i.high))
     entity.error(ErrorCode::out_of_range, "clamp", *complaint);
   else if (const auto limits = sentences::input_limits(i.low, i.high))
-    entity.error(ErrorCode::too_large, "max", *limits);
+    entity.error(ErrorCode::contradiction, "max", *limits);
   else
     initial_value(i, entity);
 }

@@ -48,7 +48,7 @@ void reaction(const OutputDescription& o, const Names& names, const Entity& enti
   if (o.in == OutputAxes::place)
     entity.place("in", o.to, names);
   else if (o.rod && o.in != OutputAxes::world)
-    entity.error(ErrorCode::missing, "in", sentences::rod_has_no_axes());
+    entity.error(ErrorCode::wrong_value, "in", sentences::rod_has_no_axes());
 }
 
 void gauge(const OutputDescription& o, const Entity& entity) {
@@ -68,7 +68,7 @@ void motion_output(const OutputDescription& o, const ModelDescription& d, const 
   const char* const word = output_type_name(o.type);
   if (!entity.reference(word, "joint", o.entity, names.joints)) return;
   if (!d.joints[*names.joints.find(o.entity)].motion)
-    entity.error(ErrorCode::incomplete, word, sentences::joint_without_motion());
+    entity.error(ErrorCode::wrong_value, word, sentences::joint_without_motion());
 }
 
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,
@@ -76,7 +76,7 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
   const std::string what = output_type_name(o.type);
   const auto moving_body = [&] {
     if (o.at.body == ground_name)
-      entity.error(ErrorCode::missing, what, sentences::ground_is_no_body());
+      entity.error(ErrorCode::wrong_value, what, sentences::ground_is_no_body());
     else
       entity.reference(what, "body", o.at.body, names.bodies);
   };

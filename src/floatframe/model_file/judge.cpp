@@ -7,8 +7,7 @@ void judge(const YamlSection& section, const Origin& origin,
            const std::function<void(const validation::Entity&)>& check) {
   ErrorList found;
   check({found, origin, section.path()});
-  for (ErrorEntry& e : found.take())
-    section.value().context().errors->add(e.code, e.mark, std::move(e.message), e.count);
+  for (ErrorEntry& e : found.take()) section.value().context().errors->add(std::move(e));
 }
 
 }  // namespace floatframe

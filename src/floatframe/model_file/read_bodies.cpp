@@ -107,7 +107,7 @@ PartChoice read_choice(YamlSection& s) {
                       "found " + flexible->found() +
                           " beside 'part', expected true or false (or one of the two keys)");
   } else if (on) {
-    flexible->error(ErrorCode::not_finite, "found " + flexible->found() +
+    flexible->error(ErrorCode::incomplete, "found " + flexible->found() +
                                                " without 'part', expected a part: bars, a "
                                                "finite-element file or the name of a body file");
     out.valid = false;

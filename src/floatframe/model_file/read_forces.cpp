@@ -27,7 +27,7 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
   if (!body || (at && !point)) return std::nullopt;
   a.body = *body;
   if (*body == ground_name) {
-    body_value->error(ErrorCode::missing, sentences::ground_is_no_body());
+    body_value->error(ErrorCode::wrong_value, sentences::ground_is_no_body());
     return std::nullopt;
   }
   const auto it = model.bodies.find(*body);

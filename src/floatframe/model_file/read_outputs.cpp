@@ -64,8 +64,9 @@ class OutputReader {
           o.entity = *f;
           const auto type = model_.force_types.find(*f);
           if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
-            what.error(ErrorCode::incomplete, sentences::load_without(force_type_name(type->second),
-                                                                      output_type_name(o.type)));
+            what.error(
+                ErrorCode::wrong_value,
+                sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
           components(name, *s, o);
         }
         break;
@@ -148,7 +149,7 @@ class OutputReader {
   std::optional<std::string> moving_body(const YamlValue& value) {
     const auto body = self_.reference(EntityKind::body, value);
     if (body && *body == ground_name) {
-      value.error(ErrorCode::missing, sentences::ground_is_no_body());
+      value.error(ErrorCode::wrong_value, sentences::ground_is_no_body());
       return std::nullopt;
     }
     return body;
@@ -254,7 +255,7 @@ class OutputReader {
     if (!word) return false;
     o.in = static_cast<OutputAxes>(*word);
     if (!o.rod || o.in == OutputAxes::world) return true;
-    in.error(ErrorCode::missing, sentences::rod_has_no_axes());
+    in.error(ErrorCode::wrong_value, sentences::rod_has_no_axes());
     return false;
   }
 

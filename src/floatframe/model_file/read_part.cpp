@@ -95,9 +95,9 @@ FlexibleRead from_job(const ModelInstance& self, const ReadModel& model, const s
 void add_errors(const YamlValue& value, const InputError& error) {
   for (const ErrorEntry& entry : error.errors()) {
     if (entry.mark.line > 0)
-      value.context().errors->add(entry.code, entry.mark, entry.message, entry.count);
+      value.context().errors->add(entry);
     else
-      value.error(ErrorCode::wrong_value, entry.text(), entry.count);
+      value.error(entry.code, entry.text(), entry.count);
   }
 }
 
@@ -115,7 +115,7 @@ FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const 
   if (!group) return {};
   if (group->has("file")) return from_job(self, model, who, value);
   if (!group->has("bars") && !group->has("material")) {
-    group->error(ErrorCode::exclusive, "found neither 'bars' nor 'file', expected one of them");
+    group->error(ErrorCode::missing, "found neither 'bars' nor 'file', expected one of them");
     return {};
   }
   return read_flexible(self, *group);

@@ -121,7 +121,7 @@ Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)
   Eigenmodes modes = solve(count);
   if (modes.omega.size() < count && !at_most) {
     throw InputError(
-        ErrorCode::too_large,
+        ErrorCode::out_of_range,
         fmt::format(
             "{} normal modes are requested, but the mass inside the interface allows only {}",
             count, modes.omega.size()));

@@ -102,7 +102,7 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
       Eigen::Index worst = 0;
       (sum.array() / reachable.array()).minCoeff(&worst);
       throw InputError(
-          ErrorCode::too_large,
+          ErrorCode::out_of_range,
           fmt::format("{} fixed-interface modes reach only {:.1f} % of the effective mass in {}, "
                       "not {:.1f} %; ask for less, or for a number of modes",
                       most_modes, 100.0 * sum(worst) / reachable(worst), node_dof_words[worst],
@@ -146,7 +146,7 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
   if (!options.modes) count = std::min(count, found);
   if (count > found) {
     throw InputError(
-        ErrorCode::too_large,
+        ErrorCode::out_of_range,
         fmt::format("{} normal modes are requested, but the mass allows only {}", count, found));
   }
   const auto elastic_of = [](const Eigenpairs& pairs, Eigen::Index n) {

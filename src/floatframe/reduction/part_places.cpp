@@ -50,8 +50,7 @@ std::string number_label(const FeModel& model, int node) {
 }
 
 void append_errors(ErrorList& errors, const InputError& error) {
-  for (const ErrorEntry& entry : error.errors())
-    errors.add(entry.code, entry.mark, entry.message, entry.count);
+  for (const ErrorEntry& entry : error.errors()) errors.add(entry);
 }
 
 void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,

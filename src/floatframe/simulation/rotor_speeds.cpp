@@ -18,7 +18,7 @@ constexpr double most_speed = 1e9;
 
 std::vector<double> rotor_speeds(const std::string& joint, double from, double to, double step) {
   if (std::max(std::abs(from), std::abs(to)) > most_speed)
-    throw InputError(ErrorCode::too_large,
+    throw InputError(ErrorCode::out_of_range,
                      fmt::format("speeds of '{}': found {:g} to {:g} rad/s, expected at most {:g}",
                                  joint, from, to, most_speed));
   if (!(step > 0.0) || !(to > from) || !std::isfinite(from) || !std::isfinite(to) ||

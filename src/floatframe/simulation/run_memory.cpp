@@ -82,11 +82,11 @@ RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const Stepped
     throw InputError(code, std::string(checkpoint_name) + " " + text);
   };
   if (const std::string text = difference(found, identity); !text.empty())
-    refuse(ErrorCode::wrong_value, text);
+    refuse(ErrorCode::mismatch, text);
   RunMemory memory;
   walk_run(s, memory);
   if (const std::string text = memory_complaint(memory.steps, own, step); !text.empty())
-    refuse(ErrorCode::wrong_value, text);
+    refuse(ErrorCode::mismatch, text);
   if (memory.made != memory.steps.since_base || memory.made >= planned ||
       memory.joints.size() != joints || !all_finite(memory.joints) || !(memory.cpu >= 0.0) ||
       !memory.step_times.holds(static_cast<std::uint64_t>(memory.made)))

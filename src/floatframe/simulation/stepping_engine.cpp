@@ -52,7 +52,7 @@ Simulation::Engine::Engine(const Model& model, const SimulationDescription& opti
 
 void Simulation::Engine::require_idle(const char* what) const {
   if (busy_)
-    throw InputError(ErrorCode::out_of_range,
+    throw InputError(ErrorCode::in_use,
                      fmt::format("found a call of {} by the force callback, expected it outside of "
                                  "a step: the callback may change the inputs it is given",
                                  what));
@@ -157,7 +157,7 @@ std::string Simulation::Engine::failure() {
 void Simulation::Engine::set_input(std::size_t k, double value) {
   const auto accepted = accepted_value(model_.inputs[k], value);
   if (!accepted)
-    throw InputError(ErrorCode::dependent,
+    throw InputError(ErrorCode::out_of_range,
                      fmt::format("{}: found {:g}, expected {}", input_owners_[k], value,
                                  input_expectation(model_.inputs[k])));
   inputs_[k] = *accepted;

@@ -108,7 +108,7 @@ void Simulation::Engine::restore(const SimulationState& state) {
                      "found a saved state that is empty, expected one of a simulation");
   const SimulationState::Data& given = *state.data_;
   if (const std::string text = complaint(given, *present()); !text.empty())
-    throw InputError(ErrorCode::wrong_value, "the saved state " + text);
+    throw InputError(ErrorCode::mismatch, "the saved state " + text);
   inputs_ = given.inputs;
   row_ = given.row;
   apply(given);

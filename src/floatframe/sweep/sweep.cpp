@@ -193,7 +193,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   try {
     make_output_folder(o.folder);
   } catch (const OutputError& error) {
-    throw InputError(ErrorCode::wrong_value, error.what());
+    throw InputError(ErrorCode::unreadable, error.what());
   }
   const std::string journal_path = (std::filesystem::path(o.folder) / "sweep.journal").string();
   const std::string table_path = (std::filesystem::path(o.folder) / "sweep.csv").string();
@@ -203,7 +203,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   try {
     check_writable(table_path);
   } catch (const OutputError& error) {
-    throw InputError(ErrorCode::wrong_value, error.what());
+    throw InputError(ErrorCode::unreadable, error.what());
   }
   SweepJournal journal(journal_path, identity_of(o), o.plan.runs.size(), o.fresh,
                        relative_to_model(o.model, workers.files()));

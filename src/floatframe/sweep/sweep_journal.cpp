@@ -182,7 +182,7 @@ void SweepJournal::load(const std::string& header, const SweepIdentity& identity
         ErrorCode::mismatch,
         fmt::format("'{}' is not the journal of a study; give another --out, or --fresh", path_));
   const std::string other = difference(found, identity, runs);
-  if (!other.empty()) throw another_study(ErrorCode::wrong_value, path_, other);
+  if (!other.empty()) throw another_study(ErrorCode::mismatch, path_, other);
   add_files(found, files_);
   // Lines: the last one may be torn; what is after the last line break goes.
   const std::size_t whole = text.rfind('\n') + 1;

@@ -52,7 +52,7 @@ std::vector<std::string> range(const std::string& variation,
     refuse(ErrorCode::out_of_range, variation,
            fmt::format("found '{}', expected a number", parts[lo ? 1 : 0]));
   if (!n || *n < 1.0 || *n != std::floor(*n) || *n > static_cast<double>(most_sweep_runs))
-    refuse(ErrorCode::too_large, variation,
+    refuse(ErrorCode::out_of_range, variation,
            fmt::format("found '{}', expected a number of values from 1 to {}", parts[2],
                        most_sweep_runs));
   if (*lo == *hi && *n > 1.0)

@@ -61,6 +61,7 @@ void ReadErrors::add(ErrorEntry entry) {
       text += " ...";
     }
     entry.message = std::move(text);
+    entry.path = printable(entry.path.substr(0, longest_message));
     errors_.push_back(std::move(entry));
     return;
   }

@@ -136,7 +136,8 @@ std::optional<double> YamlValue::number(const NumberRule& rule) const {
   const Scalar s = scalar(rule.expectation());
   if (s.kind == Scalar::Kind::bad) return std::nullopt;
   if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
-    unexpected(rule.expectation());
+    unexpected(rule.expectation(),
+               s.kind == Scalar::Kind::number ? ErrorCode::out_of_range : ErrorCode::not_a_number);
     return std::nullopt;
   }
   return s.number;
@@ -146,7 +147,8 @@ std::optional<int> YamlValue::integer(const WholeNumberRule& rule) const {
   const Scalar s = scalar(rule.expectation());
   if (s.kind == Scalar::Kind::bad) return std::nullopt;
   if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
-    unexpected(rule.expectation());
+    unexpected(rule.expectation(),
+               s.kind == Scalar::Kind::number ? ErrorCode::out_of_range : ErrorCode::not_a_number);
     return std::nullopt;
   }
   return static_cast<int>(s.number);

@@ -66,8 +66,8 @@ class YamlValue {
     if (complaint) error(code, *complaint);
   }
   /// "found ..., expected `what`".
-  void unexpected(const std::string& what) const {
-    error(ErrorCode::wrong_value, "found " + found() + ", expected " + what);
+  void unexpected(const std::string& what, ErrorCode code = ErrorCode::wrong_value) const {
+    error(code, "found " + found() + ", expected " + what);
   }
   /// What is written here, for sentences: -3, 'abc', a list of 2, a map, nothing.
   std::string found() const;

@@ -66,7 +66,7 @@ void use_isotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMater
   material.young = values[0];
   material.poisson = values[1];
   if (!(values[0] > 0.0))
-    lines.error(ErrorCode::too_large, keyword, "has Young's modulus {:g}, expected more than 0",
+    lines.error(ErrorCode::out_of_range, keyword, "has Young's modulus {:g}, expected more than 0",
                 values[0]);
   if (!(values[1] > -1.0 && values[1] < 0.5))
     lines.error(ErrorCode::out_of_range, keyword,
@@ -112,7 +112,7 @@ double positive_real(AbaqusLines& lines, std::string_view field, std::string_vie
   const std::size_t before = lines.source().errors();
   const double value = lines.real(field, what);
   if (!(value > 0.0) && lines.source().errors() == before)
-    lines.source().error(ErrorCode::too_large, "{} is {:g}, expected more than 0", what, value);
+    lines.source().error(ErrorCode::out_of_range, "{} is {:g}, expected more than 0", what, value);
   return value;
 }
 

@@ -144,12 +144,12 @@ class BeamShape {
     if (s_.kind == "PIPE") return pipe();
     if (s_.shape == "RECT") {
       if (!positive(2))
-        return fail(ErrorCode::too_large, "its sides are expected to be more than 0");
+        return fail(ErrorCode::out_of_range, "its sides are expected to be more than 0");
       beam_.section = BeamSection::rectangle(d_[0], d_[1]);
       beam_.section.shear_y = beam_.section.shear_z = 5.0 / 6.0 * beam_.section.A;
     } else if (s_.shape == "CSOLID") {
       if (!positive(1))
-        return fail(ErrorCode::too_large, "its radius is expected to be more than 0");
+        return fail(ErrorCode::out_of_range, "its radius is expected to be more than 0");
       round(d_[0], 0.0);
     } else if (s_.shape == "CTUBE") {
       if (!positive(2) || !(d_[1] > d_[0]))
@@ -171,7 +171,7 @@ class BeamShape {
   bool pipe() {
     const double outer = 0.5 * d_[0], wall = d_[1] == 0.0 ? outer : d_[1];
     if (!(outer > 0.0 && wall > 0.0 && wall <= outer))
-      return fail(ErrorCode::too_large,
+      return fail(ErrorCode::out_of_range,
                   fmt::format("its outer diameter is {:g} and its wall {:g}, expected more than 0 "
                               "and a wall of at most the radius",
                               d_[0], d_[1]));
@@ -192,7 +192,7 @@ class BeamShape {
   /// A, Iyy, Iyz, Izz, Iw, J, CGy, CGz, SHy, SHz, TKz, TKy, TSxz, TSxy
   bool constants() {
     if (!positive(2) || !(d_[3] > 0.0) || !(d_[5] > 0.0))
-      return fail(ErrorCode::too_large, "A, Iyy, Izz and J are expected to be more than 0");
+      return fail(ErrorCode::out_of_range, "A, Iyy, Izz and J are expected to be more than 0");
     BeamSection& s = beam_.section;
     s.A = d_[0];
     set_ansys_principal(d_[1], d_[3], d_[2], beam_);
@@ -215,7 +215,7 @@ class BeamShape {
                   fmt::format("W2 is {:g}: a flipped section is not read", d_[1]));
     if (!positive(shape.dimensions))
       return fail(
-          ErrorCode::too_large,
+          ErrorCode::out_of_range,
           fmt::format("it has {} dimensions, expected all to be more than 0", shape.dimensions));
     const BeamPlates plates = shape.plates(d_);
     for (const SectionPlate& p : plates)

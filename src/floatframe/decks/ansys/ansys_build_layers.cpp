@@ -30,7 +30,7 @@ std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
     const double t = ansys_value(row, 0);
     if (!row.empty() && t == 0.0) continue;  // a layer that is dropped
     if (!(t > 0.0) || !std::isfinite(t))
-      return refuse(ErrorCode::too_large,
+      return refuse(ErrorCode::out_of_range,
                     fmt::format(": a layer is {:g} thick, expected more than 0", t));
     const std::optional<int> material = b.layer_material(ansys_value(row, 1), e, section.at);
     if (!material) return {};

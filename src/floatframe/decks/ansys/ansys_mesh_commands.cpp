@@ -192,7 +192,7 @@ void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
   const FortranColumns format = f.columns();
   const std::size_t lead = solid ? 11 : 5;
   if (format.integers() != format.columns.size() || format.columns.size() <= lead)
-    f.stop(ErrorCode::too_large,
+    f.stop(ErrorCode::wrong_count,
            "EBLOCK: its format has {} columns of whole numbers, expected more than {}",
            format.integers(), lead);
   const double said = f.number(4).value_or(0.0);

@@ -31,7 +31,7 @@ std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e)
   beam.mass = r(11);
   if (!(s.A > 0.0 && s.Iz > 0.0 && s.Iy > 0.0)) {
     b.error_once(
-        ErrorCode::too_large, real->at,
+        ErrorCode::out_of_range, real->at,
         fmt::format(
             "real constants {}: AREA, IZZ and IYY are {:g}, {:g} and {:g}, expected more than 0",
             e.real, s.A, s.Iz, s.Iy));

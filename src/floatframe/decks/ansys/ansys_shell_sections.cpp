@@ -61,7 +61,7 @@ class AnsysShell {
       const double t = ansys_value(row, 0);
       if (!(t > 0.0))
         b_.error_once(
-            ErrorCode::too_large, section.at,
+            ErrorCode::out_of_range, section.at,
             fmt::format("section {}: a layer is {:g} thick, expected more than 0", e_.section, t));
       const int material =
           ansys_value(row, 1) == 0.0

@@ -256,8 +256,8 @@ class ElementBuilder {
 
   void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
     if (!(value > 0.0))
-      b_.source.error(ErrorCode::too_large, p.at, "{} {}: {} is {:g}, expected more than 0", p.card,
-                      id, what, value);
+      b_.source.error(ErrorCode::out_of_range, p.at, "{} {}: {} is {:g}, expected more than 0",
+                      p.card, id, what, value);
   }
 
   /// The mean of the corners.

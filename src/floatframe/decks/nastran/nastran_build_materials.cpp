@@ -14,7 +14,7 @@ double NastranMaterials::own_shear(int id) {
   if (!m.young || !m.shear || !m.poisson) return 1.0;
   if (!(*m.shear > 0.0)) {
     if (unfit_for_bars_.insert(id).second)
-      b_.source.error(ErrorCode::too_large, m.at,
+      b_.source.error(ErrorCode::out_of_range, m.at,
                       "MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear);
     return 1.0;
   }
@@ -108,7 +108,7 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   } else {
     // The same sentence for each use of the material would not help.
     if (checked_.insert(id).second)
-      b_.source.error(ErrorCode::too_large, m.at,
+      b_.source.error(ErrorCode::out_of_range, m.at,
                       "MAT1 {}: G is {:g}, expected more than 0 where it gives NU with E", id,
                       *m.shear);
     return result;

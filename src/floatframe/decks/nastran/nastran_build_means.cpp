@@ -30,7 +30,7 @@ class MeanBuilder {
     if (reference_ < 0 || !gather() || !averages()) return;
     taken();
     if (solve(false) || solve(true)) return;
-    error(ErrorCode::duplicate,
+    error(ErrorCode::dependent,
           "too many of its nodes depend on other rigid elements or equations already");
   }
 

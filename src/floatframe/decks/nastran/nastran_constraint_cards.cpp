@@ -75,7 +75,7 @@ void read_nastran_rbe3(NastranFields& f, NastranContent& c) {
     if (is_real(f.text(i))) {
       weight = f.real(i, "a weight");
       if (!(weight > 0.0))
-        f.error(ErrorCode::too_large, "a weight is {:g}, expected more than 0", weight);
+        f.error(ErrorCode::out_of_range, "a weight is {:g}, expected more than 0", weight);
       mask = f.components(++i, "the components of a weight");
       if (mask == 0) f.error(ErrorCode::missing, "the components of a weight are missing");
       continue;
@@ -116,7 +116,7 @@ void read_nastran_rigid(NastranFields& f, NastranContent& c, const char* card, s
     if (mask != 0) r.independent.push_back({names.back(), mask});
   }
   if (count != 6)
-    f.error(ErrorCode::dependent, "it has {} independent components, expected 6 in all", count);
+    f.error(ErrorCode::wrong_count, "it has {} independent components, expected 6 in all", count);
   for (std::size_t k = 0; k < nodes; ++k) {
     const unsigned mask = f.components(other + k, "the dependent components");
     if (mask != 0) r.dependent.push_back({names[k], mask});
@@ -170,7 +170,7 @@ void read_nastran_rbe1(NastranFields& f, NastranContent& c) {
     (dependent ? r.dependent : r.independent).push_back({node, mask});
   }
   if (count != 6)
-    f.error(ErrorCode::dependent, "it has {} independent components, expected 6 in all", count);
+    f.error(ErrorCode::wrong_count, "it has {} independent components, expected 6 in all", count);
   if (r.dependent.empty())
     f.error(ErrorCode::missing, "UM with the dependent components is missing");
   c.rigids.push_back(std::move(r));

@@ -220,7 +220,7 @@ class ContentReader {
   double factor(F& f, const std::string& name) {
     const double value = f.real(1, name.c_str());
     if (!(value > 0.0)) {
-      f.error(ErrorCode::too_large, "{} is {}, expected more than 0", name, shown(f.text(1)));
+      f.error(ErrorCode::out_of_range, "{} is {}, expected more than 0", name, shown(f.text(1)));
       return 1.0;
     }
     f.must_be_zero(2, "an imaginary part");

@@ -27,7 +27,7 @@ void read_nastran_ply(NastranFields& f, std::size_t first, NastranProperty& p) {
   } else {
     ply.thickness = f.real(first + 1, ("the thickness of " + what).c_str());
     if (!(ply.thickness > 0.0))
-      f.error(ErrorCode::too_large, "the thickness of {} is {:g}, expected more than 0", what,
+      f.error(ErrorCode::out_of_range, "the thickness of {} is {:g}, expected more than 0", what,
               ply.thickness);
   }
   ply.angle = f.real(first + 2, ("the angle of " + what).c_str(), 0.0) * std::numbers::pi / 180.0;
@@ -71,12 +71,12 @@ void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
   }
   p.bending_factor = f.real(4, "12I/T**3", 1.0);
   if (!(p.bending_factor > 0.0))
-    f.error(ErrorCode::too_large, "12I/T**3 is {:g}, expected more than 0", p.bending_factor);
+    f.error(ErrorCode::out_of_range, "12I/T**3 is {:g}, expected more than 0", p.bending_factor);
   if (!blank(5) && !p.membrane) {
     p.shear_material = f.label(5, "MID3");
     p.shell_shear = f.real(6, "TS/T", 5.0 / 6.0) * p.thickness;
     if (!(p.shell_shear > 0.0))
-      f.error(ErrorCode::too_large, "TS/T is {}, expected more than 0", shown(f.text(6)));
+      f.error(ErrorCode::out_of_range, "TS/T is {}, expected more than 0", shown(f.text(6)));
   }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
   if (!blank(10) && !p.membrane) p.coupling = f.label(10, "MID4");

@@ -38,7 +38,7 @@ void corner_thicknesses(NastranFields& f, std::size_t corners, std::size_t flag,
     e.corner_thickness[k] = f.real(10 + k, "the thickness of a corner", -1.0);
     if (f.blank(10 + k)) continue;
     if (!(e.corner_thickness[k] > 0.0))
-      f.error(ErrorCode::too_large, "the thickness of a corner is {:g}, expected more than 0",
+      f.error(ErrorCode::out_of_range, "the thickness of a corner is {:g}, expected more than 0",
               e.corner_thickness[k]);
     e.own_thickness = true;
   }

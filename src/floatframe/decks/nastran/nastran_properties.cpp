@@ -46,7 +46,7 @@ void set_shear(const std::array<double, 2>& factors, double A, BeamSection& s) {
 /// I12 turns the principal axes, about which I1 and I2 would not be those of the card.
 void check_product(NastranFields& f, const NastranSection& s) {
   if (s.I12 == 0.0 || (s.I1 > 0.0 && s.I2 > 0.0 && s.I12 * s.I12 < s.I1 * s.I2)) return;
-  f.error(ErrorCode::too_large,
+  f.error(ErrorCode::out_of_range,
           "I12 is {:g}, I1 is {:g} and I2 is {:g}, expected I1 and I2 of more than 0 and an I12^2 "
           "of less than I1 I2",
           s.I12, s.I1, s.I2);

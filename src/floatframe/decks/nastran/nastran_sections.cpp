@@ -226,8 +226,8 @@ void named_stations(NastranFields& f, NastranProperty& p, const std::string& typ
     if (!(first.section.A > 0.0)) return;  // an error later
     if (!(s.section.A > 0.0)) {
       if (f.errors() == before)
-        f.error(ErrorCode::too_large, "A is {:g} at X/XB = {:g}, expected more than 0", s.section.A,
-                s.x);
+        f.error(ErrorCode::out_of_range, "A is {:g} at X/XB = {:g}, expected more than 0",
+                s.section.A, s.x);
       return;
     }
     s.nonstructural = f.real(i + 2 + count, "the nonstructural mass", first.nonstructural);

@@ -119,7 +119,7 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
                    [](const NastranStation& a, const NastranStation& b) { return a.x < b.x; });
   for (std::size_t k = 1; k < stations.size(); ++k) {
     if (!(stations[k].x > 0.0) || stations[k].x > 1.0)
-      return f.error_in(ErrorCode::too_large, stations[k].field,
+      return f.error_in(ErrorCode::out_of_range, stations[k].field,
                         "a station is at X/XB = {:g}, expected more than 0 and at most 1",
                         stations[k].x);
     if (stations[k].x == stations[k - 1].x)
@@ -141,7 +141,7 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
     for (std::size_t k = 0; k < 6; ++k) {
       same = same && std::abs(here[k] - first[k]) <= same_section * std::abs(first[k]);
       if (k == 3 || k == 5 || here[k] > 0.0 || (first[k] == 0.0 && here[k] == 0.0)) continue;
-      return f.error(ErrorCode::too_large, "{} is {:g} at X/XB = {:g}, expected more than 0",
+      return f.error(ErrorCode::out_of_range, "{} is {:g} at X/XB = {:g}, expected more than 0",
                      names_of_taper[k], here[k], s.x);
     }
   }

@@ -51,7 +51,7 @@ std::optional<NpyArray> ArrayReader::load(const std::string& name) {
   try {
     return read_npy(m->content);
   } catch (const InputError& damage) {
-    error(ErrorCode::wrong_value, name, damage.what());
+    error(damage.errors().front().code, name, damage.what());
     return std::nullopt;
   }
 }
@@ -120,8 +120,8 @@ std::vector<int> ArrayReader::integers(const std::string& name, std::optional<st
   const auto take = [&](const auto& values) {
     for (const auto x : values) {
       if (x < 0 || x >= limit) {
-        error(ErrorCode::too_large, name, "found {} as value {}, expected a number from 0 to {}", x,
-              out.size() + 1, limit - 1);
+        error(ErrorCode::out_of_range, name, "found {} as value {}, expected a number from 0 to {}",
+              x, out.size() + 1, limit - 1);
         out.clear();
         return;
       }

@@ -153,7 +153,7 @@ class BodyReader {
       if (const auto health = json.find("health"); health != json.end())
         out_.part.health = health_from_json(health->dump());
     } catch (const InputError& damage) {
-      error(ErrorCode::wrong_value, std::string("health: ") + damage.what());
+      error(damage.errors().front().code, std::string("health: ") + damage.what());
     }
   }
 

@@ -369,8 +369,8 @@ void gltf_chunks(std::string_view bytes, GeometryBuilder& out, std::string_view&
     out.stop(ErrorCode::wrong_value,
              fmt::format("found version {} of glTF, expected 2", gltf_word(bytes, 4)));
   if (gltf_word(bytes, 8) > bytes.size())
-    out.stop(ErrorCode::wrong_value, fmt::format("found {} bytes, expected {}: it is cut short",
-                                                 bytes.size(), gltf_word(bytes, 8)));
+    out.stop(ErrorCode::damaged, fmt::format("found {} bytes, expected {}: it is cut short",
+                                             bytes.size(), gltf_word(bytes, 8)));
   bytes = bytes.substr(0, gltf_word(bytes, 8));
   std::size_t at = 12;
   for (int k = 0; k < 2 && at + 8 <= bytes.size(); ++k) {
