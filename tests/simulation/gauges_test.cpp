@@ -172,25 +172,26 @@ TEST(Gauges, WhatCannotBe) {
   const auto says = [](const std::string& output) {
     return error_of([&] { build_model(description_of(with_output(output))); });
   };
-  EXPECT_EQ(says("{stress: {body: beam, node: root}}"),
-            "/tmp/floatframe_test_LBgSzN/model.yaml:20:3: wrong_value")
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, node: root}}")),
+            "model.yaml:20:3: wrong_value")
       << says("{stress: {body: beam, node: root}}");
-  EXPECT_EQ(says("{stress: {body: beam, node: rot, toward: y}}"),
-            "/tmp/floatframe_test_zxREWT/model.yaml:20:3: wrong_value");
-  EXPECT_EQ(says("{stress: {body: beam, node: 7, toward: y}}"),
-            "/tmp/floatframe_test_2hKcwx/model.yaml:20:3: wrong_value");
-  EXPECT_EQ(says("{stress: {body: beam, node: root, layer: top, toward: y}}"),
-            "/tmp/floatframe_test_dKjtPu/model.yaml:20:3: wrong_value");
-  EXPECT_EQ(says("{stress: {body: beam, at: [9, 0, 0]}}"),
-            "/tmp/floatframe_test_VEzzHM/model.yaml:20:3: wrong_value");
-  EXPECT_EQ(says("{strain: {body: beam, node: root, toward: y}}"),
-            "/tmp/floatframe_test_CFqg9i/model.yaml:20:3: outputs.a: missing");
-  EXPECT_EQ(says("{stress: {body: beam}}"),
-            "/tmp/floatframe_test_z4UGrn/model.yaml:20:7: outputs.a.stress: missing");
-  EXPECT_EQ(says("{section_force: {body: beam, node: 3}}"),
-            "/tmp/floatframe_test_PYF2yQ/model.yaml:20:3: wrong_value");
-  EXPECT_EQ(says("{stress: {body: ground, node: 3}}"),
-            "/tmp/floatframe_test_K1L8J1/model.yaml:20:22: outputs.a.stress.body: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, node: rot, toward: y}}")),
+            "model.yaml:20:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, node: 7, toward: y}}")),
+            "model.yaml:20:3: wrong_value");
+  EXPECT_EQ(
+      test::without_folders(says("{stress: {body: beam, node: root, layer: top, toward: y}}")),
+      "model.yaml:20:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, at: [9, 0, 0]}}")),
+            "model.yaml:20:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{strain: {body: beam, node: root, toward: y}}")),
+            "model.yaml:20:3: outputs.a: missing");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam}}")),
+            "model.yaml:20:7: outputs.a.stress: missing");
+  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, node: 3}}")),
+            "model.yaml:20:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: ground, node: 3}}")),
+            "model.yaml:20:22: outputs.a.stress.body: wrong_value");
 }
 
 // Two bars in a line and one that leaves them at `mid`.
@@ -225,16 +226,16 @@ TEST(Gauges, DoubtfulPlacesAreAskedFor) {
     return error_of([&] { build_model(description_of(frame_with(output))); });
   };
   // On the axis of a bar: four places at the edges of the flat sides are equally near.
-  EXPECT_EQ(says("{stress: {body: beam, at: [0.2, 0, 0]}}"),
-            "/tmp/floatframe_test_klGERj/model.yaml:18:3: wrong_value");
-  EXPECT_EQ(says("{stress: {body: beam, at: [0.2, 0, 0], material: STEEL}}"),
-            "/tmp/floatframe_test_P2FngB/model.yaml:18:3: wrong_value");
-  EXPECT_EQ(says("{section_force: {body: beam, node: mid}}"),
-            "/tmp/floatframe_test_9A59p1/model.yaml:18:3: wrong_value");
-  EXPECT_EQ(says("{section_force: {body: beam, node: mid, along: z}}"),
-            "/tmp/floatframe_test_seyKUO/model.yaml:18:3: wrong_value");
-  EXPECT_EQ(says("{section_force: {body: beam, at: [3, 0, 0]}}"),
-            "/tmp/floatframe_test_Vo4gSh/model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, at: [0.2, 0, 0]}}")),
+            "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, at: [0.2, 0, 0], material: STEEL}}")),
+            "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, node: mid}}")),
+            "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, node: mid, along: z}}")),
+            "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, at: [3, 0, 0]}}")),
+            "model.yaml:18:3: wrong_value");
   EXPECT_EQ(
       model_of(frame_with("{section_force: {body: beam, node: mid, along: y}}")).gauges.size(), 1u);
   // Two elements of a straight bar: no question.
@@ -253,9 +254,9 @@ TEST(Gauges, ABarIsChosenByItsDirection) {
     while (stress.first_place[k + 1] <= place) ++k;
     return stress.sections[k].name;
   };
-  EXPECT_EQ(error_of([&] { on(""); }), "/tmp/floatframe_test_lEIwTf/model.yaml:18:3: wrong_value");
-  EXPECT_EQ(error_of([&] { on(", along: z"); }),
-            "/tmp/floatframe_test_E27UPC/model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(error_of([&] { on(""); })), "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(test::without_folders(error_of([&] { on(", along: z"); })),
+            "model.yaml:18:3: wrong_value");
   EXPECT_EQ(on(", along: -x"), "bar 'one', element 2");
   EXPECT_EQ(on(", along: x"), "bar 'two', element 1");
   EXPECT_EQ(on(", along: [-0.1, 1, 0]"), "bar 'arm', element 1");
@@ -278,11 +279,11 @@ TEST(Gauges, OfASectionGivenByConstants) {
   const std::string round = "{round: 0.02}";
   text.replace(text.find(round), round.size(), "{area: 3e-4, Iy: 8e-9, Iz: 8e-9, J: 1.6e-8}");
   const std::string said = error_of([&] { build_model(description_of(text)); });
-  EXPECT_EQ(said,
-            "/tmp/floatframe_test_ndOOML/model.yaml:17:3: "
-            "wrong_value\n/tmp/floatframe_test_ndOOML/model.yaml:18:3: "
-            "wrong_value\n/tmp/floatframe_test_ndOOML/model.yaml:19:3: "
-            "wrong_value\n/tmp/floatframe_test_ndOOML/model.yaml:21:3: wrong_value")
+  EXPECT_EQ(test::without_folders(said),
+            "model.yaml:17:3: "
+            "wrong_value\nmodel.yaml:18:3: "
+            "wrong_value\nmodel.yaml:19:3: "
+            "wrong_value\nmodel.yaml:21:3: wrong_value")
       << said;
 }
 
