@@ -57,8 +57,9 @@ std::size_t index_in(const std::unordered_map<std::string, std::size_t>& index,
   if (const auto it = index.find(name); it != index.end()) return it->second;
   std::string known;
   for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
-  throw UnknownName("found no " + std::string(what) + " '" + name + "', expected one of " +
-                    (known.empty() ? "none" : known));
+  throw UnknownName(ErrorCode::not_found, "found no " + std::string(what) + " '" + name +
+                                              "', expected one of " +
+                                              (known.empty() ? "none" : known));
 }
 
 std::size_t input_of(const Stepper& s, const nb::handle name) {
