@@ -185,7 +185,8 @@ void bind_campbell(nb::module_& m) {
   nb::class_<CampbellLine> line(m, "CampbellLine", "One mode over the speed.");
   value(line, "kind", &CampbellLine::kind,
         "'forward', 'backward', 'planar', 'axial or torsion', 'bending' or 'other bodies', by most "
-        "of its points.");
+        "of "
+        "its points.");
   line.def_prop_ro(
       "eigenvalues", eigenvalues,
       "At each speed, Im >= 0, NaN where the line is not known, shape (speeds,) [1/s].");

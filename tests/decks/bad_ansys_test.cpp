@@ -1,4 +1,4 @@
-// Faulty ANSYS decks: every sentence of the reader, with its line.
+// Faulty ANSYS decks: each with the code and place of its error.
 #include <gtest/gtest.h>
 
 #include "decks/ansys_deck.hpp"

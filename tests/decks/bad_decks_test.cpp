@@ -1,4 +1,4 @@
-// Invalid decks and matrices, each with the whole sentence it must give, place included.
+// Invalid decks and matrices, each with the code and place of its error.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Invalid materials with axes, orientations and layers, each with the whole sentence it must give.
+// Invalid materials with axes, orientations and layers, each with the code and place of its error.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@ namespace floatframe::test {
 namespace {
 
 struct LayerCase {
-  const char *from, *to, *sentence;
+  const char *from, *to, *expected;
 };
 
 const std::string inp =
@@ -123,7 +123,7 @@ TEST(BadLayers, AbaqusDecks) {
        "deck.inp:10: unsupported"},
       {section, "*SOLID SECTION, ELSET=SKIN, COMPOSITE\n", "deck.inp:16: unsupported"},
   };
-  for (const LayerCase& c : cases) EXPECT_EQ(inp_error(layers_with(inp, c)), c.sentence) << c.to;
+  for (const LayerCase& c : cases) EXPECT_EQ(inp_error(layers_with(inp, c)), c.expected) << c.to;
   const std::string first = layers_with(inp, {"3, 10.\n", "", ""});
   EXPECT_EQ(inp_error(first), "no error");
   EXPECT_EQ(inp_error(first, DeckDialect::abaqus), "deck.inp:13: missing");
@@ -174,7 +174,7 @@ TEST(BadLayers, NastranDecks) {
       {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n",
        "PSHELL,3,5,1.,5\nMAT9,5,9.,,,,,,9.\n,,,,,9.\n,9.,,,9.,,9.,1.\n", "deck.bdf:8: wrong_value"},
   };
-  for (const LayerCase& c : cases) EXPECT_EQ(bdf_error(layers_with(bdf, c)), c.sentence) << c.to;
+  for (const LayerCase& c : cases) EXPECT_EQ(bdf_error(layers_with(bdf, c)), c.expected) << c.to;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Invalid decks and matrices of Nastran: each gives the whole sentence with file and line.
+// Invalid decks and matrices of Nastran: each with the code and place of its error.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string deck_error(const std::string& text) {
 struct Error {
   const char* from;
   const char* to;
-  const char* sentence;
+  const char* expected;
 };
 
 const char* const deck =
@@ -120,7 +120,7 @@ TEST(BadNastran, Decks) {
     const std::size_t at = text.find(error.from);
     ASSERT_NE(at, std::string::npos) << error.from;
     text.replace(at, std::string(error.from).size(), error.to);
-    EXPECT_EQ(deck_error(text), error.sentence) << error.to;
+    EXPECT_EQ(deck_error(text), error.expected) << error.to;
   }
 }
 
@@ -186,7 +186,7 @@ TEST(BadNastran, Matrices) {
     const std::size_t at = text.find(error.from);
     ASSERT_NE(at, std::string::npos) << error.from;
     text.replace(at, std::string(error.from).size(), error.to);
-    EXPECT_EQ(punch_error(text), error.sentence) << error.to;
+    EXPECT_EQ(punch_error(text), error.expected) << error.to;
   }
   EXPECT_EQ(
       punch_error(std::string(good_punch).substr(0, std::string(good_punch).find("DMIG    MAAX"))),

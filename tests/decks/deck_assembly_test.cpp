@@ -1,5 +1,5 @@
 // Abaqus decks of assemblies: several parts, several instances of a part, moved and turned, against
-// the same mesh written flat; faulty assemblies with their sentences.
+// the same mesh written flat; faulty assemblies with their errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

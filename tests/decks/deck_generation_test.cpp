@@ -113,7 +113,7 @@ TEST(DeckGeneration, ArcsAndTurnedCopies) {
   EXPECT_LT((at(41) - Vec3(-3, 1, 0)).norm(), 1e-14);
 }
 
-TEST(DeckGeneration, Sentences) {
+TEST(DeckGeneration, Errors) {
   const std::string n = "*NODE\n1, 0, 0, 0\n5, 4, 0, 0\n7, 0, 1, 0\n";
   EXPECT_EQ(generation_error(n + "*NGEN\n1, 6\n"), "deck.inp:6: not_found");
   EXPECT_EQ(generation_error(n + "*NGEN\n1, 5, 3\n"), "deck.inp:6: contradiction");

@@ -67,8 +67,8 @@ TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
       {"*TRANSVERSE SHEAR STIFFNESS\n1., 1., 1.\n", "unsupported"},
       {"*ELASTIC\n7.e4, .3\n", "duplicate"},
       {"*DENSITY\n1.\n", "duplicate"}};
-  for (const auto& [keyword, sentence] : cases)
-    EXPECT_EQ(error(tetrahedron + keyword), std::string("deck.inp:14: ") + sentence);
+  for (const auto& [keyword, expected] : cases)
+    EXPECT_EQ(error(tetrahedron + keyword), std::string("deck.inp:14: ") + expected);
 }
 
 TEST(DeckKeywords, BoltsWithoutTheirPreload) {
@@ -230,7 +230,7 @@ TEST(DeckDialects, TwoNumbersAreAnEllipseOfCalculix) {
   EXPECT_EQ(error(beam("CIRC\n4., 2.", abaqus_clue)), "deck.inp:13: unsupported");
   EXPECT_EQ(error(beam("CIRC\n4., 2., 1.")), "deck.inp:13: wrong_count");
   EXPECT_EQ(error(beam("PIPE\n4.")), "deck.inp:13: wrong_count");
-  // One sentence for a number that is wrong.
+  // One error for a number that is wrong.
   EXPECT_EQ(error(beam("PIPE\n-4., 1.")), "deck.inp:14: out_of_range");
   EXPECT_EQ(error(beam("BOX\n1., 0., .1, .1, .1, .1")), "deck.inp:14: out_of_range");
   EXPECT_EQ(error(beam("RECT\nwide, 1.")), "deck.inp:14: not_a_number");

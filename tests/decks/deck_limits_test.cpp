@@ -1,4 +1,4 @@
-// Small inputs that would take unbounded time or memory: each ends with a sentence. What is bounded
+// Small inputs that would take unbounded time or memory: each ends with an error. What is bounded
 // is the work, so the tests assert counts, not seconds; most of them did not end before.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -46,7 +46,7 @@ TEST(DeckMpc, PinsAndTies) {
   EXPECT_EQ(tie.spiders[0].reference, 5);
 }
 
-TEST(DeckMpc, Sentences) {
+TEST(DeckMpc, Errors) {
   const auto error = [](const std::string& mpc) { return error_of([&] { mpc_deck(mpc); }); };
   EXPECT_EQ(error("LINK, 2, 3\n"), "deck.inp:19: unsupported");
   EXPECT_EQ(error("BEAM, 2\n"), "deck.inp:19: wrong_count");

@@ -67,7 +67,7 @@ TEST(NastranPassing, MissingIncludesOfTheExecutiveControl) {
             "arm.bdf:3: not_found");
 }
 
-TEST(NastranPassing, SentencesOfWhatIsRefused) {
+TEST(NastranPassing, WhatIsRefused) {
   const char* const refused[] = {"CBEND",   "CBEAM3",  "RSPLINE", "RSSCON", "RTRPLT1", "CGAP",
                                  "CBUSH2D", "GENEL",   "CFAST",   "CWELD",  "CSEAM",   "PBMSECT",
                                  "PBRSECT", "TF",      "CHACAB",  "CAABSF", "CFLUID3", "BGSET",

@@ -166,8 +166,8 @@ TEST(NastranScalarPoints, Errors) {
       {"SPOINT,21,22\nMPC,1,21,,1.,22,,-1.\n,,2,1,1.\nCELAS4,11,5.,21,23\nCELAS4,12,6.,22,23",
        "arm.bdf:24: unsupported"},
   };
-  for (const auto& [card, sentence] : wrong)
-    EXPECT_EQ(points_error(two_tetrahedra + card + "\n"), sentence) << card;
+  for (const auto& [card, expected] : wrong)
+    EXPECT_EQ(points_error(two_tetrahedra + card + "\n"), expected) << card;
   const FeModel held =
       points_deck(two_tetrahedra + "CMASS4,11,2.,21\nSPC1,1,,21\nCMASS4,12,0.,22\n");
   EXPECT_EQ(held.notes.back(),

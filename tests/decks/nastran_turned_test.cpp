@@ -228,7 +228,7 @@ TEST(NastranTurned, Supports) {
   EXPECT_EQ(model.supports[2].mask, 2u | 8u);
 }
 
-TEST(NastranTurned, SentencesOfTurnedSystems) {
+TEST(NastranTurned, ErrorsOfTurnedSystems) {
   const std::string deck = bars + systems + nodes_3_and_4(1);
   const auto error = [&](const std::string& cards) {
     return test::error_of([&] { turned_deck(deck + cards); });

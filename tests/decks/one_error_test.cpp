@@ -15,7 +15,7 @@ const std::string one_error_deck =
 
 struct OneError {
   const char* text;
-  const char* sentence;
+  const char* expected;
 };
 
 TEST(OneError, OfANumberThatIsNone) {
@@ -48,7 +48,7 @@ TEST(OneError, OfANumberThatIsNone) {
                 TextSource source(one_error_deck + c.text, "one.inp");
                 read_abaqus(source, {});
               }),
-              c.sentence)
+              c.expected)
         << c.text;
 }
 

@@ -1,5 +1,5 @@
 // Universal files: the same mesh as from Gmsh, in both forms of nodes and elements; groups; invalid
-// files with their whole sentence.
+// files with code and place of their errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Invalid Gmsh meshes and matrix files, each with its whole sentence.
+// Invalid Gmsh meshes and matrix files, each with the code and place of its error.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace floatframe::test {
 namespace {
 
 struct InvalidMesh {
-  std::string text, sentence;
+  std::string text, expected;
 };
 
 TEST(BadMeshes, GmshFramesAndCounts) {
@@ -42,13 +42,13 @@ TEST(BadMeshes, GmshFramesAndCounts) {
   };
   for (const InvalidMesh& mesh : meshes) {
     SCOPED_TRACE(mesh.text);
-    EXPECT_EQ(error_of([&] { parse_gmsh(mesh.text, "a.msh", {}); }), mesh.sentence);
+    EXPECT_EQ(error_of([&] { parse_gmsh(mesh.text, "a.msh", {}); }), mesh.expected);
   }
 }
 
 /// A stiffness with its mass, its degrees of freedom and its nodes.
 struct InvalidMatrices {
-  std::string stiffness, mass, dofs, nodes, sentence;
+  std::string stiffness, mass, dofs, nodes, expected;
 };
 
 TEST(BadMeshes, MatrixMarketWithTables) {
@@ -77,7 +77,7 @@ TEST(BadMeshes, MatrixMarketWithTables) {
       {good, good, map, "1, 0, 0, 0\n1, 1, 0, 0\n", "nodes.csv:2: duplicate"},
   };
   for (const InvalidMatrices& m : all) {
-    SCOPED_TRACE(m.sentence);
+    SCOPED_TRACE(m.expected);
     TemporaryFolder folder;
     FeReadOptions options;
     options.mass = folder.write("M.mtx", m.mass);
@@ -85,7 +85,7 @@ TEST(BadMeshes, MatrixMarketWithTables) {
     options.nodes = folder.write("nodes.csv", m.nodes);
     const std::string K = folder.write("K.mtx", m.stiffness);
     EXPECT_EQ(folder.without(error_of([&] { read_fe_file(K, options, "matrix_market"); })),
-              m.sentence);
+              m.expected);
   }
 }
 

@@ -1,4 +1,4 @@
-// Body files: what is written is read again to the bit; every damage is one sentence.
+// Body files: what is written is read again to the bit; every damage is one error.
 #include "floatframe/formats/body_file/body_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Geometry files: the same tetrahedron in every format, and what is wrong with each in a sentence.
+// Geometry files: the same tetrahedron in every format, and the error of each that is not valid.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -165,10 +165,10 @@ TEST(Geometry, BuffersBesideAreReadAndNamed) {
   EXPECT_EQ(g.others[0].filename(), "a shape.bin");
 }
 
-TEST(Geometry, ErrorsAreOneSentence) {
+TEST(Geometry, Errors) {
   const auto says = [](const std::string& bytes, const std::string& name,
-                       const std::string& sentence) {
-    EXPECT_EQ(geometry_error(bytes, name), sentence);
+                       const std::string& expected) {
+    EXPECT_EQ(geometry_error(bytes, name), expected);
   };
   says("", "t.stl", "t.stl: missing");
   says("x", "t.step", "t.step: wrong_value");
@@ -214,7 +214,7 @@ TEST(Geometry, TooManyTrianglesAreRefused) {
   EXPECT_EQ(geometry_error(bytes, "t.obj"), "t.obj: too_large");
 }
 
-/// Changed and cut files give triangles of points that are there, or a sentence.
+/// Changed and cut files give triangles of points that are there, or an error.
 TEST(Geometry, DamagedFilesAreReadOrRefused) {
   std::mt19937 random(7);
   int read = 0, refused = 0;

@@ -1,5 +1,5 @@
 // Gmsh meshes: the same mesh from every version, ASCII and binary of both byte orders; order of
-// nodes; physical groups; invalid files with their whole sentence.
+// nodes; physical groups; invalid files with code and place of their errors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -136,7 +136,7 @@ std::string mesh_error(std::string_view text) {
 struct FileError {
   const char* from;
   const char* to;
-  const char* sentence;
+  const char* expected;
 };
 
 TEST(Gmsh, ErrorsOfText) {
@@ -173,7 +173,7 @@ TEST(Gmsh, ErrorsOfText) {
     const std::size_t at = text.find(error.from);
     ASSERT_NE(at, std::string::npos) << error.from;
     text.replace(at, std::strlen(error.from), error.to);
-    EXPECT_EQ(mesh_error(text), error.sentence);
+    EXPECT_EQ(mesh_error(text), error.expected);
   }
 }
 

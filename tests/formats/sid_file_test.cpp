@@ -325,7 +325,7 @@ TEST(SidFile, WhatIsInDoubtIsSaid) {
 struct SidError {
   const char* from;
   const char* to;
-  const char* sentence;
+  const char* expected;
 };
 
 TEST(SidFile, Errors) {
@@ -357,10 +357,10 @@ TEST(SidFile, Errors) {
     text.replace(at, std::string(c.from).size(), c.to);
     try {
       parse_sid(text, "arm.SID_FEM");
-      ADD_FAILURE() << "read without error: " << c.sentence;
+      ADD_FAILURE() << "read without error: " << c.expected;
     } catch (const InputError& error) {
       const std::string what = test::codes_of(error);
-      EXPECT_EQ(what.substr(0, what.find('\n')), c.sentence);
+      EXPECT_EQ(what.substr(0, what.find('\n')), c.expected);
     }
   }
   const auto error_in = [](const std::string& text) {

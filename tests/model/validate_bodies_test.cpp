@@ -1,5 +1,5 @@
 // Descriptions made in C++ are checked as strictly as model files: one change of a valid
-// description at a time, each with the whole sentence it must give. Here: bodies.
+// description at a time, each with the code and path of its error. Here: bodies.
 #include <gtest/gtest.h>
 
 #include "support/valid_description.hpp"

@@ -61,7 +61,7 @@ TEST(Validate, Joints) {
        "rods.rod: out_of_range"},
       {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: not_found"},
       {[](D& d) { d.rods[0].a.node = "n0"; }, "rods.rod.from.node: incomplete"},
-      // Nodes are known when the bodies are reduced; the sentences are those of model files.
+      // Nodes are known when the bodies are reduced; the errors are those of model files.
       {[](D& d) { d.joints[2].child.node = "n9"; }, "not_found"},
       {[](D& d) { d.rods[0].b.node = "n0"; }, "not_found"},
       {[](D& d) {

@@ -73,16 +73,16 @@ TEST(SameSentence, InAFileAndInADescription) {
       {"min_step: 0.0001", "min_step: 1", [](D& d) { d.simulation.min_step = 1.0; }}};
   const test::TemporaryFolder folder;
   const auto read = [&](const std::string& text) { return read_model(folder.write("m", text)); };
-  ASSERT_EQ(test::error_of([&] { build_model(read(model_text)); }), "no error");
+  ASSERT_EQ(test::sentences_of([&] { build_model(read(model_text)); }), "no error");
   for (const Mistake& m : mistakes) {
     std::string text = model_text;
     const std::size_t at = text.find(m.right);
     ASSERT_NE(at, std::string::npos) << m.right;
     text.replace(at, std::string(m.right).size(), m.wrong);
-    const std::string in_file = test::error_of([&] { read(text); });
+    const std::string in_file = test::sentences_of([&] { read(text); });
     ModelDescription d = read(model_text);
     m.made(d);
-    EXPECT_EQ(test::error_of([&] { build_model(d); }), in_file) << m.wrong;
+    EXPECT_EQ(test::sentences_of([&] { build_model(d); }), in_file) << m.wrong;
     EXPECT_NE(in_file, "no error") << m.wrong;
   }
 }

@@ -260,7 +260,7 @@ TEST(Reduction, GivenBasisAndMassModels) {
   EXPECT_FALSE(reduce(model, options).projection->six_dof());
 }
 
-TEST(ReductionErrors, EachHasItsSentence) {
+TEST(ReductionErrors, Codes) {
   const FeModel arm = build_bar_frame(a_arm_frame(5));
   const auto with = [&](auto change) {
     return error_of([&] {

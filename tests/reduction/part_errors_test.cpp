@@ -1,4 +1,4 @@
-// Parts that cannot be reduced: the sentence of each error.
+// Parts that cannot be reduced: the code of each error.
 #include <gtest/gtest.h>
 
 #include "floatframe/math/so3.hpp"
@@ -21,7 +21,7 @@ std::string message(FeModel model, const PartOptions& options) {
   return "no error";
 }
 
-TEST(PartErrors, EachHasItsSentence) {
+TEST(PartErrors, Codes) {
   PartOptions options = both_ends();
   options.interfaces.clear();
   EXPECT_EQ(message(beam(), options), "incomplete");

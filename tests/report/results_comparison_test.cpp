@@ -139,7 +139,7 @@ TEST_F(Comparing, ChannelsThatOnlyOneHas) {
   EXPECT_THROW(compared(a, b, {"y"}), InputError);
   const auto mm = results("mm", 0, 1, 3, {one}, "mm");
   // Nothing to compare is no agreement.
-  const auto sentence = [&](const std::string& first, const std::string& second) {
+  const auto error = [&](const std::string& first, const std::string& second) {
     try {
       compared(first, second);
     } catch (const InputError& error) {
@@ -147,10 +147,10 @@ TEST_F(Comparing, ChannelsThatOnlyOneHas) {
     }
     return std::string();
   };
-  EXPECT_EQ(test::without_folders(sentence(b, mm)), "mm:1: missing") << sentence(b, mm);
+  EXPECT_EQ(test::without_folders(error(b, mm)), "mm:1: missing") << error(b, mm);
   const auto none = results("none", 0, 1, 3, {});
-  EXPECT_EQ(test::without_folders(sentence(a, none)), "none:1: missing") << sentence(a, none);
-  EXPECT_EQ(test::without_folders(sentence(none, none)), "none:1: missing");
+  EXPECT_EQ(test::without_folders(error(a, none)), "none:1: missing") << error(a, none);
+  EXPECT_EQ(test::without_folders(error(none, none)), "none:1: missing");
 }
 
 }  // namespace

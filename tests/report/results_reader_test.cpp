@@ -1,4 +1,4 @@
-// What is read back of results, and the sentence about each thing that cannot be.
+// What is read back of results, and the error of each thing that cannot be.
 #include "floatframe/report/results_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class Reading : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  /// The sentence about a file that is refused, without its name.
+  /// The error of a file that is refused, without its name.
   std::string complaint(const std::string& text) {
     const std::string path = file(text);
     try {

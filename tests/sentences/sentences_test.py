@@ -5,7 +5,8 @@ usage: tests/sentences/sentences_test.py [--write] [folder of the build]
 
 Tests assert the place and the code of an error (support/error_of.hpp); each sentence stands here once, in the first room whose
 tests meet it. A line is "code: sentence"; of sentences that differ only in names and numbers it keeps the first. --write makes the
-files anew: read the diff as a user would.
+files anew: read the diff as a user would. Literals of other tests that repeat four words or more of these sentences are counted:
+at most MOST_REPEATED, so that rewording a sentence changes its file and little else.
 """
 import os
 import pathlib
@@ -19,6 +20,10 @@ TESTS = HERE.parent
 # From what knows nothing of the others to what knows most: a sentence belongs to the first.
 ROOMS = ["core", "math", "yaml", "fe", "inertia", "body", "reduction", "formats", "decks", "parts", "model", "model_file",
          "formulation", "simulation", "history", "analyses", "report", "export", "realtime", "sweep", "apps"]
+
+MOST_REPEATED = 45
+LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+LITERALS = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
 
 
 def filter_of(room):
@@ -72,12 +77,28 @@ def sentences(build):
     return lines
 
 
+def repeated(lines):
+    """Literals of tests that stand in a sentence, or a sentence in them."""
+    known = [line.split(": ", 1)[1] for room in lines.values() for line in room if len(line.split()) > 4]
+    found = []
+    patterns = "tests/*/*.cpp", "tests/*/*.hpp", "tests/*/*_test.py", "python/tests/*.py"
+    for source in sorted(file for pattern in patterns for file in TESTS.parent.glob(pattern)):
+        for text in {"".join(LITERAL.findall(m.group())) for m in LITERALS.finditer(source.read_text())}:
+            if len(text.split()) >= 4 and any(text in sentence or sentence in text for sentence in known):
+                found.append(f"{source.relative_to(TESTS.parent)}: {text}")
+    return found
+
+
 def main():
     arguments = [a for a in sys.argv[1:] if a != "--write"]
     program = pathlib.Path(os.environ.get("FLOATFRAME_BINARY", TESTS.parent / "build" / "floatframe"))
     build = pathlib.Path(arguments[0]) if arguments else program.resolve().parent
     wrong = 0
-    for room, lines in sentences(build).items():
+    now = sentences(build)
+    if len(again := repeated(now)) > MOST_REPEATED:
+        wrong += 1
+        print(f"{len(again)} literals of tests repeat sentences, at most {MOST_REPEATED}:", *again, sep="\n")
+    for room, lines in now.items():
         file = HERE / f"{room}.txt"
         if "--write" in sys.argv:
             file.write_text("".join(f"{line}\n" for line in lines))

@@ -384,9 +384,8 @@ TEST(Stiffened, WhatCannotBe) {
   ModelDescription rigid = spin_up(true);
   rigid.bodies[0].kind = RigidDescription{};
   rigid.outputs.clear();
-  EXPECT_EQ(error_of([&] { build_model(rigid); }),
-            "/work/main/examples/spin_up/spin_up.yaml:36:27: wrong_value")
-      << error_of([&] { build_model(rigid); });
+  const std::string error = error_of([&] { build_model(rigid); });
+  EXPECT_EQ(error.substr(error.rfind('/') + 1), "spin_up.yaml:36:27: wrong_value") << error;
 }
 
 }  // namespace

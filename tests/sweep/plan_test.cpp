@@ -54,7 +54,7 @@ TEST(GridPlan, OneValueIsTheFirst) {
             (std::vector<std::vector<std::string>>{{"3", "1"}, {"3", "2"}}));
 }
 
-TEST(GridPlan, ErrorsAreOneSentence) {
+TEST(GridPlan, Errors) {
   for (const auto& [variation, expected] :
        std::vector<std::pair<std::string, std::string>>{{"speed", "wrong_value"},
                                                         {"=1,2", "wrong_value"},

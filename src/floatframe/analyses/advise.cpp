@@ -91,9 +91,10 @@ std::string advice_text(const std::string& model, const SimulationDescription& s
   if (r.quasi_static > 0) {
     text += fmt::format(
         "\n  {} only {} compliance (\"quasi-static\"): {} own vibration is not excited, or the "
-        "step is too\n  long to show it. An implicit step already treats {} so; it costs as much "
-        "as any other. With\n  spectral_radius 1 an unresolved mode rings on: a smaller one damps "
-        "it (this run: {:g}).\n",
+        "step "
+        "is too\n  long to show it. An implicit step already treats {} so; it costs as much as any "
+        "other. With\n  spectral_radius 1 an unresolved mode rings on: a smaller one damps it "
+        "(this run: {:g}).\n",
         plural(r.quasi_static, "mode"), r.quasi_static == 1 ? "adds" : "add",
         r.quasi_static == 1 ? "its" : "their", r.quasi_static == 1 ? "it" : "them",
         s.spectral_radius);
@@ -179,33 +180,33 @@ AnalysisReport report_advice(const Model& model, const AdviceOptions& options) {
 Analysis advise_analysis() {
   const auto o = std::make_shared<AdviceOptions>();
   const auto order = std::make_shared<ModelOrderOptions>();
-  return {.name = "advise",
-          .help = "Find out which modes of flexible bodies a model could do without",
-          .makes_steps = true,
-          .options =
-              {fraction_option(
-                   "--share", o->drop_share,
-                   "Modes with smaller static and dynamic shares may be dropped; default 0.001"),
-               fraction_option(
-                   "--tolerance", o->tolerance,
-                   "Largest change of an output allowed, as a fraction of its range; default 0.01"),
-               whole_option("--repeat", o->repeat, 1, 1000,
-                            "Timed runs of both models, the quickest counts; default 3"),
-               number_option("--below", order->below, 1e-6, 1e9, "HERTZ",
-                             "Another question: modes that the vibrations of the whole model below "
-                             "this frequency need"),
-               fraction_option("--frequency-error", order->tolerance,
-                               "With --below: change of these frequencies allowed; default 0.01")},
-          .footer =
-              "The model is run with the options of its file, then without the modes whose shares "
-              "are small;\n"
-              "modes are only called droppable if that run agrees. Shares and thresholds: "
-              "docs/mode-advisor.md.\n"
-              "Exit codes: 0 done, 1 the model does not run, 2 bad input.",
-          .run = [o, order](const Model& model) {
-            return order->below > 0.0 ? report_model_order(model, *order)
-                                      : report_advice(model, *o);
-          }};
+  return {
+      .name = "advise",
+      .help = "Find out which modes of flexible bodies a model could do without",
+      .makes_steps = true,
+      .options =
+          {fraction_option(
+               "--share", o->drop_share,
+               "Modes with smaller static and dynamic shares may be dropped; default 0.001"),
+           fraction_option(
+               "--tolerance", o->tolerance,
+               "Largest change of an output allowed, as a fraction of its range; default 0.01"),
+           whole_option("--repeat", o->repeat, 1, 1000,
+                        "Timed runs of both models, the quickest counts; default 3"),
+           number_option("--below", order->below, 1e-6, 1e9, "HERTZ",
+                         "Another question: modes that the vibrations of the whole model below "
+                         "this frequency need"),
+           fraction_option("--frequency-error", order->tolerance,
+                           "With --below: change of these frequencies allowed; default 0.01")},
+      .footer =
+          "The model is run with the options of its file, then without the modes whose shares are "
+          "small;\n"
+          "modes are only called droppable if that run agrees. Shares and thresholds: "
+          "docs/mode-advisor.md.\n"
+          "Exit codes: 0 done, 1 the model does not run, 2 bad input.",
+      .run = [o, order](const Model& model) {
+        return order->below > 0.0 ? report_model_order(model, *order) : report_advice(model, *o);
+      }};
 }
 
 }  // namespace floatframe

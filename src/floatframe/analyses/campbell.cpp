@@ -175,25 +175,25 @@ Analysis campbell_analysis() {
   Option speed = text_option("--speed", a->speed, "JOINT=FROM:TO:STEP",
                              "Joint that the rotor hangs on, and its speeds [rad/s]");
   speed.required = true;
-  return {
-      .name = "campbell",
-      .help =
-          "Campbell diagram of a rotor: vibrations over its speed, critical speeds [rad/s], onset "
-          "of instability",
-      .options = {speed, word_option("--axis", a->axis, {"x", "y", "z"}, axis_help),
-                  number_list("--orders", a->orders, 0.01, 1000.0, "NUMBER",
-                              "Orders of the speed whose critical speeds are found; default 1"),
-                  whole_option("--modes", a->modes, 1, 1000,
-                               "Vibrations that are followed, the lowest; default 12")},
-      .json_help = "JSON on standard output (rad/s, 1/s)",
-      .files = {{"--csv", "Write frequencies, real parts and whirl over the speed"},
-                {"--svg", "Write the diagram as a picture"}},
-      .footer =
-          "The joint is revolute, cylindrical or free. Frequencies are those in axes that do not "
-          "turn; where its angle\nmatters the rotor must be symmetric about its axis: "
-          "docs/vibrations.md.\n"
-          "Exit codes: 0 done, 1 no steady state or a rotor that is not symmetric, 2 bad input.",
-      .run = [a](const Model& model) { return report_campbell(model, *a); }};
+  return {.name = "campbell",
+          .help =
+              "Campbell diagram of a rotor: vibrations over its speed, critical speeds [rad/s], "
+              "onset of instability",
+          .options = {speed, word_option("--axis", a->axis, {"x", "y", "z"}, axis_help),
+                      number_list("--orders", a->orders, 0.01, 1000.0, "NUMBER",
+                                  "Orders of the speed whose critical speeds are found; default 1"),
+                      whole_option("--modes", a->modes, 1, 1000,
+                                   "Vibrations that are followed, the lowest; default 12")},
+          .json_help = "JSON on standard output (rad/s, 1/s)",
+          .files = {{"--csv", "Write frequencies, real parts and whirl over the speed"},
+                    {"--svg", "Write the diagram as a picture"}},
+          .footer =
+              "The joint is revolute, cylindrical or free. Frequencies are those in axes that do "
+              "not turn; where its angle\nmatters the rotor must be symmetric about its axis: "
+              "docs/vibrations.md.\n"
+              "Exit codes: 0 done, 1 no steady state or a rotor that is not symmetric, 2 bad "
+              "input.",
+          .run = [a](const Model& model) { return report_campbell(model, *a); }};
 }
 
 }  // namespace floatframe

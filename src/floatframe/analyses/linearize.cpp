@@ -183,12 +183,12 @@ Analysis linearize_analysis() {
   return {
       .name = "linearize",
       .help = "The model as a linear system A, B, C, D between named inputs and outputs (SI units)",
-      .options =
-          {word_list(
-               "--inputs", o->ports.inputs, {},
-               "Inputs of the model, 'motion of JOINT', 'road', 'road at TYRE'; default: all"),
-           word_list("--outputs", o->ports.outputs, {}, "Outputs of the model; default: all"),
-           operating_point_option(o->at)},
+      .options = {word_list("--inputs", o->ports.inputs, {},
+                            "Inputs of the model, 'motion of JOINT', 'road', 'road at TYRE'; "
+                            "default: all"),
+                  word_list("--outputs", o->ports.outputs, {},
+                            "Outputs of the model; default: all"),
+                  operating_point_option(o->at)},
       .json_help = "JSON on standard output",
       .files = {{"--npz", "Write the matrices as arrays of NumPy"},
                 {"--mat", "Write the matrices as a MATLAB file (version 7)"},

@@ -53,7 +53,7 @@ void add_up(ModelMass& whole) {
     moment += b.mass * b.centre;
   }
   if (!(whole.mass > 0.0))
-    throw InputError(ErrorCode::wrong_value, "found bodies without mass, expected one with mass");
+    throw InputError(ErrorCode::singular, "found bodies without mass, expected one with mass");
   whole.centre = moment / whole.mass;
   Mat3 P = Mat3::Zero();
   for (const BodyMass& b : whole.bodies) {

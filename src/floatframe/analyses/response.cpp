@@ -141,7 +141,7 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
     r->loading = {roughness_of(o.spectrum), o.waviness, o.speed, o.from, o.to};
     r->road = road_response(model, o.ports.outputs, r->frequencies, r->loading);
   } else if (o.speed > 0.0) {
-    throw InputError(ErrorCode::not_found, "--speed is of --road-spectrum, which is not given");
+    throw InputError(ErrorCode::incomplete, "--speed is of --road-spectrum, which is not given");
   }
   // Whoever asks for a road or a harmonic input has curves only of inputs that he names.
   const bool others = r->road || !r->harmonics.empty();

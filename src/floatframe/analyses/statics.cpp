@@ -135,9 +135,9 @@ AnalysisReport report_statics(const Model& model) {
       .text = fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
                           model.name, plural(s.iterations, "iteration"), s.residual) +
               forces_text(model, s) + joints_text(s) + poses_text(s) + amplitudes_text(s) +
-              "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on the "
-              "child, world axes, about the\njoint's point. Bodies: origin of the body frame; "
-              "angles from the design pose.\n" +
+              "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on "
+              "the child, world axes, about the\njoint's point. Bodies: origin of the body "
+              "frame; angles from the design pose.\n" +
               redundancy_note(s) + notes_text(s.notes),
       .json = statics_json(model, s, warnings),
       .files = {[state = s.state] { return state_json(*state); }},

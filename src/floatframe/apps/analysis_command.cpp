@@ -33,7 +33,7 @@ void require_steps(const SimulationDescription& simulation) {
                                  "steps; give a shorter --duration",
                                  simulation.duration, simulation.step));
   if (!(simulation.duration >= simulation.step))
-    throw InputError(ErrorCode::wrong_value, place_of_clock(simulation),
+    throw InputError(ErrorCode::out_of_range, place_of_clock(simulation),
                      "the run is shorter than one step; give a --duration");
 }
 

@@ -55,15 +55,17 @@ std::string chain_text(const ChainResult& result) {
   }
   std::string text = fmt::format(
       "Chain of flexible links released from the horizontal: {:g} s at {:g} ms, {} per link, "
-      "Newton tolerance {:g}, spectral radius {:g}\n"
+      "Newton "
+      "tolerance {:g}, spectral radius {:g}\n"
       "Processor time per step, B projection, P preprocessing; LLTs: in units of one dense LLT of "
-      "a 98 x 98 matrix\n\n",
+      "a "
+      "98 x 98 matrix\n\n",
       o.duration, 1e3 * o.step, plural(o.elements, "element"), o.tolerance, o.spectral_radius);
   text += table.text(2);
   text += fmt::format(
       "\n  min, median: of every block of 20 steps over {} runs or more, summed over the blocks.\n"
-      "  tip error: at 1 s against a run at {:g} ms (up to {} links); to published: distance of "
-      "the tip of\n"
+      "  tip error: at 1 s against a run at {:g} ms (up to {} links); to published: distance "
+      "of the tip of\n"
       "  four links to another program's. energy drift: over the range of the potential energy.\n",
       o.runs, 1e3 * result.tip_reference_step, largest_reference_chain);
   if (shortened)

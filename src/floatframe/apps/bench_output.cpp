@@ -117,8 +117,8 @@ std::string bench_text(const BenchResult& result) {
              "(8 s at 10 ms, machine not stated)\n\n",
              result.duration, 1e3 * result.step, plural(result.repeats, "run") + " each") +
          table1_text(result) +
-         "\n  x real time: of the minimum. build: once a model, not part of the processor seconds; "
-         "preprocessing\n"
+         "\n  x real time: of the minimum. build: once a model, not part of the processor "
+         "seconds; preprocessing\n"
          "  is finite elements, modes and constant integrals of all bodies.\n\n" +
          error_text(result) +
          fmt::format("\n  Errors of positions among the outputs, against steps of {:g} ms.\n\n",

@@ -56,7 +56,8 @@ std::string scaling_text(const ScalingResult& result) {
   std::string text = fmt::format(
       "Growth of the cost of a chain of flexible links, first {} of {:g} ms\n"
       "B projection, P preprocessing; an iteration: full, with its factorisation; ratio: to that "
-      "of 20 elements, 4 nodes, 8 modes or 8 links\n",
+      "of "
+      "20 elements, 4 nodes, 8 modes or 8 links\n",
       plural(result.options.steps, "step"), 1e3 * result.options.step);
   std::string failures;
   for (const Sweep sweep : result.options.sweeps) {

@@ -79,7 +79,7 @@ int run_steps(const StepArguments& a) {
   check_inertia_method(description, o.inertia);
   const Model model = build_model(description);
   if (a.inputs_jump && model.inputs.empty())
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::missing,
                      "--inputs-jump: found a model without inputs, expected one with some");
   const std::unique_ptr<BenchStepper> stepper(floatframe_counted_start(&model, &o));
   if (a.inputs_jump) stepper->jump_inputs();

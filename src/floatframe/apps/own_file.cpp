@@ -75,8 +75,8 @@ bool is_picture(std::string_view text) {
 bool is_grid(std::string_view text) {
   return text.starts_with("<?xml version=\"1.0\"?>\n<VTKFile") &&
          (holds(text,
-                "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-                "format=\"ascii\">") ||
+                "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
+                "NumberOfTuples=\"1\" format=\"ascii\">") ||
           holds(text, "file=\"motion_0"));
 }
 

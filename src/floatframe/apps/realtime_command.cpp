@@ -106,7 +106,7 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
       parse_udp_address(arguments.send.empty() ? default_send : arguments.send, "--send");
   if (options.outputs && options.send.port() == 0)
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::out_of_range,
         fmt::format("--send: found '{}', expected a port from 1 to 65535", arguments.send));
   // Heard is whom a name is given of; of those that are not named, who sends first.
   if (!arguments.peer.empty())

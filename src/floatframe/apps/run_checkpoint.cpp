@@ -83,7 +83,7 @@ CheckpointFile read_checkpoint(const std::string& path) {
   };
   std::string text;
   if (const std::string why = read_regular_file(path, largest_file_read, text); !why.empty())
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::mismatch,
                      fmt::format("--resume: '{}': {}; expected a checkpoint of this run, as "
                                  "--checkpoint-every writes it",
                                  path, why));

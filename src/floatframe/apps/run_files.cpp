@@ -110,7 +110,7 @@ void RunFiles::resume() {
                                  paths_.folder));
   from_ = read_checkpoint(paths_.checkpoint);
   if (const std::string text = origin_difference(from_->origin, options_.origin); !text.empty())
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::mismatch,
                      fmt::format("the checkpoint '{}' {}", paths_.checkpoint, text));
   if (!options_.overwrite) require_own_files();
   if (!(options_.checkpoint_every > 0.0)) options_.checkpoint_every = from_->every;

@@ -19,7 +19,7 @@ ExportSelection SelectionArguments::selection() const {
   if (!from.empty()) out.from = option_number("--from", from, any);
   if (!to.empty()) out.to = option_number("--to", to, any);
   if (out.from > out.to)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::contradiction,
                      "found --from " + from + " after --to " + to + ", expected an earlier time");
   return out;
 }

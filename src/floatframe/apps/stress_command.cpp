@@ -37,11 +37,10 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
     if (knows_stress(body) && body.modes() > 0) {
       report.bodies.push_back({b, {}, {}, {}});
     } else if (!selection.bodies.empty()) {
-      throw InputError(ErrorCode::wrong_value,
-                       "--body: body '" + body.name +
-                           (body.modes() == 0 ? "' is rigid and knows no stress"
-                                              : "' does not know its stress") +
-                           ", expected a flexible body with stress");
+      throw InputError(ErrorCode::missing, "--body: body '" + body.name +
+                                               (body.modes() == 0 ? "' is rigid and knows no stress"
+                                                                  : "' does not know its stress") +
+                                               ", expected a flexible body with stress");
     } else if (body.modes() > 0) {
       report.without.push_back(body.name);
     }

@@ -100,7 +100,7 @@ SweepOptions options_from(const SweepArguments& a) {
   if (!a.duration.empty()) positive_number("--duration", a.duration);
   fix("duration", a.duration);
   if (a.vary.empty() == a.table.empty())
-    throw InputError(ErrorCode::exclusive,
+    throw InputError(a.vary.empty() ? ErrorCode::missing : ErrorCode::exclusive,
                      a.vary.empty() ? "expected --vary or --table: what changes from run to run"
                                     : "found --vary and --table, expected one of the two");
   o.plan = a.table.empty() ? grid_plan(a.vary) : table_plan(a.table);

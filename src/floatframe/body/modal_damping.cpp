@@ -59,7 +59,7 @@ void append(const MatX& K, const MatX& Y, const MatX& M, ReferenceModes& modes) 
   if (n == 0) return;
   const SymmetricEigen inverse = generalised_eigen(M, Y.transpose() * K * Y);
   if (!inverse.found)
-    throw InputError(ErrorCode::incomplete,
+    throw InputError(ErrorCode::singular,
                      "modal damping needs a positive definite modal stiffness");
   modes.Y.conservativeResize(K.rows(), old + n);
   modes.mu.conservativeResize(old + n);
@@ -232,7 +232,7 @@ MatX damping_matrix(const FlexibleBody& body, const ModalDamping& damping) {
   const ReferenceModes modes = reference_modes(body, damping.reference);
   const auto count = modes.mu.size();
   if (static_cast<Eigen::Index>(damping.fractions.size()) > count)
-    throw InputError(ErrorCode::contradiction,
+    throw InputError(ErrorCode::wrong_count,
                      fmt::format("damping: found {} fractions, but the body has {} mode{}",
                                  damping.fractions.size(), count, count == 1 ? "" : "s"));
   const bool rayleigh = damping.alpha != 0.0 || damping.beta != 0.0;

@@ -75,8 +75,8 @@ struct ErrorEntry {
   ErrorCode code{};
   std::string message;
   std::size_t count = 1;  ///< of the errors it stands for: "... and 180 more unknown keys"
-  std::string path =
-      {};  ///< of the entity and key, where the message begins with it: "joints.a.axis"
+  /// Of the entity and key, where the reader of it knows: "joints.a.axis".
+  std::string path = {};
   /// "file:line:column: message", with what is known of the mark.
   std::string text() const { return mark.before(message); }
 };

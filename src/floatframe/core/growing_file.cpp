@@ -72,9 +72,9 @@ GrowingFile::~GrowingFile() { ::close(file_); }
 void GrowingFile::read_up_to(const Position& position) {
   struct stat status {};
   if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode))
-    throw not_continued(ErrorCode::wrong_file, path_, "this is not a regular file");
+    throw not_continued(ErrorCode::unreadable, path_, "this is not a regular file");
   if (static_cast<std::uint64_t>(status.st_size) < position.bytes)
-    throw not_continued(ErrorCode::wrong_value, path_,
+    throw not_continued(ErrorCode::damaged, path_,
                         "found " + std::to_string(status.st_size) + " bytes, expected " +
                             std::to_string(position.bytes) + " or more");
   std::vector<char> piece(std::size_t{1} << 20);

@@ -44,9 +44,9 @@ void require_distinct(const std::vector<OutputFile>& outputs,
       throw InputError(ErrorCode::wrong_value,
                        output.option + ": found '" + output.path +
                            "', which this command reads; expected another file");
-    throw InputError(ErrorCode::incomplete, at->second->option + " and " + output.option +
-                                                ": found '" + output.path +
-                                                "' for both, expected two files");
+    throw InputError(ErrorCode::duplicate, at->second->option + " and " + output.option +
+                                               ": found '" + output.path +
+                                               "' for both, expected two files");
   }
 }
 

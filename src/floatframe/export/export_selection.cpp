@@ -71,7 +71,7 @@ std::vector<int> selected_bodies(const StateHistory& history, const Model& model
                                    did_you_mean(name, known)));
     const auto b = static_cast<std::size_t>(at - known.begin());
     if (h.bodies[b].pose < 0)
-      refuse_selection(ErrorCode::wrong_value, history,
+      refuse_selection(ErrorCode::missing, history,
                        fmt::format("the states of body '{}' were not recorded", name));
     out.push_back(static_cast<int>(b));
   }

@@ -71,8 +71,8 @@ class MotionTable : public ExportFile {
   std::string path_;
   std::vector<Lines> lines_;
   std::string text_ =
-      "time [s],body,node,x [m],y [m],z [m],qw,qx,qy,qz,vx [m/s],vy [m/s],vz [m/s],wx [rad/s],wy "
-      "[rad/s],wz [rad/s],ux [m],uy [m],uz [m]\n";
+      "time [s],body,node,x [m],y [m],z [m],qw,qx,qy,qz,vx [m/s],vy [m/s],vz [m/s],"
+      "wx [rad/s],wy [rad/s],wz [rad/s],ux [m],uy [m],uz [m]\n";
   std::size_t instants_ = 0, rows_ = 0;
 };
 

@@ -22,7 +22,7 @@ class NumpyArchive : public ExportFile {
         numbers += 6.0 * static_cast<double>(tracks_[i].field.stress().places.size());
     }
     if (stress && !(numbers > 0.0))
-      throw InputError(ErrorCode::not_found,
+      throw InputError(ErrorCode::missing,
                        "--stress: none of the bodies whose states were recorded knows its stress");
     // A zip archive of this kind has 4 GB at most; to be known before they are gathered.
     const double size = 8.0 * numbers * static_cast<double>(bodies.instants);

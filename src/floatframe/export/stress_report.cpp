@@ -139,8 +139,8 @@ std::string stress_json(const StressReport& report) {
 
 std::string hot_spots_csv(const StressReport& report) {
   std::string text =
-      "body,place,node,where,material,x [m],y [m],z [m],von Mises [Pa],time [s],principal 1 "
-      "[Pa],principal 2 [Pa],principal 3 [Pa],doubtful\n";
+      "body,place,node,where,material,x [m],y [m],z [m],von Mises [Pa],time [s],principal 1 [Pa],"
+      "principal 2 [Pa],principal 3 [Pa],doubtful\n";
   for (const StressedBody& b : report.bodies) {
     const Body& body = body_of(report, b);
     for (const HotSpot& spot : b.hot_spots) {
@@ -158,8 +158,8 @@ std::string hot_spots_csv(const StressReport& report) {
 
 std::string section_forces_csv(const StressReport& report) {
   std::string text =
-      "body,element,end,node,force,unit,smallest,time of smallest [s],largest,time of largest "
-      "[s]\n";
+      "body,element,end,node,force,unit,smallest,time of smallest [s],largest,"
+      "time of largest [s]\n";
   for (const StressedBody& b : report.bodies) {
     const Body& body = body_of(report, b);
     const std::vector<BeamSectionPlace>& sections = body.data->stress->sections;

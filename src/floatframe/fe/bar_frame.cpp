@@ -66,7 +66,7 @@ class FrameBuilder {
     if (known != node_of_point_.end()) return known->second;
     const auto p = points_.find(name);
     if (p == points_.end()) {
-      add(ErrorCode::wrong_value, "bar '" + bar.name + "': there is no point '" + name + "'");
+      add(ErrorCode::not_found, "bar '" + bar.name + "': there is no point '" + name + "'");
       return -1;
     }
     const int node = new_node(p->second, name);
@@ -79,7 +79,7 @@ class FrameBuilder {
     if (bar.from_bar.empty()) return end_node(bar, bar.from);
     const auto other = nodes_of_bar_.find(bar.from_bar);
     if (other == nodes_of_bar_.end()) {
-      add(ErrorCode::wrong_value,
+      add(ErrorCode::not_found,
           label + " starts at bar '" + bar.from_bar + "', which is not an earlier bar");
       return -1;
     }
@@ -107,7 +107,7 @@ class FrameBuilder {
     // nodes.
     const auto end = points_.find(bar.to);
     if (end == points_.end())
-      return add(ErrorCode::wrong_value, label + ": there is no point '" + bar.to + "'");
+      return add(ErrorCode::not_found, label + ": there is no point '" + bar.to + "'");
     if (first < 0) return;
     const Vec3 a = model_.positions[first], b = end->second;
     if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm())))

@@ -295,7 +295,7 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
   for (const LinearEquation::Term& t : equation.terms) {
     const int dof = table.index(t.node, t.axis);
     if (dof < 0) {
-      errors.add(ErrorCode::missing, resolver.mark(),
+      errors.add(ErrorCode::wrong_value, resolver.mark(),
                  "equation for " + model.node_label(first.node) + ": " + model.node_label(t.node) +
                      " has no degree of freedom " + node_dof_names[t.axis]);
       return;

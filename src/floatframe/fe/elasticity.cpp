@@ -156,8 +156,8 @@ std::string engineering_error(const EngineeringConstants& c, bool lamina) {
       1.0 - c.nu12 * nu21 - c.nu23 * nu32 - c.nu13 * nu31 - 2.0 * nu21 * nu32 * c.nu13;
   if (!(rest > 0.0))
     return fmt::format(
-        "NU12, NU13 and NU23 are {:g}, {:g} and {:g}, which together are too large: 1 - NU12 NU21 "
-        "- NU23 NU32 - NU13 NU31 - 2 NU21 NU32 NU13 is {:g}, expected more than 0",
+        "NU12, NU13 and NU23 are {:g}, {:g} and {:g}, which together are too large: "
+        "1 - NU12 NU21 - NU23 NU32 - NU13 NU31 - 2 NU21 NU32 NU13 is {:g}, expected more than 0",
         c.nu12, c.nu13, c.nu23, rest);
   return {};
 }

@@ -280,7 +280,7 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
   if (nodes.size() != 1) return std::nullopt;
   if (table.count(nodes[0]) == 3 && (d.mask & 56u) != 0) {
     throw InputError(
-        ErrorCode::incomplete,
+        ErrorCode::wrong_value,
         fmt::format("{} belongs to {} and has no rotations; an interface of one such node can only "
                     "have ux uy uz",
                     model.node_label(nodes[0]), elements_without_rotations(model, nodes[0])));
@@ -302,7 +302,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
     for (const Spider& s : model.spiders) {
       if (s.kind == Spider::Kind::rigid && nodes.size() == 1 && s.reference != *node &&
           std::find(s.nodes.begin(), s.nodes.end(), *node) != s.nodes.end()) {
-        throw InputError(ErrorCode::wrong_value,
+        throw InputError(ErrorCode::dependent,
                          fmt::format("{} belongs to {} and cannot be an interface of its own",
                                      model.node_label(*node), the_spider(model, s)));
       }
@@ -315,7 +315,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   if (d.kind == Spider::Kind::mean || !rotations) {
     if (nodes.size() < 3) {
       throw InputError(
-          ErrorCode::incomplete,
+          ErrorCode::wrong_count,
           fmt::format("{} nodes are too few; an interface of solid elements needs three that do "
                       "not lie on a line, or one node with only ux uy uz",
                       nodes.size()));

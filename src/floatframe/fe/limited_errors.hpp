@@ -14,7 +14,9 @@ namespace floatframe {
 class LimitedErrors {
  public:
   void add(ErrorCode code, const char* kind, const SourceMark& mark, std::string text) {
-    if (++count_[kind] <= most_of_a_kind) errors_.add(code, mark, std::move(text));
+    Count& known = counts_[kind];
+    if (known.errors++ == 0) known.code = code;
+    if (known.errors <= most_of_a_kind) errors_.add(code, mark, std::move(text));
   }
   /// With a text of fmt and its values.
   template <class First, class... Rest>
@@ -25,19 +27,20 @@ class LimitedErrors {
   }
   bool empty() const { return errors_.empty(); }
   void throw_if_any() {
-    for (const auto& [kind, count] : count_) {
-      if (count > most_of_a_kind) {
-        const int more = count - most_of_a_kind;
-        errors_.add(ErrorCode::wrong_value, {}, fmt::format("and {} more {}", more, kind), more);
-      }
-    }
+    for (const auto& [kind, known] : counts_)
+      if (const int more = known.errors - most_of_a_kind; more > 0)
+        errors_.add(known.code, {}, fmt::format("and {} more {}", more, kind), more);
     errors_.throw_if_any();
   }
 
  private:
   static constexpr int most_of_a_kind = 20;
+  struct Count {
+    ErrorCode code{};  ///< of the first
+    int errors = 0;
+  };
   ErrorList errors_;
-  std::map<std::string, int> count_;
+  std::map<std::string, Count> counts_;
 };
 
 }  // namespace floatframe

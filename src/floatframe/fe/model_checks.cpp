@@ -118,9 +118,10 @@ void warn_duplicates(const FeModel& model, std::vector<std::string>& out) {
     }
   }
   if (count == 0) return;
-  out.push_back(fmt::format(
-      "{} {} on the nodes of another one: mass and stiffness count twice there; first: {}", count,
-      count == 1 ? "element lies" : "elements lie", first));
+  out.push_back(
+      fmt::format("{} {} on the nodes of another one: mass and stiffness count twice "
+                  "there; first: {}",
+                  count, count == 1 ? "element lies" : "elements lie", first));
 }
 
 }  // namespace
@@ -201,15 +202,16 @@ std::vector<std::string> model_warnings(const FeModel& model) {
   const std::vector<int> unused = unreferenced_nodes(model);
   if (!unused.empty())
     out.push_back(
-        fmt::format("{} {} in no element, mass or constraint (as those that only orient beams): {}",
+        fmt::format("{} {} in no element, mass or constraint (as those that only orient "
+                    "beams): {}",
                     unused.size(), unused.size() == 1 ? "node is" : "nodes are", list(unused)));
   const std::vector<int> hanging = nodes_on_springs(model);
   if (!hanging.empty())
-    out.push_back(
-        fmt::format("{} {} on springs alone, without mass, and follow{}: a spring that ends there "
-                    "and nowhere else does nothing, unless its end is an interface: {}",
-                    hanging.size(), hanging.size() == 1 ? "node hangs" : "nodes hang",
-                    hanging.size() == 1 ? "s" : "", list(hanging)));
+    out.push_back(fmt::format(
+        "{} {} on springs alone, without mass, and follow{}: a spring that ends there and nowhere "
+        "else does nothing, unless its end is an interface: {}",
+        hanging.size(), hanging.size() == 1 ? "node hangs" : "nodes hang",
+        hanging.size() == 1 ? "s" : "", list(hanging)));
   return out;
 }
 

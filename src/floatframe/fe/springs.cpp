@@ -245,7 +245,7 @@ std::vector<SpringError> spring_errors(const FeModel& model) {
       add(ErrorCode::out_of_range, "springs",
           fmt::format(": node index {} or {} is out of range", s.nodes[0], s.nodes[1]));
     } else if (s.nodes[1] < 0) {
-      add(ErrorCode::wrong_value, "springs to the ground",
+      add(ErrorCode::unsupported, "springs to the ground",
           fmt::format(" ties {} to the ground, which a part that floats cannot be tied to: take it "
                       "out, end it at a node that becomes an interface, or leave all such springs "
                       "out (--grounded-springs ignore, key `grounded_springs`)",

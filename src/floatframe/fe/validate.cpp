@@ -169,7 +169,7 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
       continue;
     }
     const std::string error = kernel.error(gather(model, element));
-    if (!error.empty()) add(ErrorCode::wrong_value, "badly formed elements", " " + error);
+    if (!error.empty()) add(ErrorCode::geometry, "badly formed elements", " " + error);
   }
 }
 
@@ -290,7 +290,7 @@ void check_equations(const FeModel& model, LimitedErrors& errors) {
     if (!valid)
       add(ErrorCode::missing, " has a term without a node, a direction 1 to 6 or a finite factor");
     if (equation.terms.front().factor == 0.0)
-      add(ErrorCode::wrong_value, ": the factor of its first term must not be zero");
+      add(ErrorCode::out_of_range, ": the factor of its first term must not be zero");
   }
 }
 

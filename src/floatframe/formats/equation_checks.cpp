@@ -61,7 +61,7 @@ void look_at_equations(FeModel& model) {
     }
     const auto& [node, axis, factor] = sums.front();
     if (sums.size() == 1 && axis < dofs[node + 1])
-      errors.add(ErrorCode::wrong_value, "equations", model.mark(e.source),
+      errors.add(ErrorCode::unsupported, "equations", model.mark(e.source),
                  "the equation holds {} of {} to the ground, to which a part that floats cannot be "
                  "tied: take it out",
                  node_dof_names[axis], model.node_label(node));

@@ -75,7 +75,7 @@ const FeFormat& by_name(const std::filesystem::path& file, const std::string& na
     if (same_word(f.name, name)) return f;
     names.emplace_back(f.name);
   }
-  throw InputError(ErrorCode::wrong_value, {file.string()},
+  throw InputError(ErrorCode::not_found, {file.string()},
                    fmt::format("there is no format '{}'{}; known are {}", name,
                                did_you_mean(name, names), known_formats()));
 }
@@ -163,7 +163,7 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
       throw InputError(ErrorCode::exclusive, {file.string()},
                        "a density is given, but every material of the file has one: leave it out");
     if (!name.empty() && std::none_of(missing.begin(), missing.end(), is(utf8_text(name))))
-      throw InputError(ErrorCode::missing, {file.string()},
+      throw InputError(ErrorCode::not_found, {file.string()},
                        fmt::format("a density is given for the material '{}', but no material "
                                    "without a density has this name{}",
                                    name, did_you_mean(name, missing)));

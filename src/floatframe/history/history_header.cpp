@@ -142,7 +142,7 @@ void read_groups(const HeaderReader& in, HistoryHeader& h) {
                         static_cast<std::size_t>(g.whole("first", 0, most_coordinates)),
                         static_cast<std::size_t>(g.whole("count", 0, most_coordinates))});
     if (h.groups.back().first != h.columns)
-      HeaderReader::refuse(ErrorCode::wrong_value, "groups",
+      HeaderReader::refuse(ErrorCode::contradiction, "groups",
                            "columns that do not follow each other");
     h.columns += h.groups.back().count;
     if (h.columns > most_coordinates)
@@ -185,10 +185,10 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
     body.rates = b.whole("rates", -1, most_coordinates);
     body.shape = b.whole("shape", -1, most_coordinates);
     if (body.frequencies.size() != body.modes.size())
-      HeaderReader::refuse(ErrorCode::wrong_value, "bodies.frequencies_Hz",
+      HeaderReader::refuse(ErrorCode::wrong_count, "bodies.frequencies_Hz",
                            "not one for each mode");
     if (body.shape >= static_cast<int>(h.shapes.size()))
-      HeaderReader::refuse(ErrorCode::wrong_value, "bodies.shape", "there is no such shape");
+      HeaderReader::refuse(ErrorCode::not_found, "bodies.shape", "there is no such shape");
     inside("pose", "poses", body.pose, 7);
     inside("amplitudes", "q", body.amplitudes, body.modes.size());
     inside("rates", "v", body.rates, body.modes.size());
@@ -335,7 +335,7 @@ HistoryHeader header_from_json(std::string_view text) {
   h.v = coordinate_list(in, "v", h.velocities);
   h.owners = in.list<std::string>("v_of");
   if (h.owners.size() != h.v.size())
-    HeaderReader::refuse(ErrorCode::wrong_value, "v_of", "not one for each velocity");
+    HeaderReader::refuse(ErrorCode::wrong_count, "v_of", "not one for each velocity");
   read_groups(in, h);
   read_arrays(in, h);
   read_bodies(in, h);

@@ -23,14 +23,14 @@ class RecordedParts {
 
   void require(const Output& output) const {
     if (output.type == OutputType::projection_impulse)
-      refuse(ErrorCode::wrong_value, history_,
+      refuse(ErrorCode::unsupported, history_,
              fmt::format("output '{}': impulses of projections are not in the states of a run, "
                          "expected an output of its model file",
                          output.name));
     if (history_.header().complete()) return;
     if (output_kind(output.type).terms == OutputTerms::reactions)
       refuse(
-          ErrorCode::wrong_value, history_,
+          ErrorCode::missing, history_,
           fmt::format("output '{}': reactions need the states of all bodies, found those of some",
                       output.name));
     marker(output, output.marker);
@@ -56,7 +56,7 @@ class RecordedParts {
   }
   void body(const Output& output, int body) const {
     if (body < 0 || history_.header().bodies[static_cast<std::size_t>(body)].pose >= 0) return;
-    refuse(ErrorCode::wrong_value, history_,
+    refuse(ErrorCode::missing, history_,
            fmt::format("output '{}': the states of body '{}' were not recorded", output.name,
                        model_.bodies[body].name));
   }

@@ -99,7 +99,7 @@ void StateHistory::Data::index() {
   HistoryBlock block;
   if (!walk.next(block, largest_history_head)) cut();
   if (block.kind != HistoryBlockKind::head)
-    refuse(ErrorCode::wrong_value, "it does not begin with a header");
+    refuse(ErrorCode::damaged, "it does not begin with a header");
   try {
     header = header_from_json(text(block));
   } catch (const InputError& error) {
@@ -117,7 +117,7 @@ void StateHistory::Data::add(const HistoryBlock& block) {
   if (arrays.size() < header.arrays.size()) {
     const HistoryArray& array = header.arrays[arrays.size()];
     if (block.kind != HistoryBlockKind::data || block.length != array_bytes(array))
-      refuse(ErrorCode::wrong_value,
+      refuse(ErrorCode::damaged,
              fmt::format("found a block of {} bytes, expected the array '{}' of {} bytes",
                          block.length, excerpt(array.name), array_bytes(array)));
     arrays.push_back(block.at);
@@ -177,7 +177,7 @@ const std::vector<std::string>& StateHistory::notes() const noexcept { return da
 void StateHistory::instant(std::size_t k, std::span<double> row) const {
   const std::size_t columns = data_->header.columns;
   if (k >= data_->instants || row.size() != columns)
-    data_->refuse(ErrorCode::missing,
+    data_->refuse(ErrorCode::not_found,
                   fmt::format("found no instant {} with {} numbers, expected one below {} with {}",
                               k, row.size(), data_->instants, columns));
   const auto after =
@@ -194,8 +194,8 @@ void StateHistory::instant(std::size_t k, std::span<double> row) const {
 
 std::vector<double> StateHistory::numbers(std::size_t array) const {
   if (array >= data_->arrays.size())
-    data_->refuse(ErrorCode::wrong_file, fmt::format("found no array {}, expected one below {}",
-                                                     array, data_->arrays.size()));
+    data_->refuse(ErrorCode::not_found, fmt::format("found no array {}, expected one below {}",
+                                                    array, data_->arrays.size()));
   const HistoryArray& a = data_->header.arrays[array];
   const std::string bytes =
       data_->text({HistoryBlockKind::data, data_->arrays[array], array_bytes(a)});

@@ -28,7 +28,7 @@ BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
   for (VecX* x : {&motion.y, &motion.ydot}) {
     if (x->size() == 0) *x = VecX::Zero(body.modes());
     if (x->size() != body.modes())
-      throw InputError(ErrorCode::wrong_value,
+      throw InputError(ErrorCode::wrong_count,
                        fmt::format("found {} modal amplitudes, expected {}: one for each mode",
                                    x->size(), body.modes()));
   }
@@ -41,7 +41,7 @@ InertiaTerms zero_terms(int n) { return {MatX::Zero(n, n), VecX::Zero(n)}; }
 std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
                                                    const BodyMotion& motion) {
   if (motion.geometric_stiffening && !body.second_order)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::missing,
                      "found a body without displacements of second order, expected one with "
                      "SecondOrder for geometric stiffening");
   auto found = second_order_on_masses(body, motion.geometric_stiffening);
@@ -55,7 +55,7 @@ std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
 
 const ProjectionData& projection_data(const FlexibleBody& body) {
   if (!body.projection)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::missing,
                      "found a body without nodal masses, expected one that keeps ProjectionData");
   const ProjectionData& data = *body.projection;
   const int n = data.nodes(), nm = body.modes();

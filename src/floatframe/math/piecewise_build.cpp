@@ -117,7 +117,7 @@ PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation i
   for (std::size_t i = 2; i < p.size(); ++i)
     if (p[i].x == p[i - 2].x)
       throw InputError(
-          ErrorCode::wrong_count,
+          ErrorCode::duplicate,
           "point " + std::to_string(i + 1) +
               " of a table: found the same x a third time, expected two points at a jump");
   std::vector<double> breaks;

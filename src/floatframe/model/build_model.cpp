@@ -23,7 +23,7 @@ void ModelBuilder::rods() {
     rod.length = r.length ? *r.length : (design_point(rod.b) - design_point(rod.a)).norm();
     if (!r.length)  // of two nodes: where they are is known only now
       if (const auto complaint = sentences::rod_ends(design_point(rod.a), design_point(rod.b))) {
-        errors.add(ErrorCode::out_of_range, r.origin.mark, "rods." + r.name + ": " + *complaint);
+        errors.add(ErrorCode::geometry, r.origin.mark, "rods." + r.name + ": " + *complaint);
         continue;
       }
     rod_names.add(rod.name);
@@ -37,7 +37,7 @@ const Model& built(const Model& model) {
                      std::all_of(model.bodies.begin(), model.bodies.end(),
                                  [](const Body& body) { return body.data != nullptr; });
   if (!whole)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::missing,
                      n == 0
                          ? "found a model without bodies, expected one of build_model or load_model"
                          : "found a model whose bodies have lost their data or start values, "

@@ -47,7 +47,8 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 /// "... of 30 rad is 4.8 turns; angles are in radians (30 degrees are 0.5236 rad)"
 std::string turns_text(const std::string& what, double angle) {
   return fmt::format(
-      "{} of {:.4g} rad is {:.3g} turns; angles are in radians ({:.4g} degrees are {:.4g} rad)",
+      "{} of {:.4g} rad is {:.3g} turns; angles are in radians ({:.4g} degrees are "
+      "{:.4g} rad)",
       what, angle, std::abs(angle) / full_turn, angle, angle * std::numbers::pi / 180.0);
 }
 
@@ -174,8 +175,8 @@ void hint_at_inertia(const ModelDescription& description, const Model& model, Hi
     const BodyDescription& body = description.bodies[i];
     if (!missing(i) || has_inertia[together[i]] || body.origin.keys.contains("inertia")) continue;
     out.add("body", body.name,
-            "it has no inertia: the key 'inertia' is missing, and the body can turn; inertia: "
-            "[Ixx, Iyy, Izz] [kg m2], zeros for a point mass");
+            "it has no inertia: the key 'inertia' is missing, and the body can turn; "
+            "inertia: [Ixx, Iyy, Izz] [kg m2], zeros for a point mass");
   }
 }
 
@@ -250,10 +251,11 @@ void hint_at_clamps(const ModelDescription& description, const Model& model, Hin
     for (const NodeDofs& clamp : frame->clamped)
       if (!held[i].names.contains(clamp.node)) loose[clamp.node] |= clamp.mask;
     for (const auto& [node, mask] : loose)
-      out.add("body", body.name,
-              fmt::format("it is clamped at '{}' ({}), where no joint, rod or force acts: the "
-                          "modes are those of a body that is held there, and nothing holds it",
-                          node, dofs_text(mask)));
+      out.add(
+          "body", body.name,
+          fmt::format("it is clamped at '{}' ({}), where no joint, rod or force acts: the modes "
+                      "are those of a body that is held there, and nothing holds it",
+                      node, dofs_text(mask)));
   }
 }
 

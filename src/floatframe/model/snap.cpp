@@ -89,8 +89,8 @@ class Snapping {
     const double most = alignment_.moved(places, worst, distance);
     const std::vector<std::string> names = names_of(r.axes);
     return fmt::format(
-        "the {} of joint{} {} {} made exactly {}: by up to {:.3g} {}{}, because as drawn the loop "
-        "is locked (snap: false keeps it so)",
+        "the {} of joint{} {} {} made exactly {}: by up to {:.3g} {}{}, because as "
+        "drawn the loop is locked (snap: false keeps it so)",
         names.size() == 1 ? "axis" : "axes", names.size() == 1 ? "" : "s", listed(names),
         names.size() == 1 ? "is" : "are", what(r), most, distance ? "m" : "rad",
         names.size() == 1 ? "" : fmt::format(" (joint '{}')", name_of(worst)));
@@ -101,12 +101,12 @@ class Snapping {
     for (const Relation& r : relations) text += (text.empty() ? "" : "; ") + missed(r);
     LockedLoops found;
     const Eigen::Index free = rigid_motions().cols();
-    found.sentence =
-        free == 0
-            ? fmt::format("0 degrees of freedom: {}, so that the loop is locked", text)
-            : fmt::format(
-                  "{}: the loops of joints {} have {} degree{} of freedom, and more without that",
-                  text, listed(all_names()), free, free == 1 ? "" : "s");
+    found.sentence = free == 0
+                         ? fmt::format("0 degrees of freedom: {}, so that the loop is locked", text)
+                         : fmt::format(
+                               "{}: the loops of joints {} have {} degree{} of freedom, and more "
+                               "without that",
+                               text, listed(all_names()), free, free == 1 ? "" : "s");
     for (const int j : block_.joints) {
       const std::optional<TimeFunction>& motion = model_.joints[j].motion;
       found.driven =
@@ -276,10 +276,10 @@ std::vector<std::string> snap_joints(Model& model, const SnapDescription& snap,
     const Snapping loops(model, block);
     if (block.bodies.size() > most_bodies) {
       if (snap.on && loops.any(snap.angle, snap.distance))
-        notes.push_back(
-            fmt::format("axes of the loop of joint '{}' are nearly parallel or meet nearly, and "
-                        "stay as they are: loops of more than {} bodies are not looked at",
-                        model.joints[block.joints[0]].name, most_bodies));
+        notes.push_back(fmt::format(
+            "axes of the loop of joint '{}' are nearly parallel or meet nearly, and stay as they "
+            "are: loops of more than {} bodies are not looked at",
+            model.joints[block.joints[0]].name, most_bodies));
       continue;
     }
     const std::vector<Relation> relations =

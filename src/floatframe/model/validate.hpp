@@ -52,7 +52,7 @@ struct Entity {
   template <class Enum, std::size_t n>
   bool word(const std::string& key, Enum value, const char* const (&words)[n]) const {
     const auto complaint = word_complaint(static_cast<int>(value), words);
-    complain(ErrorCode::out_of_range, key, complaint);
+    complain(ErrorCode::wrong_value, key, complaint);
     return !complaint;
   }
   bool vector(const std::string& key, const Vec3& v, const char* unit) const;

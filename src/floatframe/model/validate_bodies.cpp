@@ -136,7 +136,7 @@ void flexible(const FlexibleBody& f, const Entity& body) {
 
 void bodies(const ModelDescription& d, ErrorList& errors) {
   if (d.bodies.empty())
-    errors.add(ErrorCode::out_of_range, {}, "bodies: found none, expected at least one body");
+    errors.add(ErrorCode::missing, {}, "bodies: found none, expected at least one body");
   std::set<std::string> taken;
   for (const BodyDescription& b : d.bodies) {
     const Entity body{errors, b.origin, "bodies." + b.name};

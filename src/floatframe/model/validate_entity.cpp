@@ -120,7 +120,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   const std::vector<double>& breaks = f.breaks();
   const std::size_t n = f.pieces().size();
   if (n != breaks.size() + 1) {
-    error(ErrorCode::out_of_range, key,
+    error(ErrorCode::wrong_count, key,
           "found " + std::to_string(n) + " pieces and " + std::to_string(breaks.size()) +
               " breaks between them, expected one piece more than breaks");
     return false;
@@ -156,7 +156,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   }
   if (!good || may_jump) return good;
   const auto jump = sentences::jump(f);
-  if (jump) error(ErrorCode::wrong_value, piece(jump->first, ""), jump->second);
+  if (jump) error(ErrorCode::contradiction, piece(jump->first, ""), jump->second);
   return !jump;
 }
 

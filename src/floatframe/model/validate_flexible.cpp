@@ -42,7 +42,7 @@ class FlexibleCheck {
     if (const auto complaint = damping_complaint(f_.damping))
       group_.error(ErrorCode::out_of_range, "damping", *complaint);
     group_.word("mass_model", f_.mass_model, rules::mass_models);
-    group_.complain(ErrorCode::out_of_range, "section_inertia",
+    group_.complain(ErrorCode::contradiction, "section_inertia",
                     sentences::section_inertia(f_.section_inertia, isoparametric()));
   }
 
@@ -61,7 +61,7 @@ class FlexibleCheck {
     } else if (const auto* h = std::get_if<HollowRound>(&s)) {
       const bool good = bar.number("section.tube[1]", h->outer, rules::section_length);
       if (bar.number("section.tube[2]", h->inner, rules::section_length) && good)
-        bar.complain(ErrorCode::wrong_value, "section.tube", sentences::tube(h->outer, h->inner));
+        bar.complain(ErrorCode::contradiction, "section.tube", sentences::tube(h->outer, h->inner));
     } else if (const auto* q = std::get_if<Rectangle>(&s)) {
       bar.number("section.rectangle[1]", q->width, rules::section_length);
       bar.number("section.rectangle[2]", q->height, rules::section_length);
@@ -123,7 +123,7 @@ class FlexibleCheck {
           g.good = false;
         } else if (directed) {
           if (const auto zero = sentences::direction(b.reference))
-            bar.error(ErrorCode::wrong_value, "reference", *zero);
+            bar.error(ErrorCode::geometry, "reference", *zero);
           else
             bar.complain(ErrorCode::geometry, "reference",
                          sentences::bar_reference(g.to - g.from, b.reference.stableNormalized()));
@@ -224,12 +224,12 @@ class FlexibleCheck {
       group_.number("normal_modes.below", f_.max_frequency, rules::mode_frequency);
     if (number)
       group_.complain(
-          ErrorCode::wrong_value, "normal_modes",
+          ErrorCode::out_of_range, "normal_modes",
           sentences::more_modes_than_dofs(f_.normal_modes, nodes_ + 1, isoparametric()));
     if (f_.interfaces.empty() && f_.normal_modes == 0 && f_.max_frequency == 0.0)
       group_.error(ErrorCode::missing, sentences::no_modes());
     if (selection)
-      group_.complain(ErrorCode::wrong_value, "clamped", sentences::body_reference(clamped));
+      group_.complain(ErrorCode::singular, "clamped", sentences::body_reference(clamped));
   }
 
   const FlexibleDescription& f_;

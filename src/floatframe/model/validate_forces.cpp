@@ -140,7 +140,7 @@ struct ForceValidation {
 
   void all() const {
     if (const auto complaint = word_complaint(static_cast<int>(force.type()), force_words)) {
-      entity.error(ErrorCode::out_of_range, "type", *complaint);
+      entity.error(ErrorCode::wrong_value, "type", *complaint);
       return;
     }
     unknown_keys();

@@ -86,7 +86,7 @@ void rods(const ModelDescription& d, const Names& names, ErrorList& errors) {
       entity.error(ErrorCode::geometry, sentences::both_ends_on(r.a.body));
     } else if (!r.length && !r.a.node && !r.b.node) {
       if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point))
-        entity.error(ErrorCode::out_of_range, *complaint);
+        entity.error(ErrorCode::geometry, *complaint);
     }
   }
 }
@@ -107,7 +107,7 @@ void initial_value(const InputDescription& i, const Entity& entity) {
 
 void input(const InputDescription& i, const Entity& entity) {
   if (const auto complaint = sentences::unit(i.unit))
-    entity.error(ErrorCode::out_of_range, "unit", "found '" + i.unit + "', " + *complaint);
+    entity.error(ErrorCode::wrong_value, "unit", "found '" + i.unit + "', " + *complaint);
   const char* unit = i.unit.c_str();
   bool good = entity.number("initial", i.initial, any_number(unit));
   if (i.low) good = entity.number("min", *i.low, any_number(unit)) && good;

@@ -9,7 +9,7 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   const Origin none;
   const validation::Entity model{errors, none, ""};
   if (const auto complaint = sentences::model_name(d.name))
-    model.error(ErrorCode::out_of_range, "name", "found '" + d.name + "', " + *complaint);
+    model.error(ErrorCode::wrong_value, "name", "found '" + d.name + "', " + *complaint);
   model.vector("gravity", d.gravity, "m/s2");
   model.number("snap.angle", d.snap.angle, rules::snap_angle);
   model.number("snap.distance", d.snap.distance, rules::snap_distance);
@@ -32,8 +32,7 @@ void validate(const SimulationDescription& s, ErrorList& errors) {
   group.word("inertia", s.inertia, rules::inertia_methods);
   group.word("start", s.start, {"given", "equilibrium", "{state: file}"});
   if (s.start == Start::state && !s.state)
-    group.error(ErrorCode::wrong_value, "start",
-                "found no state, expected the state to start from");
+    group.error(ErrorCode::missing, "start", "found no state, expected the state to start from");
   if (s.start == Start::given && !s.offset.empty())
     group.error(ErrorCode::incomplete, "start.offset", sentences::offset_alone());
   for (const auto& [body, offset] : s.offset) {
@@ -48,7 +47,7 @@ void validate(const SimulationDescription& s, ErrorList& errors) {
   group.number("tolerance", s.tolerance, rules::tolerance);
   group.whole("max_iterations", s.max_iterations, rules::max_iterations);
   if (group.number("min_step", s.min_step, rules::min_step) && step)
-    group.complain(ErrorCode::wrong_value, "min_step", sentences::min_step(s.min_step, s.step));
+    group.complain(ErrorCode::out_of_range, "min_step", sentences::min_step(s.min_step, s.step));
   group.number("penalty", s.penalty, rules::penalty);
   group.number("position_tolerance", s.position_tolerance, rules::position_tolerance);
   group.number("velocity_tolerance", s.velocity_tolerance, rules::velocity_tolerance);

@@ -33,7 +33,7 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
   const ForceType type = d.forces[*names.forces.find(o.entity)].type();
   if (word_complaint(static_cast<int>(type), force_words)) return;
   if (!force_has(type, output_kind(o.type).needs))
-    entity.error(ErrorCode::incomplete, output_type_name(o.type),
+    entity.error(ErrorCode::wrong_value, output_type_name(o.type),
                  sentences::load_without(force_type_name(type), output_type_name(o.type)));
 }
 
@@ -114,7 +114,7 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
       break;
   }
   if (kind.components.key)
-    entity.complain(ErrorCode::out_of_range, kind.components.key,
+    entity.complain(ErrorCode::wrong_value, kind.components.key,
                     word_complaint(o.component, kind.components.words));
 }
 
@@ -125,9 +125,9 @@ void outputs(const ModelDescription& d, const Names& names, ErrorList& errors) {
   for (const OutputDescription& o : d.outputs) {
     const Entity entity{errors, o.origin, "outputs." + o.name};
     if (const auto complaint = sentences::column_name(o.name))
-      entity.error(ErrorCode::out_of_range, *complaint);
+      entity.error(ErrorCode::wrong_value, *complaint);
     else if (const auto taken_by = sentences::column_taken(o.name, !taken.insert(o.name).second))
-      errors.add(ErrorCode::wrong_value, o.origin.mark, "outputs: " + *taken_by);
+      errors.add(ErrorCode::duplicate, o.origin.mark, "outputs: " + *taken_by);
     const auto kind = word_complaint(static_cast<int>(o.type), output_words);
     if (kind)
       entity.error(ErrorCode::wrong_value, *kind);

@@ -180,9 +180,9 @@ class Loader {
     for (const auto& [name, value] : connections) {
       const auto target = value.text("the name of a body or road");
       if (!wanted.count(name)) {
-        value.entity_error(ErrorCode::missing, "'" + child.document->file +
-                                                   "' has no external name '" + name + "'" +
-                                                   errors_.suggestion(name, [&] { return order; }));
+        value.entity_error(ErrorCode::not_found,
+                           "'" + child.document->file + "' has no external name '" + name + "'" +
+                               errors_.suggestion(name, [&] { return order; }));
         continue;
       }
       given.insert(name);
@@ -200,7 +200,7 @@ class Loader {
         return out;
       };
       if (!exists && off)
-        value.error(ErrorCode::wrong_value, "'" + *target + "' is switched off by its 'when'");
+        value.error(ErrorCode::not_found, "'" + *target + "' is switched off by its 'when'");
       else if (!exists)
         value.error(ErrorCode::not_found,
                     "unknown name '" + *target + "'" + errors_.suggestion(*target, known));

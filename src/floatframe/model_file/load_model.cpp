@@ -23,7 +23,7 @@ ModelDescription load_description(const std::string& path,
                                   const std::vector<ParameterOverride>& parameters,
                                   ModelSource* source) {
   if (path.empty())
-    throw InputError(ErrorCode::wrong_value, "found an empty path, expected that of a model file");
+    throw InputError(ErrorCode::missing, "found an empty path, expected that of a model file");
   return read_with_source(path, parameters, {}, source);
 }
 

@@ -65,7 +65,7 @@ std::optional<std::string> ModelInstance::reference(EntityKind kind, const YamlV
   const auto full = resolve(kind, *name, &off);
   if (full) return full;
   const std::string complaint = no_entity(kind, *name, off);
-  if (!complaint.empty()) value.error(ErrorCode::out_of_range, complaint);
+  if (!complaint.empty()) value.error(ErrorCode::not_found, complaint);
   return std::nullopt;
 }
 
@@ -76,7 +76,8 @@ std::optional<std::string> ModelInstance::moving_body(const std::string& name,
   if (full && *full != ground_name) return full;
   const std::string complaint =
       full ? sentences::ground_is_no_body() : no_entity(EntityKind::body, name, off);
-  if (!complaint.empty()) entry.entity_error(ErrorCode::out_of_range, complaint);
+  if (!complaint.empty())
+    entry.entity_error(full ? ErrorCode::wrong_value : ErrorCode::not_found, complaint);
   return std::nullopt;
 }
 

@@ -68,7 +68,7 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
     if (const auto name = v->text("the name of the model")) {
       const auto complaint = sentences::model_name(*name);
       if (complaint)
-        v->error(ErrorCode::out_of_range, "found " + v->found() + ", " + *complaint);
+        v->error(ErrorCode::wrong_value, "found " + v->found() + ", " + *complaint);
       else
         model.description.name = *name;
     }
@@ -130,7 +130,7 @@ ModelDescription read_model(const std::string& path,
     if (model.description.outputs.empty()) default_outputs(model);
     read_added_outputs(*root, model);
     if (errors.empty() && model.description.bodies.empty())
-      errors.add(ErrorCode::out_of_range, {path, 1, 1},
+      errors.add(ErrorCode::missing, {path, 1, 1},
                  "bodies: found none, expected at least one body");
   }
   if (!errors.empty()) throw InputError(sorted(errors.take(), files));

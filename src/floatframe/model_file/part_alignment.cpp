@@ -32,7 +32,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
     const auto at = named.find(name);
     const ModalNode* node = at == named.end() ? nullptr : at->second;
     if (!node)
-      point.entity_error(ErrorCode::missing,
+      point.entity_error(ErrorCode::not_found,
                          "the part has no marker '" + name + "'" +
                              self.context.errors->suggestion(name, [&] { return keys_of(named); }));
     const auto w = self.read_point(point);
@@ -42,9 +42,9 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   if (!good || !value.is_map()) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(pairs.size());
   if (n < 3) {
-    value.error(ErrorCode::geometry, "found " + std::to_string(n) +
-                                         (n == 1 ? " marker" : " markers") +
-                                         ", expected at least three that do not lie on a line");
+    value.error(ErrorCode::wrong_count, "found " + std::to_string(n) +
+                                            (n == 1 ? " marker" : " markers") +
+                                            ", expected at least three that do not lie on a line");
     return std::nullopt;
   }
   Points p(3, n), w(3, n);

@@ -69,7 +69,7 @@ class BarReader {
     }
     s->finish();
     if (forms != 1)
-      s->error(ErrorCode::wrong_value,
+      s->error(ErrorCode::wrong_count,
                "found " + std::to_string(forms) +
                    " sections, expected one of round, tube, rectangle, or area, Iy, Iz, J");
     return result;
@@ -198,11 +198,11 @@ class BarReader {
     const double nearest = std::round(position);
     if (std::abs(position - nearest) > 1e-6) {
       const double low = std::floor(position), high = std::ceil(position);
-      at_value->error(ErrorCode::wrong_value,
-                      "found " + number_text(at) + ", but bar '" + *name + "' has " +
-                          std::to_string(other.elements) +
-                          " elements and no node there; the nearest are at " +
-                          fraction(low, other.elements) + " and " + fraction(high, other.elements));
+      at_value->error(ErrorCode::not_found, "found " + number_text(at) + ", but bar '" + *name +
+                                                "' has " + std::to_string(other.elements) +
+                                                " elements and no node there; the nearest are at " +
+                                                fraction(low, other.elements) + " and " +
+                                                fraction(high, other.elements));
       return false;
     }
     b.from_bar = *name;

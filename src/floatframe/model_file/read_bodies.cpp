@@ -123,7 +123,7 @@ void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
                 double tolerance, BodyDescription& body) {
   if (!part.body) {  // bars are written in the coordinates of the model file
     if (align && part.valid)
-      align->error(ErrorCode::duplicate,
+      align->error(ErrorCode::exclusive,
                    "found with bars, which are in place already, expected a part from a file");
     body.X_WB.p = position.value_or(part.first_point);
     return;

@@ -94,7 +94,7 @@ class FlexibleReader {
             for (const YamlValue& w : v->list())
               if (const auto k = w.word(dof_names)) bits.push_back(static_cast<unsigned>(*k));
             if (v->node().items.empty())
-              v->error(ErrorCode::wrong_value,
+              v->error(ErrorCode::missing,
                        "found an empty list, expected directions such as [x, y, z]");
           } else if (const auto t = v->text("all or a list of x, y, z, rx, ry, rz")) {
             if (*t == "all")
@@ -127,7 +127,7 @@ class FlexibleReader {
     f().orthonormalise = section_.boolean("orthonormal", false);
     f().section_inertia = section_.boolean("section_inertia", false);
     if (const auto v = section_.get("section_inertia"))
-      v->complain(ErrorCode::out_of_range,
+      v->complain(ErrorCode::contradiction,
                   sentences::section_inertia(f().section_inertia,
                                              f().mass_model == MassModel::isoparametric));
     if (const auto v = section_.get("damping")) f().damping = read_damping(*v);
@@ -151,7 +151,7 @@ class FlexibleReader {
     for (const char* key : {"clamped", "static_modes", "normal_modes"}) {
       if (!section_.has(key) || (!analytic && !basis)) continue;
       if (analytic || std::string(key) != "clamped")
-        section_.get(key)->error(ErrorCode::wrong_value,
+        section_.get(key)->error(ErrorCode::exclusive,
                                  std::string("is not used with ") +
                                      (analytic ? "analytic shapes" : "a given basis") +
                                      "; remove this key");
@@ -171,7 +171,7 @@ class FlexibleReader {
       const auto n = normal->integer(rules::normal_modes);
       f().normal_modes = n.value_or(0);
       if (n && out_.valid)
-        normal->complain(ErrorCode::wrong_value,
+        normal->complain(ErrorCode::out_of_range,
                          sentences::more_modes_than_dofs(
                              *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
     }
@@ -190,7 +190,7 @@ class FlexibleReader {
     std::vector<std::pair<Vec3, unsigned>> clamped;
     for (const NodeDofs& d : f().clamped)
       clamped.emplace_back(f().points.at(d.node), static_cast<unsigned>(std::countr_zero(d.mask)));
-    section_.get("clamped")->complain(ErrorCode::wrong_value, sentences::body_reference(clamped));
+    section_.get("clamped")->complain(ErrorCode::singular, sentences::body_reference(clamped));
   }
 
   /// A CSV file without header: 6 rows per node (ux uy uz rx ry rz), one column per mode, in the

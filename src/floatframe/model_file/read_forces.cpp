@@ -243,7 +243,7 @@ PiecewisePolynomial read_profile(const YamlValue& value) {
                   "found x = " + number_text(x) + " after " + number_text(points.back().x) +
                       ", expected x that does not decrease [m]");
     else if (n > 1 && x == points[n - 1].x && x == points[n - 2].x)
-      table.error(ErrorCode::wrong_count, row,
+      table.error(ErrorCode::duplicate, row,
                   "found x = " + number_text(x) + " a third time, expected two points at a jump");
     else
       points.push_back(row.point);

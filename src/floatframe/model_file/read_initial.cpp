@@ -13,7 +13,7 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
     const auto it = model.bodies.find(*body);
     if (it == model.bodies.end() || !it->second.valid) continue;
     if (!it->second.flexible) {
-      v.entity_error(ErrorCode::missing,
+      v.entity_error(ErrorCode::wrong_value,
                      sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       continue;
     }

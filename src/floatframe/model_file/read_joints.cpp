@@ -263,7 +263,7 @@ void read_rods(const ModelInstance& self, ReadModel& model) {
       s.error(ErrorCode::geometry, sentences::both_ends_on(self.written(r.a.body)));
     else if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point);
              complaint && !s.has("length"))
-      s.error(ErrorCode::out_of_range, *complaint);
+      s.error(ErrorCode::geometry, *complaint);
     place(r, self.world);
     model.description.rods.push_back(std::move(r));
   }

@@ -45,7 +45,7 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
   if (!good) return {};
   const PiecewisePolynomial f(breaks, std::move(pieces));
   if (const auto jump = sentences::jump(f))
-    items[jump->first].error(ErrorCode::wrong_value, jump->second);
+    items[jump->first].error(ErrorCode::contradiction, jump->second);
   return f;
 }
 
@@ -152,7 +152,7 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
   }
   section.finish();
   if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
-    section.error(ErrorCode::wrong_value, "found " + std::to_string(laws) + " laws, expected " +
+    section.error(ErrorCode::wrong_count, "found " + std::to_string(laws) + " laws, expected " +
                                               (expected != nullptr ? expected : time_laws));
   return f;
 }
@@ -209,7 +209,7 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
   }
   section->finish();
   if (laws != 1)
-    section->error(ErrorCode::wrong_value,
+    section->error(ErrorCode::wrong_count,
                    "found " + std::to_string(laws) + " laws, expected " + forms);
   return f;
 }

@@ -99,7 +99,7 @@ class OutputReader {
     ReadErrors& errors = *self_.context.errors;
     const bool exists = !model_.columns.insert(o.name).second;
     if (const auto complaint = sentences::column_taken(o.name, exists)) {
-      errors.add(ErrorCode::out_of_range, o.origin.mark, "outputs: " + *complaint);
+      errors.add(ErrorCode::duplicate, o.origin.mark, "outputs: " + *complaint);
       return;
     }
     if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
@@ -113,7 +113,7 @@ class OutputReader {
       s.get(key);
     s.finish();
     if (found == 0 && misspelt_quantity(s)) return;  // that has been said
-    s.error(ErrorCode::wrong_value, "found " + std::to_string(found) +
+    s.error(ErrorCode::wrong_count, "found " + std::to_string(found) +
                                         " quantities, expected one of " +
                                         alternatives(output_words));
   }
@@ -341,7 +341,7 @@ class OutputReader {
     const auto it = model_.bodies.find(*body);
     if (it == model_.bodies.end() || !it->second.valid) return;
     if (!it->second.flexible) {
-      what.error(ErrorCode::missing,
+      what.error(ErrorCode::wrong_value,
                  sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       return;
     }

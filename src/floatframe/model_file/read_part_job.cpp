@@ -165,7 +165,7 @@ class JobReader {
     }
     c.tolerance = s.number("tolerance", positive_number(""), 0.0);
     if (ways != 1)
-      s.error(ErrorCode::wrong_value, "found " + std::to_string(ways) +
+      s.error(ErrorCode::wrong_count, "found " + std::to_string(ways) +
                                           " ways to choose nodes, expected one of " +
                                           joined(words, ", "));
   }
@@ -237,7 +237,7 @@ class JobReader {
       for (const YamlValue& item : value.list())
         if (const auto k = item.word(dof_words)) mask |= 1u << *k;
       if (value.node().items.empty())
-        value.error(ErrorCode::wrong_value,
+        value.error(ErrorCode::missing,
                     "found an empty list, expected directions such as [x, y, z]");
       return mask;
     }

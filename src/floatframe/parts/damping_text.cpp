@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void fail_damping(const std::string& text) {
   throw InputError(
-      ErrorCode::wrong_count,
+      ErrorCode::wrong_value,
       fmt::format("--damping: found '{}', expected a fraction of critical damping such as 0.02, a "
                   "list of them, bands:usual, bands:100=0.01,1000=0.1,1 or rayleigh:ALPHA,BETA, "
                   "and behind it ,reference=frame, free or mounted, ,frequency=HZ",

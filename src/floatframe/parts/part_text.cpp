@@ -100,7 +100,7 @@ class PlaceArgument {
       return (minus ? -1.0 : 1.0) * Vec3::Unit(axis[0] - 'x');
     const Vec3 v = vector(key, text);
     if (!(v.stableNorm() > 0.0))
-      fail(ErrorCode::wrong_value, key + ": found a vector of length zero, expected a direction");
+      fail(ErrorCode::geometry, key + ": found a vector of length zero, expected a direction");
     return v.stableNormalized();
   }
 
@@ -265,7 +265,7 @@ InterfaceDescription interface_argument(const std::string& text) {
   if (const auto type = a.take("type")) {
     const auto word = std::find(std::begin(tie_words), std::end(tie_words), *type);
     if (word == std::end(tie_words))
-      a.fail(ErrorCode::wrong_count,
+      a.fail(ErrorCode::wrong_value,
              fmt::format("type: found '{}', expected {}", *type, alternatives(tie_words)));
     out.kind = static_cast<Spider::Kind>(word - std::begin(tie_words));
   }

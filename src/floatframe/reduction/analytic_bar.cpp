@@ -50,7 +50,7 @@ ModeSet analytic_bar_modes(const FeModel& model, int dynamic_per_plane) {
     throw InputError(ErrorCode::out_of_range,
                      "the number of analytic shapes per plane must not be negative");
   if (model.elements.empty() || !model.masses.empty()) {
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::unsupported,
                      "analytic shapes need a single straight bar without point masses");
   }
   const Element& first = model.elements.front();
@@ -63,19 +63,19 @@ ModeSet analytic_bar_modes(const FeModel& model, int dynamic_per_plane) {
     const Element& element = model.elements[e];
     const int index = static_cast<int>(e);
     if (element.type != ElementType::beam2) {
-      throw InputError(ErrorCode::wrong_value, "analytic shapes need beams, but " +
+      throw InputError(ErrorCode::unsupported, "analytic shapes need beams, but " +
                                                    model.element_label(index) + " is none");
     }
     const ElementInput here = gather(model, element);
     const Vec3 end = here.p[1] - start;
     const bool chained = e == 0 || element.nodes[0] == model.elements[e - 1].nodes[1];
     if (!chained || end.cross(axis).norm() > 1e-9 * end.norm() || end.dot(axis) <= L) {
-      throw InputError(ErrorCode::wrong_value, "analytic shapes need one straight bar, but " +
+      throw InputError(ErrorCode::unsupported, "analytic shapes need one straight bar, but " +
                                                    model.element_label(index) + " leaves its line");
     }
     if (here.section.Iy != section.Iy || here.section.Iz != section.Iz ||
         here.section.A != section.A || here.material.young != in.material.young) {
-      throw InputError(ErrorCode::wrong_value, "analytic shapes need a uniform bar, but " +
+      throw InputError(ErrorCode::unsupported, "analytic shapes need a uniform bar, but " +
                                                    model.element_label(index) +
                                                    " has another section or material");
     }

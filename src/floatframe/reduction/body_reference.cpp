@@ -51,7 +51,7 @@ ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const Ma
   }
   const PivotedQr qr = pivoted_qr(conditions.transpose());
   if (qr.rank < 6)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::singular,
                      "the body reference does not remove all rigid motions of the part");
   MatX null = s.asDiagonal() * qr.Q.rightCols(n - 6);
   const auto masses = [&] { return symmetric_eigenvalues(in_directions(M, null)); };
@@ -64,7 +64,7 @@ ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const Ma
   result.condition = m(0) > 0.0 ? m(m.size() - 1) / m(0) : std::numeric_limits<double>::infinity();
   if (!(m(0) > no_mass * m(m.size() - 1))) {
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::singular,
         "the modes hold a combination that moves no mass: there are more interface degrees of "
         "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
   }

@@ -50,7 +50,7 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   }
   if (count == 0) {
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::singular,
         "the body reference clamps no degree of freedom, so the body is free to move rigidly");
   }
   for (const Vec3& p : model.positions) size = std::max(size, (p - centre).norm());
@@ -71,11 +71,11 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   if (motion(largest) < 0.0) motion = -motion;
   const Vec3 turn = motion.tail<3>();
   if (turn.norm() < 1e-6) {
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::singular,
                      "the body reference does not remove the translation along " +
                          direction_text(motion.head<3>().normalized()));
   }
-  throw InputError(ErrorCode::wrong_value,
+  throw InputError(ErrorCode::singular,
                    "the body reference does not remove the rotation about the direction " +
                        direction_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
                        (count > 1 ? " and others)" : ")"));
@@ -171,7 +171,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const int node = node_of(model, c, "the interface", errors);
     if (node < 0) continue;
     if (c.mask == 0)
-      errors.add(ErrorCode::wrong_value, {},
+      errors.add(ErrorCode::missing, {},
                  "the interface at " + model.node_label(node) + " names no degree of freedom");
     for (int axis = 0; axis < 6; ++axis) {
       if (((c.mask >> axis) & 1u) == 0) continue;
@@ -189,7 +189,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
         errors.add(ErrorCode::duplicate, {},
                    dof_text(node, axis) + " is given twice as an interface degree of freedom");
       } else if (role == Role::inactive) {
-        errors.add(ErrorCode::missing, {},
+        errors.add(ErrorCode::singular, {},
                    dof_text(node, axis) +
                        " has no stiffness and cannot be an interface degree of freedom");
       } else {

@@ -175,7 +175,7 @@ Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int 
     throw;
   } catch (const std::exception&) {
     throw EigenIterationError(
-        ErrorCode::wrong_value,
+        ErrorCode::no_convergence,
         fmt::format("the iteration for the {} lowest modes fails: equal parts have equal "
                     "frequencies, and directions without mass leave nothing to tell their modes "
                     "apart; take fewer normal modes",

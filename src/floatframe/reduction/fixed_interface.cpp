@@ -66,7 +66,7 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
   const int row = factors_.singular();
   if (row >= 0 || factors_.negative_pivots() > 0) {
     if (row < 0)
-      throw InputError(ErrorCode::out_of_range,
+      throw InputError(ErrorCode::singular,
                        "the stiffness is not positive: an element or a matrix has negative energy");
     throw InputError(ErrorCode::singular,
                      fmt::format("the stiffness is singular: {} can move without resistance (a "
@@ -113,7 +113,7 @@ Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)
     throw InputError(ErrorCode::out_of_range, "the number of normal modes must not be negative");
   if (at_most) count = std::min(count, inner);
   if (count > inner) {
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::out_of_range,
                      fmt::format("{} normal modes are requested, but only {} degrees of freedom "
                                  "are left inside the interface",
                                  count, inner));

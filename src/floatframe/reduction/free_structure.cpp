@@ -110,7 +110,7 @@ FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX 
         "neither the stiffness nor the mass of the free part holds " +
             (label ? label(static_cast<int>(factors_.singular())) : std::string("some motion")));
   if (factors_.negative_pivots() > 0)
-    throw InputError(ErrorCode::out_of_range,
+    throw InputError(ErrorCode::singular,
                      "the stiffness or the mass is not positive: an energy is negative");
 }
 

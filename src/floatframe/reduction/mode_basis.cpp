@@ -88,7 +88,7 @@ void check_options(const PartOptions& options) {
     add(ErrorCode::out_of_range,
         "the effective mass to be reached must be a fraction between 0 and 1");
   if (free && options.effective_mass > 0.0)
-    add(ErrorCode::wrong_value,
+    add(ErrorCode::unsupported,
         "free modes have no effective mass; select them by number or by frequency");
   if (const auto complaint = damping_complaint(options.damping))
     add(ErrorCode::out_of_range, "damping: " + *complaint);

@@ -132,7 +132,7 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
   const int most = std::max(system.size() - 6, 0);
   if (!options.modes) count = std::min(count, most);
   if (count > most) {
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::out_of_range,
                      fmt::format("{} normal modes are requested, but of the {} degrees of freedom "
                                  "of the free part only {} are left beside its six rigid motions",
                                  count, system.size(), most));

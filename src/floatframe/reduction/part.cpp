@@ -130,7 +130,7 @@ void check_body(const FlexibleBody& body, bool rotary) {
   for (const InvariantError& f :
        check_invariants(body, rotary ? InvariantSource::rotary : InvariantSource::integrals))
     errors.add(
-        ErrorCode::missing, {},
+        ErrorCode::singular, {},
         fmt::format("the reduced part has no valid inertia: {}: {}", f.quantity, f.sentence));
   errors.throw_if_any();
 }
@@ -149,7 +149,7 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
   health.rigid_eigenvalues = full->lambda.head<6>() / full->lambda(6);
   const double worst = health.rigid_eigenvalues->cwiseAbs().maxCoeff();
   if (worst > 1e-3)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::contradiction,
                      fmt::format("a rigid motion has an eigenvalue of {:.1e} of the first elastic "
                                  "one instead of zero: {}",
                                  worst, hold_text(model, health.rigid_residual)));
@@ -215,7 +215,7 @@ ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const Iner
   ElasticModes modes =
       elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
   if (modes.mass < least_modal_mass)
-    throw InputError(ErrorCode::missing,
+    throw InputError(ErrorCode::singular,
                      "a combination of the modes moves as a rigid body and has no inertia of its "
                      "own; use fewer modes or a finer mesh");
   fix_signs(basis.X, modes.C);

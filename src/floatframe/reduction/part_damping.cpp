@@ -44,7 +44,7 @@ MatX given_damping(const FeMatrices& given, const FeSystem& system, const MatX& 
   const double top = own.values.cwiseAbs().maxCoeff();
   if (own.values(0) < -given_rounding * top)
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::out_of_range,
         fmt::format("the damping matrix gives energy to a deformation (smallest eigenvalue in the "
                     "modes {:.3g} beside {:.3g}), expected none below zero",
                     own.values(0), top));

@@ -30,7 +30,7 @@ MassProperties mass_properties(const InertiaInvariants& invariants) {
 void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
                                  const MassProperties& properties) {
   if (!(properties.mass > 0.0))
-    throw InputError(ErrorCode::missing,
+    throw InputError(ErrorCode::singular,
                      "the part has no mass: every density is zero, and there is no point mass");
   double rounding = 0.0;  // what is left of springs within a rigid body
   if (model.elements.empty())
@@ -39,7 +39,7 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   const VecX diagonal = system.K.diagonal();
   if ((diagonal.array() <= rounding).all())
     throw InputError(
-        ErrorCode::out_of_range,
+        ErrorCode::singular,
         "the part has mass but no elasticity: no element or spring resists what its nodes can do");
 }
 
@@ -57,7 +57,7 @@ void require_inertia(const FeModel& model, const FeSystem& system, const PartOpt
   const bool point = !(J_i(2) > 1e-12 * properties.J_origin.norm()) || J_i(2) == 0.0;
   const Vec3 axis = inertia.vectors.col(0);
   throw InputError(
-      ErrorCode::missing,
+      ErrorCode::singular,
       point ? "the part has no inertia about its centre of mass, since all mass is at one point; "
               "give point masses their inertia"
             : fmt::format("the part has no inertia about the axis {} through its centre of mass, "

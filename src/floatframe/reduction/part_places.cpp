@@ -72,16 +72,16 @@ void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
     };
     for (const InterfacePlace& place : interfaces) {
       if (is_beside(model, turn, place.node))
-        refuse(ErrorCode::wrong_value, "interface", place.name, beside(place.node));
+        refuse(ErrorCode::singular, "interface", place.name, beside(place.node));
       else if ((place.mask & 56u) != 0 &&
                std::binary_search(turn.group.begin(), turn.group.end(), place.node))
-        refuse(ErrorCode::wrong_value, "interface", place.name, "give the interface only ux uy uz");
+        refuse(ErrorCode::singular, "interface", place.name, "give the interface only ux uy uz");
     }
     for (const MarkerPlace& marker : markers) {
       const auto node = std::find_if(marker.nodes.begin(), marker.nodes.end(),
                                      [&](int k) { return is_beside(model, turn, k); });
       if (marker.residual && node != marker.nodes.end())
-        refuse(ErrorCode::wrong_value, "residual marker", marker.name, beside(*node));
+        refuse(ErrorCode::singular, "residual marker", marker.name, beside(*node));
     }
   }
   errors.throw_if_any();
@@ -187,7 +187,7 @@ void find_rows(const FeModel& model, const FeSystem& system,
     }
     // As an inner node would be refused: the reference of a coupling of some directions only.
     if (!loose.empty())
-      errors.add(ErrorCode::wrong_value, {},
+      errors.add(ErrorCode::singular, {},
                  fmt::format("interface '{}': {} can move without resistance in {}: nothing of the "
                              "part follows it there",
                              place.name, number_label(model, place.node), loose));

@@ -13,7 +13,7 @@ namespace {
 /// Points of the model with unit density and without point masses: integrals over the volume.
 PointModel volume_points(FeModel model, Integration integration) {
   if (model.matrices) {
-    throw InputError(ErrorCode::geometry,
+    throw InputError(ErrorCode::unsupported,
                      "the Buckens reference weighs by volume, which a part given by matrices does "
                      "not have; take mean_axis");
   }

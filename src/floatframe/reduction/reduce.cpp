@@ -32,7 +32,7 @@ void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeS
       M.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
   const VecX masses = symmetric_eigenvalues(s.asDiagonal() * M * s.asDiagonal());
   if (!(masses(0) > 1e-14 * masses(M.rows() - 1))) {
-    throw InputError(ErrorCode::missing,
+    throw InputError(ErrorCode::singular,
                      "the modes cannot be orthonormalised: a combination of them has no mass");
   }
   const SymmetricEigen modes = generalised_eigen(set.K, M);
@@ -111,7 +111,7 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
     const bool shear = e.type == ElementType::beam2 && model.sections[e.section].has_shear();
     if (shear || e.mass_form != MassForm::consistent)
       throw InputError(
-          ErrorCode::wrong_value,
+          ErrorCode::unsupported,
           fmt::format("{} has {}, which bodies of bars do not have: reduce it as a part",
                       model.element_label(static_cast<int>(&e - model.elements.data())),
                       shear ? "a shear area" : "lumped mass"));
@@ -119,7 +119,7 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
   if (options.mass_model == MassModel::isoparametric) {
     for (const PointMass& p : model.masses) {
       if (p.J.cwiseAbs().maxCoeff() > 0.0) {
-        throw InputError(ErrorCode::wrong_count,
+        throw InputError(ErrorCode::unsupported,
                          "the point mass on " + model.node_label(p.node) +
                              " has rotary inertia, which the isoparametric mass model with three "
                              "rows per node leaves out; use six_dof or hermite");

@@ -78,7 +78,7 @@ double check_rigid_motions(const FeModel& model, const FeSystem& system) {
     f = std::max(f, force(row));
   }
   throw InputError(
-      ErrorCode::wrong_value,
+      ErrorCode::contradiction,
       fmt::format("rigid motions cause forces of {:.1e} of the largest stiffness at {}: a support, "
                   "a spring to ground or a wrong linear equation is in the model",
                   residual, largest_nodes(model, of_node)));

@@ -86,10 +86,11 @@ void draw_axes(Out out, const CampbellFrame& f, const std::string& title) {
                  right);
   fmt::format_to(out, "<text text-anchor=\"middle\" x=\"{}\" y=\"{}\">speed [rad/s]</text>\n",
                  0.5 * (frame_left + right), picture_height - 14);
-  fmt::format_to(out,
-                 "<text text-anchor=\"middle\" transform=\"translate(22 {}) "
-                 "rotate(-90)\">frequency [rad/s]</text>\n",
-                 0.5 * (frame_top + bottom));
+  fmt::format_to(
+      out,
+      "<text text-anchor=\"middle\" transform=\"translate(22 {}) rotate(-90)\">frequency "
+      "[rad/s]</text>\n",
+      0.5 * (frame_top + bottom));
 }
 
 void draw_orders(Out out, const CampbellFrame& f, const std::vector<double>& orders) {
@@ -139,11 +140,11 @@ void draw_line(Out out, const CampbellFrame& f, const CampbellDiagram& d, std::s
     fmt::format_to(out, "<text class=\"tick\" x=\"{}\" y=\"{:.1f}\">{}</text>\n",
                    picture_width - frame_right + 6, f.y(end) + 4.5, index + 1);
   else if (end <= f.top)
-    fmt::format_to(out,
-                   "<path class=\"end\" d=\"M{0:.1f} {1:.1f}v10\"/><text class=\"tick\" "
-                   "x=\"{2:.1f}\" y=\"{3:.1f}\">{4}</text>\n",
-                   f.x(d.speeds[last]), f.y(end) - 5.0, f.x(d.speeds[last]) + 5.0, f.y(end) - 5.0,
-                   index + 1);
+    fmt::format_to(
+        out,
+        "<path class=\"end\" d=\"M{0:.1f} {1:.1f}v10\"/><text class=\"tick\" x=\"{2:.1f}\" "
+        "y=\"{3:.1f}\">{4}</text>\n",
+        f.x(d.speeds[last]), f.y(end) - 5.0, f.x(d.speeds[last]) + 5.0, f.y(end) - 5.0, index + 1);
 }
 
 void draw_speeds(Out out, const CampbellFrame& f, const std::vector<CriticalSpeed>& speeds,
@@ -187,13 +188,14 @@ std::string campbell_picture(const std::string& model, const CampbellOptions& o,
       out,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
       "height=\"{1}\" role=\"img\" aria-label=\"Campbell diagram\">\n"
-      "<style>svg{{background:#fff;font-family:system-ui,sans-serif;font-size:14px;fill:#1a1a1a}}."
-      "grid{{stroke:#e3e3e3;fill:none}}.axis{{stroke:#666;fill:none}}.tick{{font-size:12.5px;fill:#"
-      "555}}.line{{fill:none;stroke-width:2}}.order{{fill:none;stroke:#999;stroke-width:1;stroke-"
-      "dasharray:5 "
-      "5}}.unstable{{fill:none;stroke:#b00020;stroke-width:5;stroke-opacity:.55}}.critical{{fill:#"
-      "fff;stroke:#1a1a1a;stroke-width:1.8}}.crossing{{fill:#fff;stroke:#999;stroke-width:1.2}}."
-      "end{{fill:none;stroke:#1a1a1a;stroke-width:1.8}}</style>\n"
+      "<style>svg{{background:#fff;font-family:system-ui,sans-serif;font-size:14px;fill:#1a1a1a}}"
+      ".grid{{stroke:#e3e3e3;fill:none}}.axis{{stroke:#666;fill:none}}"
+      ".tick{{font-size:12.5px;fill:#555}}.line{{fill:none;stroke-width:2}}"
+      ".order{{fill:none;stroke:#999;stroke-width:1;stroke-dasharray:5 5}}"
+      ".unstable{{fill:none;stroke:#b00020;stroke-width:5;stroke-opacity:.55}}"
+      ".critical{{fill:#fff;stroke:#1a1a1a;stroke-width:1.8}}"
+      ".crossing{{fill:#fff;stroke:#999;stroke-width:1.2}}"
+      ".end{{fill:none;stroke:#1a1a1a;stroke-width:1.8}}</style>\n"
       "<clipPath id=\"inside\"><rect x=\"{2}\" y=\"{3}\" width=\"{4}\" "
       "height=\"{5}\"/></clipPath>\n",
       picture_width, picture_height, frame_left, frame_top,

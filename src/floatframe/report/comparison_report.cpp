@@ -54,18 +54,18 @@ std::vector<std::string> comparison_notes(const ComparedResults& r) {
   const ResultsComparison& c = r.comparison;
   std::vector<std::string> notes;
   if (c.interpolated)
-    notes.push_back(
-        fmt::format("the instants of the two differ: compared at those of '{}', between which the "
-                    "other is taken as linear",
-                    r.file_a));
+    notes.push_back(fmt::format(
+        "the instants of the two differ: compared at those of '{}', between which the other "
+        "is taken as linear",
+        r.file_a));
   if (c.torn_a || c.torn_b)
     notes.push_back(fmt::format("the last line of '{}' was cut off and is left out",
                                 c.torn_a ? r.file_a : r.file_b));
   if (!r.tolerance || r.overlap) {
     if (c.spans_differ())
       notes.push_back(
-          fmt::format("compared from {:g} to {:g} s: the one goes from {:g} to {:g} s, the other "
-                      "from {:g} to {:g} s",
+          fmt::format("compared from {:g} to {:g} s: the one goes from {:g} to {:g} s, "
+                      "the other from {:g} to {:g} s",
                       c.from, c.to, c.start_a, c.end_a, c.start_b, c.end_b));
   }
   if (!r.tolerance) {

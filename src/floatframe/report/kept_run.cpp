@@ -102,14 +102,14 @@ std::string kept_page(const Model& model, const KeptRun& run, const RunSummary& 
 
 void save_run(const Model& model, const KeptRun& run, const std::string& folder) {
   if (folder.empty())
-    throw InputError(ErrorCode::wrong_value, "found an empty path, expected that of a folder");
+    throw InputError(ErrorCode::missing, "found an empty path, expected that of a folder");
   make_output_folder(folder);
   FolderLock lock(folder);
   const auto path = [&](const char* name) {
     return (std::filesystem::path(folder) / name).string();
   };
   if (std::filesystem::exists(path("run.checkpoint")))
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::exists,
                      "the folder '" + folder +
                          "' holds an unfinished run (run.checkpoint), expected another one");
   for (const char* name : {"states.ffr", "report.html"}) remove_file(path(name));

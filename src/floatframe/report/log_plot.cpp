@@ -123,10 +123,10 @@ void draw_log_axes(Out out, const Span& x, const std::vector<Tick>& x_ticks, con
   }
   fmt::format_to(out, "<path class=\"axis\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", x.from, y.to,
                  y.from, x.to);
-  fmt::format_to(
-      out,
-      "<text transform=\"translate(24 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-      0.5 * (y.from + y.to), html_escape(panel.y_title));
+  fmt::format_to(out,
+                 "<text transform=\"translate(24 {:.1f}) rotate(-90)\" "
+                 "text-anchor=\"middle\">{}</text>\n",
+                 0.5 * (y.from + y.to), html_escape(panel.y_title));
 
   fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
                  0.5 * (x.from + x.to), y.from + 36, html_escape(x_title));

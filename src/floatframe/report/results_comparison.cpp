@@ -55,7 +55,7 @@ class Merge {
   void run(ResultsComparison& out) {
     for (ResultsReader* r : {&a_, &b_})
       if (!r->next())
-        throw InputError(ErrorCode::wrong_value, {r->file(), 0, 0}, "there is no row of results");
+        throw InputError(ErrorCode::missing, {r->file(), 0, 0}, "there is no row of results");
     out.start_a = a_.time();
     out.start_b = out.end_b = b_.time();
     do {
@@ -163,7 +163,7 @@ void require_channels(const ResultsReader& r, const std::vector<std::string>& na
   const std::set<std::string> have(known.begin(), known.end());
   for (const std::string& name : names)
     if (!have.contains(name))
-      throw InputError(ErrorCode::wrong_value, {r.file(), 1, 0},
+      throw InputError(ErrorCode::not_found, {r.file(), 1, 0},
                        fmt::format("there is no channel '{}'{}", name, did_you_mean(name, known)));
 }
 

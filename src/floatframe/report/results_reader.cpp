@@ -83,7 +83,7 @@ bool read_numbers(const std::string& line, std::vector<double>& row, std::size_t
 ResultsReader::ResultsReader(const std::string& file) : file_(file) {
   std::string beginning;
   if (const std::string why = read_regular_beginning(file, 1, beginning); !why.empty())
-    throw InputError(ErrorCode::wrong_value, {file_, 0, 0}, why);
+    throw InputError(ErrorCode::unreadable, {file_, 0, 0}, why);
   in_.reset(std::fopen(file.c_str(), "rb"));
   if (!in_) throw InputError(ErrorCode::unreadable, {file_, 0, 0}, "the file cannot be opened");
   read_header();
@@ -102,7 +102,7 @@ void ResultsReader::read_header() {
     const std::size_t begin = at;
     std::string title;
     if (!read_title(line_, at, title))
-      refuse(ErrorCode::wrong_value, begin, "found a quote that is not closed");
+      refuse(ErrorCode::damaged, begin, "found a quote that is not closed");
     columns_.push_back(column_of(csv_text(title)));
     const std::string& name = columns_.back().name;
     if (columns_.size() == 1 && name != "time")
@@ -154,7 +154,7 @@ bool ResultsReader::next() {
                        c + 1 == columns_.size() ? " and the end of the line" : ""));
   }
   if (!std::isfinite(time()) || (rows_ > 0 && !(time() > before)))
-    refuse(ErrorCode::wrong_count, 0,
+    refuse(ErrorCode::contradiction, 0,
            fmt::format("found the time {:g}{}, expected {}", time(),
                        rows_ > 0 ? fmt::format(" after {:g}", before) : "",
                        rows_ > 0 ? "a later one" : "a number of seconds"));

@@ -16,7 +16,7 @@ namespace {
 
 void check_options(const CampbellOptions& o) {
   if (o.axis && (!o.axis->allFinite() || !(o.axis->stableNorm() > 0.0)))
-    throw InputError(ErrorCode::out_of_range,
+    throw InputError(ErrorCode::geometry,
                      fmt::format("the axis of '{}' is ({:g}, {:g}, {:g}), expected a direction",
                                  o.joint, o.axis->x(), o.axis->y(), o.axis->z()));
   if (o.modes < 1)

@@ -158,11 +158,12 @@ void note_body(const Model& model, std::size_t body, OperatingPoint& at,
   if (!(lowest > 0.0)) return;
   const double across = range.pulling_spin(w) / lowest;
   if (b.data->mass_model == MassModel::six_dof && w.norm() > 1e-3 * lowest)
-    notes.push_back(
-        fmt::format("body '{}' spins at {:.4g} rad/s, and mass_model six_dof has no second order "
-                    "of its turning sections: whirl at speed is in error; mass_model: hermite with "
-                    "section_inertia: true has it",
-                    b.name, w.norm()));
+    notes.push_back(fmt::format(
+        "body '{}' spins at {:.4g} rad/s, and mass_model six_dof has no second order of its "
+        "turning "
+        "sections: whirl at speed is in error; mass_model: hermite with section_inertia: true has "
+        "it",
+        b.name, w.norm()));
   if (!asked_without(b)) {
     if (can_stiffen(model, b) || b.stiffens() || !(across > limit)) return;
     notes.push_back(fmt::format(
@@ -179,10 +180,10 @@ void note_body(const Model& model, std::size_t body, OperatingPoint& at,
   } else if (can_stiffen(model, b)) {
     const double part = at.part(body);
     if (part > limit * limit)
-      notes.push_back(
-          fmt::format("loads change the stiffness of body '{}' by up to {:.3g} %, which is left "
-                      "out here; geometric_stiffening: true counts it in",
-                      b.name, 100.0 * part));
+      notes.push_back(fmt::format(
+          "loads change the stiffness of body '{}' by up to {:.3g} %, which is left out here; "
+          "geometric_stiffening: true counts it in",
+          b.name, 100.0 * part));
   }
 }
 

@@ -90,11 +90,12 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
   if (worst)
     out.push_back(
         {RangeLimit::sine,
-         fmt::format("the step of {:g} s is too long for {}: its sine of {:g} Hz goes through "
-                     "{:.3g} rad of phase in each step (limit {:g} rad), {:.2g} steps per period; "
-                     "take a step of at most {:.2g} s",
-                     step, subject(*worst, count - 1), std::abs(worst->function->frequency), phase,
-                     limits.phase, 2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
+         fmt::format(
+             "the step of {:g} s is too long for {}: its sine of {:g} Hz goes through {:.3g} rad "
+             "of phase in each step (limit {:g} rad), {:.2g} steps per period; take a step of at "
+             "most {:.2g} s",
+             step, subject(*worst, count - 1), std::abs(worst->function->frequency), phase,
+             limits.phase, 2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
   worst = nullptr;
   count = 0;
   Passed most;
@@ -108,14 +109,13 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
     }
   }
   if (worst)
-    out.push_back(
-        {RangeLimit::table,
-         fmt::format(
-             "the step of {:g} s passes over values in the table of {}: it has {:.4g} at t = "
-             "{:.6g} s but {:.4g} and {:.4g} at the ends of the step there (limit {:g} % of its "
-             "range); take a step of at most {:.2g} s, the distance of its entries there",
-             step, subject(*worst, count - 1), most.value, most.at, most.before, most.after,
-             100.0 * limits.passed, most.gap)});
+    out.push_back({RangeLimit::table,
+                   fmt::format("the step of {:g} s passes over values in the table of {}: it has "
+                               "{:.4g} at t = {:.6g} s but {:.4g} and {:.4g} at the ends of the "
+                               "step there (limit {:g} % of its range); take a step of at most "
+                               "{:.2g} s, the distance of its entries there",
+                               step, subject(*worst, count - 1), most.value, most.at, most.before,
+                               most.after, 100.0 * limits.passed, most.gap)});
   return out;
 }
 

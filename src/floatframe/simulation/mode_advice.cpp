@@ -64,7 +64,7 @@ namespace {
 void require_modes(const Model& model, const std::vector<std::vector<int>>& keep) {
   if (keep.size() != model.bodies.size())
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::wrong_count,
         fmt::format("found lists of modes for {} bodies, expected {}: one for each body",
                     keep.size(), model.bodies.size()));
   for (std::size_t i = 0; i < keep.size(); ++i)

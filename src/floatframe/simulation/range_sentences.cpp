@@ -49,8 +49,8 @@ class Writer {
                 percent(limits_.displacement), b.size());
           return fmt::format(
               "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of "
-              "its size of {:.3g} m, at t = {:.4g} s {} is displaced by {:.3g} m ({}) in the body "
-              "frame; divide it into several bodies",
+              "its size of {:.3g} m, at t = {:.4g} s {} is displaced by {:.3g} m ({}) in the "
+              "body frame; divide it into several bodies",
               body, x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
               x.value, percent(x.value / b.size()));
         },
@@ -69,7 +69,8 @@ class Writer {
                 body, b.node_name(x.node), x.value, limits_.rotation);
           return fmt::format(
               "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, "
-              "at t = {:.4g} s {} is turned by {:.3g} rad in the body frame; divide it into "
+              "at "
+              "t = {:.4g} s {} is turned by {:.3g} rad in the body frame; divide it into "
               "several bodies",
               body, x.first, limits_.rotation, x.at, b.node_name(x.node), x.value);
         },
@@ -86,8 +87,9 @@ class Writer {
             return fmt::format(
                 "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times "
                 "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; "
-                "centrifugal tension, which is left out here, would raise its lowest stiffness by "
-                "about {}; geometric_stiffening: true counts it in",
+                "centrifugal "
+                "tension, which is left out here, would raise its lowest stiffness by about {}; "
+                "geometric_stiffening: true counts it in",
                 body, x.first, limits_.spin, b.lowest_frequency(), x.at, x.value,
                 percent(b.stiffening() * x.value * x.value));
           return fmt::format(
@@ -148,8 +150,10 @@ class Writer {
         {RangeLimit::phase,
          fmt::format(
              "the step of {:g} s is too long for {}{}: it goes through {:.3g} rad of phase in each "
-             "step (limit {:g} rad), {:.2g} steps per period, and carries {} of the kinetic energy "
-             "of {}; take a step of at most {:.2g} s",
+             "step "
+             "(limit {:g} rad), {:.2g} steps per period, and carries {} of the kinetic energy of "
+             "{}; "
+             "take a step of at most {:.2g} s",
              step_, motion, subject(worst), m.phase(), limits_.phase,
              2.0 * std::numbers::pi / m.phase(),
              percent(m.energy() / (what >= 2 && elastic > 0.0 ? elastic : all)),
@@ -167,19 +171,21 @@ class Writer {
     // With numerical damping a loss is what was asked for, unless it is much.
     const bool damped = spectral_radius < 1.0 && e.largest_remainder < 0.0;
     if (damped && part > limits_.dissipation)
-      out.push_back(
-          {RangeLimit::damping,
-           fmt::format(
-               "the numerical damping of the integrator (spectral radius {:g}) has removed {:.4g} "
-               "J from the system by t = {:.4g} s, {} of the {:.4g} J exchanged (limit {}); {}",
-               spectral_radius, x, e.largest_remainder_at, percent(part), e.exchanged,
-               percent(limits_.dissipation), remedy(e, " or a spectral radius nearer to 1"))});
+      out.push_back({RangeLimit::damping,
+                     fmt::format("the numerical damping of the integrator (spectral radius {:g}) "
+                                 "has removed {:.4g} J "
+                                 "from the system by t = {:.4g} s, {} of the {:.4g} J exchanged "
+                                 "(limit {}); {}",
+                                 spectral_radius, x, e.largest_remainder_at, percent(part),
+                                 e.exchanged, percent(limits_.dissipation),
+                                 remedy(e, " or a spectral radius nearer to 1"))});
     if (!damped && part > limits_.imbalance)
       out.push_back(
           {RangeLimit::balance,
            fmt::format("the energy balance does not close: at t = {:.4g} s the system has {:.4g} J "
-                       "{} than the work of all forces and motions explains, {} of the {:.4g} J "
-                       "exchanged (limit {}); {}",
+                       "{} than the "
+                       "work of all forces and motions explains, {} of the {:.4g} J exchanged "
+                       "(limit {}); {}",
                        e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less",
                        percent(part), e.exchanged, percent(limits_.imbalance),
                        remedy(e, gain_of_vibrations(e, spectral_radius)

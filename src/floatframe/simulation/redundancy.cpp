@@ -242,10 +242,10 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
   f.positions(state.t, state.q);
   f.velocities(state.v);
   for (const std::string& joint : analysis.held_motions())
-    report.notes.push_back(
-        fmt::format("the prescribed motion of joint '{}' moves what other constraints hold still "
-                    "at the start: they contradict each other as soon as it moves",
-                    joint));
+    report.notes.push_back(fmt::format(
+        "the prescribed motion of joint '{}' moves what other constraints hold still at the start: "
+        "they contradict each other as soon as it moves",
+        joint));
   const SingularPosition singular = may_be ? singular_position(f) : SingularPosition{};
   const std::string& text = singular.sentence;
   if (!text.empty()) report.notes.push_back("at the start " + text);

@@ -40,7 +40,7 @@ void require_one_piece(const Model& model, const TreeKinematics& tree, const Rot
   for (const int i : bodies)
     if (i != rotor.body && tree.body(i).nj > 0)
       throw InputError(
-          ErrorCode::wrong_value,
+          ErrorCode::unsupported,
           fmt::format("rotor on joint '{}': body '{}' moves on the rotor by joint '{}', expected "
                       "bodies of a rotor that are welded to each other",
                       rotor.name, model.bodies[i].name, model.joints[tree.body(i).joint].name));
@@ -215,7 +215,7 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   const Joint& joint = model.joints[rotor.joint];
   rotor.body = tree.body_of_joint(rotor.joint);
   if (rotor.body < 0)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::unsupported,
                      fmt::format("rotor on joint '{}': the joint is cut to open a loop, expected "
                                  "one that a rotor hangs on",
                                  name));
@@ -230,7 +230,7 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
     rotor.coordinate = b.iv + 3;
   } else {
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::unsupported,
         fmt::format(
             "rotor on joint '{}': found a {} joint, expected a revolute, cylindrical or free one",
             name, joint_type_name(joint.type)));

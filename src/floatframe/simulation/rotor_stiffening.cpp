@@ -30,10 +30,10 @@ std::vector<std::string> stiffening_notes(const Model& model, const Rotor& rotor
     if (b.stiffening_given)
       notes.push_back(spin_sentence(model, range, r.body, w));
     else
-      notes.push_back(
-          fmt::format("body '{}' spins at {:.4g} rad/s, {:.3g} times its lowest frequency of "
-                      "{:.4g} rad/s, and what that does to its stiffness is not known",
-                      b.name, pulling, pulling / lowest, lowest));
+      notes.push_back(fmt::format(
+          "body '{}' spins at {:.4g} rad/s, {:.3g} times its lowest frequency of {:.4g} rad/s, "
+          "and what that does to its stiffness is not known",
+          b.name, pulling, pulling / lowest, lowest));
   }
   return notes;
 }

@@ -177,7 +177,7 @@ int fitting_axis(const Model& model, const std::string& joint, const std::vector
     }
   if (symmetric.size() == 1) return symmetric.front();
   throw InputError(
-      ErrorCode::not_found,
+      ErrorCode::unsupported,
       symmetric.empty()
           ? fmt::format("the rotor on the free joint '{}' is symmetric about none of the joint's "
                         "axes x, y, z; name the one that it turns about with --axis",

@@ -53,7 +53,7 @@ std::vector<std::byte> SimulationState::to_bytes() const {
 SimulationState SimulationState::from_bytes(std::span<const std::byte> bytes) {
   if (bytes.size() < state_magic.size() ||
       std::memcmp(bytes.data(), state_magic.data(), state_magic.size()) != 0)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::wrong_file,
                      "this is not the saved state of a simulation: expected bytes of to_bytes()");
   if (bytes.size() < state_magic.size() + 8 + checksum_size)
     throw InputError(ErrorCode::damaged, "the saved state is damaged: it ends too early");

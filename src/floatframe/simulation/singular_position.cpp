@@ -81,8 +81,9 @@ SingularPosition singular_position(const RelativeFormulation& f, double nearly) 
         more == 0 ? named_text("joint", "joints", names)
                   : fmt::format("joints '{}' and {} more", fmt::join(names, "', '"), more);
     text += fmt::format(
-        "{}the loop of {} is in a singular position: {} degree{} of freedom there, {} anywhere "
-        "near, so that forces in it may be without bound and it may go on in more than one way",
+        "{}the loop of {} is in a singular position: {} degree{} of freedom there, "
+        "{} anywhere near, so that forces in it may be without bound and it may go "
+        "on in more than one way",
         text.empty() ? "" : "; ", listed, free, free == 1 ? "" : "s", lasting);
   }
   return found;

@@ -81,10 +81,10 @@ void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
   for (const Force& force : f.model().forces)
     if (force_kind(force.type).along_line &&
         (f.marker(force.b).r - f.marker(force.a).r).norm() < 1e-9)
-      report.notes.push_back(
-          fmt::format("the ends of force '{}' coincide at the start: it has no direction there, "
-                      "and acts along x until they part",
-                      force.name));
+      report.notes.push_back(fmt::format(
+          "the ends of force '{}' coincide at the start: it has no direction there, and acts along "
+          "x until they part",
+          force.name));
 }
 
 /// The body goes on from the node of the marker in a direction in which the joint slides.
@@ -110,10 +110,10 @@ void report_rigid_tangents(const Model& model, StartReport& report) {
       if (marker.body < 0 || marker.node < 0 || !marker.rotates) continue;
       const Body& body = model.bodies[marker.body];
       if (!slides_along(body, marker, slides)) continue;
-      report.notes.push_back(
-          fmt::format("joint '{}' slides along the straight tangent of body '{}' at one of its "
-                      "nodes, not along the bent body: away from there it moves as that node does",
-                      j.name, body.name));
+      report.notes.push_back(fmt::format(
+          "joint '{}' slides along the straight tangent of body '{}' at one of its nodes, not "
+          "along the bent body: away from there it moves as that node does",
+          j.name, body.name));
       break;
     }
   }

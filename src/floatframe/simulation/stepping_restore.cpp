@@ -52,7 +52,7 @@ std::shared_ptr<SimulationState::Data> Simulation::Engine::present() {
 SimulationState Simulation::Engine::save() {
   require_idle("save");
   if (failed_)
-    throw InputError(ErrorCode::wrong_value,
+    throw InputError(ErrorCode::step_failed,
                      "found a simulation whose last step failed, expected one that can go on: save "
                      "before, or restore an earlier state");
   return SimulationState(present());

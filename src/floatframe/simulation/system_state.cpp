@@ -33,7 +33,7 @@ void same_names(const Model& model, const SystemState& state, const char* kind,
     int found = 0;
     for (const std::string& n : names) found += n == e.name ? 1 : 0;
     if (found == 0)
-      refuse(ErrorCode::wrong_value, model, state,
+      refuse(ErrorCode::not_found, model, state,
              fmt::format("found {} '{}' in the state, which the model does not have{}", kind,
                          excerpt(e.name), did_you_mean(e.name, names)));
   }

@@ -29,12 +29,12 @@ void TurnWatch::warn(std::vector<RangeWarning>& out) const {
   const std::string who = fmt::format("{} '{}'{}", force_type_name(force.type), force.name,
                                       others > 0 ? fmt::format(" (and {} more)", others) : "");
   if (first->counts) {
-    out.push_back(
-        {RangeLimit::half_turn,
-         fmt::format(
-             "{} turns by more than half a turn in one step of {:g} s at t = {:.4g} s ({:.3g} rad "
-             "at most) and so loses count of its turns; take a step of at most {:.2g} s",
-             who, step_, first->first, first->most, 0.5 * step_ * std::numbers::pi / first->most)});
+    out.push_back({RangeLimit::half_turn,
+                   fmt::format("{} turns by more than half a turn in one step of {:g} s at t = "
+                               "{:.4g} s ({:.3g} rad at most) and so loses count of its turns; "
+                               "take a step of at most {:.2g} s",
+                               who, step_, first->first, first->most,
+                               0.5 * step_ * std::numbers::pi / first->most)});
     return;
   }
   out.push_back(

@@ -27,7 +27,7 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
     if (names.back() == u.body) on = &r;
   }
   if (!on)
-    throw InputError(ErrorCode::missing,
+    throw InputError(ErrorCode::not_found,
                      fmt::format("unbalance: the rotor on joint '{}' has no body '{}'{}",
                                  rotor.name, excerpt(u.body), did_you_mean(u.body, names)));
   if (!std::isfinite(u.moment) || !std::isfinite(u.angle))

@@ -235,7 +235,7 @@ SweepOptions completed(SweepOptions options) {
   for (std::size_t k = 0; k < plan.runs.size(); ++k)
     if (plan.runs[k].size() != plan.names.size())
       throw InputError(
-          ErrorCode::wrong_value,
+          ErrorCode::wrong_count,
           fmt::format("run {} of the plan: found {} values, expected {}: one for each name", k + 1,
                       plan.runs[k].size(), plan.names.size()));
   if (plan.origins.empty())
@@ -243,7 +243,7 @@ SweepOptions completed(SweepOptions options) {
       plan.origins.push_back(fmt::format("run {} of the plan", k + 1));
   if (plan.origins.size() != plan.runs.size())
     throw InputError(
-        ErrorCode::wrong_value,
+        ErrorCode::wrong_count,
         fmt::format("found {} origins in a plan of {} runs, expected one for each run or none",
                     plan.origins.size(), plan.runs.size()));
   if (options.threads < 1)

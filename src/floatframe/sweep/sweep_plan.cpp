@@ -194,7 +194,7 @@ SweepPlan table_plan(const std::string& file) {
       continue;
     }
     if (fields.size() != plan.names.size()) {
-      errors.add(ErrorCode::out_of_range, {file, number_of_line, 1},
+      errors.add(ErrorCode::wrong_count, {file, number_of_line, 1},
                  fmt::format("found {} fields, expected {}: one for each name in the first line",
                              fields.size(), plan.names.size()));
       continue;
@@ -211,7 +211,7 @@ SweepPlan table_plan(const std::string& file) {
   }
   errors.throw_if_any();
   if (plan.runs.empty())
-    throw InputError(ErrorCode::out_of_range, {file, 1, 1},
+    throw InputError(ErrorCode::missing, {file, 1, 1},
                      "expected a line of names and at least one line of values");
   return plan;
 }

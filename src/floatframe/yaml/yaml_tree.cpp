@@ -253,7 +253,7 @@ bool check_text(const std::string& file, const std::string& text, ReadErrors& er
       return false;
     }
     if (c == '\r' && k + 1 < text.size() && text[k + 1] != '\n') {
-      errors.add(ErrorCode::wrong_value, mark(),
+      errors.add(ErrorCode::wrong_file, mark(),
                  "a carriage return without a line feed, expected lines that end with LF or CRLF");
       return false;
     }
@@ -266,7 +266,7 @@ bool check_text(const std::string& file, const std::string& text, ReadErrors& er
     if (c == '\t' && indentation) {
       const std::size_t next = text.find_first_not_of(" \t\r", k);
       if (next != std::string::npos && text[next] != '\n' && text[next] != '#') {
-        errors.add(ErrorCode::wrong_value, mark(), "a tab in the indentation, use spaces");
+        errors.add(ErrorCode::wrong_file, mark(), "a tab in the indentation, use spaces");
         return false;
       }
       indentation = false;  // the line is blank
@@ -321,7 +321,7 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
     }
     document.values = builder.values();
     if (const YAML::Mark& last = builder.last_quoted(); !last.is_null() && !is_closed(text, last)) {
-      errors.add(ErrorCode::wrong_value, {file, last.line + 1, last.column + 1},
+      errors.add(ErrorCode::wrong_file, {file, last.line + 1, last.column + 1},
                  "the text in quotes that begins here is not closed");
       return YamlDocument{file, {}, 0};
     }

@@ -90,12 +90,12 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
       s.kind = Scalar::Kind::text;
       break;
     case PlainScalar::Kind::bad_number:
-      complain(ErrorCode::out_of_range,
+      complain(ErrorCode::not_a_number,
                "found " + node_->text + ", expected " + expected + " (" + p.complaint + ")");
       break;
     case PlainScalar::Kind::bad_boolean:
-      complain(ErrorCode::out_of_range, "found " + node_->text + ", expected " + expected + " (" +
-                                            p.complaint + ", or put a text in quotes)");
+      complain(ErrorCode::wrong_value, "found " + node_->text + ", expected " + expected + " (" +
+                                           p.complaint + ", or put a text in quotes)");
       break;
   }
   return s;

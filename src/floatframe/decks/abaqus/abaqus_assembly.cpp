@@ -34,7 +34,7 @@ void close_block(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent
   const bool begun = std::any_of(content.open.begin(), content.open.end(),
                                  [&](const AbaqusOpenBlock& b) { return b.keyword == begin; });
   if (!begun)
-    return lines.error(ErrorCode::wrong_value, keyword, "ends no *{}, expected one before it",
+    return lines.error(ErrorCode::incomplete, keyword, "ends no *{}, expected one before it",
                        begin);
   while (content.open.back().keyword != begin)
     close_last(content, lines.source(), "before " + keyword.shown);
@@ -152,7 +152,7 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
     lines.source().stop(ErrorCode::too_large, keyword.at, "the deck has more than {} instances",
                         most_instances);
   if (of.used && of.grown && meshed)
-    lines.source().stop(ErrorCode::missing, keyword.at,
+    lines.source().stop(ErrorCode::unsupported, keyword.at,
                         "*INSTANCE {} is a second one of the part {}, whose first one has nodes or "
                         "elements of its own; give each a part",
                         shown(name), shown(part));
@@ -185,7 +185,7 @@ void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
   close_abaqus_blocks(content, source, "before the end of the deck");
   if (content.parts.size() > 1 && content.instances.empty())
-    source.error(ErrorCode::wrong_value, std::next(content.parts.begin())->second.at,
+    source.error(ErrorCode::missing, std::next(content.parts.begin())->second.at,
                  "the deck has {} parts and no instance of any (*INSTANCE)", content.parts.size());
   if (content.instances.empty()) return;
   std::set<AbaqusScope> unused;

@@ -100,7 +100,7 @@ void read_direction(AbaqusLines& lines, const std::vector<std::string_view>& fie
     section.n1[static_cast<Eigen::Index>(k)] = *value;
   }
   if (!(section.n1.stableNorm() > 0.0))
-    lines.source().error(ErrorCode::out_of_range, at, "direction 1 of the section is zero");
+    lines.source().error(ErrorCode::geometry, at, "direction 1 of the section is zero");
 }
 
 /// E, G: the material of a section that has none.
@@ -178,7 +178,7 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   section.calculix_offset = !offsets.isZero(0.0);
   if (keyword.has("LUMPED") && !same_word(keyword.value("LUMPED"), "YES"))
     lines.error(
-        ErrorCode::exclusive, keyword,
+        ErrorCode::unsupported, keyword,
         "has LUMPED={}, expected YES: leave it out, and read the deck with --mass-form consistent",
         shown(keyword.value("LUMPED")));
   const bool own_material = keyword.name == "BEAMGENERALSECTION" && !keyword.has("MATERIAL");
@@ -193,14 +193,14 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                       ? "GENERAL"
                       : abaqus_name(lines.required(keyword, "SECTION"));
   if (own_material && section.shape == "GENERAL" && section.calculix_offset)
-    lines.error(ErrorCode::wrong_value, keyword,
+    lines.error(ErrorCode::exclusive, keyword,
                 "has OFFSET1 or OFFSET2, which constants do not have");
   if (own_material && section.shape == "GENERAL")
     return read_general_section(lines, keyword, content, section);
   const AbaqusBeamShape* const shape = find_abaqus_beam_shape(section.shape);
   if (shape != nullptr) section.shape = shape->name;
   if (shape == nullptr && !section.shape.empty())
-    lines.error(ErrorCode::wrong_value, keyword, "has the section {}, {}", shown(section.shape),
+    lines.error(ErrorCode::unsupported, keyword, "has the section {}, {}", shown(section.shape),
                 unread_abaqus_shape(section.shape));
   if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::beam, section) ||
       shape == nullptr) {

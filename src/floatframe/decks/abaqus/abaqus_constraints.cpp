@@ -108,8 +108,7 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
   std::string_view line;
   if (!lines.next_keyword(kind) || (kind.name != "KINEMATIC" && kind.name != "DISTRIBUTING")) {
     lines.error(ErrorCode::incomplete, keyword, "is not followed by *KINEMATIC or *DISTRIBUTING");
-    if (!kind.name.empty())
-      lines.source().stop(ErrorCode::wrong_value, kind.at, "reading ends here");
+    if (!kind.name.empty()) lines.source().stop(ErrorCode::missing, kind.at, "reading ends here");
     return;
   }
   unsigned mask = 0;

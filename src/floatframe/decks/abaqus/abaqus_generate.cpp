@@ -59,7 +59,7 @@ class Generated {
   void element(const AbaqusElement& like, std::int64_t id, std::int64_t node_increment) {
     if (like.directed)
       return lines_.source().error(
-          ErrorCode::wrong_value,
+          ErrorCode::unsupported,
           "element {} has a node for its orientation, which copies do not have", like.id);
     if (!is_number(id, "element")) return;
     const int number = static_cast<int>(id);
@@ -204,7 +204,7 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
     return;
   const bool round = keyword.has("LINE");
   if (round && content.system) {
-    lines.error(ErrorCode::wrong_value, keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 "has LINE=C while *SYSTEM holds: put *SYSTEM without lines before it");
     return lines.skip_data();
   }
@@ -291,7 +291,7 @@ void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
   }
   lines.allow_only(keyword, {"CHANGENUMBER", "OLDSET", "NEWSET", "SHIFT", "MULTIPLE"});
   if (content.system)
-    lines.error(ErrorCode::wrong_value, keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 "shifts while *SYSTEM holds: put *SYSTEM without lines before it");
   const std::string_view change = lines.required(keyword, "CHANGE NUMBER"),
                          old = lines.required(keyword, "OLD SET");
@@ -319,7 +319,7 @@ void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
   Mat3 R = Mat3::Identity();
   if (degrees != 0.0) {
     if (!((b - a).norm() > 0.0)) {
-      lines.source().error(ErrorCode::missing, "the axis of the rotation has no length");
+      lines.source().error(ErrorCode::geometry, "the axis of the rotation has no length");
       return lines.skip_data();
     }
     R = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, (b - a).normalized())

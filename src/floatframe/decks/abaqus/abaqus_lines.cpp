@@ -181,7 +181,7 @@ void AbaqusLines::no_more(const AbaqusKeyword& keyword, const std::vector<std::s
                           std::size_t count) {
   for (std::size_t k = count; k < fields.size(); ++k) {
     if (fields[k].empty()) continue;
-    source_.error(ErrorCode::wrong_value, "{} has the entry {} behind {}, expected no more",
+    source_.error(ErrorCode::wrong_count, "{} has the entry {} behind {}, expected no more",
                   keyword.shown, shown(fields[k]),
                   count == 1 ? "its number" : fmt::format("its {} numbers", count));
     break;

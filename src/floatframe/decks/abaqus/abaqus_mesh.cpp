@@ -282,7 +282,7 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
     }
     const bool directed = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
     if (directed && content.dialect == DeckDialect::calculix) {
-      lines.source().error(ErrorCode::wrong_value, at,
+      lines.source().error(ErrorCode::unsupported, at,
                            "element {} ({}) has a node for its orientation, which CalculiX does "
                            "not know: give the direction in *BEAM SECTION",
                            *id, type->name);

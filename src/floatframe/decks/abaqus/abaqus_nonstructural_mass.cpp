@@ -33,7 +33,7 @@ class SmearedMass {
     if (raw.units == Units::total)
       for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
     if (raw.units == Units::total && !(sum > 0.0))
-      return error(ErrorCode::wrong_value, raw,
+      return error(ErrorCode::contradiction, raw,
                    "shares a mass among elements without mass: give their materials *DENSITY, or "
                    "DISTRIBUTION=VOLUME PROPORTIONAL");
     if (!std::isfinite(sum))

@@ -113,7 +113,7 @@ void read_abaqus_membrane_section(AbaqusLines& lines, const AbaqusKeyword& keywo
                              "NODALTHICKNESS", "STACKDIRECTION"});
   read_shell_offset(lines, keyword, section);
   if (section.offset != 0.0)
-    lines.error(ErrorCode::wrong_value, keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 "has an offset, but membranes have no rotations that would carry it: put the nodes "
                 "into the middle, or use *SHELL SECTION");
   section.nodal_thickness = keyword.has("NODALTHICKNESS");

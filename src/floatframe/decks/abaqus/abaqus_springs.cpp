@@ -118,7 +118,7 @@ class AbaqusSpringBuilder {
     if (along) {
       const Vec3 d = b_.model.positions[spring.nodes[1]] - b_.model.positions[spring.nodes[0]];
       if (!(d.norm() > 0.0)) {
-        error(ErrorCode::missing, e,
+        error(ErrorCode::geometry, e,
               "its nodes are at one place, so it has no direction; use SPRING2");
         return;
       }
@@ -210,7 +210,7 @@ void read_abaqus_gap(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
     content.note(lines.source().mark(keyword.at),
                  keyword.shown + " is ignored, as the options say: its nodes are free");
   } else {
-    lines.error(ErrorCode::missing, keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 "has no linear stiffness: --contact ignore (key `contact`) leaves its nodes free; "
                 "a gap that is closed may be a SPRINGA");
   }

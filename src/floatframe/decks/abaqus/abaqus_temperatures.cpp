@@ -97,7 +97,7 @@ void take_abaqus_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, Aba
     material.young = 1.0;
     material.poisson = 0.0;
   }
-  if (content.temperature) return lines.error(ErrorCode::wrong_value, keyword, found.error);
+  if (content.temperature) return lines.error(ErrorCode::incomplete, keyword, found.error);
   content.pending.push_back(std::move(p));
 }
 
@@ -116,7 +116,7 @@ void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content) {
     if (found.error.empty()) {
       use_at_temperature(lines, content, p, found);
     } else {
-      lines.error(ErrorCode::wrong_value, p.keyword,
+      lines.error(ErrorCode::incomplete, p.keyword,
                   why.empty() ? found.error
                               : fmt::format("{}; the initial temperatures of the deck say none: {}",
                                             found.error, why));

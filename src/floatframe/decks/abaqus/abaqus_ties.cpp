@@ -21,7 +21,7 @@ void read_pairs(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent&
   while (lines.next_fields(fields)) {
     any = true;
     if (fields.size() < 2 || fields[0].empty() || fields[1].empty()) {
-      lines.source().error(ErrorCode::wrong_value,
+      lines.source().error(ErrorCode::missing,
                            "{}: expected the names of two surfaces, slave and master",
                            keyword.shown);
       continue;
@@ -122,7 +122,7 @@ void read_abaqus_general_contact(AbaqusLines& lines, const AbaqusKeyword& keywor
   lines.skip_data();
   if (content.only_nodes) return;
   if (content.contact != DeckContact::ignore) {
-    lines.error(ErrorCode::wrong_value, keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 content.contact == DeckContact::tied
                     ? "is general contact, which names no surfaces to tie: use *TIE, or --contact "
                       "ignore (key `contact`), which leaves all surfaces free"
@@ -140,7 +140,7 @@ void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,
   using Contact = DeckContact;
   if (content.only_nodes) return lines.skip_data();
   if (content.contact == Contact::refuse) {
-    lines.error(ErrorCode::wrong_value, keyword,
+    lines.error(ErrorCode::unsupported, keyword,
                 "is not linear: --contact ignore (key `contact`) leaves the surfaces free, "
                 "--contact tied joins them where they touch");
     return lines.skip_data();

@@ -63,7 +63,7 @@ void read_abaqus_transform(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const double size = t.a.norm() + t.b.norm();
   const double spread = t.cylindrical ? (t.b - t.a).norm() : t.a.cross(t.b).norm() / size;
   if (count < 6 || !(spread > 1e-9 * size)) {
-    lines.error(ErrorCode::incomplete, keyword,
+    lines.error(ErrorCode::geometry, keyword,
                 t.cylindrical ? "needs two different points of its axis"
                               : "needs two points that do not lie on a line with the origin");
     return;
@@ -84,7 +84,7 @@ std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build) {
       const std::optional<Mat3> R = axes_at(t, build.model.positions[node]);
       if (!R) {
         build.source.error(
-            ErrorCode::wrong_value, t.at,
+            ErrorCode::geometry, t.at,
             "*TRANSFORM: {} lies on the axis, where the radial direction is not determined",
             build.model.node_label(node));
         continue;

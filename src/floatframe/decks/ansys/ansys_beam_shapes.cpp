@@ -110,7 +110,7 @@ class BeamShape {
     }
     if (!place()) return std::nullopt;
     if (const std::string misfit = ansys_beam_misfit(beam_); !misfit.empty())
-      return wrong(ErrorCode::wrong_value, misfit);
+      return wrong(ErrorCode::geometry, misfit);
     return beam_;
   }
 
@@ -153,7 +153,7 @@ class BeamShape {
       round(d_[0], 0.0);
     } else if (s_.shape == "CTUBE") {
       if (!positive(2) || !(d_[1] > d_[0]))
-        return fail(ErrorCode::wrong_value,
+        return fail(ErrorCode::out_of_range,
                     "expected an inner radius above 0 and a larger outer one");
       round(d_[1], d_[0]);
     } else if (s_.shape == "MESH") {
@@ -237,7 +237,7 @@ class BeamShape {
     const PlateSums sums = plate_sums(plates);
     const SectionFlow flow = section_flow(plates);
     if (!flow.found)
-      return fail(ErrorCode::wrong_value,
+      return fail(ErrorCode::unsupported,
                   "its torsion constant cannot be computed: its walls are too unlike in size");
     BeamSection& s = beam_.section;
     s.A = sums.A;
@@ -275,12 +275,12 @@ class BeamShape {
                     "a centroid or shear centre of its own (SECOFFSET) is not read");
     double y = center_y_, z = center_z_;  // of the node
     if (where == "SHRC") {
-      if (!sides_) return fail(ErrorCode::wrong_value, unknown("to which side its flange points"));
+      if (!sides_) return fail(ErrorCode::unsupported, unknown("to which side its flange points"));
       y = shear_y_;
       z = shear_z_;
     } else if (where == "ORIG" || where == "USER") {
       const bool user = where == "USER";
-      if (!origin_) return fail(ErrorCode::wrong_value, unknown("where its origin is"));
+      if (!origin_) return fail(ErrorCode::unsupported, unknown("where its origin is"));
       y = user ? ansys_value(s_.offsets, 0) : 0.0;
       z = user ? ansys_value(s_.offsets, 1) : 0.0;
     } else if (!where.empty() && where != "CENT") {

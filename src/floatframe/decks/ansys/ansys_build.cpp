@@ -54,10 +54,10 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
   if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
   said.push_back(e.type);
   if (it == content.types.end()) {
-    source.error(ErrorCode::wrong_value, e.at, "element {} is of type {}, which no ET gives", e.id,
+    source.error(ErrorCode::not_found, e.at, "element {} is of type {}, which no ET gives", e.id,
                  e.type);
   } else if (it->second.number == 179) {
-    source.error(ErrorCode::wrong_value, it->second.at,
+    source.error(ErrorCode::unsupported, it->second.at,
                  "type {} is PRETS179: the mesh is cut there, and what holds it together is the "
                  "preload of an analysis; write the mesh without the cut",
                  e.type);
@@ -143,7 +143,7 @@ std::optional<Orientation> AnsysBuild::system(int id, const FeSource& at, const 
     }
     const AnsysSystem& s = it->second;
     if (!s.round) {
-      source.error(ErrorCode::wrong_value, s.at,
+      source.error(ErrorCode::unsupported, s.at,
                    "coordinate system {} is elliptical, expected a round one", id);
       return std::nullopt;
     }

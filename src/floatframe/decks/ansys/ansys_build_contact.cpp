@@ -164,7 +164,7 @@ class ContactBuilder {
     const bool always = bonded(p);
     if (!always && b_.options.contact == DeckContact::refuse)
       return b_.source.error(
-          ErrorCode::wrong_value, p.at,
+          ErrorCode::unsupported, p.at,
           "the contact pair of real constants {} is not linear: --contact ignore (key `contact`) "
           "leaves its surfaces free, --contact tied joins them where they touch",
           id);
@@ -176,7 +176,7 @@ class ContactBuilder {
     tie.faces = faces_of(p);
     if (tie.faces.empty())
       return b_.source.error(
-          ErrorCode::wrong_value, p.at,
+          ErrorCode::geometry, p.at,
           "the contact pair of real constants {}: its target lies on no face of a solid or a shell",
           id);
     tie.nodes = nodes_of(p.contacts);

@@ -29,7 +29,7 @@ class AnsysElementBuilder {
       return library != nullptr && (library->family == F::spring || library->family == F::matrix);
     });
     if (b_.model.elements.empty() && !springs && b_.source.errors() == 0)
-      b_.source.stop(ErrorCode::not_found, {0, 0},
+      b_.source.stop(ErrorCode::missing, {0, 0},
                      "the file has {} elements and none of them is a solid, a shell, a beam, a rod "
                      "or a spring",
                      elements.size());

@@ -68,7 +68,7 @@ int layup_of(AnsysBuild& b, const AnsysElement& e) {
   if (!fresh) return it->second;
   const AnsysSection* section = b.section(e, "SHEL");
   if (section == nullptr) {
-    b.error(ErrorCode::wrong_value, e,
+    b.error(ErrorCode::contradiction, e,
             fmt::format("it has layers (KEYOPT(3) = 1), but its section {} is no SECTYPE,{},SHELL",
                         e.section, e.section));
     return -1;
@@ -120,7 +120,7 @@ bool build_ansys_layers(AnsysBuild& b, const AnsysElement& e, const AnsysType& t
   if (brick && type.number == 185) element.type = ElementType::hex8i;
   if (uniform && !b.model.materials[element.material].elasticity) return true;
   if (element_kernel(element.type).nodal_ply == nullptr) {
-    b.error(ErrorCode::wrong_value, e,
+    b.error(ErrorCode::unsupported, e,
             "its layers are those of a pyramid or tetrahedron, expected a brick or a wedge");
     return false;
   }

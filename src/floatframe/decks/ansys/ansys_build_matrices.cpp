@@ -38,14 +38,14 @@ class AnsysMatrix {
                              b_.label(e_)));
     const bool mass = type.keyopt[3] == 2;
     if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
-      return b_.shared_error(ErrorCode::wrong_value, e_,
+      return b_.shared_error(ErrorCode::unsupported, e_,
                              fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
                                          "stiffness (0, 4) or mass (0, 2)",
                                          type.keyopt[2], type.keyopt[3]));
     for (std::size_t k = matrix_constants; k < real->values.size(); ++k)
       if (real->values[k] != 0.0)
         return b_.error_once(
-            ErrorCode::out_of_range, real->at,
+            ErrorCode::wrong_count, real->at,
             fmt::format("real constants {}: constant {} is {:g}, expected 78 of a symmetric matrix",
                         e_.real, k + 1, real->values[k]));
     // What is left of the matrix is made of products of its constants.
@@ -96,7 +96,7 @@ class AnsysMatrix {
       for (int j = 0; j < 12; ++j)
         if (std::abs(rest(i, j)) > matrix_rounding * std::sqrt(size_of(i) * size_of(j)) &&
             rest(i, j) != 0.0)
-          return b_.error(ErrorCode::out_of_range, e_,
+          return b_.error(ErrorCode::unsupported, e_,
                           "its mass is not that of a rigid point at each node: expected equal "
                           "masses in three directions, moments of inertia and nothing between the "
                           "nodes, or between displacements and rotations");

@@ -53,7 +53,7 @@ class AnsysSprings {
     s.nodes = {nodes[0], nodes.size() > 1 ? nodes[1] : -1};
     const int direction = type.keyopt[2];
     if (direction < 0 || direction > 6 || type.keyopt[1] != 0)
-      return b_.shared_error(ErrorCode::wrong_value, e,
+      return b_.shared_error(ErrorCode::unsupported, e,
                              fmt::format("KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring "
                                          "of its line or of UX to ROTZ",
                                          type.keyopt[1], direction));
@@ -84,12 +84,12 @@ class AnsysSprings {
       return false;
     }
     if (s.nodes[1] < 0) {
-      b_.error(ErrorCode::wrong_count, e, "it has one node, and no direction (KEYOPT(2))");
+      b_.error(ErrorCode::incomplete, e, "it has one node, and no direction (KEYOPT(2))");
       return false;
     }
     const Vec3 d = b_.model.positions[s.nodes[1]] - b_.model.positions[s.nodes[0]];
     if (!(d.norm() > 0.0)) {
-      b_.error(ErrorCode::missing, e,
+      b_.error(ErrorCode::geometry, e,
                "its nodes are at one place, and it has no direction (KEYOPT(2))");
       return false;
     }
@@ -224,7 +224,7 @@ void build_ansys_masses(AnsysBuild& b) {
     if (n.empty() || n[0] < 0) return b.error(ErrorCode::missing, e, "it has no node");
     if (type.keyopt[1] != 0 || (type.keyopt[3] != 0 && type.keyopt[3] != 2))
       return b.error(
-          ErrorCode::wrong_value, e,
+          ErrorCode::unsupported, e,
           fmt::format(
               "KEYOPT(1) = {}, KEYOPT(3) = {}: expected masses (0) of a node in space (0 or 2)",
               type.keyopt[1], type.keyopt[3]));
@@ -249,7 +249,7 @@ void build_ansys_masses(AnsysBuild& b) {
                                           e.real, k + 1, real->value(k)));
       for (std::size_t k = 1; k < 3; ++k)
         if (std::abs(real->value(k) - m.mass) > 1e-9 * std::abs(m.mass))
-          return b.error_once(ErrorCode::out_of_range, real->at,
+          return b.error_once(ErrorCode::unsupported, real->at,
                               fmt::format("real constants {}: masses of {:g}, {:g} and {:g} in the "
                                           "three directions; a part has one",
                                           e.real, m.mass, real->value(1), real->value(2)));

@@ -209,7 +209,7 @@ class AnsysReader {
     const auto* refused = std::find_if(ansys_refused.begin(), ansys_refused.end(),
                                        [&](const auto& r) { return f_.is(r.first); });
     if (refused != ansys_refused.end())
-      f_.stop(ErrorCode::wrong_value, fmt::format("{}: {}", word, refused->second));
+      f_.stop(ErrorCode::unsupported, fmt::format("{}: {}", word, refused->second));
     if (std::any_of(ansys_silent.begin(), ansys_silent.end(),
                     [&](const char* name) { return f_.is(name); })) {
       const bool told =

@@ -142,7 +142,7 @@ bool AnsysFields::row(const FortranColumns& format, std::vector<std::string_view
   cells.clear();
   if (trimmed(line) == "-1") return false;
   if (!format.split(line, cells).empty())
-    source_.stop(ErrorCode::wrong_value, source_.here(),
+    source_.stop(ErrorCode::wrong_count, source_.here(),
                  "{}: the line is longer than its format, which has {} columns", command_,
                  format.columns.size());
   while (!cells.empty() && cells.back().empty()) cells.pop_back();

@@ -108,7 +108,7 @@ class AnsysElastic {
     const auto compare = [&](const char* by_mp, const char* by_tb) {
       const auto mp = at(m_.values, by_mp), tb = at(m_.tables, by_tb);
       if (mp && tb && *mp != *tb)
-        error(ErrorCode::out_of_range,
+        error(ErrorCode::exclusive,
               fmt::format(
                   "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the file",
                   by_mp, *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC"));
@@ -127,9 +127,9 @@ class AnsysElastic {
     if (!m_.values.contains("PRXY")) compare("NUXY", "PRXY");
     for (const char* label : {"EY", "EZ", "PRYZ", "PRXZ", "NUYZ", "NUXZ", "GXY", "GYZ", "GXZ"})
       if (m_.values.contains(label))
-        error(ErrorCode::wrong_value, fmt::format("{} by MP stands beside TB,ELASTIC, which is "
-                                                  "isotropic, leave one of the two in the file",
-                                                  label));
+        error(ErrorCode::exclusive, fmt::format("{} by MP stands beside TB,ELASTIC, which is "
+                                                "isotropic, leave one of the two in the file",
+                                                label));
   }
 
   void error(ErrorCode code, const std::string& text) {
@@ -174,7 +174,7 @@ class AnsysElastic {
     e.nu23 = major("PRYZ", "NUYZ", e.E2, e.E3);
     e.nu13 = major("PRXZ", "NUXZ", e.E1, e.E3);
     const auto G = value("GXY");
-    if (!G) error(ErrorCode::wrong_value, "it has EY or EZ, and no GXY");
+    if (!G) error(ErrorCode::incomplete, "it has EY or EZ, and no GXY");
     e.G12 = G.value_or(1.0);
     e.G23 = value("GYZ").value_or(e.G12);
     e.G13 = value("GXZ").value_or(e.G12);
@@ -277,7 +277,7 @@ void read_ansys_material_data(AnsysFields& f, AnsysContent& c) {
     if (place >= most_temperatures)
       f.stop(ErrorCode::too_large, "MPDATA: more than 100 temperatures");
     if (place > table.size())
-      f.stop(ErrorCode::wrong_value, "MPDATA: {} begins at place {}, but {} are there", label,
+      f.stop(ErrorCode::wrong_count, "MPDATA: {} begins at place {}, but {} are there", label,
              start, table.size());
     const double T = place < c.temperatures.size() ? c.temperatures[place] : 0.0;
     const std::pair<double, double> entry{T, f.real(k, label.c_str())};
@@ -296,7 +296,7 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
     m.anisotropic.clear();
     m.compliance = f.word(5) == "1" || f.word(5) == "FLEX";
     if (f.integer(3, "the number of temperatures", 1) > 1)
-      f.stop(ErrorCode::wrong_value, "TB,ANEL: several temperatures; leave one in the file");
+      f.stop(ErrorCode::duplicate, "TB,ANEL: several temperatures; leave one in the file");
     return;
   }
   c.table_temperature = 0.0;
@@ -342,7 +342,7 @@ void read_ansys_table_temperature(AnsysFields& f, AnsysContent& c) {
   const std::size_t at = f.command() == "TBFIELD" ? 2 : 1;
   c.table_temperature = f.real(at, "the temperature");
   if (c.table == "ANEL" && !c.materials[c.table_material].anisotropic.empty())
-    f.stop(ErrorCode::wrong_value, "TB,ANEL: several temperatures; leave one in the file");
+    f.stop(ErrorCode::duplicate, "TB,ANEL: several temperatures; leave one in the file");
 }
 
 /// TBFIELD,TEMP,20 is TBTEMP,20.
@@ -365,13 +365,13 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
     if (!f.blank(k)) values.push_back(f.real(k, "the constant"));
   if (c.table == "DENS") {
     if (values.size() != 1)
-      f.stop(ErrorCode::out_of_range, "TB,DENS: {} constants in a line, expected 1", values.size());
+      f.stop(ErrorCode::wrong_count, "TB,DENS: {} constants in a line, expected 1", values.size());
     put_at(m.tables["DENS"], c.table_temperature, values[0]);
     return;
   }
   if (c.table == "ELAS") {
     if (values.size() != 2)
-      f.stop(ErrorCode::wrong_value,
+      f.stop(ErrorCode::wrong_count,
              "TB,ELASTIC: {} constants in a line, expected 2 of an isotropic material",
              values.size());
     put_at(m.tables["EX"], c.table_temperature, values[0]);

@@ -143,8 +143,7 @@ void read_ansys_node_block(AnsysFields& f, AnsysContent& c) {
 void read_ansys_element(AnsysFields& f, AnsysContent& c) {
   if (f.command() == "EN" && ansys_written(f)) {
     if (f.word(2) == "NODE") {
-      if (c.elements.empty())
-        f.stop(ErrorCode::wrong_value, "EN: nodes, but no line ATTR before them");
+      if (c.elements.empty()) f.stop(ErrorCode::missing, "EN: nodes, but no line ATTR before them");
       AnsysElement& e = c.elements.back();
       for (std::size_t k = 3; k < f.size(); ++k) {
         if (f.blank(k)) continue;
@@ -175,7 +174,7 @@ void read_ansys_element(AnsysFields& f, AnsysContent& c) {
 }
 
 void read_ansys_element_more(AnsysFields& f, AnsysContent& c) {
-  if (c.elements.empty()) f.stop(ErrorCode::not_found, "EMORE: there is no element before");
+  if (c.elements.empty()) f.stop(ErrorCode::missing, "EMORE: there is no element before");
   AnsysElement& e = c.elements.back();
   while (e.nodes < 8) {  // E has room for eight
     c.element_nodes.push_back(0);
@@ -252,7 +251,7 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
     found += static_cast<int>(cells.size());
   }
   if (found != count)
-    f.stop(ErrorCode::wrong_value,
+    f.stop(ErrorCode::wrong_count,
            "CMBLOCK: component {} has {} members in its first line, but {} are listed",
            component.name, count, found);
   if (known) {

@@ -28,7 +28,7 @@ int element_number(AnsysFields& f, std::size_t k) {
 AnsysSection& open_section(AnsysFields& f, AnsysContent& c) {
   const auto it = c.sections.find(c.section_set);
   if (it == c.sections.end())
-    f.stop(ErrorCode::wrong_value, "{}: there is no SECTYPE before", f.command());
+    f.stop(ErrorCode::missing, "{}: there is no SECTYPE before", f.command());
   return it->second;
 }
 
@@ -65,7 +65,7 @@ void read_ansys_key_option(AnsysFields& f, AnsysContent& c) {
   const int id = f.label(1, "the number of the type");
   const auto it = c.types.find(id);
   if (it == c.types.end())
-    f.stop(ErrorCode::wrong_value, "KEYOPT: there is no type {} (ET) before", id);
+    f.stop(ErrorCode::missing, "KEYOPT: there is no type {} (ET) before", id);
   const int number = f.label(2, "the number of the option");
   if (number > highest_key_option)
     f.stop(ErrorCode::out_of_range, "KEYOPT: option {}, expected 1 to {}", number,
@@ -80,7 +80,7 @@ void read_ansys_real(AnsysFields& f, AnsysContent& c) {
     real.at = f.at();
     const std::size_t start = f.label(4, "the place");
     if (start > most_rows)
-      f.stop(ErrorCode::wrong_value, "R: place {}, expected a smaller one", start);
+      f.stop(ErrorCode::out_of_range, "R: place {}, expected a smaller one", start);
     for (std::size_t k = 5; k < f.size(); ++k) {
       if (f.blank(k)) continue;
       real.values.resize(std::max(real.values.size(), start + k - 5), 0.0);
@@ -97,7 +97,7 @@ void read_ansys_real(AnsysFields& f, AnsysContent& c) {
 
 void read_ansys_real_more(AnsysFields& f, AnsysContent& c) {
   const auto it = c.reals.find(c.real_set);
-  if (it == c.reals.end()) f.stop(ErrorCode::wrong_value, "RMORE: there is no R before");
+  if (it == c.reals.end()) f.stop(ErrorCode::missing, "RMORE: there is no R before");
   std::vector<double>& values = it->second.values;
   values.resize((values.size() + 5) / 6 * 6, 0.0);  // six fields a line
   if (values.size() > most_rows)
@@ -117,7 +117,7 @@ void read_ansys_real_block(AnsysFields& f, AnsysContent& c) {
     const int id = f.cell_integer(cells, 0, "the number of the set");
     const int count = f.cell_integer(cells, 1, "the number of constants");
     if (id < 1 || count < 0 || count > static_cast<int>(most_rows))
-      f.source().stop(ErrorCode::wrong_value, at, "RLBLOCK: set {} has {} real constants", id,
+      f.source().stop(ErrorCode::wrong_count, at, "RLBLOCK: set {} has {} real constants", id,
                       count);
     AnsysReal real;
     real.at = at;
@@ -126,7 +126,7 @@ void read_ansys_real_block(AnsysFields& f, AnsysContent& c) {
       real.values.push_back(f.cell_real(cells, k, "the constant"));
     while (real.values.size() < static_cast<std::size_t>(count)) {
       if (!f.row(more, cells))
-        f.source().stop(ErrorCode::wrong_value, at,
+        f.source().stop(ErrorCode::wrong_count, at,
                         "RLBLOCK: set {} has {} real constants, but {} are listed", id, count,
                         real.values.size());
       room = more.columns.size();
@@ -161,7 +161,7 @@ void read_ansys_section_block(AnsysFields& f, AnsysContent& c) {
   std::vector<std::string_view> cells;
   for (int k = 0; k < count; ++k) {
     if (!f.loose_row(cells))
-      f.stop(ErrorCode::wrong_value,
+      f.stop(ErrorCode::wrong_count,
              "SECBLOCK: section {} has {} lines in its first line, but {} are there", c.section_set,
              count, k);
     std::vector<double> row;

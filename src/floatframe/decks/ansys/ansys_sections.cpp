@@ -51,7 +51,7 @@ std::optional<AnsysBeam> beam_section_of(AnsysBuild& b, const AnsysElement& e,
   const char* const kind = type.number == 288 || type.number == 289 ? "PIPE" : "BEAM";
   const AnsysSection* s = b.section(e, kind);
   if (s == nullptr) {
-    b.shared_error(ErrorCode::wrong_value, e,
+    b.shared_error(ErrorCode::not_found, e,
                    fmt::format("its section {} is no SECTYPE,{},{}", e.section, e.section, kind));
     return std::nullopt;
   }
@@ -94,12 +94,12 @@ bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& e
     one_way = type.number == 180 && real->value(2) != 0.0;
   }
   if (one_way) {
-    b.shared_error(ErrorCode::wrong_value, e,
+    b.shared_error(ErrorCode::unsupported, e,
                    "it is for tension or compression alone (TENSKEY), which is not linear");
     return false;
   }
   if (!(s.A > 0.0)) {
-    b.shared_error(ErrorCode::wrong_value, e,
+    b.shared_error(ErrorCode::missing, e,
                    fmt::format("neither its section {} (SECTYPE,{},LINK) nor its real constants {} "
                                "give an area above 0",
                                e.section, e.section, e.real));
@@ -142,7 +142,7 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   const Vec3 towards = oriented ? Vec3(p[nodes[count]] - p[nodes[0]]) : Vec3::Zero();
   const Vec3 x = along.normalized();
   if (oriented && !(x.cross(towards).norm() > 1e-8 * towards.norm())) {
-    b.error(ErrorCode::wrong_value, e, "its node for the orientation is on its axis");
+    b.error(ErrorCode::geometry, e, "its node for the orientation is on its axis");
     return false;
   }
   const Vec3 y = local_y(along, oriented ? &towards : nullptr);

@@ -105,7 +105,7 @@ class AnsysShell {
   void constants(ShellSection& s) {
     const AnsysReal* real = b_.real(e_);
     if (real == nullptr || !(real->value(0) > 0.0)) {
-      b_.shared_error(ErrorCode::wrong_value, e_,
+      b_.shared_error(ErrorCode::missing, e_,
                       type_.number == 63 || type_.number == 93
                           ? fmt::format("its real constants {} give no thickness", e_.real)
                           : fmt::format("its section {} is no SECTYPE,{},SHELL, and its real "
@@ -117,7 +117,7 @@ class AnsysShell {
     s.thickness = real->value(0);
     for (std::size_t k = 1; k < 4; ++k)
       if (real->value(k) != 0.0 && std::abs(real->value(k) - s.thickness) > 1e-9 * s.thickness)
-        b_.error_once(ErrorCode::out_of_range, real->at,
+        b_.error_once(ErrorCode::contradiction, real->at,
                       fmt::format("real constants {}: the thickness is {:g} at one corner and {:g} "
                                   "at another, expected one",
                                   e_.real, s.thickness, real->value(k)));

@@ -149,7 +149,7 @@ class Springs {
   void must_be_in_an_element(const FeSource& source, int node) {
     if (is_in_an_element(node)) return;
     deck_.errors.add(
-        ErrorCode::wrong_value, deck_.model.mark(source),
+        ErrorCode::unsupported, deck_.model.mark(source),
         fmt::format("a spring that is neither along an axis nor along the line of its nodes ends "
                     "at {}, which no element has: CalculiX would hold it there",
                     deck_.model.node_label(node)));

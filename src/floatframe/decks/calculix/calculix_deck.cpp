@@ -283,7 +283,7 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 
 WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
   if (model.elements.empty())
-    throw InputError(ErrorCode::unsupported,
+    throw InputError(ErrorCode::missing,
                      "the model has no elements, expected a mesh (matrices make no deck)");
   const std::optional<OffsetBeams> beside = offset_beams(model);
   const FeModel& given = beside ? beside->model : model;

@@ -75,7 +75,7 @@ class SectionWriter {
     for (const auto& [what, elements] : refused_) {
       const Element& first = model_.elements[elements.first];
       deck_.errors.add(
-          ErrorCode::wrong_value, deck_.mark_of(first),
+          ErrorCode::unsupported, deck_.mark_of(first),
           fmt::format("{} {}{}", model_.element_label(static_cast<int>(elements.first)), what,
                       elements.more == 0
                           ? ""

@@ -39,7 +39,7 @@ Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
 }
 
 void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who) {
-  build.source.error(ErrorCode::missing, at,
+  build.source.error(ErrorCode::geometry, at,
                      "{}: it has no length, or its orientation vector is along its axis", who);
 }
 

@@ -154,7 +154,7 @@ class ConstraintBuilder {
     if (node < 0) return;
     const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
     if (axes.kind != 'R') {
-      b_.source.error(ErrorCode::wrong_value, m.at, "{}: its system {} is not rectangular", who,
+      b_.source.error(ErrorCode::unsupported, m.at, "{}: its system {} is not rectangular", who,
                       m.system);
       return;
     }
@@ -169,7 +169,7 @@ class ConstraintBuilder {
     const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
     if (b_.rotates[index(node)] == 0) {
       if (offset.norm() > 0.0) {
-        b_.source.error(ErrorCode::missing, m.at,
+        b_.source.error(ErrorCode::unsupported, m.at,
                         "{} has an offset, but node {} has no rotations; tie the mass to several "
                         "nodes (RBE2, RBE3)",
                         who, m.node);

@@ -264,7 +264,7 @@ class ElementBuilder {
   double thickness(const NastranElement& e, const NastranProperty& p) {
     if (!e.own_thickness) return p.thickness;
     if (!p.plies.empty()) {
-      b_.source.error(ErrorCode::wrong_value, e.at,
+      b_.source.error(ErrorCode::contradiction, e.at,
                       "{}: it has thicknesses of its corners, and its property {} is a {}",
                       label(e), e.property, p.card);
       return p.thickness;

@@ -75,7 +75,7 @@ ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
   const double middle = *p.z0 + 0.5 * p.thickness;
   if (e.offset != 0.0 && std::abs(middle) > 1e-6 * p.thickness)
     build.source.error(
-        ErrorCode::out_of_range, e.at,
+        ErrorCode::exclusive, e.at,
         "{} {}: it has an offset ZOFFS, and its {} {} a Z0 of {:g}: give one of them", e.card, e.id,
         p.card, e.property, *p.z0);
   s.offset += middle;
@@ -89,7 +89,7 @@ void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element&
   if (e.material_system < 0) return;
   result.orientation = system_orientation(build, e.material_system, e.at);
   if (build.model.orientations[result.orientation].kind != Orientation::Kind::rectangular)
-    build.source.error(ErrorCode::wrong_value, e.at,
+    build.source.error(ErrorCode::unsupported, e.at,
                        "{} {}: its material system MCID {} is cylindrical or spherical, expected a "
                        "rectangular one",
                        e.card, e.id, e.material_system);

@@ -123,8 +123,8 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
                           const char* expected) {
     if (!valid)
-      b_.source.error(ErrorCode::wrong_count, m.at, "MAT1 {}: {} is {:g}{}, expected {}", id, what,
-                      found, origin, expected);
+      b_.source.error(ErrorCode::contradiction, m.at, "MAT1 {}: {} is {:g}{}, expected {}", id,
+                      what, found, origin, expected);
   };
   const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
                        double y) {

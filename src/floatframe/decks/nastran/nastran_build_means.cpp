@@ -95,7 +95,7 @@ class MeanBuilder {
       d.segment<3>(c < 3 ? 0 : 3) = T.col(c % 3);
       if ((known * d - d).norm() > 1e-6) {
         error(
-            ErrorCode::wrong_value,
+            ErrorCode::singular,
             fmt::format(
                 "the components of its nodes do not define how component {} of the reference moves",
                 c + 1));

@@ -98,7 +98,7 @@ void rigid_rod(NastranBuild& build, const NastranRigidRod& r) {
   if (a < 0 || b < 0) return;
   const Vec3 d = build.model.positions[b] - build.model.positions[a];
   if (!(d.norm() > 0.0)) {
-    build.source.error(ErrorCode::missing, r.at, "{}: it has no length", who);
+    build.source.error(ErrorCode::geometry, r.at, "{}: it has no length", who);
     return;
   }
   LinearEquation e;

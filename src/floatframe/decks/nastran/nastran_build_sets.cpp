@@ -39,7 +39,7 @@ std::set<int> selected_nastran_sets(NastranBuild& build,
     } else {
       if (there.contains(id))
         build.source.error(
-            ErrorCode::wrong_value, at,
+            ErrorCode::exclusive, at,
             "the set {} is one of {} cards and one of {}ADD, expected only one of both", id, what,
             what);
       for (const int set : joined->second)

@@ -156,7 +156,7 @@ class SpringBuilder {
     } else if (s.system < 0) {
       const Vec3 d = spring.nodes[1] < 0 ? Vec3(Vec3::Zero()) : Vec3(position(spring.nodes[1]) - a);
       if (!(d.norm() > 1e-9 * a.norm())) {
-        error(ErrorCode::missing, s,
+        error(ErrorCode::incomplete, s,
               "it has no line from node to node; give a coordinate system CID");
         return;
       }
@@ -179,7 +179,7 @@ class SpringBuilder {
     }
     const Vec3 d = n[1] >= 0 ? Vec3(position(n[1]) - a) : Vec3(Vec3::Zero());
     if (!(d.norm() > 1e-9 * a.norm())) {
-      error(ErrorCode::missing, s,
+      error(ErrorCode::incomplete, s,
             n[1] < 0
                 ? "it ends at the ground and has no axes; give a coordinate system CID"
                 : "its nodes are at one place, so it has no axis; give a coordinate system CID");
@@ -196,7 +196,7 @@ class SpringBuilder {
     if (v.isZero(0.0)) {
       // Equal across the axis: any directions there will do.
       if (across && (k(1) != k(2) || k(4) != k(5))) {
-        error(ErrorCode::wrong_value, s,
+        error(ErrorCode::incomplete, s,
               "it has stiffness across its axis, but no orientation; give GO, a vector or CID");
         return false;
       }

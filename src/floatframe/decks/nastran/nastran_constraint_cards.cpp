@@ -51,7 +51,7 @@ void read_nastran_rbe2(NastranFields& f, NastranContent& c) {
     if (i + 1 == f.size() && is_real(f.text(i))) break;  // ALPHA
     if (same_word(f.text(i), "THRU"))
       return f.error_in(
-          ErrorCode::wrong_value, i,
+          ErrorCode::unsupported, i,
           "its list of nodes has THRU, which RBE2 does not know; expected each node by its number");
     if (!f.blank(i)) s.nodes.push_back(f.label(i, "a node GM"));
   }

@@ -117,7 +117,8 @@ bool is_nastran_contact_card(const std::string& name) {
 
 const char* why_nastran_card_is_refused(const std::string& name) {
   if (is_nastran_contact_card(name))
-    return "contact is not linear; tie what touches with RBE2 or MPC, or take it out";
+    return "contact is not linear; tie what touches with RBE2 or "
+           "MPC, or take it out";
   for (const auto& [known, reason] : refused_cards) {
     if (is_called(name, known)) return reason;
   }

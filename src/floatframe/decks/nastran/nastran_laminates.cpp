@@ -41,7 +41,7 @@ bool read_lam(NastranFields& f, NastranProperty& p) {
   p.smeared = same_word(lam, "SMEAR");
   p.membrane = same_word(lam, "MEM");
   if (lam.empty() || p.smeared || p.membrane) return false;
-  f.error(ErrorCode::missing,
+  f.error(ErrorCode::wrong_value,
           "LAM is {}, expected blank, SYM, MEM or SMEAR (BEND has no stiffness in the plane)",
           shown(lam));
   return false;
@@ -61,7 +61,7 @@ void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
   if (p.membrane) {
     for (const auto& [at, name] : {std::pair{5, "MID3"}, std::pair{10, "MID4"}})
       if (!blank(at))
-        f.error(ErrorCode::wrong_value,
+        f.error(ErrorCode::contradiction,
                 "{} is {}, but MID2 is blank: a membrane has neither bending nor transverse shear",
                 name, shown(f.text(at)));
   } else if (f.text(3) == "-1") {

@@ -101,14 +101,14 @@ bool rigid_body(NastranBuild& build, const Sum& sum, NastranMass& out) {
   const Vec3 moment(0.5 * (B(1, 2) - B(2, 1)), 0.5 * (B(2, 0) - B(0, 2)),
                     0.5 * (B(0, 1) - B(1, 0)));
   if ((A - m * Mat3::Identity()).norm() > 1e-6 * size) {
-    build.source.error(ErrorCode::out_of_range, first.at,
+    build.source.error(ErrorCode::unsupported, first.at,
                        "{} {}: node {} has the masses {:g}, {:g} and {:g} along x, y and z; a part "
                        "that moves freely has one mass in all directions (CONM2)",
                        first.card, first.id, first.node, A(0, 0), A(1, 1), A(2, 2));
     return false;
   }
   if ((B + skew(moment)).norm() > 1e-6 * B.norm() || (m == 0.0 && B.norm() > 0.0) || m < 0.0) {
-    build.source.error(ErrorCode::wrong_value, first.at,
+    build.source.error(ErrorCode::unsupported, first.at,
                        "{} {}: the mass matrix of node {} is not that of a rigid body; give CONM2",
                        first.card, first.id, first.node);
     return false;

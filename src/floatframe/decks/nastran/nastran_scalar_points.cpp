@@ -123,7 +123,7 @@ void check_nastran_scalar_masses(NastranBuild& build) {
       continue;
     }
     build.source.error(
-        ErrorCode::missing, m.at,
+        ErrorCode::unsupported, m.at,
         "{}: the mass {:g} of scalar point {} has no place, so it has none in the inertia of a "
         "part that moves; make the point a node (GRID) where the mass is, with CONM2, on CELAS2 in "
         "one component and tied to the part by MPC in the others",
@@ -155,7 +155,7 @@ class ScalarPointBuilder {
     for (const NastranGrid& g : c_.grids)
       if (is_point(g.id))
         b_.source.error(
-            ErrorCode::wrong_value, g.at,
+            ErrorCode::duplicate, g.at,
             "node {} is a scalar point as well (SPOINT, or by an element of scalar points)", g.id);
     springs();
     equations();

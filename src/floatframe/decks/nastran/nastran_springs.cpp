@@ -130,7 +130,7 @@ void read_nastran_pbush(NastranFields& f, NastranContent& c) {
       if (lost) {
         damping(f, at, c);
       } else if (same_word(f.text(at), "RIGID")) {
-        f.error(ErrorCode::wrong_value,
+        f.error(ErrorCode::not_a_number,
                 "RIGID is not a stiffness; give a number, or join the nodes with RBE2");
       } else {
         k(i) = f.real(at, "a stiffness", 0.0);
@@ -158,7 +158,7 @@ void read_nastran_pbush1d(NastranFields& f, NastranContent& c) {
     const bool damper = same_word(word, "SHOCKA") || same_word(word, "DAMPER");
     if (damper && !c.springs.damping) c.springs.damping = f.at();
     if (same_word(word, "SPRING") || same_word(word, "GENER"))
-      f.error(ErrorCode::wrong_value,
+      f.error(ErrorCode::unsupported,
               "{} gives a stiffness that is not linear; give its slope at rest as K",
               upper_case(word));
   }
@@ -198,7 +198,7 @@ void read_nastran_rod_property(NastranFields& f, NastranProperty& p) {
     f.error(ErrorCode::unsupported, "a tapered tube is not supported: OD is {} and OD2 is {}",
             shown(f.text(2)), shown(f.text(5)));
   if (!(outer > 0.0) || wall < 0.0 || wall > 0.5 * outer) {
-    f.error(ErrorCode::out_of_range, "OD is {:g} and T is {:g}, expected a tube", outer, wall);
+    f.error(ErrorCode::geometry, "OD is {:g} and T is {:g}, expected a tube", outer, wall);
     return;
   }
   const bool solid = wall == 0.0;

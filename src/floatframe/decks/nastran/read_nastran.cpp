@@ -35,9 +35,10 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
   source.throw_if_any();  // what is missing otherwise may be missing for that reason; so below
   NastranBuild build(content, source);
   if (const NastranWholeNumbers& w = content.whole_numbers; w.count > 0)
-    build.note(w.at, fmt::format("{}, a whole number where a real one is expected, and {} more "
-                                 "such fields: Nastran stops there; they are read as real ones",
-                                 w.first, w.count - 1));
+    build.note(w.at,
+               fmt::format("{}, a whole number where a real one is expected, and {} more such "
+                           "fields: Nastran stops there; they are read as real ones",
+                           w.first, w.count - 1));
   build_nastran_nodes(build);
   source.throw_if_any();
   if (part == NastranPart::all) {

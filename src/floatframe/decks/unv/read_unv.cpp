@@ -149,14 +149,14 @@ class UnvBuild {
     if (thickness_.any()) thickness_errors();
     if (c_.model.elements.empty() && in_.errors() == 0)
       in_.stop(
-          ErrorCode::not_found, {0, 0},
+          ErrorCode::missing, {0, 0},
           "the file has {} elements and none of them is solid; a part needs tetrahedra, bricks or "
           "wedges, or shells to which a thickness is given (--thickness, key `thickness`)",
           c_.elements.size());
     for (const auto& [system, first] : c_.systems_used) {
       const auto known = c_.systems.find(system);
       if (known != c_.systems.end() ? known->second : system == 0 || system == 1) continue;
-      in_.error(ErrorCode::not_found, first.second,
+      in_.error(ErrorCode::unsupported, first.second,
                 "node {} is in coordinate system {}, which is {}; only nodes in global rectangular "
                 "coordinates are read",
                 first.first, system,

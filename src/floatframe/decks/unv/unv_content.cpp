@@ -32,7 +32,7 @@ class UnvParser {
         in_.stop(ErrorCode::damaged, begin, "the file ends where the number of a dataset follows");
       const auto number = parse_label(trimmed(line));
       if (!number)
-        in_.stop(ErrorCode::out_of_range, in_.here(),
+        in_.stop(ErrorCode::not_a_number, in_.here(),
                  "the number of a dataset is expected, found {}", shown(trimmed(line)));
       dataset(*number);
     }
@@ -50,8 +50,7 @@ class UnvParser {
   std::string_view needed(const char* what) {
     std::string_view line;
     if (!record(line))
-      in_.stop(ErrorCode::wrong_value, in_.here(), "dataset {} ends where {} expected", dataset_,
-               what);
+      in_.stop(ErrorCode::damaged, in_.here(), "dataset {} ends where {} expected", dataset_, what);
     return line;
   }
 
@@ -216,7 +215,7 @@ class UnvParser {
           group.members.emplace_back(numbers_[k], numbers_[k + 1]);
         if (numbers_.size() % 4 != 0 || group.members.size() > static_cast<std::size_t>(count))
           in_.stop(
-              ErrorCode::wrong_value, in_.here(),
+              ErrorCode::wrong_count, in_.here(),
               "group '{}' has {} members in its first line, and another number of them is listed",
               group.name, count);
       }

@@ -40,7 +40,7 @@ class Check {
         m = p->M_s.sum();
       }
       if (!(std::abs(m - v.m) <= same_number * v.m))
-        arrays_.error(ErrorCode::out_of_range,
+        arrays_.error(ErrorCode::contradiction,
                       p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
                       "found {:g} kg in all, expected the mass of member 'm.npy', {:g} kg", m, v.m);
     }
@@ -51,9 +51,10 @@ class Check {
       if (header_.frequencies[k] < 0.0 || !std::isfinite(f)) continue;
       if (std::abs(f - header_.frequencies[k]) <= same_number * std::max(f, header_.frequencies[k]))
         continue;
-      error(ErrorCode::wrong_value, fmt::format("found {:.6g} Hz for mode {}, but K and the modal "
-                                                "mass S11 + S22 + S33 give {:.6g} Hz",
-                                                header_.frequencies[k], k + 1, f));
+      error(ErrorCode::contradiction,
+            fmt::format("found {:.6g} Hz for mode {}, but K and the modal "
+                        "mass S11 + S22 + S33 give {:.6g} Hz",
+                        header_.frequencies[k], k + 1, f));
       break;
     }
     health(v);
@@ -78,7 +79,7 @@ class Check {
         }
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
         if (off <= same_number * scale) continue;
-        arrays_.error(ErrorCode::wrong_value, "marker_X",
+        arrays_.error(ErrorCode::contradiction, "marker_X",
                       "marker '{}' moves {:.3g} m per modal amplitude away from point {} of the "
                       "surface, which moves with it (largest mode of the surface: {:.3g} m)",
                       excerpt(node.name), off, point, scale);
@@ -93,7 +94,7 @@ class Check {
     if (!(said.mass > 0.0)) return;  // no report
     if (h.modes != v.modes())
       error(
-          ErrorCode::wrong_value,
+          ErrorCode::wrong_count,
           fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
     if (!(std::abs(v.m - said.mass) <= same_number * said.mass)) {
       arrays_.error(ErrorCode::contradiction, "m",

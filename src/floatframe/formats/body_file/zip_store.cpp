@@ -65,9 +65,9 @@ class ArchiveReader {
     const std::size_t end = find_end();
     const std::size_t count = u16(end + 10), size = u32(end + 12), start = u32(end + 16);
     if (u16(end + 4) != 0 || u16(end + 8) != count)
-      fail(ErrorCode::duplicate, "the archive has several volumes, expected one file");
+      fail(ErrorCode::unsupported, "the archive has several volumes, expected one file");
     if (count == 0xffff || start == largest || size == largest)
-      fail(ErrorCode::too_large,
+      fail(ErrorCode::unsupported,
            "the archive is a zip64 archive, expected less than 4 GB and 65535 members");
     if (start > end || size > end - start || start + size != end)
       fail(ErrorCode::damaged, fmt::format("the directory of the archive is damaged: found {} "

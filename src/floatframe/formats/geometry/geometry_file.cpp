@@ -98,7 +98,7 @@ TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
                                 const GeometryLoader& loader) {
   GeometryBuilder out(name);
   if (!is_geometry_file(name))
-    out.stop(ErrorCode::wrong_value, "found this ending, expected .stl, .obj, .gltf or .glb");
+    out.stop(ErrorCode::wrong_file, "found this ending, expected .stl, .obj, .gltf or .glb");
   if (bytes.empty()) out.stop(ErrorCode::missing, "the file is empty");
   const std::string ending = geometry_ending(name);
   if (ending == ".stl")
@@ -113,7 +113,7 @@ TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
 TriangleGeometry read_geometry(const std::filesystem::path& file) {
   // An ending that is not read is said before the file is looked for.
   if (!is_geometry_file(file))
-    throw InputError(ErrorCode::wrong_value, SourceMark{file.string(), 0, 0},
+    throw InputError(ErrorCode::wrong_file, SourceMark{file.string(), 0, 0},
                      "found this ending, expected .stl, .obj, .gltf or .glb");
   std::vector<std::filesystem::path> others;
   const auto beside = [&](const std::string& name) {

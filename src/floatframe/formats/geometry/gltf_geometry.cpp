@@ -41,12 +41,12 @@ class GltfReader {
 
   void read() {
     if (!json_.is_object())
-      out_.stop(ErrorCode::wrong_value, "found " + json_excerpt(json_) + ", expected glTF");
+      out_.stop(ErrorCode::wrong_file, "found " + json_excerpt(json_) + ", expected glTF");
     const GltfJson* asset = member(json_, "asset");
     const GltfJson* version = asset ? member(*asset, "version") : nullptr;
     if (!version || !version->is_string() ||
         !version->get_ref<const std::string&>().starts_with("2."))
-      out_.stop(ErrorCode::missing, "found no asset.version 2.x, expected glTF 2.0");
+      out_.stop(ErrorCode::wrong_file, "found no asset.version 2.x, expected glTF 2.0");
     extensions();
     std::vector<std::pair<std::size_t, GltfPlace>> open;
     for (const std::size_t n : roots()) open.emplace_back(n, GltfPlace{});
@@ -80,7 +80,7 @@ class GltfReader {
   }
   const GltfJson& element(const char* list, std::size_t k) const {
     if (k >= size(list))
-      out_.stop(ErrorCode::wrong_value,
+      out_.stop(ErrorCode::not_found,
                 fmt::format("found number {} of '{}', expected one below {}", k, list, size(list)));
     return (*member(json_, list))[k];
   }
@@ -129,7 +129,7 @@ class GltfReader {
       const std::string name = item.is_string() ? item.get<std::string>() : json_excerpt(item);
       if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") &&
           !name.starts_with("EXT_texture_") && !name.starts_with("KHR_lights_"))
-        out_.stop(ErrorCode::wrong_value,
+        out_.stop(ErrorCode::unsupported,
                   "found the required extension '" + excerpt(name) +
                       "', expected glTF 2.0 without it (no compression, no quantization)");
     }
@@ -166,8 +166,7 @@ class GltfReader {
       numbers(node, "translation", t);
       Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
       if (!(turn.norm() > 1e-6))
-        out_.stop(ErrorCode::wrong_value,
-                  fmt::format("node {}: found a rotation of length zero", n));
+        out_.stop(ErrorCode::geometry, fmt::format("node {}: found a rotation of length zero", n));
       place.A = turn.normalized().toRotationMatrix() * Vec3(s[0], s[1], s[2]).asDiagonal();
       place.t = {t[0], t[1], t[2]};
     }
@@ -210,11 +209,11 @@ class GltfReader {
       if (escaped) k += 2;
     }
     if (!loader_ || name.find(':') != std::string::npos || name.find('\0') != std::string::npos)
-      out_.stop(ErrorCode::wrong_value, "found a buffer at '" + excerpt(uri) +
+      out_.stop(ErrorCode::unsupported, "found a buffer at '" + excerpt(uri) +
                                             "', expected one inside or in a file beside");
     const auto place = std::filesystem::path(name).lexically_normal();
     if (name.empty() || place.is_absolute() || *place.begin() == "..")
-      out_.stop(ErrorCode::wrong_value,
+      out_.stop(ErrorCode::unsupported,
                 "found a buffer at '" + excerpt(uri) +
                     "', expected one in the folder of this file or below it");
     return loader_(name);
@@ -235,7 +234,7 @@ class GltfReader {
       out_.stop(ErrorCode::wrong_count,
                 fmt::format("accessor {}: found another type, expected {}", k, type));
     if (member(json, "sparse"))
-      out_.stop(ErrorCode::wrong_value,
+      out_.stop(ErrorCode::unsupported,
                 fmt::format("accessor {} is sparse, expected all of its numbers", k));
     GltfNumbers n;
     n.component = static_cast<int>(required(json, "componentType"));
@@ -247,7 +246,7 @@ class GltfReader {
                                                       : 0;
     if (one == 0)
       out_.stop(
-          ErrorCode::wrong_value,
+          ErrorCode::unsupported,
           fmt::format("accessor {}: found numbers of type {}, expected 5121, 5123, 5125 or 5126", k,
                       n.component));
     const GltfJson& view = element("bufferViews", required(json, "bufferView"));
@@ -305,7 +304,7 @@ class GltfReader {
     if (!at) return;
     const GltfNumbers points = accessor(*at, "VEC3", 3);
     if (points.component != gltf_f32)
-      out_.stop(ErrorCode::wrong_value,
+      out_.stop(ErrorCode::unsupported,
                 fmt::format("accessor {}: found positions of type {}, expected 5126 (float)", *at,
                             points.component));
     const std::size_t first = out_.points();
@@ -320,13 +319,13 @@ class GltfReader {
     if (indexed) {
       order = accessor(*indexed, "SCALAR", 1);
       if (order.component == gltf_f32)
-        out_.stop(ErrorCode::wrong_value,
+        out_.stop(ErrorCode::unsupported,
                   fmt::format("accessor {}: found floats, expected indices", *indexed));
     }
     const auto corner = [&](std::size_t k) {
       const std::size_t v = indexed ? whole_number(order, k) : k;
       if (v >= points.count)
-        out_.stop(ErrorCode::wrong_value,
+        out_.stop(ErrorCode::not_found,
                   fmt::format("accessor {}: found point {}, expected one below {}", *indexed, v,
                               points.count));
       return static_cast<int>(first + v);
@@ -338,7 +337,7 @@ class GltfReader {
     if (mode == 4) {
       if (order.count % 3 != 0)
         out_.stop(
-            ErrorCode::wrong_value,
+            ErrorCode::wrong_count,
             fmt::format("found {} corners of triangles, expected a multiple of 3", order.count));
       for (std::size_t k = 0; k + 2 < order.count; k += 3) add(k, k + 1, k + 2);
     } else {
@@ -366,7 +365,7 @@ void gltf_chunks(std::string_view bytes, GeometryBuilder& out, std::string_view&
   if (bytes.size() < 20)
     out.stop(ErrorCode::damaged, "the file ends in its header: it is cut short");
   if (gltf_word(bytes, 4) != 2)
-    out.stop(ErrorCode::wrong_value,
+    out.stop(ErrorCode::unsupported,
              fmt::format("found version {} of glTF, expected 2", gltf_word(bytes, 4)));
   if (gltf_word(bytes, 8) > bytes.size())
     out.stop(ErrorCode::damaged, fmt::format("found {} bytes, expected {}: it is cut short",
@@ -393,7 +392,7 @@ void parse_gltf(std::string_view bytes, const GeometryLoader& loader, GeometryBu
   if (bytes.starts_with("glTF")) gltf_chunks(bytes, out, text, chunk);
   std::string why;
   const GltfJson json = read_json(text, why);
-  if (json.is_discarded()) out.stop(ErrorCode::wrong_value, "the file is not glTF: " + why);
+  if (json.is_discarded()) out.stop(ErrorCode::wrong_file, "the file is not glTF: " + why);
   GltfReader(json, chunk, loader, out).read();
 }
 

@@ -33,7 +33,7 @@ int obj_corner(std::string_view word, int line, GeometryBuilder& out) {
   const long k = *index < 0 ? count + *index : static_cast<long>(*index) - 1;
   if (*index == 0 || k < 0 || k >= count)
     out.stop(
-        ErrorCode::wrong_value,
+        ErrorCode::not_found,
         fmt::format("f: found point {}, expected one of the {} points before it", *index, count),
         line);
   return static_cast<int>(k);
@@ -66,7 +66,7 @@ void parse_obj(std::string_view bytes, GeometryBuilder& out) {
       for (std::string_view w = next_word(words); !w.empty(); w = next_word(words))
         corners.push_back(obj_corner(w, line, out));
       if (corners.size() < 3)
-        out.stop(ErrorCode::wrong_value,
+        out.stop(ErrorCode::wrong_count,
                  fmt::format("f: found {} corners, expected 3 or more", corners.size()), line);
       for (std::size_t k = 2; k < corners.size(); ++k)
         out.triangle(corners[0], corners[k - 1], corners[k]);

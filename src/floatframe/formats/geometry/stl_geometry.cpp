@@ -21,9 +21,9 @@ std::uint32_t stl_facets(std::string_view bytes) {
 
 void binary_stl(std::string_view bytes, GeometryBuilder& out) {
   if (bytes.size() < stl_head)
-    out.stop(ErrorCode::wrong_value, fmt::format("found {} bytes, expected an STL file: text that "
-                                                 "begins with 'solid', or 84 bytes and facets",
-                                                 bytes.size()));
+    out.stop(ErrorCode::wrong_file, fmt::format("found {} bytes, expected an STL file: text that "
+                                                "begins with 'solid', or 84 bytes and facets",
+                                                bytes.size()));
   const std::uint32_t count = stl_facets(bytes);
   const std::size_t expected = stl_head + stl_facet * std::size_t{count};
   if (bytes.size() != expected)
@@ -76,7 +76,7 @@ void text_stl(std::string_view text, GeometryBuilder& out) {
       corners.push_back(out.point(stl_vertex(rest, line, out), line));
     } else if (same_word(word, "endloop")) {
       if (corners.size() != 3)
-        out.stop(ErrorCode::wrong_value,
+        out.stop(ErrorCode::wrong_count,
                  fmt::format("found {} vertices of a facet, expected 3", corners.size()), line);
       out.triangle(corners[0], corners[1], corners[2]);
       corners.clear();
@@ -87,8 +87,7 @@ void text_stl(std::string_view text, GeometryBuilder& out) {
                line);
     }
   }
-  if (inside)
-    out.stop(ErrorCode::wrong_value, "the file ends without endsolid: it is cut short", line);
+  if (inside) out.stop(ErrorCode::damaged, "the file ends without endsolid: it is cut short", line);
 }
 
 }  // namespace

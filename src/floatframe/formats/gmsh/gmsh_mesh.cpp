@@ -52,7 +52,7 @@ class GmshParser {
         in_.end_section(at, section);
         continue;
       } else if (section == "PartitionedEntities") {
-        in_.stop(ErrorCode::wrong_value, at,
+        in_.stop(ErrorCode::unsupported, at,
                  "the mesh is partitioned; save it in one part (Mesh.PartitionSplitMeshFiles = 0 "
                  "and no partitions)");
       } else {
@@ -74,7 +74,7 @@ class GmshParser {
     std::string_view line;
     Place at = in_.here();
     if (!in_.next_line(line) || line != "$MeshFormat") {
-      in_.stop(ErrorCode::wrong_value, at, "found {}, expected '$MeshFormat'", shown(line));
+      in_.stop(ErrorCode::wrong_file, at, "found {}, expected '$MeshFormat'", shown(line));
     }
     at = in_.here();
     std::vector<std::string_view> fields;
@@ -89,7 +89,7 @@ class GmshParser {
     version_4_ = version == 4.1;
     mesh_.element_per_group = !version_4_;
     if (!version || (*version != 4.1 && !(*version >= 2.0 && *version <= 2.2))) {
-      in_.stop(ErrorCode::wrong_value, at,
+      in_.stop(ErrorCode::unsupported, at,
                "the version of the format is {}, expected 4.1 or 2.2 (Gmsh writes them with "
                "Mesh.MshFileVersion)",
                shown(fields[0]));
@@ -310,11 +310,11 @@ class GmshParser {
       const int n = in_.binary() ? in_.integer("the number of elements of a block") : 1;
       const int tags = in_.integer("the number of tags");
       if (n < 1 || static_cast<std::uint64_t>(n) > total - mesh_.elements.size()) {
-        in_.stop(ErrorCode::wrong_value, element.at, "a block has {} elements where {} are left", n,
+        in_.stop(ErrorCode::wrong_count, element.at, "a block has {} elements where {} are left", n,
                  total - mesh_.elements.size());
       }
       if (tags < 0 || tags > 1000) {
-        in_.stop(ErrorCode::wrong_value, element.at, "an element with {} tags, expected 2", tags);
+        in_.stop(ErrorCode::wrong_count, element.at, "an element with {} tags, expected 2", tags);
       }
       for (int i = 0; i < n; ++i) {
         if (in_.binary()) element.at = in_.here();

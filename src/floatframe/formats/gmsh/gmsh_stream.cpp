@@ -38,7 +38,7 @@ void GmshStream::end_section(const Place& begin, std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   const std::size_t found = text_.find(end, at_);
   if (found == std::string_view::npos) {
-    stop(ErrorCode::missing, begin, "section ${} has no end: '{}' is missing", section, end);
+    stop(ErrorCode::damaged, begin, "section ${} has no end: '{}' is missing", section, end);
   }
   line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
                                        text_.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
@@ -103,7 +103,7 @@ int GmshStream::integer(const char* what) {
   int value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    stop(ErrorCode::wrong_value, at, "found {}, expected {}, a whole number", shown(field), what);
+    stop(ErrorCode::not_a_number, at, "found {}, expected {}, a whole number", shown(field), what);
   }
   return value;
 }
@@ -115,7 +115,7 @@ std::uint64_t GmshStream::size(const char* what) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) {
-    stop(ErrorCode::wrong_value, at, "found {}, expected {}, a whole number from 0", shown(field),
+    stop(ErrorCode::not_a_number, at, "found {}, expected {}, a whole number from 0", shown(field),
          what);
   }
   return value;
@@ -145,7 +145,7 @@ void GmshStream::check_count(const Place& at, std::uint64_t count, const char* w
                              std::size_t numbers_each) const {
   const std::size_t smallest = binary_ ? 4 : 2;  // an ASCII number and its blank
   if (count > left() / (smallest * std::max(numbers_each, std::size_t{1})) + 1) {
-    stop(ErrorCode::wrong_value, at,
+    stop(ErrorCode::damaged, at,
          "{} is {}, more than the {} bytes that are left of the file can hold", what, count,
          left());
   }

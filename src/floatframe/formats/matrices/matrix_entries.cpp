@@ -31,7 +31,7 @@ bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& 
   };
   const std::string_view first = next(), second = next(), third = next();
   if (third.empty() || !next().empty()) {
-    source.error(ErrorCode::wrong_value, "the line is not row, column and value");
+    source.error(ErrorCode::wrong_count, "the line is not row, column and value");
     return false;
   }
   const std::optional<int> i = parse_label(first), j = parse_label(second);

@@ -170,7 +170,7 @@ SparseMatrix in_model_axes(SparseMatrix A, const FeModel& model, const TextSourc
       const auto other = row_of.find({dofs[i].node, first + k});
       if (other == row_of.end())
         throw InputError(
-            ErrorCode::wrong_value, {source.files().front()},
+            ErrorCode::incomplete, {source.files().front()},
             fmt::format("{} has a system of its own (CD): give all three of its {}",
                         model.node_label(dofs[i].node), first == 0 ? "translations" : "rotations"));
       entries.emplace_back(other->second, i, turned->second(k, dofs[i].axis % 3));
@@ -218,8 +218,7 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
     labels.push_back({*node, *direction, source.here()});
   });
   if (labels.empty() && source.errors() == 0)
-    source.error(ErrorCode::wrong_value, FeSource{0, 0},
-                 "there are no degrees of freedom in the file");
+    source.error(ErrorCode::missing, FeSource{0, 0}, "there are no degrees of freedom in the file");
   return labels;
 }
 
@@ -237,7 +236,7 @@ FeModel read_node_table(TextSource& source) {
   each_row(source, [&](std::string_view line) {
     split_blanks(line, fields);
     if (fields.size() != 4) {
-      source.error(ErrorCode::wrong_value, "the line has {} fields, expected node, x, y, z",
+      source.error(ErrorCode::wrong_count, "the line has {} fields, expected node, x, y, z",
                    fields.size());
       return;
     }
@@ -318,7 +317,7 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
     }
     const auto [first, added] = seen.emplace(std::pair(dof.node, dof.axis), label.at);
     if (!added) {
-      labels_source.stop(ErrorCode::unreadable, label.at,
+      labels_source.stop(ErrorCode::unsupported, label.at,
                          "degree of freedom {}.{} is there already (line {}); matrices in which "
                          "beams and shells are expanded to solids cannot be read: read the deck",
                          label.node, label.direction, first->second.line);
@@ -326,8 +325,7 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
     matrices.dofs.push_back(dof);
   }
   labels_source.throw_if_any();
-  if (K.nonZeros() == 0)
-    labels_source.stop(ErrorCode::out_of_range, {0, 0}, "the stiffness is zero");
+  if (K.nonZeros() == 0) labels_source.stop(ErrorCode::missing, {0, 0}, "the stiffness is zero");
   remove_spiders(model, matrices.dofs);
   matrices.scalars.resize(scalars.size());  // the last nodes
   std::iota(matrices.scalars.rbegin(), matrices.scalars.rend(), 0);

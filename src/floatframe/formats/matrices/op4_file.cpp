@@ -60,7 +60,7 @@ class BinaryOp4 {
     while (place_ < bytes_.size()) {
       record();
       if (record_.size() != op4_header_bytes)
-        fail(ErrorCode::wrong_value, "the header of a matrix has another length than 24");
+        fail(ErrorCode::damaged, "the header of a matrix has another length than 24");
       Op4Matrix m{upper_case(trimmed(record_.substr(16, 8))),
                   integer(1),
                   integer(0),
@@ -107,7 +107,8 @@ class BinaryOp4 {
     record();
     const int number = integer(0), row = integer(1);
     if (number > m.columns) return false;
-    if (number < 1) fail(ErrorCode::wrong_value, fmt::format("a column has the number {}", number));
+    if (number < 1)
+      fail(ErrorCode::out_of_range, fmt::format("a column has the number {}", number));
     const int words = std::min<int>(most_op4_rows, std::ssize(record_) / 4);
     const auto values = [&](int first, int count, int from) {
       keep(m, number, from, count / words_of(m.type), at_,
@@ -144,7 +145,7 @@ class TextOp4 {
     std::vector<Op4Matrix> out;
     while (next()) {
       const std::array<int, 4> size = integers<4>();
-      if (line_.size() < 40) fail(ErrorCode::wrong_value, "the header of a matrix is too short");
+      if (line_.size() < 40) fail(ErrorCode::damaged, "the header of a matrix is too short");
       Op4Matrix m{upper_case(trimmed(line_.substr(32, 8))), size[1], size[0], size[2], size[3], {}};
       // 1P,5E16.9
       const std::string_view format = trimmed(line_.substr(40));
@@ -220,7 +221,8 @@ class TextOp4 {
                                      found, count));
       if (number <= m.columns) keep(m, number, from, count, at, [&](auto i) { return values_[i]; });
     };
-    if (number < 1) fail(ErrorCode::wrong_value, fmt::format("a column has the number {}", number));
+    if (number < 1)
+      fail(ErrorCode::out_of_range, fmt::format("a column has the number {}", number));
     if (row > 0) {  // here real numbers are counted, and real and imaginary parts
       take(row, std::max(words, 0) / (m.type > 2 ? 2 : 1));
       return number <= m.columns;
@@ -230,8 +232,7 @@ class TextOp4 {
       const auto head = large_ ? integers<2>() : std::array<int, 2>{integers<1>()[0], 0};
       const int length = large_ ? std::max(head[0], 0) - 1 : head[0] / 65536 - 1;
       if (length < 1)
-        fail(ErrorCode::wrong_value,
-             fmt::format("a string of column {} has {} words", number, length));
+        fail(ErrorCode::damaged, fmt::format("a string of column {} has {} words", number, length));
       left -= length + (large_ ? 2 : 1);
       take(large_ ? head[1] : head[0] % 65536, length / words_of(m.type));
     }

@@ -45,7 +45,7 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     if (line.empty() || line.front() == '*') continue;
     split_blanks(line, fields);
     if (fields.size() != 5) {
-      source.error(ErrorCode::wrong_value,
+      source.error(ErrorCode::wrong_count,
                    "the line has {} fields, expected node, direction, node, direction, value",
                    fields.size());
       continue;
@@ -64,7 +64,7 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     if (!valid || !value) continue;
     for (std::size_t k = 0; k < 4 && valid; k += 2) {
       if (number[k] < 1) {
-        source.stop(ErrorCode::out_of_range, source.here(),
+        source.stop(ErrorCode::unsupported, source.here(),
                     "node {} is internal to Abaqus (Lagrange multipliers of distributing "
                     "couplings, connectors or hybrid elements): write the matrices without them "
                     "and give the interfaces here",
@@ -105,7 +105,7 @@ FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource
   const auto known = [&](TextSource& source) {
     if (table.labels.size() == n) return;
     const DofLabel& label = table.labels[n];
-    source.stop(ErrorCode::wrong_value, label.at, "degree of freedom {}.{} is not in the stiffness",
+    source.stop(ErrorCode::not_found, label.at, "degree of freedom {}.{} is not in the stiffness",
                 label.node, label.direction);
   };
   SymmetricEntries M = read_quintuples(mass, "mass", table);

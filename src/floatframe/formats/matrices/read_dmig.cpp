@@ -180,7 +180,7 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
     for (const DmigEntry& e : entries) {
       for (const Row& row : {e.row, e.column}) {
         if (rows.count(row) > 0) continue;
-        source.stop(ErrorCode::wrong_value, e.at, "degree of freedom {}.{} of {} is not in {}",
+        source.stop(ErrorCode::not_found, e.at, "degree of freedom {}.{} of {} is not in {}",
                     row.first, row.second, name, K_name);
       }
     }

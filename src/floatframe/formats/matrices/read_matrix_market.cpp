@@ -24,7 +24,7 @@ bool read_banner(TextSource& source) {
     for (const char* word : known) {
       if (same_word(words[k], word)) return true;
     }
-    source.error(ErrorCode::contradiction, "the banner says {}, expected {}", shown(words[k]),
+    source.error(ErrorCode::wrong_value, "the banner says {}, expected {}", shown(words[k]),
                  fmt::join(known, " or "));
     return false;
   };
@@ -55,7 +55,7 @@ SymmetricEntries read_entries(TextSource& source, const std::string& what, int n
             "the line is not rows, columns and number of entries, whole numbers up to 2147483647");
       }
       if (*number(0) != n || *number(1) != n) {
-        source.stop(ErrorCode::wrong_value, source.here(),
+        source.stop(ErrorCode::wrong_count, source.here(),
                     "the {} is {} x {}, but {} has {} degrees of freedom", what, *number(0),
                     *number(1), map, n);
       }

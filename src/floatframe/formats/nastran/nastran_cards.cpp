@@ -68,7 +68,7 @@ void NastranCards::read_control() {
     line = trimmed(line.substr(0, line.find('$')));
     if (begins(line)) return;
     if (is_begin(line))
-      source_.stop(ErrorCode::wrong_value, source_.here(), fmt::format(one_model, shown(line)));
+      source_.stop(ErrorCode::unsupported, source_.here(), fmt::format(one_model, shown(line)));
     std::string_view rest = line;
     const std::string_view word = next_word(rest);
     control_.there = control_.there || !(word.empty() || same_word(word, "INCLUDE"));
@@ -167,7 +167,7 @@ void NastranCards::split(std::string_view text, Line& line) {
     // A line that is put back comes again.
     if (fields.size() > width + 2 &&
         std::exchange(too_long_, source_.here().line) != source_.here().line) {
-      source_.error(ErrorCode::out_of_range,
+      source_.error(ErrorCode::wrong_count,
                     "the line has {} fields; a line in free field has at most {}", fields.size(),
                     width + 2);
     }
@@ -232,7 +232,7 @@ bool NastranCards::next(NastranCard& card) {
     }
     if (is_begin(text)) {
       if (begins(trimmed(text)) && !std::exchange(begun_, true)) continue;
-      source_.stop(ErrorCode::wrong_value, source_.here(),
+      source_.stop(ErrorCode::unsupported, source_.here(),
                    fmt::format(one_model, shown(trimmed(text))));
     }
     break;

@@ -32,7 +32,7 @@ class BlockReader {
       const SidItem item = next_sid_item(source_, wanted.c_str());
       if (item.key == end) break;
       if (!item.has_value) {
-        source_.stop(ErrorCode::wrong_count, source_.here(), "found {} in block {}, expected {}",
+        source_.stop(ErrorCode::wrong_value, source_.here(), "found {} in block {}, expected {}",
                      shown(item.key), name_, wanted);
       }
       if (item.key.starts_with("m0(") || item.key.starts_with("m1(")) {
@@ -100,7 +100,7 @@ class BlockReader {
       }
     } else {
       source_.error(
-          ErrorCode::not_found,
+          ErrorCode::unknown_key,
           "unknown item {} in block {} (expected order, nrow, ncol, nq, nqn, structure, m0 or m1)",
           shown(item.key), name_);
     }
@@ -133,7 +133,8 @@ class BlockReader {
       return std::nullopt;
     }
     if (e.order == 1 && order_ == 0) {
-      source_.error(ErrorCode::wrong_value, "{} in block {}, whose order is 0", shown(key), name_);
+      source_.error(ErrorCode::contradiction, "{} in block {}, whose order is 0", shown(key),
+                    name_);
       return std::nullopt;
     }
     return e;
@@ -150,7 +151,7 @@ class BlockReader {
       return;
     }
     if (structure_ == 1 && e->row != e->column && *value != 0.0) {
-      source_.error(ErrorCode::wrong_value, "{} in block {}, whose structure 1 is diagonal",
+      source_.error(ErrorCode::contradiction, "{} in block {}, whose structure 1 is diagonal",
                     shown(item.key), name_);
       return;
     }
@@ -189,7 +190,7 @@ class BlockReader {
           upper = lower;
         } else if (std::abs(upper - lower) > 1e-6 * scale) {
           source_.error(
-              ErrorCode::wrong_value, {0, static_cast<int>(std::max(seen0_(r, c), seen0_(c, r)))},
+              ErrorCode::contradiction, {0, static_cast<int>(std::max(seen0_(r, c), seen0_(c, r)))},
               "block {} is symmetric by its structure 2, but m0({},{}) = {} and m0({},{}) = {}",
               name_, r + 1, c + 1, lower, c + 1, r + 1, upper);
         }

@@ -42,7 +42,7 @@ class SidParser {
         }
         read_sid_block(source_, item.key, content_.modes, *block);
       } else {
-        source_.error(ErrorCode::not_found,
+        source_.error(ErrorCode::unknown_key,
                       "unknown block {} (expected refmod, frame, mdCM, J, Ct, Cr, Me, Gr, Ge, Oe, "
                       "ksigma, Ke or De)",
                       shown(item.key));
@@ -135,7 +135,7 @@ class SidParser {
       } else if (item.key.starts_with("ielastq")) {
         mode_name(item);
       } else {
-        source_.error(ErrorCode::not_found,
+        source_.error(ErrorCode::unknown_key,
                       "unknown item {} in refmod (expected mass, nelastq or ielastq)",
                       shown(item.key));
       }
@@ -147,7 +147,7 @@ class SidParser {
     if (number.size() > 2) number = number.substr(1, number.size() - 2);
     const auto k = parse_integer(number);
     if (!k || *k < 1 || *k > content_.modes) {
-      source_.error(ErrorCode::wrong_value, "{} names no mode (there are {})", shown(item.key),
+      source_.error(ErrorCode::not_found, "{} names no mode (there are {})", shown(item.key),
                     content_.modes);
       return;
     }
@@ -208,7 +208,7 @@ class SidParser {
               shown(item.value));
         }
       } else {
-        source_.error(ErrorCode::not_found,
+        source_.error(ErrorCode::unknown_key,
                       "unknown item {} in a node (expected rframe, origin, phi, psi, AP or sigma)",
                       shown(item.key));
         if (!item.has_value) skip_sid_block(source_, item.key);

@@ -32,7 +32,7 @@ const MeshFormat& mesh_format_of(const std::filesystem::path& file) {
     known.emplace_back(format.description);
   }
   throw InputError(
-      ErrorCode::missing, {file.string(), 0, 0},
+      ErrorCode::wrong_file, {file.string(), 0, 0},
       fmt::format("found the ending '{}', expected one of: {}{}", file.extension().string(),
                   fmt::join(known, "; "), deck_component_missing()));
 }

@@ -149,7 +149,8 @@ void add_set_arrays(const FeModel& model, VtkGrid& grid, std::vector<std::string
   renamed.note(notes);
   if (left_out > 0)
     notes.push_back(
-        fmt::format("{} sets are left out: only the first {} of nodes and of elements are written",
+        fmt::format("{} sets are left out: only the first {} of nodes and of elements "
+                    "are written",
                     left_out, most_sets));
   if (!model.surfaces.empty())
     notes.push_back(

@@ -59,8 +59,8 @@ void free_reverse(JointDirections&, double* position, double* velocity) {
 constinit const JointKind free_joint = {
     .about =
         "moves in any way, world axes. On a flexible body with a node at `at` (or named by "
-        "`child_node`) the displacement is that of the node, the rotation that of the body frame; "
-        "without a place it is that of the frame origin",
+        "`child_node`) the displacement is that of the node, the rotation that of the body "
+        "frame; without a place it is that of the frame origin",
     .coordinates = {{"displacement x", JointUnit::m},
                     {"displacement y", JointUnit::m},
                     {"displacement z", JointUnit::m},

@@ -81,8 +81,8 @@ void planar_reverse(JointDirections&, double* position, double* velocity) {
 constinit const JointKind planar_joint = {
     .about =
         "slides in the plane normal to `axis` and turns about `axis`; `axis_2`, fixed in the "
-        "parent, is the first direction in the plane (its part along `axis` is left out), the "
-        "second is `axis` x the first",
+        "parent, is the first direction in the plane (its part along `axis` is left out), "
+        "the second is `axis` x the first",
     .coordinates = {{"first displacement", JointUnit::m},
                     {"second displacement", JointUnit::m},
                     {"angle", JointUnit::rad}},

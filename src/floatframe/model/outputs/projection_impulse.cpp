@@ -16,8 +16,8 @@ double output_value_of<OutputType::projection_impulse>(const OutputView& view, c
 
 constinit const OutputKind projection_impulse_output = {
     .about =
-        "impulse on the child in the projection of the velocities of the last step; of tree joints "
-        "in relative coordinates zero",
+        "impulse on the child in the projection of the velocities of the last step; of tree "
+        "joints in relative coordinates zero",
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N s",

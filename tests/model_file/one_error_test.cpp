@@ -35,7 +35,7 @@ std::string with(const std::string& before, const std::string& after) {
   return text.replace(at, before.size(), after);
 }
 
-TEST(OneSentence, WhatIsRight) {
+TEST(OneError, WhatIsRight) {
   EXPECT_EQ(said(good_model), "no error");
   EXPECT_EQ(said("\xEF\xBB\xBF" + good_model), "no error");
   std::string crlf;
@@ -47,7 +47,7 @@ TEST(OneSentence, WhatIsRight) {
   EXPECT_EQ(said(good_model + "name: |-\n  a block\n"), "no error");
 }
 
-TEST(OneSentence, Files) {
+TEST(OneError, Files) {
   EXPECT_EQ(said(""), "m:1:1: missing");
   EXPECT_EQ(said("\xEF\xBB\xBF"), "m:1:1: missing");
   EXPECT_EQ(said("# nothing\n"), "m:1:1: missing");
@@ -65,7 +65,7 @@ TEST(OneSentence, Files) {
   }
 }
 
-TEST(OneSentence, Scalars) {
+TEST(OneError, Scalars) {
   const auto mass = [](const std::string& text) { return said(with("mass: 1", "mass: " + text)); };
   const std::string at = "m:4:23: bodies.arm.rigid.mass: ";
   EXPECT_EQ(mass("nan"), at + "out_of_range");
@@ -81,7 +81,7 @@ TEST(OneSentence, Scalars) {
   EXPECT_EQ(said(good_model + "name: \"a\\x07\"\n"), "m:8:7: wrong_value");
 }
 
-TEST(OneSentence, Names) {
+TEST(OneError, Names) {
   std::string other = good_model;
   for (std::size_t at = other.find("arm"); at != std::string::npos; at = other.find("arm"))
     other.replace(at, 3, "\u00e4rm");
@@ -92,7 +92,7 @@ TEST(OneSentence, Names) {
             "m:8:11: out_of_range");
 }
 
-TEST(OneSentence, Groups) {
+TEST(OneError, Groups) {
   const auto body = [](const std::string& text) {
     return said(with("rigid: {mass: 1, inertia: [0, 1, 1]}", text));
   };
