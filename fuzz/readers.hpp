@@ -21,6 +21,7 @@
 #include "floatframe/formats/geometry/geometry_file.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
+#include "floatframe/formats/matrices/op4_file.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
@@ -128,6 +129,9 @@ inline void dmig(std::string_view bytes) {
   use(read_dmig(matrices, nullptr, read_nastran(nodes, false, {}, NastranPart::nodes)));
 }
 
+/// Matrices of OUTPUT4, text or binary.
+inline void op4(std::string_view bytes) { read_op4_matrices(std::string(bytes), "fuzz.op4"); }
+
 inline void sid(std::string_view bytes) { parse_sid(bytes, "fuzz.sid"); }
 
 /// Checksums would keep every change away from the reader: the first line names a member of a valid
@@ -221,6 +225,7 @@ inline constexpr Reader readers[] = {
     {"nastran", nastran},
     {"unv", unv},
     {"dmig", dmig},
+    {"op4", op4},
     {"sid", sid, 16e6},  // matrices of up to 500 modes
     {"body_file", body_file},
     {"geometry", geometry},

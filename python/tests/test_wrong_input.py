@@ -108,6 +108,31 @@ def test_one_name_is_a_list_of_one(model):
     assert ff.linear_model(model, "front_left", "chassis.az").inputs == ["front_left"]
 
 
+PENDULUM = """floatframe: 1
+points: {o: [0, 0, 0], a: [1, 0, 0]}
+bodies:
+  arm: {rigid: {mass: 1, inertia: [1, 1, 1]}, position: a}
+joints:
+  pin: {type: revolute, child: arm, at: o, axis: y}
+simulation: {step: 0.001, duration: 0.01}
+"""
+
+
+def test_code_and_path_say_what_and_where(tmp_path):
+    file = tmp_path / "pendulum.yaml"
+    file.write_text(PENDULUM.replace("mass: 1", "mass: -1").replace("child: arm", "child: arms").replace("axis: y", "axis: y, colour: red"))
+    found = {(error.line, error.path, error.code) for error in refused(lambda: ff.Model.load(file)).errors}
+    assert found == {(4, "bodies.arm.rigid.mass", "out_of_range"), (6, "joints.pin.child", "not_found"), (6, "joints.pin", "unknown_key")}
+
+
+def test_a_start_that_cannot_be_has_a_code(tmp_path):
+    file = tmp_path / "held.yaml"
+    file.write_text(PENDULUM.replace("revolute", "weld").replace(", axis: y", ""))
+    with pytest.raises(ff.RunError) as caught:
+        ff.statics(ff.Model.load(file))
+    assert caught.value.code == "no_equilibrium"
+
+
 def test_parts_beyond_all_numbers():
     error = refused(lambda: ff.reduce(mesh(), **{**QUICK, "material": ff.Material(1e308, 0.3, 7850.0), "interfaces": ENDS}), "not finite")
     assert error.errors[0].file == "Mesh"

@@ -77,7 +77,7 @@ TEST(CampbellReport, WrongSpeeds) {
     EXPECT_EQ(error(speed), "out_of_range") << speed;
   EXPECT_EQ(error("motor=0:1e9:1"), "too_large");
   EXPECT_EQ(error("motr=0:1:1"), "not_found");
-  EXPECT_EQ(error("hub=0:1:1"), "wrong_value");
+  EXPECT_EQ(error("hub=0:1:1"), "unsupported");
 }
 
 }  // namespace

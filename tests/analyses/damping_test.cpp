@@ -135,7 +135,7 @@ TEST(Damping, OfAModelFileNamesThePlace) {
             key + ".reference: wrong_value");
   EXPECT_EQ(error("{fraction: 0.1, frequency: 3}"), key + ": out_of_range");
   EXPECT_EQ(test::without_folders(error("{fractions: [0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1]}")),
-            "model.yaml:5:17: contradiction");
+            "model.yaml:5:17: wrong_count");
 }
 
 // Eight equal bars on a star: static modes turn the ends about the bars, which have no inertia.

@@ -144,7 +144,7 @@ TEST(AbaqusSprings, DashpotsAndGaps) {
             std::string::npos);
   const std::string gap =
       springs_deck + "*ELEMENT, TYPE=GAPUNI, ELSET=G\n8, 5, 6\n*GAP, ELSET=G\n0., 1.\n";
-  EXPECT_EQ(sprung_error(gap), "arm.inp:24: missing");
+  EXPECT_EQ(sprung_error(gap), "arm.inp:24: unsupported");
   FeReadOptions options;
   options.contact = DeckContact::ignore;
   EXPECT_NE(sprung_notes(sprung(gap, options)).find("*GAP is ignored, as the options say"),
@@ -161,7 +161,7 @@ TEST(AbaqusSprings, Errors) {
        "arm.inp:24: contradiction"},
       {with_spring("SPRINGA", "5, 6", ", COMPLEX STIFFNESS\n1., 1.\n"), "arm.inp:24: unsupported"},
       {with_spring("SPRINGA", "5, 9", "\n5.\n"), "arm.inp:23: not_found"},
-      {with_spring("SPRING1", "5", "\n1\n5.\n"), "arm.inp:23: wrong_value"},
+      {with_spring("SPRING1", "5", "\n1\n5.\n"), "arm.inp:23: unsupported"},
       {springs_deck + "*ELEMENT, TYPE=SPRINGA, ELSET=S\n7, 5, 6\n", "arm.inp:23: missing"},
       {springs_deck + "*SPRING, ELSET=E\n5.\n", "arm.inp:22: wrong_value"},
       {springs_deck + "*ELEMENT, TYPE=T3D2, ELSET=T\n8, 5, 6\n*SOLID SECTION, ELSET=T, "

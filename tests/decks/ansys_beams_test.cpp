@@ -251,9 +251,9 @@ TEST(AnsysBeamShapes, Errors) {
   EXPECT_EQ(error("HATS", "1,1,10,20,1,1,1,5,5"), "a.cdb:14: geometry");
   EXPECT_EQ(error("CHAN", "20,20,10,5,5,1"), "a.cdb:14: geometry");
   EXPECT_EQ(error("HREC", "20,8,1,1,4,4"), "a.cdb:14: geometry");
-  EXPECT_EQ(error("L", "1e7,1e7,1,1"), "a.cdb:14: wrong_value");
-  EXPECT_EQ(error("T", "60,80,10,6", "SECOFFSET,SHRC\n"), "a.cdb:14: wrong_value");
-  EXPECT_EQ(error("CHAN", "60,60,80,6,6,6", "SECOFFSET,USER,1,2\n"), "a.cdb:14: wrong_value");
+  EXPECT_EQ(error("L", "1e7,1e7,1,1"), "a.cdb:14: unsupported");
+  EXPECT_EQ(error("T", "60,80,10,6", "SECOFFSET,SHRC\n"), "a.cdb:14: unsupported");
+  EXPECT_EQ(error("CHAN", "60,60,80,6,6,6", "SECOFFSET,USER,1,2\n"), "a.cdb:14: unsupported");
   EXPECT_EQ(error("RECT", "1,1", "SECOFFSET,MID\n"), "a.cdb:14: unsupported");
   EXPECT_EQ(error("RECT", "1,1", "SECOFFSET,USER,0,0,1\n"), "a.cdb:14: unsupported");
 }

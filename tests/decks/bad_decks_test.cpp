@@ -294,7 +294,7 @@ TEST_F(BadFiles, UnknownContentAndEnding) {
 
 TEST_F(BadFiles, UnknownFormatAndMissingFile) {
   write("a.inp", valid);
-  EXPECT_EQ(before_list(errors("a.inp", "abacus")), "a.inp: wrong_value");
+  EXPECT_EQ(before_list(errors("a.inp", "abacus")), "a.inp: not_found");
   EXPECT_EQ(errors("b.inp"), "b.inp: unreadable");
   EXPECT_EQ(errors("."), ".: unreadable");
   write("empty.inp", "");

@@ -207,7 +207,7 @@ TEST(DeckAssembly, EveryBlockHasAnEnd) {
       {part + end + one + all + wood, "a.inp:30: missing"},
       {part + end + one + two + ends + all + wood, "a.inp:30: missing"},
       {part + end + one + ends + wood + step, "a.inp:29: missing"},
-      {part + end + end + one + ends + all + wood, "a.inp:29: wrong_value"}};
+      {part + end + end + one + ends + all + wood, "a.inp:29: incomplete"}};
   for (const auto& [text, expected] : cases) EXPECT_EQ(assembly_error(text), expected) << text;
 }
 

@@ -188,7 +188,7 @@ TEST(DeckBeamOffsets, OneOffsetForOneSection) {
   EXPECT_EQ(error(stick_section("SET1", "") + line + line), "stick.inp:20: duplicate");
   EXPECT_EQ(error(stick_section("SET1", ", OFFSET2=.5") + line), "stick.inp:18: exclusive");
   EXPECT_EQ(error(stick_section("SET1", "") + "*BEAM SECTION OFFSET\n.02, -.03, .04\n"),
-            "stick.inp:19: wrong_value");
+            "stick.inp:19: wrong_count");
   EXPECT_EQ(error(stick_section("SET1", "") + line + ".01, .01\n"), "stick.inp:20: unsupported");
 }
 

@@ -94,11 +94,11 @@ TEST(DeckBeamShapes, FurtherNodes) {
   EXPECT_EQ(error_of([&] { girder(section, "1, 1, 2, 3", "3, 5., 0., 0."); }),
             "girder.inp:6: geometry");
   EXPECT_EQ(girder_error(section, "1, 1, 2, 3", DeckDialect::calculix),
-            "girder.inp:6: wrong_value");
+            "girder.inp:6: unsupported");
   EXPECT_EQ(girder_error(section,
                          "1, 1, 2, 3\n*ELCOPY, OLD SET=SET, NEW SET=NEW, SHIFT NODES=0, "
                          "ELEMENT SHIFT=10"),
-            "girder.inp:7: wrong_value");
+            "girder.inp:7: unsupported");
 }
 
 TEST(DeckBeamShapes, SaysWhatIsWrong) {
@@ -109,9 +109,9 @@ TEST(DeckBeamShapes, SaysWhatIsWrong) {
   const auto shape = [](const std::string& name) {
     return girder_error("*BEAM SECTION, ELSET=SET, MATERIAL=M, SECTION=" + name + "\n.1, .2\n");
   };
-  EXPECT_EQ(shape("L"), "girder.inp:10: wrong_value");
-  EXPECT_EQ(shape("T"), "girder.inp:10: wrong_value");
-  EXPECT_EQ(shape("STAR"), "girder.inp:10: wrong_value");
+  EXPECT_EQ(shape("L"), "girder.inp:10: unsupported");
+  EXPECT_EQ(shape("T"), "girder.inp:10: unsupported");
+  EXPECT_EQ(shape("STAR"), "girder.inp:10: unsupported");
 }
 
 }  // namespace

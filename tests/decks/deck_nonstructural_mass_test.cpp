@@ -86,7 +86,7 @@ TEST(NonstructuralMass, SaysWhatIsWrong) {
   EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n"), "mass.inp:35: missing");
   EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n-3.\n"), "mass.inp:36: out_of_range");
   EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n3.\n4.\n"), "mass.inp:37: unsupported");
-  EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n3., 4.\n"), "mass.inp:36: wrong_value");
+  EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n3., 4.\n"), "mass.inp:36: wrong_count");
   EXPECT_EQ(error("ELSET=SKIN, UNITS=TOTAL MASS\n3.\n*ELEMENT, TYPE=SFM3D4, ELSET=SKIN\n"
                   "9, 1, 2, 3, 4\n"),
             "mass.inp:35: wrong_value");

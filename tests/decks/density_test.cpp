@@ -60,7 +60,7 @@ TEST(Density, ThatNobodyNeedsIsAnError) {
   EXPECT_EQ(test::without_folders(error_of([&] {
               read(folder, {{"STEAL", 7.0}});
             })),
-            "two.inp: missing");
+            "two.inp: not_found");
   std::string deck = two_materials_deck;
   for (const char* elastic : {"210000., 0.3\n", "100., 0.2\n"})
     deck.insert(deck.find(elastic) + std::string(elastic).size(), "*DENSITY\n7.85e-9\n");

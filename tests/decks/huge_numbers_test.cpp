@@ -119,7 +119,7 @@ TEST(HugeNumbers, PointMasses) {
 
 TEST(HugeNumbers, BeamsOfAnsys) {
   const std::string beam = "ET,1,188\n" + huge_block + "SECTYPE,1,BEAM,RECT\nSECDATA,";
-  EXPECT_EQ(ansys_error(beam + "1e160,1\nE,1,2\n"), "a.cdb:20: wrong_value");
+  EXPECT_EQ(ansys_error(beam + "1e160,1\nE,1,2\n"), "a.cdb:20: geometry");
   EXPECT_EQ(ansys_error(beam + "1,1\nSECOFFSET,USER,1e200\nE,1,2\n"), "a.cdb:23: not_finite");
   EXPECT_EQ(ansys_error("ET,1,180\n" + huge_block + "R,1,1e-10,1e300\nE,1,2\n"),
             "a.cdb:21: not_finite");

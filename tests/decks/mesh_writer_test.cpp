@@ -292,25 +292,25 @@ TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {
   const auto refusal = [](FeModel model) { return error_of([&] { written(model, ".inp"); }); };
   FeModel shell = single_element(ElementType::quad4);
   shell.shells[0].plies = {{0, 0.01, 0.0}, {0, 0.01, 0.5}};
-  EXPECT_EQ(refusal(shell), "wrong_value");
+  EXPECT_EQ(refusal(shell), "unsupported");
   for (int k = 1; k < 30; ++k) {
     shell.elements.push_back(shell.elements[0]);
     shell.elements.back().id += k;
   }
-  EXPECT_EQ(refusal(shell), "wrong_value");
+  EXPECT_EQ(refusal(shell), "unsupported");
   FeModel solid = single_element(ElementType::hex20);
   solid.layups = {{{{0, 1.0, 0.0}, {0, 1.0, 0.5}}}};
   solid.elements[0].layup = 0;
-  EXPECT_EQ(refusal(solid), "wrong_value");
+  EXPECT_EQ(refusal(solid), "unsupported");
   FeModel beam = single_element(ElementType::beam2);
   beam.sections[0] = BeamSection::solid_round(0.01);
-  EXPECT_EQ(refusal(beam), "wrong_value");
+  EXPECT_EQ(refusal(beam), "unsupported");
   beam.sections[0].outline = BeamSection::Outline::unknown;
-  EXPECT_EQ(refusal(beam), "wrong_value");
+  EXPECT_EQ(refusal(beam), "unsupported");
   FeModel bare = single_element(ElementType::tet4);
   bare.materials.clear();
   EXPECT_EQ(refusal(bare), "incomplete");
-  EXPECT_EQ(error_of([] { mesh_format_of("part.stl"); }), "part.stl: missing");
+  EXPECT_EQ(error_of([] { mesh_format_of("part.stl"); }), "part.stl: wrong_file");
 }
 
 }  // namespace

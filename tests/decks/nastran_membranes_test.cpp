@@ -90,11 +90,11 @@ TEST(NastranMembranes, Errors) {
   const auto error = [](const std::string& text) { return error_of([&] { membrane_deck(text); }); };
   std::string text = membrane_strip("PSHELL,1,1,.002\n");
   text.replace(text.find("1,2,5,4\n"), 7, "1,2,5,4,,.1");
-  EXPECT_EQ(error(text), "arm.bdf:7: wrong_value");
-  EXPECT_EQ(error(membrane_strip("PSHELL,1,1,.002,,,,\n,,,1\n")), "arm.bdf:10: wrong_value");
+  EXPECT_EQ(error(text), "arm.bdf:7: geometry");
+  EXPECT_EQ(error(membrane_strip("PSHELL,1,1,.002,,,,\n,,,1\n")), "arm.bdf:10: contradiction");
   // A sheet that flies freely.
   const FeModel sheet = membrane_deck(membrane_strip("PSHELL,1,1,.002\n"));
-  EXPECT_EQ(error_of([&] { check_connected(sheet); }).substr(0, 49), "wrong_value");
+  EXPECT_EQ(error_of([&] { check_connected(sheet); }).substr(0, 49), "contradiction");
 }
 
 // On a solid a skin is held: it adds E t to the face, and the part is reduced.

@@ -141,7 +141,7 @@ TEST(NastranPanels, Errors) {
   EXPECT_EQ(error(panel(",,-1.")), "arm.bdf:6: out_of_range");
   std::string text = panel();
   text.replace(text.find("1,2,3,4"), 7, "1,3,2,4");
-  EXPECT_EQ(error(text), "arm.bdf:5: wrong_value");
+  EXPECT_EQ(error(text), "arm.bdf:5: geometry");
   text = panel();
   text.replace(text.find("MAT1,1,7.+10,,.25"), 17, "MAT8,1,7.+10,7.+10,.25,2.+10");
   EXPECT_EQ(error(text), "arm.bdf:6: wrong_value");

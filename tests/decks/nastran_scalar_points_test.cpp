@@ -96,13 +96,13 @@ TEST(NastranScalarPoints, Star) {
 TEST(NastranScalarPoints, HeldPointsAreTheGround) {
   for (const std::string held : {"SPC1,1,,21\n", "SPC,1,21,1\n", "SPC1,1,0,20,THRU,30\n"}) {
     const std::string chain = two_tetrahedra + "SPOINT,21\nCELAS2,11,2.+5,1,1,21\n" + held;
-    EXPECT_EQ(points_error(chain), "arm.bdf:24: wrong_value");
+    EXPECT_EQ(points_error(chain), "arm.bdf:24: unsupported");
     FeModel model = points_deck(chain + "CELAS4,12,3.,21\nCELAS4,13,3.,21,21\n");
     EXPECT_EQ(remove_grounded_springs(model), 1);
     EXPECT_EQ(stiffness_of(model), stiffness_of(points_deck(two_tetrahedra)));
   }
   EXPECT_EQ(points_error(two_tetrahedra + "CELAS4,11,2.+5,21\nCELAS2,12,3.,1,1,21\n"),
-            "arm.bdf:23: wrong_value");
+            "arm.bdf:23: unsupported");
 }
 
 /// Only supports that the case control selects hold points.
@@ -150,14 +150,14 @@ TEST(NastranScalarPoints, Errors) {
       {"CELAS2,11,5.,1,1,21", "arm.bdf:23: not_found"},
       {"CELAS2,11,5.,1,1,2", "arm.bdf:23: missing"},
       {"SPOINT,21\nCELAS2,11,5.,1,1,21,3", "arm.bdf:24: wrong_value"},
-      {"CELAS4,11,5.,21,2", "arm.bdf:2: wrong_value"},
+      {"CELAS4,11,5.,21,2", "arm.bdf:2: duplicate"},
       {"CELAS3,11,7,21,22", "arm.bdf:23: not_found"},
       {"CELAS4,11,5.", "arm.bdf:23: missing"},
       {"CELAS4,11,,21", "arm.bdf:23: missing"},
       {"CELAS4,11,-5.,21,22", "arm.bdf:23: out_of_range"},
       {"SPOINT,21\nCELAS2,11,5.,1,1,21\nCELAS2,12,5.,9,4,21", "arm.bdf:25: dependent"},
       {"SPOINT,21\nRBE2,11,1,123,21", "arm.bdf:24: not_found"},
-      {"CMASS4,11,2.,21", "arm.bdf:23: missing"},
+      {"CMASS4,11,2.,21", "arm.bdf:23: unsupported"},
       {"CMASS3,11,3,21,22\nPMASS,3,2.", "arm.bdf:23: missing"},
       {"CMASS3,11,3,21", "arm.bdf:23: not_found"},
       {"CMASS2,11,3.,1", "arm.bdf:23: missing"},

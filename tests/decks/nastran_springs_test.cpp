@@ -207,7 +207,7 @@ TEST(NastranSprings, Rods) {
 
 TEST(NastranSprings, Errors) {
   const std::pair<std::string, const char*> wrong[] = {
-      {"CELAS2,3,5.,91,1", "arm.bdf:8: wrong_value"},
+      {"CELAS2,3,5.,91,1", "arm.bdf:8: unsupported"},
       {"CELAS2,3,5.,91,1,92", "arm.bdf:8: missing"},
       {"CELAS2,3,5.,91,12,92,1", "arm.bdf:8: out_of_range"},
       {"CELAS2,3,,91,1,92,1", "arm.bdf:8: missing"},
@@ -217,22 +217,22 @@ TEST(NastranSprings, Errors) {
       {"CELAS2,3,5.,91,1,97,1", "arm.bdf:8: not_found"},
       {"CELAS2,3,5.,91,1,92,1\nCELAS2,3,5.,91,1,93,1", "arm.bdf:9: duplicate"},
       {"CBUSH,3,8,91,92,0.,0.,1.", "arm.bdf:8: not_found"},
-      {"CBUSH,3,8,91,92\nPBUSH,8,K,1.,2.", "arm.bdf:8: wrong_value"},
+      {"CBUSH,3,8,91,92\nPBUSH,8,K,1.,2.", "arm.bdf:8: incomplete"},
       {"CBUSH,3,8,91,92,1.,0.,0.\nPBUSH,8,K,1.,2.", "arm.bdf:8: geometry"},
-      {"CBUSH,3,8,91\nPBUSH,8,K,1.,2.", "arm.bdf:8: missing"},
-      {"GRID,95,,10.,0.,0.\nCBUSH,3,8,91,95\nPBUSH,8,K,1.,2.", "arm.bdf:9: missing"},
+      {"CBUSH,3,8,91\nPBUSH,8,K,1.,2.", "arm.bdf:8: incomplete"},
+      {"GRID,95,,10.,0.,0.\nCBUSH,3,8,91,95\nPBUSH,8,K,1.,2.", "arm.bdf:9: incomplete"},
       {"CBUSH1D,3,8,91,92", "arm.bdf:8: not_found"},
       {"CBUSH1D,3,8,91\nPBUSH1D,8,1.", "arm.bdf:8: missing"},
       {"CBUSH1D,3,8,91,,0\nPBUSH1D,8,1.", "arm.bdf:8: wrong_value"},
       {"PBUSH1D,8,1.,,2.", "arm.bdf:8: unsupported"},
       {"PBUSH1D,8,1.\n,SPRING,TABLE,4", "arm.bdf:8: wrong_value"},
       {"PBUSH,8,M,1.", "arm.bdf:8: unsupported"},
-      {"PBUSH,8,K,RIGID", "arm.bdf:8: wrong_value"},
+      {"PBUSH,8,K,RIGID", "arm.bdf:8: not_a_number"},
       {"CROD,3,9,91,92", "arm.bdf:8: not_found"},
       {"CROD,3,91,91,92", "arm.bdf:8: wrong_value"},
       {"CONROD,3,91,92,91", "arm.bdf:8: missing"},
       {"CONROD,3,91,92,91,-1.", "arm.bdf:8: out_of_range"},
-      {"PTUBE,4,91,.1,.06", "arm.bdf:8: out_of_range"},
+      {"PTUBE,4,91,.1,.06", "arm.bdf:8: geometry"},
       {"PTUBE,4,91,.1,.01,,.2", "arm.bdf:8: unsupported"},
   };
   for (const auto& [card, expected] : wrong)

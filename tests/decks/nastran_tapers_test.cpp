@@ -200,8 +200,8 @@ TEST(NastranTapers, ErrorsOnce) {
   EXPECT_EQ(error("MAT1,1,100.,,.25,2.", "MAT8,1,100.,100.,.25,10."), "arm.bdf:5: wrong_value");
   EXPECT_EQ(error("100.,,.25", "100.,,"), "arm.bdf:3: wrong_count");
   EXPECT_EQ(error("100.,,.25", "100.,-1.,.25"), "arm.bdf:3: out_of_range");
-  EXPECT_EQ(error("0.,1.,0.\n", "1.,0.,0.\n"), "arm.bdf:4: missing");
-  EXPECT_EQ(error("GRID,2,,10.", "GRID,2,,0."), "arm.bdf:4: missing");
+  EXPECT_EQ(error("0.,1.,0.\n", "1.,0.,0.\n"), "arm.bdf:4: geometry");
+  EXPECT_EQ(error("GRID,2,,10.", "GRID,2,,0."), "arm.bdf:4: geometry");
   EXPECT_EQ(error("\n,0.,0.\n", "\n,nan,0.\n"), "arm.bdf:7: not_a_number");
   EXPECT_EQ(error("\n,0.,0.\n", "\n,1.,-1.\n"), "arm.bdf:5: out_of_range");
 }

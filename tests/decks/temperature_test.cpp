@@ -102,7 +102,7 @@ TEST(Temperature, InitialTemperaturesThatSayNone) {
     const std::string text = error_of([&] { initially(conditions); });
     return text.substr(0, text.find('\n'));
   };
-  const std::string depends = "a.inp:9: wrong_value";
+  const std::string depends = "a.inp:9: incomplete";
   const std::string begin = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n";
   EXPECT_EQ(error(""), depends);
   EXPECT_EQ(error("*INITIAL CONDITIONS, TYPE=VELOCITY\n1, 1, 70.\n"), depends);

@@ -99,7 +99,7 @@ TEST(WrittenConnections, SpringsOfAllDirections) {
     model.equations.push_back(equation);
   }
   EXPECT_EQ(error_of([&] { written(model, ".inp"); }),
-            folder.path().string() + "/sprung.inp:28: wrong_value");
+            folder.path().string() + "/sprung.inp:28: unsupported");
 }
 
 /// A frame of two legs of 0.6 m; the second has the offsets `words`.

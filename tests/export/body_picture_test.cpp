@@ -96,7 +96,7 @@ TEST(ExportSelection, TakesBodiesThatWereRecorded) {
   EXPECT_EQ(selected_bodies(history, model, {.bodies = {"beam", "beam"}}), (std::vector<int>{2}));
   EXPECT_EQ(error_of([&] { selected_bodies(history, model, {.bodies = {"baem"}}); }), "not_found");
   EXPECT_EQ(error_of([&] { selected_bodies(history, model, {.bodies = {"stone"}}); }),
-            history.name() + ": wrong_value");
+            history.name() + ": missing");
 }
 
 }  // namespace

@@ -353,7 +353,7 @@ TEST(FeModelErrors, IndicesAndInvertedElements) {
     FAIL();
   } catch (const InputError& error) {
     ASSERT_EQ(error.errors().size(), 2u);
-    EXPECT_EQ(test::code_of(error.errors()[0]), "wrong_value");
+    EXPECT_EQ(test::code_of(error.errors()[0]), "geometry");
     EXPECT_EQ(test::code_of(error.errors()[1]), "out_of_range");
   }
 }

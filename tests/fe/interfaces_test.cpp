@@ -168,7 +168,7 @@ TEST(Interfaces, OneNode) {
   number.by = NodeChoice::By::node;
   number.number = 105;
   InterfaceDescription d = interface(number);
-  EXPECT_EQ(refusal(model, d), "incomplete");
+  EXPECT_EQ(refusal(model, d), "wrong_value");
   FeModel rods = tube();
   rods.sections = {BeamSection::solid_round(0.01)};
   Element rod;
@@ -177,7 +177,7 @@ TEST(Interfaces, OneNode) {
   rods.elements.push_back(rod);
   NodeChoice end = number;
   end.number = 999;
-  EXPECT_EQ(refusal(rods, interface(end)), "incomplete");
+  EXPECT_EQ(refusal(rods, interface(end)), "wrong_value");
   d.mask = 7;
   EXPECT_EQ(add_interface(model, d), 4);
   EXPECT_TRUE(model.spiders.empty());
@@ -201,7 +201,7 @@ TEST(Interfaces, Refusals) {
   EXPECT_EQ(refusal(model, interface(by_set("XYZ"))), "not_found");
   EXPECT_EQ(refusal(model, interface(by_set("EMPTY"))), "missing");
   EXPECT_EQ(refusal(model, interface(by_set("LONE"))), "missing");
-  EXPECT_EQ(refusal(model, interface(by_set("PAIR"))), "incomplete");
+  EXPECT_EQ(refusal(model, interface(by_set("PAIR"))), "wrong_count");
   EXPECT_EQ(refusal(model, interface(by_set("LINE"))), "singular");
   NodeChoice number;
   number.by = By::node;
@@ -230,7 +230,7 @@ TEST(Interfaces, Refusals) {
   number.number = 293;
   second.choice = number;
   second.mask = 7;
-  EXPECT_EQ(refusal(taken, second), "wrong_value");
+  EXPECT_EQ(refusal(taken, second), "dependent");
   FeModel bare = tube();
   bare.node_sets.clear();
   bare.element_sets.clear();

@@ -301,7 +301,7 @@ TEST(Layups, WhatIsRefused) {
               m.orientations[0].axes << 0, 0, -1, 0, 1, 0, 1, 0, 0;
               m.elements[0].orientation = 0;
             }),
-            "wrong_value");
+            "geometry");
 }
 
 }  // namespace

@@ -207,17 +207,17 @@ TEST(Membranes, WhatIsWrongIsSaid) {
     return error_of([&] { validate(model); });
   };
   EXPECT_EQ(error(ElementType::membrane4, [](FeModel& m) { m.shells[0].offset = .1; }),
-            "wrong_value");
+            "geometry");
   EXPECT_EQ(error(ElementType::membrane4s, [](FeModel& m) { m.shells[0].thickness = 0; }),
-            "wrong_value");
+            "geometry");
   EXPECT_EQ(error(ElementType::membrane4,
                   [](FeModel& m) { std::swap(m.elements[0].nodes[1], m.elements[0].nodes[2]); }),
-            "wrong_value");
+            "geometry");
   EXPECT_EQ(error(ElementType::membrane8,
                   [](FeModel& m) { std::swap(m.elements[0].nodes[5], m.elements[0].nodes[7]); }),
-            "wrong_value");
+            "geometry");
   EXPECT_EQ(error(ElementType::membrane3, [](FeModel& m) { m.positions[3] = m.positions[0] / 2; }),
-            "wrong_value");
+            "geometry");
 }
 
 TEST(Membranes, NodesThatNothingHoldsAcross) {

@@ -79,7 +79,7 @@ TEST(Validation, NamesElementsOfTheFile) {
   model.elements[7].nodes[0] = -3;
   const std::vector<std::string> f = errors(model);
   ASSERT_EQ(f.size(), 4u);
-  EXPECT_EQ(f[0], "block.inp:14: wrong_value");
+  EXPECT_EQ(f[0], "block.inp:14: geometry");
   EXPECT_EQ(f[1], "block.inp:16: missing");
   EXPECT_EQ(f[2], "block.inp:17: duplicate");
   EXPECT_EQ(f[3], "block.inp:18: out_of_range");
@@ -98,8 +98,8 @@ TEST(Validation, TwentyOfAKind) {
   for (Element& e : model.elements) std::swap(e.nodes[0], e.nodes[1]);
   const std::vector<std::string> f = errors(model);
   ASSERT_EQ(f.size(), 21u);
-  EXPECT_EQ(f[0], "block.inp:11: wrong_value");
-  EXPECT_EQ(f[20], "wrong_value (28)");
+  EXPECT_EQ(f[0], "block.inp:11: geometry");
+  EXPECT_EQ(f[20], "geometry (28)");
   model.materials.clear();
   EXPECT_EQ(errors(model), std::vector<std::string>{"missing"});
 }

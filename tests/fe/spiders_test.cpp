@@ -172,12 +172,12 @@ TEST(Spiders, Refusals) {
   LinearEquation e;
   e.terms = {{0, 0, 1.0}, {1, 4, 1.0}};
   f.equations.push_back(e);
-  EXPECT_EQ(refusal(f), "missing");
+  EXPECT_EQ(refusal(f), "wrong_value");
   f.positions.emplace_back(1, 2, 3);  // 14: nothing uses it, nor an equation with another node
   f.equations[0].terms = {{14, 0, 1.0}};
-  EXPECT_EQ(refusal(f), "missing");
+  EXPECT_EQ(refusal(f), "out_of_range");
   f.equations[0].terms = {{0, 0, 0.0}, {1, 1, 1.0}};
-  EXPECT_EQ(refusal(f), "wrong_value");
+  EXPECT_EQ(refusal(f), "out_of_range");
 }
 
 }  // namespace

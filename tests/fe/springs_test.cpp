@@ -288,7 +288,7 @@ TEST(Rods, Errors) {
   FeModel model = rods({Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 1}, {1, 2}});
   model.sections[0].A = -1.0;
   const std::string text = error_of([&] { validate(model); });
-  EXPECT_EQ(text, "wrong_value\nwrong_value") << text;
+  EXPECT_EQ(text, "geometry\ngeometry") << text;
 }
 
 TEST(Springs, Units) {
@@ -321,10 +321,10 @@ TEST(Springs, Errors) {
   model.files = {"arm.bdf"};
   const std::string text = error_of([&] { validate(model); });
   EXPECT_EQ(text,
-            "contradiction\ncontradiction\narm.bdf:12: wrong_value\nout_of_range\nout_of_range")
+            "contradiction\ncontradiction\narm.bdf:12: unsupported\nout_of_range\nout_of_range")
       << text;
   EXPECT_EQ(text,
-            "contradiction\ncontradiction\narm.bdf:12: wrong_value\nout_of_range\nout_of_range");
+            "contradiction\ncontradiction\narm.bdf:12: unsupported\nout_of_range\nout_of_range");
   EXPECT_EQ(remove_grounded_springs(model), 1);
   EXPECT_EQ(model.springs.size(), 2u);
   // A node without mass that ties thousands of others together.

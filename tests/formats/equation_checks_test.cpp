@@ -46,16 +46,16 @@ TEST(EquationChecks, ThatSayNothingGo) {
 }
 
 TEST(EquationChecks, ThatHoldThePartAreRefused) {
-  EXPECT_EQ(equation_error(equation_deck + "1\n2, 3, 1.\n"), "e.inp:18: wrong_value");
+  EXPECT_EQ(equation_error(equation_deck + "1\n2, 3, 1.\n"), "e.inp:18: unsupported");
   EXPECT_EQ(equation_error(equation_deck + "3\n2, 3, 1., 3, 1, 2., 3, 1, -2.\n"),
-            "e.inp:18: wrong_value");
+            "e.inp:18: unsupported");
   // A node of no element that is held leaves the others free.
   EXPECT_EQ(equation_error(equation_deck + "3\n1, 1, 1., 2, 1, -1., 9, 1, 1.\n1\n9, 1, 1.\n"), "");
   EXPECT_EQ(equation_error("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
                            "GRID,4,,0.,0.,1.\nCTETRA,1,1,1,2,3,4\nPSOLID,1,1\n"
                            "MAT1,1,2.+11,,.3,8000.\nMPC,1,1,2,1.\n",
                            "e.bdf"),
-            "e.bdf:8: wrong_value");
+            "e.bdf:8: unsupported");
 }
 
 }  // namespace

@@ -171,9 +171,9 @@ TEST(Geometry, Errors) {
     EXPECT_EQ(geometry_error(bytes, name), expected);
   };
   says("", "t.stl", "t.stl: missing");
-  says("x", "t.step", "t.step: wrong_value");
+  says("x", "t.step", "t.step: wrong_file");
   says("solid a\nendsolid a\n", "t.stl", "t.stl: missing");
-  says(replaced(text_stl(), "endsolid t\n", ""), "t.stl", "t.stl:29: wrong_value");
+  says(replaced(text_stl(), "endsolid t\n", ""), "t.stl", "t.stl:29: damaged");
   says(replaced(text_stl(), "1.000000e0", "nan"), "t.stl", "t.stl:5: not_a_number");
   says("solid t\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "t.stl",
        "t.stl:5: wrong_value");
@@ -193,9 +193,9 @@ TEST(Geometry, Errors) {
   says(replaced(gltf(), "\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "t.gltf",
        "t.gltf: duplicate");
   says(replaced(gltf(), "\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]"),
-       "t.gltf", "t.gltf: wrong_value");
+       "t.gltf", "t.gltf: wrong_file");
   const std::string other = geometry_error(gltf_json("other.bin"), "t.gltf");
-  EXPECT_EQ(other, "t.gltf: wrong_value");
+  EXPECT_EQ(other, "t.gltf: unsupported");
   for (const char* uri :
        {"/etc/passwd", "../other.bin", "%2e%2e/other.bin", "a/../../b.bin", "file:///etc/passwd"}) {
     const std::string outside =
@@ -203,9 +203,9 @@ TEST(Geometry, Errors) {
           ADD_FAILURE() << "asked for " << name;
           return std::string();
         });
-    EXPECT_EQ(outside, "t.gltf: wrong_value") << uri;
+    EXPECT_EQ(outside, "t.gltf: unsupported") << uri;
   }
-  EXPECT_EQ(geometry_error(gltf().substr(0, 100), "t.gltf"), "t.gltf: wrong_value");
+  EXPECT_EQ(geometry_error(gltf().substr(0, 100), "t.gltf"), "t.gltf: wrong_file");
 }
 
 TEST(Geometry, TooManyTrianglesAreRefused) {

@@ -142,10 +142,10 @@ struct FileError {
 TEST(Gmsh, ErrorsOfText) {
   ASSERT_EQ(mesh_error(tiny), "no error");
   const FileError errors[] = {
-      {"4.1 0 8", "4.0 0 8", "arm.msh:2: wrong_value"},
-      {"$MeshFormat\n4", "MeshFormat\n4", "arm.msh:1: wrong_value"},
+      {"4.1 0 8", "4.0 0 8", "arm.msh:2: unsupported"},
+      {"$MeshFormat\n4", "MeshFormat\n4", "arm.msh:1: wrong_file"},
       {"3 1 \"BODY\"", "3 1 BODY", "arm.msh:6: wrong_value"},
-      {"1 4 1 4\n", "1 400000000000 1 4\n", "arm.msh:13: wrong_value"},
+      {"1 4 1 4\n", "1 400000000000 1 4\n", "arm.msh:13: damaged"},
       {"1 4 1 4\n", "1 5 1 4\n", "arm.msh:13: contradiction"},
       {"1 4 1 4\n3 1 0 4\n1", "1 3 1 4\n3 1 0 3\n1", "arm.msh:21: damaged"},
       {"1\n2\n3\n4\n0", "1\n2\n2\n4\n0", "arm.msh:17: duplicate\narm.msh:27: not_found"},
@@ -165,8 +165,8 @@ TEST(Gmsh, ErrorsOfText) {
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n",
        "1 1 1 1\n3 1 12 1\n9 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3\n",
        "arm.msh:27: unsupported"},
-      {"$Elements\n", "$Comments\n", "arm.msh:24: missing"},
-      {"$Nodes\n1 4 1 4", "$PartitionedEntities\n1 4 1 4", "arm.msh:12: wrong_value"},
+      {"$Elements\n", "$Comments\n", "arm.msh:24: damaged"},
+      {"$Nodes\n1 4 1 4", "$PartitionedEntities\n1 4 1 4", "arm.msh:12: unsupported"},
   };
   for (const FileError& error : errors) {
     std::string text = tiny;
@@ -187,7 +187,7 @@ TEST(Gmsh, ErrorsOfBinary) {
   // A count that nothing backs.
   std::string text = good;
   text[nodes + 13] = 1;
-  EXPECT_EQ(mesh_error(text), "arm.msh: wrong_value");
+  EXPECT_EQ(mesh_error(text), "arm.msh: damaged");
   // Rubbish in a node number, a coordinate that is no number, a wrong order of bytes.
   text = good;
   text[nodes + 58] = 1;

@@ -344,11 +344,11 @@ TEST(SidFile, Errors) {
        "arm.SID_FEM:137: wrong_count"},
       {"m0( 2, 1)             = 2.50000000000D-01", "m0( 1, 1) = 2.5D-01",
        "arm.SID_FEM:137: duplicate"},
-      {"           Gr\n", "           Gz\n", "arm.SID_FEM:214: not_found"},
+      {"           Gr\n", "           Gz\n", "arm.SID_FEM:214: unknown_key"},
       {"m0( 1, 3)             = 1.09733984152D+00", "m0( 1, 3) = 1.1",
        "arm.SID_FEM:172: contradiction"},
       {"m0( 2, 2)             = 7.50000000000D-01", "m0( 2, 1)             = 7.50000000000D-01",
-       "arm.SID_FEM:301: wrong_value"},
+       "arm.SID_FEM:301: contradiction"},
   };
   for (const SidError& c : errors) {
     std::string text = classical();

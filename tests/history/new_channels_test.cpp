@@ -150,8 +150,8 @@ TEST(NewChannelsOfSomeBodies, AreThoseOfTheseBodies) {
       const Model other = model_of(text + output);
       return error_of([&] { new_channels(history, other, o, 1); });
     };
-    EXPECT_EQ(error("  x: {position: stone, axis: x}\n"), history.name() + ": wrong_value");
-    EXPECT_EQ(error("  x: {joint_force: hinge, axis: x}\n"), history.name() + ": wrong_value");
+    EXPECT_EQ(error("  x: {position: stone, axis: x}\n"), history.name() + ": missing");
+    EXPECT_EQ(error("  x: {joint_force: hinge, axis: x}\n"), history.name() + ": missing");
   }
 }
 
@@ -216,7 +216,7 @@ TEST(NewChannelsErrors, ImpulsesAndOtherModelsAreRefused) {
   const StateHistory history(folder.file("states.ffr"));
   const Model other = model_of(text + "  x: {projection_impulse: guide, axis: y}\n");
   EXPECT_EQ(error_of([&] { new_channels(history, other, other.simulation, 1); }),
-            history.name() + ": wrong_value");
+            history.name() + ": unsupported");
   EXPECT_EQ(test::without_folders(error_of([&] { require_model(history, other); })),
             "states.ffr: mismatch");
   const Model small =

@@ -212,9 +212,9 @@ TEST(StateHistory, WhatIsWrongIsSaid) {
   EXPECT_EQ(changed([](HistoryHeader& h) { h.coordinates = "polar"; }), "x: wrong_value");
   EXPECT_EQ(changed([](HistoryHeader& h) { h.q[1] = h.q[0]; }), "x: out_of_range");
   EXPECT_EQ(changed([](HistoryHeader& h) { h.q.back() = h.configurations; }), "x: out_of_range");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.groups[1].first = 5; }), "x: wrong_value");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.groups[1].first = 5; }), "x: contradiction");
   EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].amplitudes = 0; }), "x: out_of_range");
-  EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].shape = 9; }), "x: wrong_value");
+  EXPECT_EQ(changed([](HistoryHeader& h) { h.bodies[2].shape = 9; }), "x: not_found");
   EXPECT_EQ(changed([](HistoryHeader& h) {
               h.arrays.push_back({"a", "f64", {2000000000, 2000000000, 2000000000}});
             }),

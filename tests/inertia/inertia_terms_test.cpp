@@ -51,8 +51,8 @@ TEST(InertiaTerms, WhatDoesNotFitIsRefused) {
   body.invariants = InertiaInvariants::rigid(2.0, Vec3::Zero(), Mat3::Identity());
   BodyMotion m;
   m.y = VecX::Zero(2);
-  EXPECT_EQ(error_of([&] { relative_preprocessing(body, m); }), "wrong_value");
-  EXPECT_EQ(error_of([&] { absolute_projection(body, {}); }), "wrong_value");
+  EXPECT_EQ(error_of([&] { relative_preprocessing(body, m); }), "wrong_count");
+  EXPECT_EQ(error_of([&] { absolute_projection(body, {}); }), "missing");
 }
 
 TEST(InertiaTerms, SizesThatDoNotFit) {

@@ -133,7 +133,7 @@ TEST(Table, PointsThatAreNone) {
   };
   EXPECT_EQ(time({{0, 1}, {0, 2}}), "no error");
   EXPECT_EQ(time({{0, 1}}), "out_of_range");
-  EXPECT_EQ(time({{0, 1}, {0, 2}, {0, 3}}), "wrong_count");
+  EXPECT_EQ(time({{0, 1}, {0, 2}, {0, 3}}), "duplicate");
   EXPECT_EQ(time({{1, 1}, {0, 2}}), "contradiction");
   const auto profile = [](const std::vector<TablePoint>& p) {
     return test::error_of([&] { profile_function(p); });

@@ -24,17 +24,17 @@ TEST(Validate, Simulation) {
       {[](S& s) { s.tolerance = 1e300; }, "simulation.tolerance: out_of_range"},
       {[](S& s) { s.position_tolerance = 2.0; }, "simulation.position_tolerance: out_of_range"},
       {[](S& s) { s.velocity_tolerance = 2.0; }, "simulation.velocity_tolerance: out_of_range"},
-      {[](S& s) { s.min_step = 1.0; }, "simulation.min_step: wrong_value"},
+      {[](S& s) { s.min_step = 1.0; }, "simulation.min_step: out_of_range"},
       {[](S& s) { s.penalty = nan; }, "simulation.penalty: out_of_range"},
       {[](S& s) { s.position_tolerance = 0.0; }, "simulation.position_tolerance: out_of_range"},
       {[](S& s) { s.velocity_tolerance = -1.0; }, "simulation.velocity_tolerance: out_of_range"},
       {[](S& s) { s.velocity.y() = nan; }, "simulation.velocity[2]: out_of_range"},
       {[](S& s) { s.coordinates = static_cast<Coordinates>(2); },
-       "simulation.coordinates: out_of_range"},
+       "simulation.coordinates: wrong_value"},
       {[](S& s) { s.inertia = static_cast<InertiaMethod>(-1); },
-       "simulation.inertia: out_of_range"},
-      {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: out_of_range"},
-      {[](S& s) { s.start = Start::state; }, "simulation.start: wrong_value"},
+       "simulation.inertia: wrong_value"},
+      {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: missing"},
+      {[](S& s) { s.start = Start::state; }, "simulation.start: missing"},
       {[](S& s) { s.offset["block"].translation.x() = 0.1; },
        "simulation.start.offset: incomplete"},
       {[](S& s) {
@@ -104,8 +104,7 @@ TEST(Validate, AllErrorsAtOnce) {
   rigid(d).mass = -1.0;
   d.outputs[0].component = 7;
   EXPECT_EQ(errors(d),
-            "bodies.block.rigid.mass: out_of_range\noutputs.z.axis: out_of_range\nsimulation.step: "
-            "out_of_range");
+            "bodies.block.rigid.mass: out_of_range\noutputs.z.axis: wrong_value\nsimulation.step: out_of_range");
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST_F(BodyGeometry, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errors("plate.obj"), "m.yaml:5:15: bodies.a.geometry: wrong_value");
   EXPECT_EQ(errors("{scale: 2}"), "m.yaml:5:5: bodies.a.geometry: missing");
   EXPECT_EQ(errors("{file: none.stl}"), "m.yaml:5:22: bodies.a.geometry.file: unreadable");
-  EXPECT_EQ(errors("{file: parts}"), "m.yaml:5:22: bodies.a.geometry.file: wrong_value");
+  EXPECT_EQ(errors("{file: parts}"), "m.yaml:5:22: bodies.a.geometry.file: wrong_file");
   EXPECT_EQ(errors("{file: parts/plate.obj, scale: 0, color: red}"),
             "m.yaml:5:46: bodies.a.geometry.scale: out_of_range\nm.yaml:5:56: "
             "bodies.a.geometry.color: wrong_value");

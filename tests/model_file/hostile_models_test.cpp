@@ -85,8 +85,8 @@ TEST_F(Hostile, UnknownReferencesAreCounted) {
             ", at: [0, 0, 0]}\n";
   const Errors found = errors(text);
   ASSERT_EQ(found.size(), 21u);
-  EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: out_of_range");
-  EXPECT_EQ(found[20], "model.yaml:25:33: out_of_range (14980)");
+  EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: not_found");
+  EXPECT_EQ(found[20], "model.yaml:25:33: not_found (14980)");
 }
 
 TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
@@ -101,8 +101,8 @@ TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
     ASSERT_EQ(found.size(), 21u);
     EXPECT_EQ(found[0], std::string("model.yaml:15004:3: ") +
                             (offset ? "simulation.start.offset" : "initial.amplitudes") +
-                            ".bady0: out_of_range");
-    EXPECT_EQ(found[20], "model.yaml:15024:3: out_of_range (99980)");
+                            ".bady0: not_found");
+    EXPECT_EQ(found[20], "model.yaml:15024:3: not_found (99980)");
   }
 }
 

@@ -213,7 +213,7 @@ TEST_F(Parts, ProjectionNeedsItsData) {
   EXPECT_NO_THROW(check_inertia_method(d, InertiaMethod::preprocessing));
   EXPECT_EQ(
       folder_.without(test::error_of([&] { check_inertia_method(d, InertiaMethod::projection); })),
-      "model.yaml:2:22: out_of_range");
+      "model.yaml:2:22: unsupported");
 }
 
 TEST_F(Parts, WarningsOfItsReportAreTold) {

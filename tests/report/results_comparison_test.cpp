@@ -140,12 +140,7 @@ TEST_F(Comparing, ChannelsThatOnlyOneHas) {
   const auto mm = results("mm", 0, 1, 3, {one}, "mm");
   // Nothing to compare is no agreement.
   const auto error = [&](const std::string& first, const std::string& second) {
-    try {
-      compared(first, second);
-    } catch (const InputError& error) {
-      return test::codes_of(error);
-    }
-    return std::string();
+    return test::error_of([&] { compared(first, second); });
   };
   EXPECT_EQ(test::without_folders(error(b, mm)), "mm:1: missing") << error(b, mm);
   const auto none = results("none", 0, 1, 3, {});

@@ -13,7 +13,7 @@
 namespace floatframe::test {
 namespace {
 
-const std::string empty = "wrong_value";
+const std::string empty = "missing";
 
 TEST(ProgramMisuse, ModelsThatAreNotBuilt) {
   Model model = model_of(stepped_machine);
@@ -32,7 +32,7 @@ TEST(ProgramMisuse, ModelsThatAreNotBuilt) {
   }
   Model torn = moved;
   torn.bodies.front().data = nullptr;
-  EXPECT_EQ(error_of([&] { Simulation s(torn); }).substr(0, 53), "wrong_value");
+  EXPECT_EQ(error_of([&] { Simulation s(torn); }).substr(0, 53), "missing");
   torn = moved;
   torn.amplitudes.pop_back();
   EXPECT_NE(error_of([&] { Simulation s(torn); }), "no error");
@@ -47,7 +47,7 @@ TEST(ProgramMisuse, ModesToKeep) {
     for (int k = 0; k < body.modes(); ++k) all.back().push_back(k);
   }
   EXPECT_EQ(error_of([&] { with_modes(model, all); }), "no error");
-  EXPECT_EQ(error_of([&] { with_modes(model, {}); }), "wrong_value");
+  EXPECT_EQ(error_of([&] { with_modes(model, {}); }), "wrong_count");
   for (const std::vector<int>& wrong : {std::vector<int>{-1}, {1000}, {0, 0}, {1, 0}}) {
     std::vector<std::vector<int>> keep = all;
     keep.back() = wrong;

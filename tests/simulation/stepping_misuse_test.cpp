@@ -280,7 +280,7 @@ TEST(SteppingMisuse, DamagedBytes) {
   auto newer = bytes;
   newer[8] = std::byte{4};
   EXPECT_EQ(refused(sealed(newer)), "mismatch");
-  EXPECT_EQ(refused({}).substr(0, 43), "wrong_value");
+  EXPECT_EQ(refused({}).substr(0, 43), "wrong_file");
 }
 
 /// Every word of a state replaced by one that cannot be, with a checksum that fits: refused, or the

@@ -134,7 +134,7 @@ TEST_P(Stepping, GoesOnAfterAFailedStep) {
   EXPECT_EQ(s.step(1e-3).status, StepStatus::failed_before);
   EXPECT_EQ(s.step().where, r.where);
   EXPECT_EQ(s.failure(), why);
-  EXPECT_EQ(error_of([&] { s.save(); }).substr(0, 38), "wrong_value");
+  EXPECT_EQ(error_of([&] { s.save(); }).substr(0, 38), "step_failed");
   s.restore(saved);
   EXPECT_EQ(s.failure(), "");
   EXPECT_TRUE(equal_bits(trace(s, 10, 30), first));

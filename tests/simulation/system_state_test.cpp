@@ -286,7 +286,7 @@ TEST(SystemState, OfAnotherModel) {
   EXPECT_EQ(start([](SystemState&) {}), "no error");
   EXPECT_EQ(start([](SystemState& s) { s.joints.pop_back(); }), "s.json: duplicate");
   EXPECT_EQ(start([](SystemState& s) { s.joints.push_back(s.joints[0]); }), "s.json: duplicate");
-  EXPECT_EQ(start([](SystemState& s) { s.bodies[0].name = "chasis"; }), "s.json: wrong_value");
+  EXPECT_EQ(start([](SystemState& s) { s.bodies[0].name = "chasis"; }), "s.json: not_found");
   EXPECT_EQ(start([](SystemState& s) { s.joints[1].type = JointType::prismatic; }),
             "s.json: wrong_count");
   EXPECT_EQ(start([](SystemState& s) { s.joints[1].position.push_back(0.0); }),

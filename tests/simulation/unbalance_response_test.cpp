@@ -214,7 +214,7 @@ TEST(UnbalanceResponse, WrongInput) {
                                  .outputs = {output}});
     });
   };
-  EXPECT_EQ(error({"disk", "", 1e-4, 0}), "missing");
+  EXPECT_EQ(error({"disk", "", 1e-4, 0}), "not_found");
   EXPECT_EQ(error({"shaft", "", 1e-4, 0}), "missing");
   EXPECT_EQ(error({"shaft", "middle", 1e-4, 0}), "missing");
   EXPECT_EQ(error({"disc", "", 1e-4, 0}, "disk.y"), "not_found");

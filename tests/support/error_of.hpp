@@ -17,7 +17,8 @@ std::string codes_of(const RunError& error);
 /// Without the names of temporary folders.
 std::string without_folders(const std::string& text);
 
-/// What `text` makes of the InputError or RunError that `action` ends with, "no error" if it ends without.
+/// What `text` makes of the InputError or RunError that `action` ends with, "no error" if it ends
+/// without.
 template <class Action, class Text>
 std::string error_as(Action&& action, Text&& text) {
   try {
