@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "floatframe/apps/bench_chain.hpp"
-#include "floatframe/apps/bench_command.hpp"
-#include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/bench/bench_chain.hpp"
+#include "floatframe/bench/bench_command.hpp"
+#include "floatframe/bench/chain_model.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 

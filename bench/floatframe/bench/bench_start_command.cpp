@@ -1,9 +1,9 @@
 // floatframe bench start: options, and exit code 1 if a start failed.
 #include <algorithm>
 
-#include "floatframe/apps/bench_command.hpp"
-#include "floatframe/apps/bench_start.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/bench/bench_command.hpp"
+#include "floatframe/bench/bench_start.hpp"
 #include "floatframe/core/atomic_file.hpp"
 
 namespace floatframe {

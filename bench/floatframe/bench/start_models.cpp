@@ -1,9 +1,9 @@
-#include "floatframe/apps/start_models.hpp"
+#include "floatframe/bench/start_models.hpp"
 
 #include <array>
 #include <map>
 
-#include "floatframe/apps/chain_model.hpp"
+#include "floatframe/bench/chain_model.hpp"
 #include "floatframe/core/enum_index.hpp"
 
 namespace floatframe {

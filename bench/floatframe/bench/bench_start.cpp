@@ -1,4 +1,4 @@
-#include "floatframe/apps/bench_start.hpp"
+#include "floatframe/bench/bench_start.hpp"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "floatframe/apps/bench_command.hpp"
-#include "floatframe/apps/bench_scaling.hpp"
-#include "floatframe/apps/chain_model.hpp"
-#include "floatframe/apps/start_models.hpp"
+#include "floatframe/bench/bench_command.hpp"
+#include "floatframe/bench/bench_scaling.hpp"
+#include "floatframe/bench/chain_model.hpp"
+#include "floatframe/bench/start_models.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"

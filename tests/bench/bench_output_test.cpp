@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "floatframe/apps/bench_iltis.hpp"
+#include "floatframe/bench/bench_iltis.hpp"
 
 namespace floatframe {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/apps/start_models.hpp"
+#include "floatframe/bench/start_models.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {

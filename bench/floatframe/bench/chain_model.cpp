@@ -1,4 +1,4 @@
-#include "floatframe/apps/chain_model.hpp"
+#include "floatframe/bench/chain_model.hpp"
 
 #include <algorithm>
 

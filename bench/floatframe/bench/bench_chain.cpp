@@ -1,4 +1,4 @@
-#include "floatframe/apps/bench_chain.hpp"
+#include "floatframe/bench/bench_chain.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "floatframe/apps/chain_model.hpp"
+#include "floatframe/bench/chain_model.hpp"
 #include "floatframe/core/thread_clock.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/simulation/simulation.hpp"

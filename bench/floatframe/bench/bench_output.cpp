@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "floatframe/apps/bench_iltis.hpp"
 #include "floatframe/apps/command.hpp"
+#include "floatframe/bench/bench_iltis.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 

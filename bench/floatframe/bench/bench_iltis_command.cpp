@@ -1,9 +1,9 @@
 // floatframe bench iltis: finds the Iltis model, measures, prints and optionally writes JSON.
 #include <fmt/format.h>
 
-#include "floatframe/apps/bench_command.hpp"
-#include "floatframe/apps/bench_iltis.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/bench/bench_command.hpp"
+#include "floatframe/bench/bench_iltis.hpp"
 #include "floatframe/core/atomic_file.hpp"
 
 namespace floatframe {

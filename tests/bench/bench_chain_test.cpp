@@ -1,12 +1,12 @@
-#include "floatframe/apps/bench_chain.hpp"
+#include "floatframe/bench/bench_chain.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "floatframe/apps/bench_scaling.hpp"
-#include "floatframe/apps/chain_model.hpp"
-#include "floatframe/apps/solid_link.hpp"
+#include "floatframe/bench/bench_scaling.hpp"
+#include "floatframe/bench/chain_model.hpp"
+#include "floatframe/bench/solid_link.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/reduction/reduction.hpp"

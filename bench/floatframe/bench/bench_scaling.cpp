@@ -1,10 +1,10 @@
-#include "floatframe/apps/bench_scaling.hpp"
+#include "floatframe/bench/bench_scaling.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/apps/chain_model.hpp"
-#include "floatframe/apps/solid_link.hpp"
+#include "floatframe/bench/chain_model.hpp"
+#include "floatframe/bench/solid_link.hpp"
 #include "floatframe/core/thread_clock.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/reduction/reduction.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/apps/bench_chain.hpp"
+#include "floatframe/bench/bench_chain.hpp"
 
 namespace floatframe {
 

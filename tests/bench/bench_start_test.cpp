@@ -1,6 +1,6 @@
 // Starts of long systems: sparse linear algebra gives what the dense one gives, and says so of the
 // models of the benchmark. Times are not tested.
-#include "floatframe/apps/bench_start.hpp"
+#include "floatframe/bench/bench_start.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,9 @@
 
 namespace floatframe {
 
+/// `floatframe bench`.
+Command bench_command();
+
 Command bench_iltis_command();
 Command bench_chain_command();
 Command bench_scaling_command();

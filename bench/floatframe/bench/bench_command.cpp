@@ -1,5 +1,5 @@
 // floatframe bench: what its benchmarks share.
-#include "floatframe/apps/bench_command.hpp"
+#include "floatframe/bench/bench_command.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "floatframe/apps/bench_scaling.hpp"
 #include "floatframe/apps/command.hpp"
+#include "floatframe/bench/bench_scaling.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 

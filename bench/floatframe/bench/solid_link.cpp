@@ -1,4 +1,4 @@
-#include "floatframe/apps/solid_link.hpp"
+#include "floatframe/bench/solid_link.hpp"
 
 namespace floatframe {
 

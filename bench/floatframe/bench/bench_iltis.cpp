@@ -1,4 +1,4 @@
-#include "floatframe/apps/bench_iltis.hpp"
+#include "floatframe/bench/bench_iltis.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/command.hpp"
+#include "floatframe/bench/bench_chain.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/bench_stepper.hpp"

@@ -1,9 +1,9 @@
 // floatframe bench scaling: options, and exit code 1 if a run of the tables failed.
 #include <algorithm>
 
-#include "floatframe/apps/bench_command.hpp"
-#include "floatframe/apps/bench_scaling.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/bench/bench_command.hpp"
+#include "floatframe/bench/bench_scaling.hpp"
 #include "floatframe/core/atomic_file.hpp"
 
 namespace floatframe {

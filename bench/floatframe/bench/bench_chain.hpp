@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/apps/chain_model.hpp"
+#include "floatframe/bench/chain_model.hpp"
 #include "floatframe/model/description.hpp"
 #include "floatframe/simulation/bench_stepper.hpp"
 

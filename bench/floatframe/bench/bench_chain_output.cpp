@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "floatframe/apps/bench_chain.hpp"
-#include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/command.hpp"
+#include "floatframe/bench/bench_chain.hpp"
+#include "floatframe/bench/chain_model.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 
