@@ -53,42 +53,37 @@ Mat6 constants_matrix(const std::vector<double>& c, Form form) {
   return D;
 }
 
+const ElasticType* elastic_type(const AbaqusCard& card) {
+  const std::string name = card.word("TYPE");
+  const auto it = std::find_if(std::begin(elastic_types), std::end(elastic_types),
+                               [&](const ElasticType& t) { return name == t.name; });
+  return it == std::end(elastic_types) ? nullptr : it;
+}
+
 /// The constants of one temperature; false if there are no more lines.
-bool next_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, std::size_t count,
-                    TemperatureRow& row) {
+bool next_constants(AbaqusCard& card, std::size_t count, TemperatureRow& row) {
   std::vector<double>& out = row.values;
-  std::vector<std::string_view> fields;
   while (out.size() < count) {
-    if (!lines.next_fields(fields)) {
+    if (!card.next()) {
       if (!out.empty())
-        lines.error(ErrorCode::wrong_count, keyword, "has {} constants, expected {}", out.size(),
-                    count);
+        card.error(ErrorCode::wrong_count, "has {} constants, expected {}", out.size(), count);
       return false;
     }
     const std::size_t here = std::min<std::size_t>(8, count - out.size());
-    if (fields.size() < here) {
-      lines.error(ErrorCode::missing, keyword, "has no constant {} of {}: eight stand in a line",
-                  out.size() + fields.size() + 1, count);
+    if (card.fields.size() < here) {
+      card.error(ErrorCode::missing, "has no constant {} of {}: eight stand in a line",
+                 out.size() + card.fields.size() + 1, count);
       return false;
     }
-    for (std::size_t k = 0; k < here; ++k) {
-      const std::size_t number = out.size() + 1;
-      out.push_back(lines.real_or(fields, k, 0.0, fmt::format("elastic constant {}", number)));
-    }
-    if (out.size() == count) row.temperature = lines.real_or(fields, here, 0.0, "temperature");
+    for (std::size_t k = 0; k < here; ++k)
+      out.push_back(card.real_or(k, 0.0, fmt::format("elastic constant {}", out.size() + 1)));
+    if (out.size() == count) row.temperature = card.real_or(here, 0.0, "temperature");
   }
   return true;
 }
 
-const ElasticType& elastic_type(const AbaqusKeyword& keyword) {
-  const std::string name = abaqus_name(keyword.value("TYPE"));
-  return *std::find_if(std::begin(elastic_types), std::end(elastic_types),
-                       [&](const ElasticType& t) { return name == t.name; });
-}
-
-void use_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMaterial& material,
-                     const std::vector<double>& c) {
-  const ElasticType& type = elastic_type(keyword);
+void use_anisotropic(AbaqusCard& card, AbaqusMaterial& material, const std::vector<double>& c) {
+  const ElasticType& type = *elastic_type(card);
   std::string error;
   if (type.form == Form::engineering || type.form == Form::lamina) {
     const bool lamina = type.form == Form::lamina;
@@ -103,34 +98,45 @@ void use_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMat
     error = elasticity_error(D, false, constant_name);
     if (error.empty()) material.elasticity = D;
   }
-  if (!error.empty()) lines.error(ErrorCode::wrong_value, keyword, "TYPE={}: {}", type.name, error);
+  if (!error.empty()) card.error(ErrorCode::wrong_value, "TYPE={}: {}", type.name, error);
   material.young = c[0];
+}
+
+/// SYSTEM, DEFINITION and NAME of *ORIENTATION.
+AbaqusOrientation begin_orientation(AbaqusCard& card) {
+  AbaqusOrientation o;
+  o.at = card.at;
+  o.scope = card.content.scope;
+  card.required("NAME");
+  const std::string system = card.word("SYSTEM"), definition = card.word("DEFINITION");
+  if (system == "CYLINDRICAL") {
+    o.kind = AbaqusOrientation::Kind::cylindrical;
+  } else if (system == "ZRECTANGULAR") {
+    o.kind = AbaqusOrientation::Kind::z_rectangular;
+    if (!card.content.clues.axes)
+      card.content.clues.axes = {"*ORIENTATION, SYSTEM=Z RECTANGULAR", card.at};
+  } else if (!system.empty() && system != "RECTANGULAR") {
+    card.error(ErrorCode::wrong_value,
+               "has the system {}, expected RECTANGULAR, Z RECTANGULAR or CYLINDRICAL",
+               shown(card.value("SYSTEM")));
+  }
+  if (!definition.empty() && definition != "COORDINATES")
+    card.error(ErrorCode::wrong_value, "has the definition {}, expected COORDINATES",
+               shown(card.value("DEFINITION")));
+  return o;
 }
 
 }  // namespace
 
-bool is_abaqus_anisotropic(std::string_view type) {
-  return std::any_of(std::begin(elastic_types), std::end(elastic_types),
-                     [&](const ElasticType& t) { return abaqus_name(type) == t.name; });
-}
-
-void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusContent& content, AbaqusMaterial* material) {
-  const ElasticType& type = elastic_type(keyword);
-  const std::size_t before = lines.source().errors();
-  if (keyword.has("DEPENDENCIES") && !same_word(keyword.value("DEPENDENCIES"), "0"))
-    lines.error(ErrorCode::unsupported, keyword,
-                "depends on field variables (DEPENDENCIES), which is not supported");
+bool read_abaqus_anisotropic(AbaqusCard& card) {
+  const ElasticType* const type = elastic_type(card);
+  if (type == nullptr) return false;
+  has_abaqus_dependencies(card);
   std::vector<TemperatureRow> rows;
-  for (TemperatureRow row; next_constants(lines, keyword, type.constants, row); row = {})
+  for (TemperatureRow row; next_constants(card, type->constants, row); row = {})
     rows.push_back(row);
-  if (rows.empty() && lines.source().errors() == before)
-    lines.error(ErrorCode::missing, keyword, "has no data line");
-  lines.skip_data();
-  if (material == nullptr || lines.source().errors() != before) return;
-  if (material->young)
-    return lines.error(ErrorCode::duplicate, keyword, "is given a second time for its material");
-  take_abaqus_constants(lines, keyword, content, *material, rows, use_anisotropic);
+  take_abaqus_constants(card, std::move(rows), use_anisotropic);
+  return true;
 }
 
 bool AbaqusOrientation::points_on_a_line() const {
@@ -145,61 +151,34 @@ const char* AbaqusOrientation::wrong_points() const noexcept {
                                    : "has its points a, b and the origin on a line";
 }
 
-void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusContent& content) {
-  lines.allow_only(keyword, {"NAME", "SYSTEM", "DEFINITION"});
-  AbaqusOrientation o;
-  o.at = keyword.at;
-  o.scope = content.scope;
-  const std::size_t before = lines.source().errors();
-  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
-  const std::string system = abaqus_name(keyword.value("SYSTEM"));
-  const std::string definition = abaqus_name(keyword.value("DEFINITION"));
-  if (system == "CYLINDRICAL") {
-    o.kind = AbaqusOrientation::Kind::cylindrical;
-  } else if (system == "ZRECTANGULAR") {
-    o.kind = AbaqusOrientation::Kind::z_rectangular;
-    if (!content.clues.axes)
-      content.clues.axes = {"*ORIENTATION, SYSTEM=Z RECTANGULAR", keyword.at};
-  } else if (!system.empty() && system != "RECTANGULAR") {
-    lines.error(ErrorCode::wrong_value, keyword,
-                "has the system {}, expected RECTANGULAR, Z RECTANGULAR or CYLINDRICAL",
-                shown(keyword.value("SYSTEM")));
-  }
-  if (!definition.empty() && definition != "COORDINATES")
-    lines.error(ErrorCode::wrong_value, keyword, "has the definition {}, expected COORDINATES",
-                shown(keyword.value("DEFINITION")));
-  std::vector<std::string_view> fields;
-  if (lines.source().errors() != before) return lines.skip_data();
-  if (!lines.next_fields(fields))
-    return lines.error(ErrorCode::missing, keyword, "has no data line");
-  if (fields.size() < 6)
-    lines.error(ErrorCode::wrong_count, keyword,
-                "has {} coordinates, expected those of the points a and b", fields.size());
-  Vec3* const points[] = {&o.a, &o.b, &o.c};
-  for (std::size_t k = 0; k < 9; ++k)
-    (*points[k / 3])(static_cast<Eigen::Index>(k % 3)) =
-        lines.real_or(fields, k, 0.0, "coordinate of the orientation");
-  if (lines.next_fields(fields)) {
-    const std::optional<int> axis = fields[0].empty() ? 1 : parse_integer(fields[0]);
+void read_abaqus_orientation(AbaqusCard& card) {
+  AbaqusOrientation o = begin_orientation(card);
+  if (card.wrong() || !card.needs_line()) return;
+  if (card.fields.size() < 6)
+    card.error(ErrorCode::wrong_count, "has {} coordinates, expected those of the points a and b",
+               card.fields.size());
+  std::size_t k = 0;
+  for (Vec3* const point : {&o.a, &o.b, &o.c})
+    *point = card.vector(std::exchange(k, k + 3), "coordinate of the orientation");
+  if (card.next()) {
+    o.axis_given = !card.field(0).empty();
+    const std::optional<int> axis = o.axis_given ? parse_integer(card.field(0)) : 1;
     if (!axis || *axis < 1 || *axis > 3)
-      lines.error(ErrorCode::out_of_range, keyword, "turns about axis {}, expected 1, 2 or 3",
-                  axis ? std::to_string(*axis) : shown(fields[0]));
+      card.error(ErrorCode::out_of_range, "turns about axis {}, expected 1, 2 or 3",
+                 axis ? std::to_string(*axis) : shown(card.field(0)));
     o.axis = axis.value_or(1);
-    o.axis_given = !fields[0].empty();
-    o.angle = lines.real_or(fields, 1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
+    o.angle = card.real_or(1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
   }
-  lines.skip_data();
   // CalculiX has the origin in place of c: whose deck this is shows later.
   AbaqusOrientation without_c = o;
   without_c.c.setZero();
-  if (lines.source().errors() == before && o.points_on_a_line() && without_c.points_on_a_line())
-    lines.error(ErrorCode::wrong_value, keyword, o.wrong_points());
-  const auto [it, added] = content.orientations.emplace(std::pair{o.scope, name}, o);
-  if (added || lines.source().errors() != before) return;
-  const SourceMark mark = lines.source().mark(it->second.at);
-  lines.error(ErrorCode::duplicate, keyword, "names the orientation {} a second time ({}:{})",
-              shown(name), mark.file, mark.line);
+  if (!card.wrong() && o.points_on_a_line() && without_c.points_on_a_line())
+    card.error(ErrorCode::wrong_value, o.wrong_points());
+  const std::string name = card.word("NAME");
+  const auto [it, added] = card.content.orientations.emplace(std::pair{o.scope, name}, o);
+  if (!added && !card.wrong())
+    card.error(ErrorCode::duplicate, "names the orientation {} a second time ({})", shown(name),
+               card.place(it->second.at));
 }
 
 }  // namespace floatframe

@@ -11,26 +11,26 @@
 namespace floatframe {
 namespace {
 
-BeamSection pipe_section(AbaqusLines& lines, double radius, double wall) {
+BeamSection pipe_section(AbaqusCard& card, double radius, double wall) {
   if (wall > radius) {
-    lines.source().error(ErrorCode::geometry,
-                         "the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall,
-                         radius);
+    card.error_in_line(ErrorCode::geometry,
+                       "the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall,
+                       radius);
   }
   return BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
 }
 
 /// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
 /// of Bredt, 4 A_m^2 / (closed integral of ds / t).
-BeamSection box_section(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
+BeamSection box_section(AbaqusCard& card, double a, double b, const std::array<double, 4>& t) {
   if (t[0] != t[2] || t[1] != t[3]) {
-    lines.source().error(ErrorCode::unsupported,
-                         "opposite walls of the box differ, so that its centroid is not at the "
-                         "node, which is not supported");
+    card.error_in_line(ErrorCode::unsupported,
+                       "opposite walls of the box differ, so that its centroid is not at the "
+                       "node, which is not supported");
   }
   const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
   if (inner_a < 0.0 || inner_b < 0.0)
-    lines.source().error(ErrorCode::geometry, "the walls of the box overlap");
+    card.error_in_line(ErrorCode::geometry, "the walls of the box overlap");
   BeamSection s;
   s.A = a * b - inner_a * inner_b;
   s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
@@ -56,19 +56,19 @@ BeamSection ellipse_section(double a, double b) {
 /// l, h, b1, b2, t1, t2, t3: the node lies l above the lower edge, direction 2 points up; the lower
 /// flange is b1 wide and t1 thick, the upper one b2 and t2, the web t3. A flange without size makes
 /// it a T.
-void i_section(AbaqusLines& lines, const std::vector<double>& d, AbaqusSection& section) {
+void i_section(AbaqusCard& card, const std::vector<double>& d, AbaqusSection& section) {
   const double l = d[0], h = d[1], b1 = d[2], b2 = d[3], t1 = d[4], t2 = d[5], t3 = d[6];
   const auto flange = [&](double b, double t, const char* which) {
     if (b < 0.0 || t < 0.0 || (b > 0.0) != (t > 0.0))
-      lines.source().error(ErrorCode::incomplete,
-                           "the {} flange of the I is {:g} wide and {:g} thick, expected both more "
-                           "than 0, or both 0",
-                           which, b, t);
+      card.error_in_line(ErrorCode::incomplete,
+                         "the {} flange of the I is {:g} wide and {:g} thick, expected both more "
+                         "than 0, or both 0",
+                         which, b, t);
   };
   flange(b1, t1, "lower");
   flange(b2, t2, "upper");
   if (!(t1 + t2 < h))
-    lines.source().error(
+    card.error_in_line(
         ErrorCode::geometry,
         "the flanges of the I ({:g} and {:g} thick) leave no web in its height of {:g}", t1, t2, h);
   std::vector<SectionPlate> plates = {{0.0, 0.5 * (t1 + h - t2), t3, h - t1 - t2}};
@@ -125,8 +125,8 @@ std::string unread_abaqus_shape(const std::string& name) {
                : "expected RECT, CIRC, PIPE, BOX or I";
 }
 
-void set_abaqus_beam(AbaqusLines& lines, const std::vector<double>& d,
-                     const Eigen::Vector2d& offsets, AbaqusSection& section) {
+void set_abaqus_beam(AbaqusCard& card, const std::vector<double>& d, const Eigen::Vector2d& offsets,
+                     AbaqusSection& section) {
   section.arm = -offsets.cwiseProduct(outer_size(section.shape, d));
   if (section.shape == "RECT") {
     section.beam = BeamSection::rectangle(d[0], d.size() > 1 ? d[1] : d[0]);
@@ -134,11 +134,11 @@ void set_abaqus_beam(AbaqusLines& lines, const std::vector<double>& d,
     if (d.size() == 1) section.round = d[0];
     if (d.size() == 2) section.beam = ellipse_section(d[0], d[1]);
   } else if (section.shape == "PIPE") {
-    section.beam = pipe_section(lines, d[0], d[1]);
+    section.beam = pipe_section(card, d[0], d[1]);
   } else if (section.shape == "BOX") {
-    section.beam = box_section(lines, d[0], d[1], {d[2], d[3], d[4], d[5]});
+    section.beam = box_section(card, d[0], d[1], {d[2], d[3], d[4], d[5]});
   } else {
-    i_section(lines, d, section);
+    i_section(card, d, section);
   }
 }
 

@@ -20,7 +20,7 @@ const AbaqusBeamShape* find_abaqus_beam_shape(const std::string& name);
 /// What to say of a shape that is not read.
 std::string unread_abaqus_shape(const std::string& name);
 /// From the numbers of its shape; `offsets`: OFFSET1, OFFSET2 of CalculiX.
-void set_abaqus_beam(AbaqusLines& lines, const std::vector<double>& numbers,
+void set_abaqus_beam(AbaqusCard& card, const std::vector<double>& numbers,
                      const Eigen::Vector2d& offsets, AbaqusSection& section);
 
 }  // namespace floatframe

@@ -31,9 +31,15 @@ struct AbaqusBuild {
         nodes(c, s, AbaqusResolver::Of::nodes),
         elements(c, s, AbaqusResolver::Of::elements),
         clues(c.clues) {}
+  /// Index of the node k of an element; -1 and an error if it is not there.
+  int node_of(const AbaqusElement& element, int k);
   /// Nodes of elements of the deck, each once.
   std::vector<int> nodes_of_elements(const std::vector<int>& list);
   void note(const FeSource& at, const std::string& text);
+  /// "deck.inp:12"
+  std::string place(const FeSource& at) const { return abaqus_place(source, at); }
+  /// Whose deck it is: as the user says, else as the clues show; by_content: nothing shows it.
+  DeckDialect dialect() const;
 
  private:
   std::vector<int> list_of_node_;  // the last list of nodes_of_elements that got it
@@ -123,13 +129,15 @@ void build_abaqus_nonstructural_mass(AbaqusBuild& build);
 void build_abaqus_springs(AbaqusBuild& build);
 // abaqus_ties.cpp
 void build_abaqus_ties(AbaqusBuild& build);
-// abaqus_transforms.cpp
+// abaqus_coordinates.cpp
 /// Of the nodes that *TRANSFORM turns: columns are the axes of their degrees of freedom.
 std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build);
 // abaqus_build_constraints.cpp
 /// The surface of a name and its name in the model; null and an error if there is none.
 const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
                                          std::string& shown_name);
+/// Of a surface of nodes.
+std::vector<int> abaqus_surface_nodes(AbaqusBuild& build, const AbaqusSurface& surface);
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
 
 }  // namespace floatframe

@@ -33,21 +33,18 @@ struct DialectHabit {
 bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
                     const DialectHabit& d) {
   const DialectClues& clues = build.clues;
-  const DeckDialect given = build.content.dialect;
-  if (given == DeckDialect::abaqus) return false;
-  const std::string what = fmt::format("orientation {}: {} is ", shown(name), d.what);
-  if (given == DeckDialect::by_content && (!clues.calculix || clues.abaqus)) {
-    if (clues.by_axes || clues.calculix || !clues.abaqus)
-      build.note(o.at, what + fmt::format("taken as in Abaqus; if the deck is one of CalculiX, "
-                                          "which {}, give --dialect calculix",
-                                          d.calculix));
-    return false;
-  }
-  build.note(
-      o.at,
-      what + fmt::format("{}, as CalculiX does; if the deck is one of Abaqus give --dialect abaqus",
-                         d.taken));
-  return true;
+  const bool given = build.content.dialect != DeckDialect::by_content;
+  const bool calculix = build.dialect() == DeckDialect::calculix;
+  const bool known = given || (clues.abaqus && !clues.calculix && !clues.by_axes);
+  if (calculix)
+    build.note(o.at, fmt::format("orientation {}: {} is {}, as CalculiX does; if the deck is one "
+                                 "of Abaqus give --dialect abaqus",
+                                 shown(name), d.what, d.taken));
+  else if (!known)
+    build.note(o.at, fmt::format("orientation {}: {} is taken as in Abaqus; if the deck is one of "
+                                 "CalculiX, which {}, give --dialect calculix",
+                                 shown(name), d.what, d.calculix));
+  return calculix;
 }
 
 /// In the program of the deck. CalculiX ignores the Z of a system, a point c, and a turn whose
@@ -107,24 +104,19 @@ Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
 
 /// Which axis of an orientation is about the normal of a shell.
 int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
-  const DialectClues& clues = build.clues;
-  const DeckDialect given = build.content.dialect;
-  const bool calculix =
-      given == DeckDialect::calculix || (given == DeckDialect::by_content && clues.calculix);
-  const bool abaqus =
-      given == DeckDialect::abaqus || (given == DeckDialect::by_content && clues.abaqus);
-  if (o.axis == 0 && abaqus && !calculix)
+  const DeckDialect dialect = build.dialect();
+  if (o.axis == 0 && dialect == DeckDialect::abaqus)
     build.source.error(ErrorCode::missing, o.at,
                        "orientation {} is used for shells and has no second line (axis and angle "
                        "of the additional rotation)",
                        shown(name));
   if (o.axis == 0) return 3;
-  if (o.axis != 3 && calculix && !abaqus)
+  if (o.axis != 3 && dialect == DeckDialect::calculix)
     build.source.error(ErrorCode::unsupported, o.at,
                        "orientation {} is used for shells and turns about axis {}; of CalculiX "
                        "decks only turns about axis 3, the normal, are read",
                        shown(name), o.axis);
-  if (o.axis != 3 && o.axis_given && !calculix && !abaqus)
+  if (o.axis != 3 && o.axis_given && dialect == DeckDialect::by_content && !build.clues.abaqus)
     build.note(o.at, fmt::format("orientation {} of shells turns about axis {}, which is taken "
                                  "about the normal as in Abaqus; if the deck is one of CalculiX, "
                                  "which turns the axes in space, give --dialect calculix",
@@ -168,7 +160,7 @@ int with_angles(AbaqusBuild& build, int section, const std::vector<double>& angl
 
 int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section) {
   const bool shell = is_abaqus_sheet(section.family);
-  const AbaqusScope scope = section.elements.scope;
+  const AbaqusScope scope = section.where.scope;
   const auto [place, fresh] = build.orientation_index.try_emplace(
       fmt::format("{}*{}*{}", name, shell ? "SHELL" : "SOLID", static_cast<int>(scope)), -1);
   if (!fresh) return place->second;
@@ -177,7 +169,7 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
     std::vector<std::string> known;
     for (const auto& [key, o] : build.content.orientations)
       if (known.size() < 100) known.push_back(key.second);
-    build.source.error(ErrorCode::not_found, section.at,
+    build.source.error(ErrorCode::not_found, section.where.at,
                        "{} names the orientation {}, which does not exist{}", section.shown,
                        shown(name), did_you_mean(name, known));
     return -1;
@@ -220,18 +212,18 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
   const std::vector<Material>& all = build.model.materials;
   const std::string huge = huge_sheet(shell, all[material].density, all);
   if (!huge.empty())
-    build.source.error(ErrorCode::not_finite, section.at, "{}: {}", section.shown, huge);
+    build.source.error(ErrorCode::not_finite, section.where.at, "{}: {}", section.shown, huge);
 }
 
 void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
                            const Material& material) {
   if (!material.elasticity) return;
   if (section.family == Family::beam)
-    build.source.error(ErrorCode::unsupported, section.at,
+    build.source.error(ErrorCode::unsupported, section.where.at,
                        "{}: material {} is not isotropic, which beams must be", section.shown,
                        shown(section.material));
   if (section.family == Family::solid && material.plane)
-    build.source.error(ErrorCode::unsupported, section.at,
+    build.source.error(ErrorCode::unsupported, section.where.at,
                        "{}: material {} is a lamina, which only shells can have", section.shown,
                        shown(section.material));
 }

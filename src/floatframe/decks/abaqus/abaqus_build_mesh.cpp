@@ -71,19 +71,14 @@ void build_masses(AbaqusBuild& build) {
       continue;
     }
     const AbaqusSection& section = c.masses[section_of[e]];
-    const auto node =
-        c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
-    if (node == c.node_of_label.end()) {
-      build.source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
-                         abaqus_label(element), c.element_nodes[element.first]);
-      continue;
-    }
+    const int node = build.node_of(element, 0);
+    if (node < 0) continue;
     if (const std::string huge = huge_mass(section.mass, section.J); !huge.empty())
-      build.source.error(ErrorCode::not_finite, section.at, "{} of {}: {}", section.shown,
+      build.source.error(ErrorCode::not_finite, section.where.at, "{} of {}: {}", section.shown,
                          abaqus_label(element), huge);
     const Mat3& R = c.placement(element.scope).R;
-    build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose(),
-                                  section.at,
+    build.model.masses.push_back({node, section.mass, R * section.J * R.transpose(),
+                                  section.where.at,
                                   fmt::format("{} of {}", section.shown, abaqus_label(element))});
   }
 }
@@ -91,8 +86,21 @@ void build_masses(AbaqusBuild& build) {
 }  // namespace
 
 void AbaqusBuild::note(const FeSource& at, const std::string& text) {
-  const SourceMark m = source.mark(at);
-  model.notes.push_back(fmt::format("{}:{}: {}", m.file, m.line, text));
+  model.notes.push_back(fmt::format("{}: {}", place(at), text));
+}
+
+DeckDialect AbaqusBuild::dialect() const {
+  if (content.dialect != DeckDialect::by_content) return content.dialect;
+  if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
+  return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
+}
+
+int AbaqusBuild::node_of(const AbaqusElement& element, int k) {
+  const int node = content.node_of(element, k);
+  if (node < 0)
+    source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
+                 abaqus_label(element), content.element_nodes[element.first + k]);
+  return node;
 }
 
 std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
@@ -102,13 +110,10 @@ std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
   for (const int e : list) {
     const AbaqusElement& element = content.elements[e];
     for (int k = 0; k < element.type->nodes; ++k) {
-      const auto it = content.node_of_label.find(
-          AbaqusContent::label(element.scope, content.element_nodes[element.first + k]));
-      if (it == content.node_of_label.end()) continue;
-      int& last = list_of_node_[it->second];
-      if (last == node_list_) continue;
-      last = node_list_;
-      result.push_back(it->second);
+      const int node = content.node_of(element, k);
+      if (node < 0 || list_of_node_[node] == node_list_) continue;
+      list_of_node_[node] = node_list_;
+      result.push_back(node);
     }
   }
   return result;
@@ -197,7 +202,6 @@ void no_section(AbaqusBuild& build, const AbaqusElement& element) {
 /// Nothing if one of its nodes is not there.
 std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
                                   const AbaqusProperties& p) {
-  const AbaqusContent& c = build.content;
   Element result;
   result.type = element.type->type;
   result.material = p.material;
@@ -206,14 +210,8 @@ std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& eleme
   result.id = element.id;
   result.source = element.at;
   for (int k = 0; k < element.type->nodes; ++k) {
-    const int id = c.element_nodes[element.first + k];
-    const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
-    if (it == c.node_of_label.end()) {
-      build.source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
-                         abaqus_label(element), id);
-      return std::nullopt;
-    }
-    result.nodes[k] = it->second;
+    result.nodes[k] = build.node_of(element, k);
+    if (result.nodes[k] < 0) return std::nullopt;
   }
   return result;
 }
@@ -267,7 +265,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     if (type.family == Family::rod && !(c.sections[section].thickness > 0.0)) {
       if (without_area.insert(section).second)
         build.source.error(
-            ErrorCode::incomplete, c.sections[section].at,
+            ErrorCode::incomplete, c.sections[section].where.at,
             "*SOLID SECTION names {}, which needs the area of its section in the line below",
             abaqus_label(element));
       continue;

@@ -1,54 +1,117 @@
 // *SYSTEM: an origin, a point on the first axis and a point in the plane of the first and second
 // axis, in which the nodes that follow are given.
+// *TRANSFORM: directions of degrees of freedom at nodes. Rectangular: x through the first point,
+// the second in the plane of x and y. Cylindrical: radial, tangential, axial about the axis through
+// two points. Equations are written in body axes; supports, which are hints only, stay as they are.
 // Source: Abaqus Keywords Guide.
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
+namespace {
 
-void read_abaqus_system(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  lines.allow_only(keyword, {});
-  content.system.reset();
-  std::vector<std::string_view> fields;
+/// Columns are the turned axes; nothing if they are not determined.
+std::optional<Mat3> axes_at(const AbaqusTransform& t, const Vec3& p) {
+  Mat3 R;
+  if (t.cylindrical) {
+    const Vec3 z = (t.b - t.a).normalized(), to = p - t.a, radial = to - z * z.dot(to);
+    if (!(radial.norm() > 1e-9 * (to.norm() + (t.b - t.a).norm()))) return std::nullopt;
+    R.col(0) = radial.normalized();
+    R.col(2) = z;
+  } else {
+    R.col(0) = t.a.normalized();
+    R.col(2) = t.a.cross(t.b).normalized();
+  }
+  R.col(1) = R.col(2).cross(R.col(0));
+  return R;
+}
+
+}  // namespace
+
+void read_abaqus_system(AbaqusCard& card) {
+  constexpr const char* what = "coordinate of *SYSTEM";
+  std::optional<AbaqusCoordinates>& present = card.content.system;
+  present.reset();
   // Without lines: the axes of the part again.
-  if (!lines.next_fields(fields)) return;
-  const auto point = [&](std::size_t first) {
-    Vec3 p;
-    for (std::size_t k = 0; k < 3; ++k)
-      p[static_cast<Eigen::Index>(k)] =
-          lines.real_or(fields, first + k, 0.0, "coordinate of *SYSTEM");
-    return p;
-  };
-  const std::size_t before = lines.source().errors();
+  if (!card.next()) return;
   AbaqusCoordinates system;
-  system.origin = point(0);
-  content.system = system;
-  if (fields.size() <= 3) return lines.skip_data();
-  Vec3 x = point(3) - system.origin, in_plane = Vec3::Zero();
-  const bool plane = lines.next_fields(fields);
+  system.origin = card.vector(0, what);
+  present = system;
+  if (card.fields.size() <= 3) return;
+  Vec3 x = card.vector(3, what) - system.origin, in_plane = Vec3::Zero();
+  const bool plane = card.next();
   if (plane) {
-    in_plane = point(0) - system.origin;
+    in_plane = card.vector(0, what) - system.origin;
   } else {
     // The third axis stays, the first is seen along it.
     x.z() = 0.0;
     in_plane = Vec3::UnitZ().cross(x);
   }
-  lines.skip_data();
-  if (lines.source().errors() != before) return;
+  if (card.wrong()) return;
   const Vec3 z = x.cross(in_plane);
   const double size = x.stableNorm() * in_plane.stableNorm();
-  if (!(z.stableNorm() > 1e-9 * size) || !std::isfinite(size)) {
-    lines.error(ErrorCode::geometry, keyword,
-                plane ? "has its three points on a line"
-                      : "has its two points at one place as seen along the third axis");
-    return;
-  }
+  if (!(z.stableNorm() > 1e-9 * size) || !std::isfinite(size))
+    return card.error(ErrorCode::geometry,
+                      plane ? "has its three points on a line"
+                            : "has its two points at one place as seen along the third axis");
   system.axes.col(0) = x.stableNormalized();
   system.axes.col(2) = z.stableNormalized();
   system.axes.col(1) = system.axes.col(2).cross(system.axes.col(0));
-  content.system = system;
+  present = system;
+}
+
+void read_abaqus_transform(AbaqusCard& card) {
+  if (card.content.only_nodes)
+    return card.error(ErrorCode::unsupported, "turns the rows of matrices, which is not supported");
+  const bool named = !card.required("NSET").empty();
+  if (!card.is_one_of("TYPE", "R C",
+                      "has the type {}, expected R (rectangular) or C (cylindrical)"))
+    return;
+  card.start();
+  AbaqusTransform t;
+  t.scope = card.content.scope;
+  t.cylindrical = same_word(card.value("TYPE"), "C");
+  Vec6 x = Vec6::Zero();
+  int count = 0;
+  while (card.next())
+    for (std::size_t k = 0; k < card.fields.size(); ++k)
+      if (count < 6) x(count++) = card.real(k, "coordinate of *TRANSFORM");
+  if (card.wrong()) return;
+  t.a = x.head<3>();
+  t.b = x.tail<3>();
+  const double size = t.a.norm() + t.b.norm();
+  const double spread = t.cylindrical ? (t.b - t.a).norm() : t.a.cross(t.b).norm() / size;
+  if (count < 6 || !(spread > 1e-9 * size))
+    return card.error(ErrorCode::geometry,
+                      t.cylindrical ? "needs two different points of its axis"
+                                    : "needs two points that do not lie on a line with the origin");
+  if (!named) return;
+  t.where = card.reference_of("NSET");
+  card.content.transforms.push_back(t);
+}
+
+std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build) {
+  const AbaqusContent& c = build.content;
+  std::map<int, Mat3> axes;
+  for (AbaqusTransform t : c.transforms) {
+    const AbaqusPlacement& place = c.placement(t.scope);
+    t.a = t.cylindrical ? place.at(t.a) : Vec3(place.R * t.a);
+    t.b = t.cylindrical ? place.at(t.b) : Vec3(place.R * t.b);
+    for (const int node : build.nodes.resolve(t.where)) {
+      if (const std::optional<Mat3> R = axes_at(t, build.model.positions[node]))
+        axes[node] = *R;
+      else
+        build.source.error(
+            ErrorCode::geometry, t.where.at,
+            "*TRANSFORM: {} lies on the axis, where the radial direction is not determined",
+            build.model.node_label(node));
+    }
+  }
+  return axes;
 }
 
 }  // namespace floatframe

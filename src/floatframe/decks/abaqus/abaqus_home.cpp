@@ -16,14 +16,6 @@ namespace {
 /// The default of its slenderness compensation.
 constexpr double slenderness_of_abaqus = 0.25;
 
-/// Of Abaqus, CalculiX, or nothing shows which.
-DeckDialect dialect_of(const AbaqusBuild& build) {
-  const DialectClues& clues = build.clues;
-  if (build.content.dialect != DeckDialect::by_content) return build.content.dialect;
-  if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
-  return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
-}
-
 /// B31, and the shells that are not for thin ones only.
 bool shears(const AbaqusType& type) noexcept {
   const std::string_view name = type.name;
@@ -66,7 +58,7 @@ void as_in_home_program(AbaqusBuild& build) {
   FeModel& model = build.model;
   const AbaqusContent& c = build.content;
   if (c.sections.empty() || build.source.errors() > 0) return;
-  const bool of_abaqus = dialect_of(build) == DeckDialect::abaqus;
+  const bool of_abaqus = build.dialect() == DeckDialect::abaqus;
   if (of_abaqus)
     for (BeamSection& s : model.sections)
       if (s.has_shear()) s.slenderness = slenderness_of_abaqus;
@@ -88,7 +80,7 @@ void as_in_home_program(AbaqusBuild& build) {
 
 void note_mass_of_unclear_dialect(AbaqusBuild& build) {
   const std::vector<Element>& elements = build.model.elements;
-  if (build.content.sections.empty() || dialect_of(build) != DeckDialect::by_content ||
+  if (build.content.sections.empty() || build.dialect() != DeckDialect::by_content ||
       std::all_of(elements.begin(), elements.end(),
                   [](const Element& e) { return quadratic(e.type); }))
     return;

@@ -18,70 +18,49 @@ class ScopeChange {
     if (scope == from_) scope = to_;
   }
   void operator()(AbaqusReference& r) const { (*this)(r.scope); }
-  void operator()(AbaqusSet& set) const {
-    for (AbaqusReference& r : set.items) (*this)(r);
-  }
-  void operator()(AbaqusSurface& surface) const {
-    for (AbaqusSurface::Item& item : surface.items) (*this)(item.where);
-  }
+  void operator()(AbaqusThing& thing) const { (*this)(thing.where); }
   void operator()(AbaqusOrientation& o) const { (*this)(o.scope); }
-  void operator()(AbaqusSection& s) const { (*this)(s.elements); }
-  void operator()(AbaqusSpring& s) const { (*this)(s.elements); }
-  void operator()(AbaqusSupport& s) const { (*this)(s.nodes); }
-  void operator()(AbaqusThickness& t) const { (*this)(t.nodes); }
-  void operator()(AbaqusNonstructuralMass& m) const { (*this)(m.elements); }
-  void operator()(AbaqusPreTension& p) const { (*this)(p.surface); }
+  void operator()(AbaqusSet& set) const { each(set.items); }
+  void operator()(AbaqusSurface& surface) const { each(surface.items); }
+  void operator()(AbaqusEquation& e) const { each(e.terms); }
   void operator()(AbaqusTie& t) const {
-    (*this)(t.slave);
+    (*this)(t.where);
     (*this)(t.master);
   }
   void operator()(AbaqusTransform& t) const {
     (*this)(t.scope);
-    (*this)(t.nodes);
-  }
-  void operator()(AbaqusEquation& e) const {
-    for (AbaqusEquation::Term& term : e.terms) (*this)(term.nodes);
+    (*this)(t.where);
   }
   void operator()(AbaqusSpider& s) const {
-    (*this)(s.reference);
+    (*this)(s.where);
     if (s.surface) (*this)(*s.surface);
     if (s.rotation) (*this)(*s.rotation);
-    for (auto* list : {&s.nodes, &s.elements})
-      for (AbaqusReference& r : *list) (*this)(r);
+    each(s.nodes);
+    each(s.elements);
   }
 
  private:
+  template <class List>
+  void each(List& list) const {
+    for (auto& item : list) (*this)(item);
+  }
+
   AbaqusScope from_, to_;
 };
 
-AbaqusScope scope_of(const AbaqusSection& s) { return s.elements.scope; }
-AbaqusScope scope_of(const AbaqusSpring& s) { return s.elements.scope; }
-AbaqusScope scope_of(const AbaqusSupport& s) { return s.nodes.scope; }
-AbaqusScope scope_of(const AbaqusThickness& t) { return t.nodes.scope; }
-AbaqusScope scope_of(const AbaqusNonstructuralMass& m) { return m.elements.scope; }
-AbaqusScope scope_of(const AbaqusPreTension& p) { return p.surface.scope; }
-AbaqusScope scope_of(const AbaqusTie& t) { return t.slave.scope; }
+AbaqusScope scope_of(const AbaqusThing& thing) { return thing.where.scope; }
 AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
-AbaqusScope scope_of(const AbaqusSpider& s) { return s.reference.scope; }
-AbaqusScope scope_of(const AbaqusEquation& e) {
-  return e.terms.empty() ? AbaqusScope::assembly : e.terms.front().nodes.scope;
-}
+AbaqusScope scope_of(const AbaqusEquation& e) { return e.terms.front().where.scope; }
 
 /// Calls `use` with each list of things that belong to a scope and its place in AbaqusSizes.
 template <typename Content, typename Use>
 void each_list(Content& c, Use use) {
-  std::size_t place = 2;
-  use(c.sections, place++);
-  use(c.masses, place++);
-  use(c.spiders, place++);
-  use(c.equations, place++);
-  use(c.supports, place++);
-  use(c.ties, place++);
-  use(c.springs, place++);
-  use(c.transforms, place++);
-  use(c.thicknesses, place++);
-  use(c.nonstructural, place++);
-  use(c.pre_tensions, place++);
+  const auto all = [&](auto&... lists) {
+    std::size_t place = 2;
+    (use(lists, place++), ...);
+  };
+  all(c.sections, c.masses, c.spiders, c.equations, c.supports, c.ties, c.springs, c.transforms,
+      c.thicknesses, c.nonstructural, c.pre_tensions);
 }
 
 /// Entries of a scope; the keys begin with it.
@@ -96,19 +75,21 @@ auto entries_of(Map& map, AbaqusScope scope) {
   return std::pair{begin, end};
 }
 
-std::int64_t weight(const AbaqusSet& set) { return static_cast<std::int64_t>(set.items.size()); }
-std::int64_t weight(const AbaqusSurface& s) { return static_cast<std::int64_t>(s.items.size()); }
-std::int64_t weight(const AbaqusOrientation&) { return 1; }
-std::int64_t weight(const AbaqusEquation& e) { return static_cast<std::int64_t>(e.terms.size()); }
-std::int64_t weight(const AbaqusSpider& s) {
-  return static_cast<std::int64_t>(1 + s.nodes.size() + s.elements.size());
-}
-std::int64_t weight(const AbaqusSection& s) {
-  return static_cast<std::int64_t>(1 + s.plies.size());
-}
-template <typename T>
-std::int64_t weight(const T&) {
-  return 1;
+std::size_t weight(const AbaqusSet& set) { return set.items.size(); }
+std::size_t weight(const AbaqusSurface& s) { return s.items.size(); }
+std::size_t weight(const AbaqusOrientation&) { return 1; }
+std::size_t weight(const AbaqusEquation& e) { return e.terms.size(); }
+std::size_t weight(const AbaqusSpider& s) { return 1 + s.nodes.size() + s.elements.size(); }
+std::size_t weight(const AbaqusSection& s) { return 1 + s.plies.size(); }
+std::size_t weight(const AbaqusThing&) { return 1; }
+
+template <class T>
+void copy_numbered(AbaqusNumbered<T>& all, std::size_t begin, std::size_t end, AbaqusScope to) {
+  for (std::size_t k = begin; k < end; ++k) {
+    T copy = all[k];  // the numbers of an element's nodes are the same
+    copy.scope = to;
+    all.add(copy);
+  }
 }
 
 template <typename Map>
@@ -117,7 +98,7 @@ void copy_names(Map& map, AbaqusScope from, AbaqusScope to, TextSource& source) 
   std::vector<std::pair<typename Map::key_type, typename Map::mapped_type>> copies;
   const auto [begin, end] = entries_of(map, from);
   for (auto it = begin; it != end; ++it) {
-    source.make(weight(it->second));
+    source.make(static_cast<std::int64_t>(weight(it->second)));
     copies.emplace_back(typename Map::key_type{to, it->first.second}, it->second);
   }
   for (auto& [key, value] : copies) {
@@ -138,19 +119,8 @@ void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
                       TextSource& source) {
   const ScopeChange change(part.scope, to);
   source.make(static_cast<std::int64_t>(part.end[0] - part.begin[0] + part.end[1] - part.begin[1]));
-  for (std::size_t k = part.begin[0]; k < part.end[0]; ++k) {
-    AbaqusNode node = c.nodes[k];
-    node.scope = to;
-    c.node_of_label.emplace(AbaqusContent::label(to, node.id), static_cast<int>(c.nodes.size()));
-    c.nodes.push_back(node);
-  }
-  for (std::size_t k = part.begin[1]; k < part.end[1]; ++k) {
-    AbaqusElement element = c.elements[k];  // the numbers of its nodes are the same
-    element.scope = to;
-    c.element_of_label.emplace(AbaqusContent::label(to, element.id),
-                               static_cast<int>(c.elements.size()));
-    c.elements.push_back(element);
-  }
+  copy_numbered(c.nodes, part.begin[0], part.end[0], to);
+  copy_numbered(c.elements, part.begin[1], part.end[1], to);
   copy_names(c.node_sets, part.scope, to, source);
   copy_names(c.element_sets, part.scope, to, source);
   copy_names(c.surfaces, part.scope, to, source);
@@ -159,7 +129,7 @@ void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
     for (std::size_t k = part.begin[place]; k < part.end[place]; ++k) {
       if (scope_of(list[k]) != part.scope) continue;
       auto copy = list[k];
-      source.make(weight(copy));
+      source.make(static_cast<std::int64_t>(weight(copy)));
       change(copy);
       list.push_back(std::move(copy));
     }
@@ -168,16 +138,8 @@ void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
 
 void remove_abaqus_scopes(AbaqusContent& c, const std::set<AbaqusScope>& scopes) {
   const auto gone = [&](AbaqusScope scope) { return scopes.contains(scope); };
-  std::erase_if(c.nodes, [&](const AbaqusNode& n) { return gone(n.scope); });
-  std::erase_if(c.elements, [&](const AbaqusElement& e) { return gone(e.scope); });
-  c.node_of_label.clear();
-  for (std::size_t k = 0; k < c.nodes.size(); ++k)
-    c.node_of_label.emplace(AbaqusContent::label(c.nodes[k].scope, c.nodes[k].id),
-                            static_cast<int>(k));
-  c.element_of_label.clear();
-  for (std::size_t k = 0; k < c.elements.size(); ++k)
-    c.element_of_label.emplace(AbaqusContent::label(c.elements[k].scope, c.elements[k].id),
-                               static_cast<int>(k));
+  c.nodes.remove_if([&](const AbaqusNode& n) { return gone(n.scope); });
+  c.elements.remove_if([&](const AbaqusElement& e) { return gone(e.scope); });
   const auto named = [&](const auto& entry) { return gone(entry.first.first); };
   std::erase_if(c.node_sets, named);
   std::erase_if(c.element_sets, named);

@@ -13,25 +13,18 @@
 
 namespace floatframe {
 
-void read_abaqus_nodal_thickness(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                 AbaqusContent& content) {
-  lines.allow_only(keyword, {});
-  std::vector<std::string_view> fields;
-  bool any = false;
-  while (lines.next_fields(fields)) {
-    any = true;
-    AbaqusThickness t;
-    t.at = lines.source().here();
-    t.nodes = content.reference(fields[0], t.at);
-    if (fields.size() < 2) {
-      lines.source().error(ErrorCode::missing, "*NODAL THICKNESS of {} has no thickness",
-                           content.text(t.nodes, "node"));
+void read_abaqus_nodal_thickness(AbaqusCard& card) {
+  if (!card.needs_line()) return;
+  do {
+    AbaqusNodalValue t{{card.reference(0)}};
+    if (card.fields.size() < 2) {
+      card.error_in_line(ErrorCode::missing, "*NODAL THICKNESS of {} has no thickness",
+                         card.content.text(t.where, "node"));
       continue;
     }
-    t.value = positive_real(lines, fields[1], "thickness at nodes");
-    content.thicknesses.push_back(t);
-  }
-  if (!any) lines.error(ErrorCode::missing, keyword, "has no data line");
+    t.value = card.positive(1, "thickness at nodes");
+    card.content.thicknesses.push_back(t);
+  } while (card.next());
 }
 
 AbaqusNodalThickness::AbaqusNodalThickness(AbaqusBuild& build) : b_(build) {
@@ -39,8 +32,8 @@ AbaqusNodalThickness::AbaqusNodalThickness(AbaqusBuild& build) : b_(build) {
   if (c.thicknesses.empty()) return;
   at_node_.assign(c.nodes.size(), 0.0);
   // Given twice, the later one counts.
-  for (const AbaqusThickness& t : c.thicknesses)
-    for (const int node : build.nodes.resolve(t.nodes)) at_node_[node] = t.value;
+  for (const AbaqusNodalValue& t : c.thicknesses)
+    for (const int node : build.nodes.resolve(t.where)) at_node_[node] = t.value;
 }
 
 void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
@@ -85,7 +78,7 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
 
 void AbaqusNodalThickness::missing(const AbaqusSection& section, const Element& e, int node) {
   if (missing_++ > 0) return;
-  b_.source.error(ErrorCode::missing, section.at,
+  b_.source.error(ErrorCode::missing, section.where.at,
                   "{} has NODAL THICKNESS, but node {} of element {} has none (*NODAL THICKNESS)",
                   section.shown, b_.model.node_ids[node], e.id);
 }
@@ -93,7 +86,7 @@ void AbaqusNodalThickness::missing(const AbaqusSection& section, const Element& 
 void AbaqusNodalThickness::notes() {
   const AbaqusContent& c = b_.content;
   if (!used_ && !c.thicknesses.empty())
-    b_.note(c.thicknesses.front().at,
+    b_.note(c.thicknesses.front().where.at,
             "*NODAL THICKNESS has no effect, as in Abaqus and CalculiX: no section has the "
             "parameter NODAL THICKNESS");
   if (uneven_ > 0)

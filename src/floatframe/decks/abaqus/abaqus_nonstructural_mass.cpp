@@ -28,7 +28,7 @@ class SmearedMass {
     if (list.empty())
       return error(ErrorCode::missing, raw,
                    fmt::format("names {}, which has no elements with stiffness",
-                               b_.content.text(raw.elements, "element")));
+                               b_.content.text(raw.where, "element")));
     double sum = 0.0;  // of what a total mass is shared by
     if (raw.units == Units::total)
       for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
@@ -66,8 +66,8 @@ class SmearedMass {
       return error(ErrorCode::not_finite, raw,
                    fmt::format("gives its {} elements a mass of {:g}, expected a finite number",
                                list.size(), mass));
-    b_.note(raw.at, fmt::format("*NONSTRUCTURAL MASS is added to {} elements of {}", list.size(),
-                                b_.content.text(raw.elements, "element")));
+    b_.note(raw.where.at, fmt::format("*NONSTRUCTURAL MASS is added to {} elements of {}",
+                                      list.size(), b_.content.text(raw.where, "element")));
   }
 
   /// Elements of one section get the same, so few new materials and sections are needed.
@@ -86,7 +86,7 @@ class SmearedMass {
   };
 
   void error(ErrorCode code, const AbaqusNonstructuralMass& raw, const std::string& text) {
-    b_.source.error(code, raw.at, "*NONSTRUCTURAL MASS " + text);
+    b_.source.error(code, raw.where.at, "*NONSTRUCTURAL MASS " + text);
   }
 
   std::string label_of(int index) const {
@@ -98,7 +98,7 @@ class SmearedMass {
   /// Indices in the model; an error if one cannot have such a mass.
   std::vector<int> elements_of(const AbaqusNonstructuralMass& raw) {
     std::vector<int> list;
-    for (const int e : b_.elements.resolve(raw.elements)) {
+    for (const int e : b_.elements.resolve(raw.where)) {
       const int index = b_.element_index[static_cast<std::size_t>(e)];
       const AbaqusElement& deck = b_.content.elements[static_cast<std::size_t>(e)];
       if (index < 0 && is_abaqus_point(deck.type->family)) continue;
@@ -184,43 +184,35 @@ class SmearedMass {
 
 }  // namespace
 
-void read_abaqus_nonstructural_mass(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                    AbaqusContent& content) {
-  lines.allow_only(keyword, {"ELSET", "UNITS", "DISTRIBUTION"});
+void read_abaqus_nonstructural_mass(AbaqusCard& card) {
+  constexpr std::array units{
+      std::pair{"TOTALMASS", Units::total}, std::pair{"MASSPERVOLUME", Units::volume},
+      std::pair{"MASSPERAREA", Units::area}, std::pair{"MASSPERLENGTH", Units::length}};
   AbaqusNonstructuralMass mass;
-  mass.at = keyword.at;
-  const std::size_t before = lines.source().errors();
-  const std::string_view elements = lines.required(keyword, "ELSET");
-  const std::string units = abaqus_name(lines.required(keyword, "UNITS"));
-  const std::string distribution = abaqus_name(keyword.value("DISTRIBUTION"));
-  if (units == "MASSPERVOLUME") {
-    mass.units = Units::volume;
-  } else if (units == "MASSPERAREA") {
-    mass.units = Units::area;
-  } else if (units == "MASSPERLENGTH") {
-    mass.units = Units::length;
-  } else if (units != "TOTALMASS" && lines.source().errors() == before) {
-    lines.error(
-        ErrorCode::wrong_value, keyword,
+  card.required("ELSET");
+  const std::string unit = abaqus_name(card.required("UNITS"));
+  const std::string distribution = card.word("DISTRIBUTION");
+  const auto known =
+      std::find_if(units.begin(), units.end(), [&](const auto& u) { return unit == u.first; });
+  if (known != units.end())
+    mass.units = known->second;
+  else if (!card.wrong())
+    card.error(
+        ErrorCode::wrong_value,
         "has the units {}, expected TOTAL MASS, MASS PER VOLUME, MASS PER AREA or MASS PER LENGTH",
-        shown(keyword.value("UNITS")));
-  }
+        shown(card.value("UNITS")));
   mass.by_volume = distribution == "VOLUMEPROPORTIONAL";
   if (!distribution.empty() && !mass.by_volume && distribution != "MASSPROPORTIONAL")
-    lines.error(ErrorCode::wrong_value, keyword,
-                "has the distribution {}, expected MASS PROPORTIONAL or VOLUME PROPORTIONAL",
-                shown(keyword.value("DISTRIBUTION")));
-  std::vector<std::string_view> fields;
-  if (lines.next_fields(fields)) {
-    mass.value = positive_real(lines, fields[0], "nonstructural mass");
-    lines.no_more(keyword, fields, 1);
-  } else {
-    lines.error(ErrorCode::missing, keyword, "has no data line");
+    card.error(ErrorCode::wrong_value,
+               "has the distribution {}, expected MASS PROPORTIONAL or VOLUME PROPORTIONAL",
+               shown(card.value("DISTRIBUTION")));
+  if (card.needs_line()) {
+    mass.value = card.positive(0, "nonstructural mass");
+    card.no_more(1);
   }
-  lines.skip_data();
-  if (content.only_nodes || lines.source().errors() != before) return;
-  mass.elements = content.named(elements, keyword.at);
-  content.nonstructural.push_back(mass);
+  if (card.content.only_nodes || card.wrong()) return;
+  mass.where = card.named("ELSET");
+  card.content.nonstructural.push_back(mass);
 }
 
 void build_abaqus_nonstructural_mass(AbaqusBuild& build) {

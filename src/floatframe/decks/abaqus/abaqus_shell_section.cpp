@@ -13,8 +13,8 @@ namespace floatframe {
 namespace {
 
 /// SPOS, SNEG or a number: of the nodes from the middle, in thicknesses.
-void read_shell_offset(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusSection& section) {
-  const std::string offset = abaqus_name(keyword.value("OFFSET"));
+void read_shell_offset(AbaqusCard& card, AbaqusSection& section) {
+  const std::string offset = card.word("OFFSET");
   if (offset.empty()) return;
   const auto value = parse_real(offset);
   if (offset == "SPOS" || offset == "SNEG") {
@@ -22,112 +22,92 @@ void read_shell_offset(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusS
   } else if (value && std::isfinite(*value)) {
     section.offset = *value;
   } else {
-    lines.error(ErrorCode::wrong_value, keyword,
-                "has the offset {}, expected SPOS, SNEG or a number", shown(offset));
+    card.error(ErrorCode::wrong_value, "has the offset {}, expected SPOS, SNEG or a number",
+               shown(offset));
   }
 }
 
 /// Thickness, number of points, material, orientation (a name, or an angle in degrees), name.
-void read_ply(AbaqusLines& lines, const std::vector<std::string_view>& fields, std::size_t number,
-              AbaqusSection& section) {
+void read_ply(AbaqusCard& card, AbaqusSection& section) {
+  const std::size_t number = section.plies.size() + 1;
   AbaqusSection::Ply ply;
-  ply.thickness = positive_real(lines, fields[0], fmt::format("thickness of ply {}", number));
-  if (fields.size() > 2) ply.material = abaqus_name(fields[2]);
+  ply.thickness = card.positive(0, fmt::format("thickness of ply {}", number));
+  ply.material = abaqus_name(card.field(2));
   if (ply.material.empty())
-    lines.source().error(ErrorCode::missing, "ply {} names no material (third entry)", number);
-  if (fields.size() > 3 && !fields[3].empty()) {
-    if (const auto angle = parse_real(fields[3])) {
-      ply.angle = *angle * std::numbers::pi / 180.0;
-    } else {
-      ply.orientation = abaqus_name(fields[3]);
-    }
+    card.error_in_line(ErrorCode::missing, "ply {} names no material (third entry)", number);
+  if (const auto angle = parse_real(card.field(3))) {
+    ply.angle = *angle * std::numbers::pi / 180.0;
+  } else {
+    ply.orientation = abaqus_name(card.field(3));
   }
   section.plies.push_back(ply);
 }
 
-}  // namespace
-
-void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                               AbaqusContent& content) {
+void read_plies(AbaqusCard& card, AbaqusSection& section) {
   constexpr std::size_t most_plies = 10000;
-  AbaqusSection section;
-  const bool general = keyword.name == "SHELLGENERALSECTION";
-  if (general && !keyword.has("MATERIAL") && !keyword.has("COMPOSITE")) {
-    lines.error(ErrorCode::unsupported, keyword,
-                "gives forces from strains, which is not read: give its layers (COMPOSITE) or its "
-                "MATERIAL");
-    return lines.skip_data();
-  }
-  if (general) {
-    content.clues.add(DeckDialect::abaqus, keyword.shown, keyword.at);
-    lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET", "POISSON",
-                               "THICKNESSMODULUS", "COMPOSITE", "SYMMETRIC", "LAYUP",
-                               "STACKDIRECTION", "NODALTHICKNESS"});
-  } else {
-    lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
-                               "SECTIONINTEGRATION", "TEMPERATURE", "POISSON", "COMPOSITE",
-                               "SYMMETRIC", "LAYUP", "STACKDIRECTION", "NODALTHICKNESS"});
-  }
-  const bool composite = keyword.has("COMPOSITE");
-  read_shell_offset(lines, keyword, section);
-  section.symmetric = keyword.has("SYMMETRIC");
-  if (section.symmetric && !composite)
-    lines.error(ErrorCode::incomplete, keyword, "is SYMMETRIC without COMPOSITE");
-  if (composite && keyword.has("MATERIAL"))
-    lines.error(ErrorCode::exclusive, keyword,
-                "has COMPOSITE and a material: those of the plies are in its lines");
-  section.nodal_thickness = keyword.has("NODALTHICKNESS");
-  if (composite && section.nodal_thickness)
-    lines.error(ErrorCode::unsupported, keyword,
-                "has COMPOSITE and NODAL THICKNESS, which is not supported together");
-  if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::shell, section)) return;
-  if (section.nodal_thickness) {
-    section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
-    content.sections.push_back(section);
-    return lines.skip_data();
-  }
-  std::vector<std::string_view> fields;
-  if (!lines.next_fields(fields))
-    return lines.error(ErrorCode::missing, keyword,
-                       composite ? "has no plies" : "has no thickness");
-  if (composite) {
-    do {
-      if (section.plies.size() < most_plies)
-        read_ply(lines, fields, section.plies.size() + 1, section);
-    } while (lines.next_fields(fields) && section.plies.size() <= most_plies);
-    section.material = section.plies.front().material;
-    if (section.plies.size() >= most_plies)
-      lines.error(ErrorCode::too_large, keyword, "has more than {} plies", most_plies - 1);
-    content.sections.push_back(section);
-    return lines.skip_data();
-  }
-  section.thickness = positive_real(lines, fields[0], "thickness of the shell");
-  lines.no_more(keyword, fields, fields.size());
-  content.sections.push_back(section);
+  do {
+    if (section.plies.size() < most_plies) read_ply(card, section);
+  } while (card.next() && section.plies.size() <= most_plies);
+  section.material = section.plies.front().material;
+  if (section.plies.size() >= most_plies)
+    card.error(ErrorCode::too_large, "has more than {} plies", most_plies - 1);
 }
 
-void read_abaqus_membrane_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                  AbaqusContent& content) {
-  AbaqusSection section;
-  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET", "POISSON",
-                             "NODALTHICKNESS", "STACKDIRECTION"});
-  read_shell_offset(lines, keyword, section);
-  if (section.offset != 0.0)
-    lines.error(ErrorCode::unsupported, keyword,
-                "has an offset, but membranes have no rotations that would carry it: put the nodes "
-                "into the middle, or use *SHELL SECTION");
-  section.nodal_thickness = keyword.has("NODALTHICKNESS");
-  if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::membrane, section)) return;
-  if (std::vector<std::string_view> fields; section.nodal_thickness) {
+/// The section with its thickness, which may be that of *NODAL THICKNESS, or its plies.
+void read_sheet(AbaqusCard& card, AbaqusSection& section) {
+  const bool shell = section.family == AbaqusType::Family::shell;
+  const bool composite = shell && card.has("COMPOSITE");
+  if (section.nodal_thickness) {
     section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
-  } else if (lines.next_fields(fields)) {
-    section.thickness = positive_real(lines, fields[0], "thickness of the membrane");
-    lines.no_more(keyword, fields, fields.size());
+  } else if (!card.next()) {
+    card.error(ErrorCode::missing, composite ? "has no plies" : "has no thickness");
+    if (shell) return;
+  } else if (composite) {
+    read_plies(card, section);
   } else {
-    lines.error(ErrorCode::missing, keyword, "has no thickness");
+    section.thickness =
+        card.positive(0, shell ? "thickness of the shell" : "thickness of the membrane");
+    card.no_more(card.fields.size());
   }
-  content.sections.push_back(section);
-  lines.skip_data();
+  card.content.sections.push_back(section);
+}
+
+}  // namespace
+
+void read_abaqus_shell_section(AbaqusCard& card) {
+  AbaqusSection section;
+  const bool general = card.name == "SHELLGENERALSECTION", composite = card.has("COMPOSITE");
+  if (general && !card.has("MATERIAL") && !composite)
+    return card.error(ErrorCode::unsupported,
+                      "gives forces from strains, which is not read: give its layers (COMPOSITE) "
+                      "or its MATERIAL");
+  if (general) card.content.clues.add(DeckDialect::abaqus, card.shown, card.at);
+  card.allow_only(std::string("ELSET MATERIAL ORIENTATION CONTROLS OFFSET POISSON COMPOSITE "
+                              "SYMMETRIC LAYUP STACKDIRECTION NODALTHICKNESS ") +
+                  (general ? "THICKNESSMODULUS" : "SECTIONINTEGRATION TEMPERATURE"));
+  read_shell_offset(card, section);
+  section.symmetric = card.has("SYMMETRIC");
+  if (section.symmetric && !composite)
+    card.error(ErrorCode::incomplete, "is SYMMETRIC without COMPOSITE");
+  if (composite && card.has("MATERIAL"))
+    card.error(ErrorCode::exclusive,
+               "has COMPOSITE and a material: those of the plies are in its lines");
+  section.nodal_thickness = card.has("NODALTHICKNESS");
+  if (composite && section.nodal_thickness)
+    card.error(ErrorCode::unsupported,
+               "has COMPOSITE and NODAL THICKNESS, which is not supported together");
+  if (begin_abaqus_section(card, AbaqusType::Family::shell, section)) read_sheet(card, section);
+}
+
+void read_abaqus_membrane_section(AbaqusCard& card) {
+  AbaqusSection section;
+  read_shell_offset(card, section);
+  if (section.offset != 0.0)
+    card.error(ErrorCode::unsupported,
+               "has an offset, but membranes have no rotations that would carry it: put the nodes "
+               "into the middle, or use *SHELL SECTION");
+  section.nodal_thickness = card.has("NODALTHICKNESS");
+  if (begin_abaqus_section(card, AbaqusType::Family::membrane, section)) read_sheet(card, section);
 }
 
 }  // namespace floatframe

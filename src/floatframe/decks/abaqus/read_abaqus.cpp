@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <unordered_map>
 
@@ -16,97 +15,109 @@
 namespace floatframe {
 namespace {
 
-void skip(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent&) { lines.skip_data(); }
+constexpr const char* beam_parameters =
+    "ELSET MATERIAL ORIENTATION SECTION OFFSET1 OFFSET2 TEMPERATURE POISSON DENSITY LUMPED ZERO";
 
-/// The mesh is one piece there; its preload belongs to a step.
-void read_abaqus_pre_tension(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusContent& content) {
-  content.note(
-      lines.source().mark(keyword.at),
-      fmt::format("{} is ignored: the bolt is whole and without its preload", keyword.shown));
-  if (keyword.has("SURFACE") && !content.only_nodes)
-    content.pre_tensions.push_back({content.named(keyword.value("SURFACE"), keyword.at)});
-  lines.skip_data();
-}
-
-struct Known {
+/// A keyword that is read, and the parameters it may have, between blanks; null: any, or the
+/// handler looks itself.
+struct AbaqusReader {
   const char* name;
-  AbaqusHandler read;
+  AbaqusHandler* read;
+  const char* parameters = nullptr;
+  bool may_be_in_step = false;  ///< it does not say that the part is another one from there on
 };
 
-constexpr std::array handlers{
-    Known{"HEADING", skip},
-    Known{"NODE", read_abaqus_nodes},
-    Known{"SYSTEM", read_abaqus_system},
-    Known{"ELEMENT", read_abaqus_elements},
-    Known{"NGEN", read_abaqus_generated_nodes},
-    Known{"NFILL", read_abaqus_filled_nodes},
-    Known{"NCOPY", read_abaqus_copied_nodes},
-    Known{"ELGEN", read_abaqus_generated_elements},
-    Known{"ELCOPY", read_abaqus_copied_elements},
-    Known{"NSET", read_abaqus_node_set},
-    Known{"ELSET", read_abaqus_element_set},
-    Known{"SURFACE", read_abaqus_surface},
-    Known{"PART", read_abaqus_part},
-    Known{"END PART", read_abaqus_end_part},
-    Known{"ASSEMBLY", read_abaqus_assembly},
-    Known{"END ASSEMBLY", read_abaqus_end_assembly},
-    Known{"INSTANCE", read_abaqus_instance},
-    Known{"END INSTANCE", read_abaqus_end_instance},
-    Known{"MATERIAL", read_abaqus_material},
-    Known{"ELASTIC", read_abaqus_elastic},
-    Known{"DENSITY", read_abaqus_density},
-    Known{"INITIAL CONDITIONS", read_abaqus_initial_conditions},
-    Known{"ORIENTATION", read_abaqus_orientation},
-    Known{"SOLID SECTION", read_abaqus_solid_section},
-    Known{"SHELL SECTION", read_abaqus_shell_section},
-    Known{"SHELL GENERAL SECTION", read_abaqus_shell_section},
-    Known{"MEMBRANE SECTION", read_abaqus_membrane_section},
-    Known{"NODAL THICKNESS", read_abaqus_nodal_thickness},
-    Known{"BEAM SECTION", read_abaqus_beam_section},
-    Known{"BEAM GENERAL SECTION", read_abaqus_beam_section},
-    Known{"BEAM SECTION OFFSET", read_abaqus_beam_section_offset},
-    Known{"CENTROID", read_abaqus_centroid},
-    Known{"SHEAR CENTER", read_abaqus_shear_center},
-    Known{"SURFACE SECTION", read_abaqus_surface_section},
-    Known{"MASS", read_abaqus_mass},
-    Known{"NONSTRUCTURAL MASS", read_abaqus_nonstructural_mass},
-    Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
-    Known{"RIGID BODY", read_abaqus_rigid_body},
-    Known{"COUPLING", read_abaqus_coupling},
-    Known{"KINEMATIC COUPLING", read_abaqus_kinematic_coupling},
-    Known{"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling},
-    Known{"EQUATION", read_abaqus_equation},
-    Known{"BOUNDARY", read_abaqus_boundary},
-    Known{"TIE", read_abaqus_tie},
-    Known{"CONTACT PAIR", read_abaqus_contact_pair},
-    Known{"CONTACT", read_abaqus_general_contact},
-    Known{"MPC", read_abaqus_mpc},
-    Known{"PRE-TENSION SECTION", read_abaqus_pre_tension},
-    Known{"SPRING", read_abaqus_spring},
-    Known{"GAP", read_abaqus_gap},
-    Known{"TRANSFORM", read_abaqus_transform},
+void skip(AbaqusCard& /*card*/) {}
+
+constexpr AbaqusReader abaqus_readers[] = {
+    {"HEADING", skip, nullptr, true},
+    {"NODE", read_abaqus_nodes, "NSET SYSTEM INPUT"},
+    {"SYSTEM", read_abaqus_system, ""},
+    {"ELEMENT", read_abaqus_elements, "TYPE ELSET INPUT"},
+    {"NGEN", read_abaqus_generated_nodes, "NSET LINE SYSTEM"},
+    {"NFILL", read_abaqus_filled_nodes, "NSET"},
+    {"NCOPY", read_abaqus_copied_nodes},
+    {"ELGEN", read_abaqus_generated_elements, "ELSET"},
+    {"ELCOPY", read_abaqus_copied_elements, "ELEMENTSHIFT OLDSET SHIFTNODES NEWSET"},
+    {"NSET", read_abaqus_set, "NSET GENERATE INSTANCE INTERNAL UNSORTED ELSET INPUT", true},
+    {"ELSET", read_abaqus_set, "ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", true},
+    {"SURFACE", read_abaqus_surface, "NAME TYPE INTERNAL", true},
+    {"PART", read_abaqus_part},
+    {"END PART", read_abaqus_end, nullptr, true},
+    {"ASSEMBLY", read_abaqus_assembly},
+    {"END ASSEMBLY", read_abaqus_end, nullptr, true},
+    {"INSTANCE", read_abaqus_instance, "NAME PART"},
+    {"END INSTANCE", read_abaqus_end, nullptr, true},
+    {"MATERIAL", read_abaqus_material},
+    {"ELASTIC", read_abaqus_elastic, "TYPE MODULI DEPENDENCIES"},
+    {"DENSITY", read_abaqus_density, "DEPENDENCIES"},
+    {"INITIAL CONDITIONS", read_abaqus_initial_conditions, nullptr, true},
+    {"ORIENTATION", read_abaqus_orientation, "NAME SYSTEM DEFINITION", true},
+    {"SOLID SECTION", read_abaqus_solid_section, "ELSET MATERIAL ORIENTATION CONTROLS"},
+    {"SHELL SECTION", read_abaqus_shell_section},
+    {"SHELL GENERAL SECTION", read_abaqus_shell_section},
+    {"MEMBRANE SECTION", read_abaqus_membrane_section,
+     "ELSET MATERIAL ORIENTATION CONTROLS OFFSET POISSON NODALTHICKNESS STACKDIRECTION"},
+    {"NODAL THICKNESS", read_abaqus_nodal_thickness, ""},
+    {"BEAM SECTION", read_abaqus_beam_section, beam_parameters},
+    {"BEAM GENERAL SECTION", read_abaqus_beam_section, beam_parameters},
+    {"BEAM SECTION OFFSET", read_abaqus_place_in_section, nullptr, true},
+    {"CENTROID", read_abaqus_place_in_section, nullptr, true},
+    {"SHEAR CENTER", read_abaqus_place_in_section, nullptr, true},
+    {"SURFACE SECTION", read_abaqus_surface_section, nullptr, true},
+    {"MASS", read_abaqus_mass, "ELSET TYPE ALPHA COMPOSITE"},
+    {"NONSTRUCTURAL MASS", read_abaqus_nonstructural_mass, "ELSET UNITS DISTRIBUTION"},
+    {"ROTARY INERTIA", read_abaqus_rotary_inertia, "ELSET ORIENTATION ALPHA COMPOSITE"},
+    {"RIGID BODY", read_abaqus_rigid_body, "NSET ELSET REFNODE ROTNODE TIENSET PINNSET POSITION"},
+    {"COUPLING", read_abaqus_coupling, "CONSTRAINTNAME REFNODE SURFACE"},
+    {"KINEMATIC COUPLING", read_abaqus_kinematic_coupling, "REFNODE"},
+    {"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling, "ELSET"},
+    {"EQUATION", read_abaqus_equation, "INPUT"},
+    {"BOUNDARY", read_abaqus_boundary, nullptr, true},
+    {"TIE", read_abaqus_tie,
+     "NAME ADJUST POSITIONTOLERANCE CYCLICSYMMETRY TYPE NOROTATION CONSTRAINTRATIO NOTHICKNESS"},
+    {"CONTACT PAIR", read_abaqus_contact_pair, nullptr, true},
+    {"CONTACT", read_abaqus_contact, nullptr, true},
+    {"MPC", read_abaqus_mpc, "INPUT"},
+    {"PRE-TENSION SECTION", read_abaqus_pre_tension, nullptr, true},
+    {"SPRING", read_abaqus_spring, "ELSET ORIENTATION NONLINEAR"},
+    {"GAP", read_abaqus_gap, nullptr, true},
+    {"TRANSFORM", read_abaqus_transform, "NSET TYPE", true},
 };
 
 /// A keyword that is one or two letters away from one that is read.
 std::string nearly(const std::string& name) {
   if (name.size() > 40) return {};
-  for (const Known& k : handlers) {
-    const std::string known = abaqus_name(k.name);
+  for (const AbaqusReader& r : abaqus_readers) {
+    const std::string known = abaqus_name(r.name);
     const std::size_t letters = known.size();
-    if (letters >= 4 && edit_distance(name, known) <= (letters >= 8 ? 2 : 1)) return k.name;
+    if (letters >= 4 && edit_distance(name, known) <= (letters >= 8 ? 2 : 1)) return r.name;
   }
   return {};
 }
 
-AbaqusHandler handler_of(const std::string& name) {
-  static const std::unordered_map<std::string, AbaqusHandler> map = [] {
-    std::unordered_map<std::string, AbaqusHandler> all;
-    for (const Known& k : handlers) all.emplace(abaqus_name(k.name), k.read);
+/// Null if the keyword is not read.
+const AbaqusReader* reader_of(const std::string& name) {
+  static const auto map = [] {
+    std::unordered_map<std::string, const AbaqusReader*> all;
+    for (const AbaqusReader& r : abaqus_readers) all.emplace(abaqus_name(r.name), &r);
     return all;
   }();
   const auto it = map.find(name);
   return it == map.end() ? nullptr : it->second;
+}
+
+/// Does a keyword of a step say that the part is another one from there on? Loads, procedures and
+/// output requests do not. Elements that go change the part; contact pairs and equations that go do
+/// not.
+bool changes_part(const AbaqusKeyword& keyword) {
+  if (keyword.name == "MODELCHANGE")
+    return abaqus_name(keyword.value("TYPE")) != "CONTACTPAIR" && !keyword.has("ACTIVATE");
+  const AbaqusReader* const reader = reader_of(keyword.name);
+  return (reader != nullptr
+              ? !reader->may_be_in_step
+              : is_abaqus_word("CHANGESOLIDSECTION MATRIXINPUT MATRIXASSEMBLE", keyword.name)) &&
+         !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
 }
 
 /// The keywords of a deck in turn.
@@ -127,24 +138,23 @@ class DeckReader {
  private:
   void one(const AbaqusKeyword& keyword) {
     content_.clues.look_at(keyword);
-    if (const AbaqusHandler handler = handler_of(keyword.name); handler != nullptr) {
-      return handler(lines_, keyword, content_);
+    if (const AbaqusReader* const reader = reader_of(keyword.name)) {
+      AbaqusCard card(keyword, lines_, content_);
+      if (reader->parameters != nullptr) card.allow_only(reader->parameters);
+      return reader->read(card);
     }
     if (keyword.name == "STEP") {
       close_abaqus_blocks(content_, lines_.source(), "before *STEP");
       note(keyword, "and what follows up to *END STEP is ignored");
       return step(keyword);
     }
-    using Use = AbaqusKeywordRule::Use;
-    const AbaqusKeywordRule rule = abaqus_keyword_rule(keyword.name);
-    if (rule.use == Use::harmless) {
+    if (is_harmless_in_abaqus(keyword.name)) {
       note(keyword, "is ignored");
-    } else if (rule.use == Use::refused) {
-      error(ErrorCode::unsupported, keyword, fmt::format("is not supported: {}", rule.advice));
+    } else if (const char* const advice = advice_for_abaqus(keyword.name)) {
+      error(ErrorCode::unsupported, keyword, fmt::format("is not supported: {}", advice));
     } else {
       unknown(keyword);
     }
-    lines_.skip_data();
   }
 
   /// *STEP to *END STEP: loads and results.
@@ -152,13 +162,7 @@ class DeckReader {
     AbaqusKeyword keyword;
     while (lines_.next_keyword(keyword) && keyword.name != "ENDSTEP") {
       content_.clues.look_at(keyword);
-      // Elements that go change the part; contact pairs and equations that go do not.
-      const bool removes = keyword.name == "MODELCHANGE" &&
-                           abaqus_name(keyword.value("TYPE")) != "CONTACTPAIR" &&
-                           !keyword.has("ACTIVATE");
-      const bool changes =
-          changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
-      if (content_.only_nodes || (!removes && !changes)) continue;
+      if (content_.only_nodes || !changes_part(keyword)) continue;
       error(
           ErrorCode::contradiction, keyword,
           fmt::format(
@@ -169,7 +173,8 @@ class DeckReader {
 
   /// Each keyword once: there may be millions of them.
   void error(ErrorCode code, const AbaqusKeyword& keyword, const std::string& text) {
-    if (errors_.insert(keyword.name).second) lines_.error(code, keyword, text);
+    if (errors_.insert(keyword.name).second)
+      lines_.source().error(code, keyword.at, "{} {}", keyword.shown, text);
   }
 
   void unknown(const AbaqusKeyword& keyword) {
@@ -190,8 +195,7 @@ class DeckReader {
 
   void note(const AbaqusKeyword& keyword, std::string_view text) {
     if (!noted_.insert(keyword.name).second) return;
-    const SourceMark m = lines_.source().mark(keyword.at);
-    content_.notes.push_back(fmt::format("{}:{}: {} {}", m.file, m.line, keyword.shown, text));
+    content_.note(lines_.source().mark(keyword.at), fmt::format("{} {}", keyword.shown, text));
   }
 
   static constexpr std::size_t most_notes = 500;  // the harmless ones are fewer
@@ -227,7 +231,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   DeckReader(lines, content).read();
   finish_abaqus_assembly(content, source);
   finish_abaqus_constants(lines, content);
-  if (content.nodes.empty() && source.errors() == 0) {
+  if (content.nodes.size() == 0 && source.errors() == 0) {
     source.error(ErrorCode::missing, {0, 0}, "the deck has no nodes");
   }
   source.throw_if_any();
