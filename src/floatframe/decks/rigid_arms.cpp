@@ -72,7 +72,7 @@ std::vector<BeamOnNodes> RigidArms::beams(const FeModel& model) const {
     const BeamSection& section = model.sections[e.section];
     beam.holds = section.Iy > 0.0 && section.Iz > 0.0;
     for (int k = 0; k < element_nodes(e.type); ++k) {
-      beam.nodes[static_cast<std::size_t>(k)] = at[e.nodes[k]];
+      beam.nodes[k] = at[e.nodes[k]];
       beam.beside |= at[e.nodes[k]] != e.nodes[k];
     }
     out.push_back(beam);

@@ -11,7 +11,7 @@ namespace floatframe {
 namespace {
 
 constexpr int most_terms = 100000;
-constexpr unsigned all_directions = 63u, translations = 7u;
+constexpr unsigned all_directions = 63u, all_translations = 7u;
 
 /// COUPLING=STRUCTURAL: the mean is one of rotations too, where nodes have them.
 void check_rotations_of_nodes(AbaqusCard& kind) {
@@ -137,7 +137,7 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
     spider.name = card.word(parameter);
   }
   // Pinned nodes follow in translation only: for nodes without rotations there is no difference.
-  if (card.has("PINNSET")) spider.mask = translations;
+  if (card.has("PINNSET")) spider.mask = all_translations;
   if (card.has("PINNSET") && spider.nodes.size() != 1)
     card.error(ErrorCode::unsupported, "has PIN NSET beside another set, which is not supported");
   if (spider.nodes.empty() && spider.elements.empty())

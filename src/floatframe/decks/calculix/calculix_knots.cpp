@@ -25,13 +25,10 @@ struct BeamEnd {
 BeamEnd beam_end(const CalculixText& deck, std::size_t element, int k) {
   const FeModel& model = deck.model;
   const Element& e = model.elements[element];
-  const BeamSection& section = model.sections[static_cast<std::size_t>(e.section)];
+  const BeamSection& section = model.sections[e.section];
   const int count = element_nodes(e.type);
   std::array<Vec3, 3> at{};
-  for (int i = 0; i < count; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    at[a] = model.positions[static_cast<std::size_t>(e.nodes[a])];
-  }
+  for (int i = 0; i < count; ++i) at[i] = model.positions[e.nodes[i]];
   BeamEnd end;
   end.number = deck.element(element);
   end.tangent = beam_tangent(at, count, k).normalized();
@@ -64,7 +61,7 @@ std::set<int> calculix_knots(const CalculixText& deck) {
     const bool beam = is_beam(e.type) && e.section >= 0 &&
                       static_cast<std::size_t>(e.section) < model.sections.size();
     for (int k = 0; k < element_nodes(e.type); ++k) {
-      const int node = e.nodes[static_cast<std::size_t>(k)];
+      const int node = e.nodes[k];
       if (beam)
         ends[node].push_back(beam_end(deck, i, k));
       else
