@@ -1,5 +1,7 @@
 #pragma once
 // From the content of an Abaqus deck to the model.
+#include <fmt/format.h>
+
 #include <functional>
 
 #include "floatframe/decks/abaqus/abaqus_resolve.hpp"
@@ -8,6 +10,22 @@
 #include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {
+
+/// "element 7 (C3D4)"
+std::string abaqus_label(const AbaqusElement& element);
+
+/// A further entry of a list for a key, like the one at `from` but for a change; its index, which
+/// `copies` keeps.
+template <class T, class Key, class Change>
+int changed_copy(std::vector<T>& list, int from, std::map<Key, int>& copies, const Key& key,
+                 Change change) {
+  const auto [it, fresh] = copies.try_emplace(key, static_cast<int>(list.size()));
+  if (fresh) {
+    list.push_back(list[from]);
+    change(list.back());
+  }
+  return it->second;
+}
 
 /// What both halves of the building use.
 struct AbaqusBuild {
@@ -35,7 +53,22 @@ struct AbaqusBuild {
   int node_of(const AbaqusElement& element, int k);
   /// Nodes of elements of the deck, each once.
   std::vector<int> nodes_of_elements(const std::vector<int>& list);
-  void note(const FeSource& at, const std::string& text);
+  template <class... Values>
+  void note(const FeSource& at, fmt::format_string<Values...> text, Values&&... values) {
+    model.notes.push_back(place(at) + ": " + fmt::format(text, std::forward<Values>(values)...));
+  }
+  /// An error of a section or an element, which stands before the text.
+  template <class... Values>
+  void error(const AbaqusSection& section, ErrorCode code, fmt::format_string<Values...> text,
+             Values&&... values) {
+    source.error(code, section.where.at,
+                 section.shown + fmt::format(text, std::forward<Values>(values)...));
+  }
+  template <class... Values>
+  void error(const AbaqusElement& e, ErrorCode code, fmt::format_string<Values...> text,
+             Values&&... values) {
+    source.error(code, e.at, abaqus_label(e) + fmt::format(text, std::forward<Values>(values)...));
+  }
   /// "deck.inp:12"
   std::string place(const FeSource& at) const { return abaqus_place(source, at); }
   /// Whose deck it is: as the user says, else as the clues show; by_content: nothing shows it.
@@ -57,8 +90,6 @@ struct AbaqusProperties {
 // abaqus_build_sections.cpp
 /// Elements that have no section: masses, springs, ...
 bool is_abaqus_point(AbaqusType::Family family) noexcept;
-/// "element 7 (C3D4)"
-std::string abaqus_label(const AbaqusElement& element);
 /// Of each element of the deck the index of the section whose set names it; -1: none.
 std::vector<int> sections_of_elements(AbaqusBuild& build,
                                       const std::vector<AbaqusSection>& sections);

@@ -22,9 +22,9 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
   e.reference = m.positions[further] - m.positions[e.nodes[0]];
   const Vec3 along = m.positions[e.nodes[deck.type->nodes - 1]] - m.positions[e.nodes[0]];
   if (!(along.cross(e.reference).norm() > 1e-9 * along.norm() * e.reference.norm()))
-    build.source.error(
-        ErrorCode::geometry, deck.at, "{}: node {}, which gives its direction 1, lies on its axis",
-        abaqus_label(deck), build.content.element_nodes[deck.first + deck.type->nodes]);
+    build.error(deck, ErrorCode::geometry,
+                ": node {}, which gives its direction 1, lies on its axis",
+                build.content.element_nodes[deck.first + deck.type->nodes]);
 }
 
 /// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
@@ -50,15 +50,14 @@ void check_calculix_offset(AbaqusBuild& build, const AbaqusSection& section) {
   if (!section.calculix_offset || given == DeckDialect::calculix) return;
   const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
   if (given == DeckDialect::abaqus)
-    build.source.error(ErrorCode::unsupported, section.where.at,
-                       "{} has OFFSET1 or OFFSET2, which only CalculiX has: Abaqus has the line "
-                       "*BEAM SECTION OFFSET",
-                       section.shown);
+    build.error(section, ErrorCode::unsupported,
+                " has OFFSET1 or OFFSET2, which only CalculiX has: Abaqus has the line *BEAM "
+                "SECTION OFFSET");
   else if (clue)
-    build.source.error(ErrorCode::unsupported, section.where.at,
-                       "{} has OFFSET1 or OFFSET2 as in CalculiX, but the deck has {} ({}), which "
-                       "only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                       section.shown, clue->what, build.place(clue->at));
+    build.error(section, ErrorCode::unsupported,
+                " has OFFSET1 or OFFSET2 as in CalculiX, but the deck has {} ({}), which only "
+                "Abaqus has; if it is one of CalculiX give --dialect calculix",
+                clue->what, build.place(clue->at));
 }
 
 }  // namespace
@@ -68,11 +67,10 @@ void report_abaqus_directions(AbaqusBuild& build) {
     const auto& [first, count] = elements;
     const std::string others =
         count == 1 ? std::string() : fmt::format(" and {}", plural(count - 1, "other element"));
-    build.source.error(ErrorCode::geometry, section->where.at,
-                       "{}: its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; "
-                       "expected a direction across it in the second line",
-                       section->shown, section->n1(0) + 0.0, section->n1(1) + 0.0,
-                       section->n1(2) + 0.0, first, others);
+    build.error(*section, ErrorCode::geometry,
+                ": its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; expected a "
+                "direction across it in the second line",
+                section->n1(0) + 0.0, section->n1(1) + 0.0, section->n1(2) + 0.0, first, others);
   }
 }
 
@@ -107,16 +105,15 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) {
   const bool constants = section.shape == "GENERAL";
   if (!std::isfinite(section.arm.squaredNorm()))
-    return build.source.error(ErrorCode::not_finite, section.where.at,
-                              "{}: its centroid is at ({:g}, {:g}) of the node, expected numbers "
-                              "whose squares do not overflow",
-                              section.shown, section.arm(0) + 0.0, section.arm(1) + 0.0);
+    return build.error(section, ErrorCode::not_finite,
+                       ": its centroid is at ({:g}, {:g}) of the node, expected numbers whose "
+                       "squares do not overflow",
+                       section.arm(0) + 0.0, section.arm(1) + 0.0);
   if (constants && (section.arm - section.shear_center).norm() > 1e-9 * section.arm.norm())
-    build.source.error(ErrorCode::incomplete, section.where.at,
-                       "{}: its centroid is at ({:g}, {:g}) of the node and its shear centre at "
-                       "({:g}, {:g}), expected both at one place (*CENTROID, *SHEAR CENTER)",
-                       section.shown, section.arm(0), section.arm(1), section.shear_center(0),
-                       section.shear_center(1));
+    build.error(section, ErrorCode::incomplete,
+                ": its centroid is at ({:g}, {:g}) of the node and its shear centre at ({:g}, "
+                "{:g}), expected both at one place (*CENTROID, *SHEAR CENTER)",
+                section.arm(0), section.arm(1), section.shear_center(0), section.shear_center(1));
   check_abaqus_offset_line(build, section);
   check_calculix_offset(build, section);
 }

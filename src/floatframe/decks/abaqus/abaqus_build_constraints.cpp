@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <unordered_map>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
@@ -13,38 +14,24 @@
 namespace floatframe {
 namespace {
 
-/// Collects nodes, each once, with the sum of their weights; used again for the next spider.
+/// Collects nodes, each once, with the sum of their weights.
 class NodeList {
  public:
-  explicit NodeList(std::size_t count) : place_(count, -1) {}
-  void clear() {
-    for (const std::vector<int>* list : {&nodes, &excluded_}) {
-      for (const int node : *list) place_[node] = -1;
-    }
-    nodes.clear();
-    weights.clear();
-    excluded_.clear();
-  }
-  void exclude(int node) {
-    if (node < 0) return;
-    place_[node] = -2;
-    excluded_.push_back(node);
-  }
+  void exclude(int node) { place_[node] = -1; }
   void add(int node, double weight) {
-    int& place = place_[node];
-    if (place == -2) return;
-    if (place < 0) {
-      place = static_cast<int>(nodes.size());
+    const auto [it, fresh] = place_.try_emplace(node, static_cast<int>(nodes.size()));
+    if (it->second < 0) return;
+    if (fresh) {
       nodes.push_back(node);
       weights.push_back(0.0);
     }
-    weights[place] += weight;
+    weights[it->second] += weight;
   }
   std::vector<int> nodes;
   std::vector<double> weights;
 
  private:
-  std::vector<int> place_, excluded_;
+  std::unordered_map<int, int> place_;  // -1: excluded
 };
 
 /// Faces of the elements of a surface.
@@ -118,7 +105,7 @@ int reference_of(AbaqusBuild& build, const AbaqusSpider& raw) {
   return -1;
 }
 
-void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, NodeList& list) {
+void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) {
   Spider spider;
   spider.kind = raw.kind;
   spider.name = raw.name;
@@ -130,7 +117,7 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
     spider.rotation_node = build.nodes.one(*raw.rotation, "rotation node");
     if (spider.rotation_node == spider.reference) spider.rotation_node = -1;
   }
-  list.clear();
+  NodeList list;
   list.exclude(spider.reference);
   list.exclude(spider.rotation_node);
   for (std::size_t k = 0; k < raw.nodes.size(); ++k) {
@@ -269,8 +256,7 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
     for (const AbaqusThing& p : c.pre_tensions) find_abaqus_surface(build, p.where, name);
     build.source.throw_if_any();
   }
-  NodeList list(c.nodes.size());
-  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes, list);
+  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes);
   const DofMap dofs(build.model);
   const std::map<int, Mat3> axes = abaqus_node_axes(build);
   // A *MPC is several equations: one error is enough.

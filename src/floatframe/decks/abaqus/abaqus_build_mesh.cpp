@@ -23,14 +23,24 @@ struct Count {
   }
 };
 
-/// Nodes or elements that get a new number, since another instance or the assembly has theirs.
+/// The numbers of nodes or elements in the model: new ones where another instance or the assembly
+/// has theirs. Numbers of one scope are different, so only several scopes can share one.
 class Renumbered {
  public:
-  Renumbered(AbaqusBuild& build, const char* what) : b_(build), what_(what) {}
-  void add(AbaqusScope scope, int old, int fresh, const FeSource& at) {
+  template <class T>
+  Renumbered(AbaqusBuild& build, const char* what, const AbaqusNumbered<T>& all)
+      : b_(build), what_(what) {
+    for (const T& thing : all) free_ = std::max<std::int64_t>(free_, thing.id);
+  }
+  /// Nothing if there is no free one.
+  std::optional<int> number(AbaqusScope scope, int old, const FeSource& at) {
+    if (b_.content.parts.empty() || taken_.insert(old).second) return old;
+    if (++free_ > std::numeric_limits<int>::max()) return std::nullopt;
+    const int fresh = static_cast<int>(free_);
     Range& r = ranges_[scope];
     if (r.count++ == 0) r = {1, old, fresh, fresh, at};
     r.last = fresh;
+    return fresh;
   }
   void note() {
     for (const auto& [scope, r] : ranges_) {
@@ -39,11 +49,12 @@ class Renumbered {
                              : instance == b_.content.instances.end()
                                  ? std::string("the part")
                                  : "instance " + shown(instance->second.name);
-      b_.note(r.at, r.count == 1
-                        ? fmt::format("{} {} of {} has the number of another one: it becomes {} {}",
-                                      what_, r.old, of, what_, r.first)
-                        : fmt::format("{} {}s of {} have numbers of others: they become {} to {}",
-                                      r.count, what_, of, r.first, r.last));
+      if (r.count == 1)
+        b_.note(r.at, "{} {} of {} has the number of another one: it becomes {} {}", what_, r.old,
+                of, what_, r.first);
+      else
+        b_.note(r.at, "{} {}s of {} have numbers of others: they become {} to {}", r.count, what_,
+                of, r.first, r.last);
     }
   }
 
@@ -55,6 +66,8 @@ class Renumbered {
   };
   AbaqusBuild& b_;
   const char* what_;
+  std::int64_t free_ = 0;
+  std::unordered_set<int> taken_;
   std::map<AbaqusScope, Range> ranges_;
 };
 
@@ -66,16 +79,14 @@ void build_masses(AbaqusBuild& build) {
     const bool rotary = element.type->family == Family::rotary;
     if (!rotary && element.type->family != Family::mass) continue;
     if (section_of[e] < 0) {
-      build.source.error(ErrorCode::missing, element.at, "{} has no {}", abaqus_label(element),
-                         rotary ? "*ROTARY INERTIA" : "*MASS");
+      build.error(element, ErrorCode::missing, " has no {}", rotary ? "*ROTARY INERTIA" : "*MASS");
       continue;
     }
     const AbaqusSection& section = c.masses[section_of[e]];
     const int node = build.node_of(element, 0);
     if (node < 0) continue;
     if (const std::string huge = huge_mass(section.mass, section.J); !huge.empty())
-      build.source.error(ErrorCode::not_finite, section.where.at, "{} of {}: {}", section.shown,
-                         abaqus_label(element), huge);
+      build.error(section, ErrorCode::not_finite, " of {}: {}", abaqus_label(element), huge);
     const Mat3& R = c.placement(element.scope).R;
     build.model.masses.push_back({node, section.mass, R * section.J * R.transpose(),
                                   section.where.at,
@@ -84,10 +95,6 @@ void build_masses(AbaqusBuild& build) {
 }
 
 }  // namespace
-
-void AbaqusBuild::note(const FeSource& at, const std::string& text) {
-  model.notes.push_back(fmt::format("{}: {}", place(at), text));
-}
 
 DeckDialect AbaqusBuild::dialect() const {
   if (content.dialect != DeckDialect::by_content) return content.dialect;
@@ -98,8 +105,8 @@ DeckDialect AbaqusBuild::dialect() const {
 int AbaqusBuild::node_of(const AbaqusElement& element, int k) {
   const int node = content.node_of(element, k);
   if (node < 0)
-    source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
-                 abaqus_label(element), content.element_nodes[element.first + k]);
+    error(element, ErrorCode::not_found, ": node {} does not exist",
+          content.element_nodes[element.first + k]);
   return node;
 }
 
@@ -122,37 +129,29 @@ std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
 void build_abaqus_nodes(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  std::int64_t free_number = 0;
-  for (const AbaqusNode& node : c.nodes) free_number = std::max<std::int64_t>(free_number, node.id);
   const bool several = c.instances.size() > 1;
   model.positions.reserve(c.nodes.size());
   model.node_ids.reserve(c.nodes.size());
   model.node_sources.reserve(c.nodes.size());
-  std::unordered_set<int> taken;
-  Renumbered nodes(build, "node");
+  Renumbered numbers(build, "node", c.nodes);
   for (const AbaqusNode& node : c.nodes) {
     model.positions.push_back(c.placement(node.scope).at(node.p));
     if (const std::string huge = huge_place(model.positions.back()); !huge.empty())
       build.source.error(ErrorCode::not_finite, node.at, "node {}{}: {}", c.prefix(node.scope),
                          node.id, huge);
-    int id = node.id;
-    // Numbers of one scope are different, so only several scopes can share one.
-    if (!c.parts.empty() && !taken.insert(id).second) {
-      if (++free_number > std::numeric_limits<int>::max())
-        build.source.stop(ErrorCode::out_of_range, node.at,
-                          "node {}{} has the number of another node, and there is no free one",
-                          c.prefix(node.scope), id);
-      id = static_cast<int>(free_number);
-      nodes.add(node.scope, node.id, id, node.at);
-    }
-    model.node_ids.push_back(id);
+    const std::optional<int> id = numbers.number(node.scope, node.id, node.at);
+    if (!id)
+      build.source.stop(ErrorCode::out_of_range, node.at,
+                        "node {}{} has the number of another node, and there is no free one",
+                        c.prefix(node.scope), node.id);
+    model.node_ids.push_back(*id);
     model.node_sources.push_back(node.at);
     if (several)
       model.node_names.push_back(c.instances.contains(node.scope)
                                      ? fmt::format("{}{}", c.prefix(node.scope), node.id)
                                      : std::string());
   }
-  nodes.note();
+  numbers.note();
   build.source.throw_if_any();
 }
 
@@ -173,13 +172,14 @@ void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
     build.source.error(ErrorCode::missing, {0, 0}, "the deck has no element with stiffness");
   }
   for (const auto& [type, count] : counts.skins) {
-    build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
-                                     "ignored; their element sets are node sets",
-                                     count.number, type->name));
+    build.note(count.at,
+               "{} elements of type {} have no section: skins of the mesh, "
+               "ignored; their element sets are node sets",
+               count.number, type->name);
   }
   for (const auto& [type, count] : counts.read_as) {
-    build.note(count.at, fmt::format("{} elements of type {} are read {}", count.number, type->name,
-                                     type->remark));
+    build.note(count.at, "{} elements of type {} are read {}", count.number, type->name,
+               type->remark);
   }
 }
 
@@ -192,11 +192,10 @@ void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_o
 
 void no_section(AbaqusBuild& build, const AbaqusElement& element) {
   const Family family = element.type->family;
-  build.source.error(ErrorCode::missing, element.at,
-                     "{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
-                     family == Family::solid   ? "SOLID"
-                     : family == Family::shell ? "SHELL"
-                                               : "BEAM");
+  build.error(element, ErrorCode::missing, " has no section: no *{} SECTION names a set with it",
+              family == Family::solid   ? "SOLID"
+              : family == Family::shell ? "SHELL"
+                                        : "BEAM");
 }
 
 /// Nothing if one of its nodes is not there.
@@ -238,13 +237,8 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
                   [](const AbaqusSection& s) { return s.family == Family::shell; });
   AbaqusNodalThickness thickness(build);
   ElementCounts counts;
-  Renumbered renumbered(build, "element");
-  std::unordered_set<int> taken, without_area;
-  const bool scopes = !c.parts.empty();
-  constexpr std::int64_t largest_id = std::numeric_limits<int>::max();
-  std::int64_t free_number = 0;
-  for (const AbaqusElement& element : c.elements)
-    free_number = std::max<std::int64_t>(free_number, element.id);
+  Renumbered numbers(build, "element", c.elements);
+  std::unordered_set<int> without_area;
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const AbaqusElement& element = c.elements[e];
     const AbaqusType& type = *element.type;
@@ -279,10 +273,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       move_abaqus_beam(build, c.sections[section], element, *result);
     }
     build.element_index[e] = static_cast<int>(model.elements.size());
-    if (scopes && !taken.insert(result->id).second && ++free_number <= largest_id) {
-      renumbered.add(element.scope, result->id, static_cast<int>(free_number), element.at);
-      result->id = static_cast<int>(free_number);
-    }
+    result->id = numbers.number(element.scope, result->id, element.at).value_or(result->id);
     if (c.instances.size() > 1 && c.instances.contains(element.scope))
       result->name =
           fmt::format("element {}{} ({})", c.prefix(element.scope), element.id, type.name);
@@ -291,7 +282,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   report_abaqus_directions(build);
   thickness.notes();
   note_elements(build, counts);
-  renumbered.note();
+  numbers.note();
   note_materials(build, counts, mesh_only, options.material.has_value());
   build_masses(build);
 }
@@ -299,17 +290,14 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  const auto name_of = [&](const AbaqusContent::Key& key, const auto& sets) {
-    return abaqus_model_name(c, key, sets);
-  };
   for (const auto& [key, set] : c.node_sets) {
     const std::vector<int>& members = build.nodes.members(key);
-    if (!set.internal) model.node_sets[name_of(key, c.node_sets)] = members;
+    if (!set.internal) model.node_sets[abaqus_model_name(c, key, c.node_sets)] = members;
   }
   for (const auto& [key, set] : c.element_sets) {
     const std::vector<int>& members = build.elements.members(key);
     if (set.internal) continue;
-    const std::string name = name_of(key, c.element_sets);
+    const std::string name = abaqus_model_name(c, key, c.element_sets);
     std::vector<int> list, skins;
     for (const int e : members) {
       const int index = build.element_index[e];
@@ -325,8 +313,7 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
   }
   for (const auto* resolver : {&build.nodes, &build.elements}) {
     if (resolver->gaps() == 0) continue;
-    build.note(resolver->first_gap(),
-               fmt::format("{} numbers of GENERATE do not exist", resolver->gaps()));
+    build.note(resolver->first_gap(), "{} numbers of GENERATE do not exist", resolver->gaps());
   }
 }
 

@@ -27,10 +27,9 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
   const auto it = c.materials.find(name);
   Material material;
   if (it == c.materials.end()) {
-    build.source.error(
-        ErrorCode::not_found, section.where.at, "{} names the material {}, which does not exist{}",
-        section.shown, shown(name),
-        c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order));
+    build.error(section, ErrorCode::not_found, " names the material {}, which does not exist{}",
+                shown(name),
+                c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order));
   } else {
     const AbaqusMaterial& m = it->second;
     if (!m.young) {
@@ -54,20 +53,19 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
   const DeckDialect dialect = build.dialect();
   const bool abaqus = dialect == DeckDialect::abaqus;
   if (dialect == DeckDialect::by_content) {
-    build.source.error(
-        ErrorCode::out_of_range, section.where.at,
-        "{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and {}: give "
+    build.error(
+        section, ErrorCode::out_of_range,
+        ", SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and {}: give "
         "--dialect abaqus or --dialect calculix (in a model file 'dialect:')",
-        section.shown, section.round,
+        section.round,
         clues.abaqus ? fmt::format("the deck has things of both ({}, {})", clues.abaqus->what,
                                    clues.calculix->what)
                      : "nothing in the deck shows whose it is");
   } else if (build.content.dialect == DeckDialect::by_content) {
     const DialectClues::Clue& clue = abaqus ? *clues.abaqus : *clues.calculix;
-    build.note(section.where.at,
-               fmt::format("{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {})", section.shown,
-                           section.round, abaqus ? "radius" : "diameter",
-                           abaqus ? "Abaqus" : "CalculiX", clue.what, build.place(clue.at)));
+    build.note(section.where.at, "{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {})",
+               section.shown, section.round, abaqus ? "radius" : "diameter",
+               abaqus ? "Abaqus" : "CalculiX", clue.what, build.place(clue.at));
   }
   return BeamSection::solid_round(section.round * (abaqus ? 2.0 : 1.0));
 }
@@ -76,10 +74,10 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
 void check_form(AbaqusBuild& build, const AbaqusSection& section) {
   const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
   if (section.calculix_form && clue && build.content.dialect != DeckDialect::calculix)
-    build.source.error(ErrorCode::unsupported, section.where.at,
-                       "{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}), "
-                       "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                       section.shown, section.shape, clue->what, build.place(clue->at));
+    build.error(section, ErrorCode::unsupported,
+                ", SECTION={} has dimensions as in CalculiX, but the deck has {} ({}), which only "
+                "Abaqus has; if it is one of CalculiX give --dialect calculix",
+                section.shape, clue->what, build.place(clue->at));
 }
 
 /// Dimensions may be finite, and what follows from them not.
@@ -87,10 +85,10 @@ void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const 
                         const Material& material) {
   const double mass = s.A * material.density;
   if (std::isfinite(mass + s.A) && std::isfinite(s.Iy + s.Iz) && std::isfinite(s.J)) return;
-  build.source.error(ErrorCode::not_finite, section.where.at,
-                     "{}: its area is {:g}, its moments are {:g} and {:g}, its torsion constant is "
-                     "{:g} and its mass over length {:g}, expected finite numbers",
-                     section.shown, s.A, s.Iy, s.Iz, s.J, mass);
+  build.error(section, ErrorCode::not_finite,
+              ": its area is {:g}, its moments are {:g} and {:g}, its torsion constant is {:g} and "
+              "its mass over length {:g}, expected finite numbers",
+              s.A, s.Iy, s.Iz, s.J, mass);
 }
 
 /// Axes that no *ORIENTATION gives are global ones; whether an instance turns them is not said.
@@ -103,10 +101,9 @@ void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
   const bool directional =
       is_abaqus_sheet(section.family) ? p.directional : m.elasticity.has_value();
   if (directional && section.orientation.empty())
-    build.source.error(
-        ErrorCode::contradiction, section.where.at,
-        "{} of the turned instance {} has a material with directions and no orientation",
-        section.shown, shown(instance->second.name));
+    build.error(section, ErrorCode::contradiction,
+                " of the turned instance {} has a material with directions and no orientation",
+                shown(instance->second.name));
 }
 
 }  // namespace
@@ -141,8 +138,8 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
       if (fits && in_calculix) {
         if (before != static_cast<int>(s) && !std::exchange(noted, true))
           build.note(section.where.at,
-                     fmt::format("{} is the second one of {}: the last one counts, as in CalculiX",
-                                 section.shown, abaqus_label(element)));
+                     "{} is the second one of {}: the last one counts, as in CalculiX",
+                     section.shown, abaqus_label(element));
         continue;
       }
       reported = true;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <type_traits>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/fe/lumped_mass.hpp"
@@ -24,34 +23,14 @@ bool shears(const AbaqusType& type) noexcept {
   return name.starts_with("B31");
 }
 
-/// The copy of a section without shear.
-template <class Section>
-int without_shear(std::vector<Section>& sections, int section, std::map<int, int>& copies) {
-  const auto [it, fresh] = copies.emplace(section, static_cast<int>(sections.size()));
-  if (fresh) {
-    Section copy = sections[section];
-    if constexpr (std::is_same_v<Section, ShellSection>) {
-      copy.shear = 0.0;
-    } else {
-      copy.shear_y = copy.shear_z = copy.slenderness = 0.0;
-    }
-    sections.push_back(copy);
-  }
-  return it->second;
-}
-
 }  // namespace
 
 double abaqus_shear_factor(std::string_view shape) noexcept {
-  struct Factor {
-    std::string_view shape;
-    double factor;
-  };
-  constexpr std::array factors{Factor{"RECT", 0.85}, Factor{"CIRC", 0.89}, Factor{"PIPE", 0.53},
-                               Factor{"BOX", 0.44}, Factor{"I", 0.44}};
-  const auto it = std::find_if(factors.begin(), factors.end(),
-                               [&](const Factor& f) { return f.shape == shape; });
-  return it == factors.end() ? 1.0 : it->factor;
+  constexpr std::array<std::pair<std::string_view, double>, 5> factors{
+      {{"RECT", 0.85}, {"CIRC", 0.89}, {"PIPE", 0.53}, {"BOX", 0.44}, {"I", 0.44}}};
+  const auto it =
+      std::find_if(factors.begin(), factors.end(), [&](const auto& f) { return f.first == shape; });
+  return it == factors.end() ? 1.0 : it->second;
 }
 
 void as_in_home_program(AbaqusBuild& build) {
@@ -72,9 +51,12 @@ void as_in_home_program(AbaqusBuild& build) {
     if (of_abaqus && !quadratic(element.type) && !cubic) element.mass_form = MassForm::lumped;
     if (shears(type)) continue;
     if (is_beam(element.type) && model.sections[element.section].has_shear())
-      element.section = without_shear(model.sections, element.section, beams);
+      element.section =
+          changed_copy(model.sections, element.section, beams, element.section,
+                       [](BeamSection& s) { s.shear_y = s.shear_z = s.slenderness = 0.0; });
     if (is_shell(element.type) && model.shells[element.section].shear > 0.0)
-      element.section = without_shear(model.shells, element.section, shells);
+      element.section = changed_copy(model.shells, element.section, shells, element.section,
+                                     [](ShellSection& s) { s.shear = 0.0; });
   }
 }
 

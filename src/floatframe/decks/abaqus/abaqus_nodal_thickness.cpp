@@ -61,11 +61,8 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
   const bool first = given_.insert(e.section).second;
   const auto [it, fresh] =
       sections_.try_emplace({e.section, mean}, static_cast<int>(shells.size()));
-  if (fresh && first) {
-    it->second = e.section;  // it has no thickness of its own
-  } else if (fresh) {
-    shells.push_back(shells[e.section]);
-  }
+  if (fresh && first) it->second = e.section;  // it has no thickness of its own
+  if (fresh && !first) shells.push_back(shells[e.section]);
   if (fresh) {
     ShellSection& shell = shells[it->second];
     shell.thickness = mean;
@@ -78,9 +75,9 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
 
 void AbaqusNodalThickness::missing(const AbaqusSection& section, const Element& e, int node) {
   if (missing_++ > 0) return;
-  b_.source.error(ErrorCode::missing, section.where.at,
-                  "{} has NODAL THICKNESS, but node {} of element {} has none (*NODAL THICKNESS)",
-                  section.shown, b_.model.node_ids[node], e.id);
+  b_.error(section, ErrorCode::missing,
+           " has NODAL THICKNESS, but node {} of element {} has none (*NODAL THICKNESS)",
+           b_.model.node_ids[node], e.id);
 }
 
 void AbaqusNodalThickness::notes() {
@@ -90,9 +87,10 @@ void AbaqusNodalThickness::notes() {
             "*NODAL THICKNESS has no effect, as in Abaqus and CalculiX: no section has the "
             "parameter NODAL THICKNESS");
   if (uneven_ > 0)
-    b_.note(first_uneven_, fmt::format("{} shells have nodes of different thickness, by {:.1f} % "
-                                       "at most: each has the mean of its corners",
-                                       uneven_, 100.0 * unevenness_));
+    b_.note(first_uneven_,
+            "{} shells have nodes of different thickness, by {:.1f} % "
+            "at most: each has the mean of its corners",
+            uneven_, 100.0 * unevenness_);
 }
 
 }  // namespace floatframe

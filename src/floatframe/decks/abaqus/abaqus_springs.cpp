@@ -55,21 +55,16 @@ class AbaqusSpringBuilder {
       if (family == Family::damper) ++dampers_;
       if (family != Family::spring) continue;
       if (spring_of[e] < 0) {
-        b_.source.error(ErrorCode::missing, element.at, "{} has no *SPRING", abaqus_label(element));
+        b_.error(element, ErrorCode::missing, " has no *SPRING");
       } else {
         one(element, c_.springs[spring_of[e]]);
       }
     }
     if (dampers_ > 0)
-      b_.note({0, 1}, fmt::format("{} dashpots are ignored, the part has modal damping (--damping)",
-                                  dampers_));
+      b_.note({0, 1}, "{} dashpots are ignored, the part has modal damping (--damping)", dampers_);
   }
 
  private:
-  void error(ErrorCode code, const AbaqusElement& e, const std::string& text) {
-    b_.source.error(code, e.at, "{}: {}", abaqus_label(e), text);
-  }
-
   bool nodes_of(const AbaqusElement& e, std::array<int, 2>& out) {
     out = {-1, -1};
     for (int k = 0; k < e.type->nodes; ++k) {
@@ -77,14 +72,13 @@ class AbaqusSpringBuilder {
       if (node < 0) return false;
       for (const Spider& s : b_.model.spiders) {
         if (s.rotation_node != node) continue;
-        error(
-            ErrorCode::unsupported, e,
-            fmt::format(
-                "node {} stands for the rotations of a rigid body, where springs are not supported",
-                c_.element_nodes[e.first + k]));
+        b_.error(e, ErrorCode::unsupported,
+                 ": node {} stands for the rotations of a rigid body, where springs are not "
+                 "supported",
+                 c_.element_nodes[e.first + k]);
         return false;
       }
-      out[static_cast<std::size_t>(k)] = node;
+      out[k] = node;
     }
     return true;
   }
@@ -106,31 +100,26 @@ class AbaqusSpringBuilder {
     if (!nodes_of(e, spring.nodes)) return;
     spring.name = abaqus_label(e);
     spring.source = e.at;
-    const bool along = e.type->name == std::string_view("SPRINGA");
+    const bool along = e.type->name == "SPRINGA";
     const auto k = stiffness(e, raw, along ? 0 : 1);
     if (!k) return;
     spring.stiffness = *k;
     if (along) {
       const Vec3 d = b_.model.positions[spring.nodes[1]] - b_.model.positions[spring.nodes[0]];
-      if (!(d.norm() > 0.0)) {
-        error(ErrorCode::geometry, e,
-              "its nodes are at one place, so it has no direction; use SPRING2");
-        return;
-      }
+      if (!(d.norm() > 0.0))
+        return b_.error(e, ErrorCode::geometry,
+                        ": its nodes are at one place, so it has no direction; use SPRING2");
       spring.directions[0].head<3>() = -d.normalized();
       spring.directions[1].head<3>() = d.normalized();
     } else {
       for (int end = 0; end < e.type->nodes; ++end) {
-        const std::size_t i = static_cast<std::size_t>(end);
         const std::vector<double>& dofs = raw.lines.front();
-        const double dof = i < dofs.size() ? dofs[i] : 0.0;
-        if (!(dof >= 1.0 && dof <= 6.0) || dof != static_cast<int>(dof)) {
-          b_.source.error(
+        const double dof = static_cast<std::size_t>(end) < dofs.size() ? dofs[end] : 0.0;
+        if (!(dof >= 1.0 && dof <= 6.0) || dof != static_cast<int>(dof))
+          return b_.source.error(
               ErrorCode::out_of_range, raw.where.at,
               "*SPRING: direction {} of {} is {:g}, expected one of 1 to 6 in its first line",
               end + 1, e.type->name, dof);
-          return;
-        }
         const int axis = static_cast<int>(dof) - 1;
         const Vec3 t = axes_of(spring.nodes[end], raw).col(axis % 3);
         spring.directions[end].segment<3>(axis < 3 ? 0 : 3) = end == 0 ? Vec3(-t) : t;
@@ -166,8 +155,7 @@ class AbaqusSpringBuilder {
     }
     if (noted_.insert(&raw).second)
       b_.note(raw.where.at,
-              fmt::format("*SPRING is not linear: its stiffness at zero elongation, {:g}, is taken",
-                          *k));
+              "*SPRING is not linear: its stiffness at zero elongation, {:g}, is taken", *k);
     return k;
   }
 

@@ -81,7 +81,7 @@ void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& take
   if (!done.free.empty())
     text += fmt::format("; not tied: {}{}", build.model.node_label(done.free.front()),
                         done.free.size() > 1 ? ", ..." : "");
-  build.note(raw.where.at, text);
+  build.note(raw.where.at, "{}", text);
 }
 
 }  // namespace
