@@ -3,17 +3,141 @@
 // RECT, PIPE (radius, wall) and BOX. CIRC has a radius in Abaqus and one or two diameters in
 // CalculiX (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC
 // for elements of three nodes only, PIPE and BOX for B32R.
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
-#include "floatframe/decks/abaqus/abaqus_beam_shapes.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/fe/plate_section.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
+
+using Numbers = std::vector<double>;
+
+void set_rectangle(AbaqusCard& /*card*/, const Numbers& d, AbaqusSection& section) {
+  section.beam = BeamSection::rectangle(d[0], d.size() > 1 ? d[1] : d[0]);
+}
+
+/// One diameter or radius, or the diameters a along direction 1 (local y), b along direction 2 of
+/// an ellipse. Torsion: J = pi a^3 b^3 / (16 (a^2 + b^2)), St. Venant's solution.
+void set_ellipse(AbaqusCard& /*card*/, const Numbers& d, AbaqusSection& section) {
+  constexpr double pi = std::numbers::pi;
+  section.round = d.size() == 1 ? d[0] : 0.0;
+  if (d.size() == 1) return;
+  const double a = d[0], b = d[1];
+  section.beam.A = pi * a * b / 4.0;
+  section.beam.Iy = pi * a * b * b * b / 64.0;
+  section.beam.Iz = pi * a * a * a * b / 64.0;
+  section.beam.J = pi * a * a * a * b * b * b / (16.0 * (a * a + b * b));
+}
+
+void set_pipe(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
+  const double radius = d[0], wall = d[1];
+  if (wall > radius)
+    card.error_in_line(ErrorCode::geometry,
+                       "the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall,
+                       radius);
+  section.beam = BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
+}
+
+/// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
+/// of Bredt, 4 A_m^2 / (closed integral of ds / t).
+void set_box(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
+  const double a = d[0], b = d[1];
+  const double* const t = &d[2];
+  if (t[0] != t[2] || t[1] != t[3])
+    card.error_in_line(ErrorCode::unsupported,
+                       "opposite walls of the box differ, so that its centroid is not at the node, "
+                       "which is not supported");
+  const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
+  if (inner_a < 0.0 || inner_b < 0.0)
+    card.error_in_line(ErrorCode::geometry, "the walls of the box overlap");
+  BeamSection& s = section.beam;
+  s.A = a * b - inner_a * inner_b;
+  s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
+  s.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
+  const double mid_a = a - 0.5 * (t[0] + t[2]), mid_b = b - 0.5 * (t[1] + t[3]);
+  s.J = 4.0 * mid_a * mid_a * mid_b * mid_b /
+        (mid_a / t[1] + mid_a / t[3] + mid_b / t[0] + mid_b / t[2]);
+}
+
+/// l, h, b1, b2, t1, t2, t3: the node lies l above the lower edge, direction 2 points up; the lower
+/// flange is b1 wide and t1 thick, the upper one b2 and t2, the web t3. A flange without size makes
+/// it a T.
+void set_i(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
+  const double l = d[0], h = d[1], b1 = d[2], b2 = d[3], t1 = d[4], t2 = d[5], t3 = d[6];
+  const auto flange = [&](double b, double t, const char* which) {
+    if (b < 0.0 || t < 0.0 || (b > 0.0) != (t > 0.0))
+      card.error_in_line(ErrorCode::incomplete,
+                         "the {} flange of the I is {:g} wide and {:g} thick, expected both more "
+                         "than 0, or both 0",
+                         which, b, t);
+  };
+  flange(b1, t1, "lower");
+  flange(b2, t2, "upper");
+  if (!(t1 + t2 < h))
+    card.error_in_line(
+        ErrorCode::geometry,
+        "the flanges of the I ({:g} and {:g} thick) leave no web in its height of {:g}", t1, t2, h);
+  std::vector<SectionPlate> plates = {{0.0, 0.5 * (t1 + h - t2), t3, h - t1 - t2}};
+  if (t1 > 0.0) plates.push_back({0.0, 0.5 * t1, b1, t1});
+  if (t2 > 0.0) plates.push_back({0.0, h - 0.5 * t2, b2, t2});
+  const PlateSums sums = plate_sums(plates);
+  section.beam.A = sums.A;
+  section.beam.Iy = sums.Iy;
+  section.beam.Iz = sums.Iz;
+  section.beam.J = sums.thin_J;
+  section.arm(1) = sums.z - l;
+  if (std::abs(section.arm(1)) < 1e-12 * h) section.arm(1) = 0.0;
+}
+
+struct AbaqusShape {
+  const char* name;
+  std::size_t numbers, calculix;  ///< how many: in both programs, in CalculiX alone (0: none)
+  void (*set)(AbaqusCard& card, const Numbers& d, AbaqusSection& section);
+  std::array<const char*, 7> what;
+  unsigned any = 0;  ///< bit k: number k need not be positive
+};
+
+constexpr const char* wall_of_box = "thickness of a wall of the box";
+constexpr AbaqusShape beam_shapes[] = {
+    {"RECT", 2, 1, set_rectangle, {"width of the rectangle", "height of the rectangle"}},
+    {"CIRC", 1, 2, set_ellipse, {"size of the circle", "second diameter of the ellipse"}},
+    {"PIPE", 2, 0, set_pipe, {"outer radius", "thickness of the wall"}},
+    {"BOX",
+     6,
+     0,
+     set_box,
+     {"width of the box", "height of the box", wall_of_box, wall_of_box, wall_of_box, wall_of_box}},
+    {"I",
+     7,
+     0,
+     set_i,
+     {"l of the I", "height of the I", "b1 of the I", "b2 of the I", "t1 of the I", "t2 of the I",
+      "thickness of the web of the I"},
+     61u}};
+
+/// Of SECTION=...; null if it is not read.
+const AbaqusShape* find_beam_shape(std::string_view name) {
+  const auto it = std::find_if(std::begin(beam_shapes), std::end(beam_shapes), [&](const auto& s) {
+    const std::string_view known = s.name;
+    return name == known || (known.size() > 2 && name.starts_with(known));  // RECTANGULAR as well
+  });
+  return it == std::end(beam_shapes) ? nullptr : it;
+}
+
+/// What to say of a shape that is not read.
+std::string unread_shape(const std::string& name) {
+  if (name == "T") return "expected SECTION=I with b1 = t1 = 0 or b2 = t2 = 0";
+  const bool other = name == "L" || name.starts_with("TRAP") || name == "HEX" ||
+                     name.starts_with("ARBITRARY") || name == "ELBOW" || name == "MESHED";
+  return other ? "which is not read: give its area, moments of inertia and torsion constant (*BEAM "
+                 "GENERAL SECTION, SECTION=GENERAL)"
+               : "expected RECT, CIRC, PIPE, BOX or I";
+}
 
 /// OFFSET1, OFFSET2 of CalculiX: of the node from the centroid, in thicknesses along 1 and 2.
 Eigen::Vector2d offsets_of(AbaqusCard& card) {
@@ -34,7 +158,7 @@ Eigen::Vector2d offsets_of(AbaqusCard& card) {
 
 /// The numbers of the section; false and an error if there are not as many as the shape has, or one
 /// is not positive that must be.
-bool read_numbers(AbaqusCard& card, const AbaqusBeamShape& shape, std::vector<double>& numbers) {
+bool read_numbers(AbaqusCard& card, const AbaqusShape& shape, std::vector<double>& numbers) {
   card.next();
   while (!card.fields.empty() && card.fields.back().empty()) card.fields.pop_back();
   const std::size_t n = card.fields.size();
@@ -149,7 +273,7 @@ void read_general_section(AbaqusCard& card, AbaqusSection& section) {
 }
 
 /// What the dimensions of a section show of the program, and what is said of its shape.
-void look_at_dimensions(AbaqusCard& card, const AbaqusBeamShape& shape, std::size_t dimensions) {
+void look_at_dimensions(AbaqusCard& card, const AbaqusShape& shape, std::size_t dimensions) {
   if (dimensions != shape.numbers)
     card.content.clues.add(DeckDialect::calculix,
                            fmt::format("{}, SECTION={} with {} dimension{}", card.shown, shape.name,
@@ -189,17 +313,21 @@ void read_abaqus_beam_section(AbaqusCard& card) {
       card.error(ErrorCode::exclusive, "has OFFSET1 or OFFSET2, which constants do not have");
     return read_general_section(card, section);
   }
-  const AbaqusBeamShape* const shape = find_abaqus_beam_shape(section.shape);
+  const AbaqusShape* const shape = find_beam_shape(section.shape);
   if (shape != nullptr) section.shape = shape->name;
   if (shape == nullptr && !section.shape.empty())
     card.error(ErrorCode::unsupported, "has the section {}, {}", shown(section.shape),
-               unread_abaqus_shape(section.shape));
+               unread_shape(section.shape));
   std::vector<double> d;
   if (!begin_abaqus_section(card, AbaqusType::Family::beam, section) || shape == nullptr ||
       !read_numbers(card, *shape, d))
     return;
   section.calculix_form = d.size() != shape->numbers;
-  set_abaqus_beam(card, d, offsets, section);
+  // Size along directions 1 and 2.
+  const bool pipe = section.shape == "PIPE", one = d.size() == 1;
+  const Eigen::Vector2d size(pipe ? 2.0 * d[0] : d[0], pipe ? 2.0 * d[0] : one ? d[0] : d[1]);
+  section.arm = -offsets.cwiseProduct(size);
+  shape->set(card, d, section);
   look_at_dimensions(card, *shape, d.size());
   if (own_material)
     read_direction_and_material(card, section);

@@ -121,7 +121,7 @@ void report_abaqus_directions(AbaqusBuild& build);
 /// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre beside the
 /// centroid.
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section);
-// abaqus_nodal_thickness.cpp
+// abaqus_sections.cpp
 /// Sections of shells with the thickness of their nodes.
 class AbaqusNodalThickness {
  public:

@@ -3,9 +3,12 @@
 // *TRANSFORM: directions of degrees of freedom at nodes. Rectangular: x through the first point,
 // the second in the plane of x and y. Cylindrical: radial, tangential, axial about the axis through
 // two points. Equations are written in body axes; supports, which are hints only, stay as they are.
+// *ORIENTATION: axes of materials.
 // Source: Abaqus Keywords Guide.
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
@@ -28,6 +31,30 @@ std::optional<Mat3> axes_at(const AbaqusTransform& t, const Vec3& p) {
   }
   R.col(1) = R.col(2).cross(R.col(0));
   return R;
+}
+
+/// SYSTEM, DEFINITION and NAME of *ORIENTATION.
+AbaqusOrientation begin_orientation(AbaqusCard& card) {
+  AbaqusOrientation o;
+  o.at = card.at;
+  o.scope = card.content.scope;
+  card.required("NAME");
+  const std::string system = card.word("SYSTEM"), definition = card.word("DEFINITION");
+  if (system == "CYLINDRICAL") {
+    o.kind = AbaqusOrientation::Kind::cylindrical;
+  } else if (system == "ZRECTANGULAR") {
+    o.kind = AbaqusOrientation::Kind::z_rectangular;
+    if (!card.content.clues.axes)
+      card.content.clues.axes = {"*ORIENTATION, SYSTEM=Z RECTANGULAR", card.at};
+  } else if (!system.empty() && system != "RECTANGULAR") {
+    card.error(ErrorCode::wrong_value,
+               "has the system {}, expected RECTANGULAR, Z RECTANGULAR or CYLINDRICAL",
+               shown(card.value("SYSTEM")));
+  }
+  if (!definition.empty() && definition != "COORDINATES")
+    card.error(ErrorCode::wrong_value, "has the definition {}, expected COORDINATES",
+               shown(card.value("DEFINITION")));
+  return o;
 }
 
 }  // namespace
@@ -112,6 +139,48 @@ std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build) {
     }
   }
   return axes;
+}
+
+bool AbaqusOrientation::points_on_a_line() const {
+  const bool cylinder = kind == Kind::cylindrical;
+  const Vec3 first = cylinder ? Vec3(b - a) : Vec3(a - c), second = b - c;
+  return first.norm() == 0.0 ||
+         (!cylinder && first.cross(second).norm() <= 1e-12 * first.norm() * second.norm());
+}
+
+const char* AbaqusOrientation::wrong_points() const noexcept {
+  return kind == Kind::cylindrical ? "has the same point for a and b"
+                                   : "has its points a, b and the origin on a line";
+}
+
+void read_abaqus_orientation(AbaqusCard& card) {
+  AbaqusOrientation o = begin_orientation(card);
+  if (card.wrong() || !card.needs_line()) return;
+  if (card.fields.size() < 6)
+    card.error(ErrorCode::wrong_count, "has {} coordinates, expected those of the points a and b",
+               card.fields.size());
+  std::size_t k = 0;
+  for (Vec3* const point : {&o.a, &o.b, &o.c})
+    *point = card.vector(std::exchange(k, k + 3), "coordinate of the orientation");
+  if (card.next()) {
+    o.axis_given = !card.field(0).empty();
+    const std::optional<int> axis = o.axis_given ? parse_integer(card.field(0)) : 1;
+    if (!axis || *axis < 1 || *axis > 3)
+      card.error(ErrorCode::out_of_range, "turns about axis {}, expected 1, 2 or 3",
+                 axis ? std::to_string(*axis) : shown(card.field(0)));
+    o.axis = axis.value_or(1);
+    o.angle = card.real_or(1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
+  }
+  // CalculiX has the origin in place of c: whose deck this is shows later.
+  AbaqusOrientation without_c = o;
+  without_c.c.setZero();
+  if (!card.wrong() && o.points_on_a_line() && without_c.points_on_a_line())
+    card.error(ErrorCode::wrong_value, o.wrong_points());
+  const std::string name = card.word("NAME");
+  const auto [it, added] = card.content.orientations.emplace(std::pair{o.scope, name}, o);
+  if (!added && !card.wrong())
+    card.error(ErrorCode::duplicate, "names the orientation {} a second time ({})", shown(name),
+               card.place(it->second.at));
 }
 
 }  // namespace floatframe

@@ -1,8 +1,6 @@
 #pragma once
 // Handlers of keywords of Abaqus and CalculiX decks, and what they share. `abaqus_readers` in
 // read_abaqus.cpp says which keyword has which.
-#include <set>
-
 #include "floatframe/decks/abaqus/abaqus_card.hpp"
 
 namespace floatframe {
@@ -13,7 +11,7 @@ using AbaqusHandler = void(AbaqusCard& card);
 // abaqus_mesh.cpp
 AbaqusHandler read_abaqus_nodes, read_abaqus_elements, read_abaqus_set, read_abaqus_surface;
 // abaqus_coordinates.cpp
-AbaqusHandler read_abaqus_system, read_abaqus_transform;
+AbaqusHandler read_abaqus_system, read_abaqus_transform, read_abaqus_orientation;
 // abaqus_generate.cpp
 AbaqusHandler read_abaqus_generated_nodes, read_abaqus_filled_nodes, read_abaqus_copied_nodes;
 AbaqusHandler read_abaqus_generated_elements, read_abaqus_copied_elements;
@@ -23,38 +21,19 @@ AbaqusHandler read_abaqus_part, read_abaqus_assembly, read_abaqus_instance, read
 void close_abaqus_blocks(AbaqusContent& content, TextSource& source, const std::string& where);
 /// At the end of the deck: parts without an instance go.
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source);
-// abaqus_instances.cpp
-AbaqusSizes abaqus_sizes(const AbaqusContent& content);
-/// What a part has once more, for an instance of it. Throws if instances make too much.
-void copy_abaqus_part(AbaqusContent& content, const AbaqusPart& part, AbaqusScope to,
-                      TextSource& source);
-void remove_abaqus_scopes(AbaqusContent& content, const std::set<AbaqusScope>& scopes);
-// abaqus_properties.cpp
+// abaqus_materials.cpp
 AbaqusHandler read_abaqus_material, read_abaqus_elastic, read_abaqus_density;
-AbaqusHandler read_abaqus_solid_section, read_abaqus_surface_section;
+AbaqusHandler read_abaqus_initial_conditions;
+/// At the end of the deck: constants that wait for a temperature.
+void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content);
+// abaqus_sections.cpp
+AbaqusHandler read_abaqus_solid_section, read_abaqus_shell_section, read_abaqus_membrane_section;
+AbaqusHandler read_abaqus_nodal_thickness, read_abaqus_surface_section;
 AbaqusHandler read_abaqus_mass, read_abaqus_rotary_inertia;
 /// What all sections have; false if the section cannot be used.
 bool begin_abaqus_section(AbaqusCard& card, AbaqusType::Family family, AbaqusSection& section);
-// abaqus_shell_section.cpp
-AbaqusHandler read_abaqus_shell_section, read_abaqus_membrane_section;
-// abaqus_nodal_thickness.cpp
-AbaqusHandler read_abaqus_nodal_thickness;
 // abaqus_nonstructural_mass.cpp
 AbaqusHandler read_abaqus_nonstructural_mass;
-// abaqus_anisotropic.cpp
-AbaqusHandler read_abaqus_orientation;
-/// Constants of *ELASTIC that are not isotropic; false if it is of no such type.
-bool read_abaqus_anisotropic(AbaqusCard& card);
-// abaqus_temperatures.cpp
-AbaqusHandler read_abaqus_initial_conditions;
-/// Do constants depend on field variables? An error if they do.
-bool has_abaqus_dependencies(AbaqusCard& card);
-/// For the last *MATERIAL: of a table the values at the temperature that the user says, with a
-/// note. Without one they wait for the initial temperature of the deck.
-void take_abaqus_constants(AbaqusCard& card, std::vector<TemperatureRow> rows,
-                           AbaqusPendingConstants::Use use);
-/// At the end of the deck: what waits for a temperature.
-void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content);
 // abaqus_beam_section.cpp
 AbaqusHandler read_abaqus_beam_section, read_abaqus_place_in_section;
 // abaqus_constraints.cpp
