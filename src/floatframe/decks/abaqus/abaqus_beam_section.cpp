@@ -162,7 +162,7 @@ bool read_numbers(AbaqusCard& card, const AbaqusShape& shape, std::vector<double
   card.next();
   while (!card.fields.empty() && card.fields.back().empty()) card.fields.pop_back();
   const std::size_t n = card.fields.size();
-  const bool both = shape.calculix != 0 && card.content.dialect != DeckDialect::abaqus;
+  const bool both = shape.calculix != 0 && card.content.options.dialect != DeckDialect::abaqus;
   if (n != shape.numbers && !(both && n == shape.calculix)) {
     card.error(ErrorCode::wrong_count, "has {} dimension{}, expected {}", n, n == 1 ? "" : "s",
                both ? fmt::format("{} or {}", std::min(shape.numbers, shape.calculix),

@@ -6,7 +6,6 @@
 
 #include "floatframe/decks/abaqus/abaqus_resolve.hpp"
 #include "floatframe/decks/rigid_arms.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {
@@ -81,9 +80,7 @@ struct AbaqusBuild {
 
 /// What the elements of a section have in the model.
 struct AbaqusProperties {
-  int material = -1, section = 0;
-  Vec3 reference = Vec3::UnitZ();
-  int orientation = -1;
+  Element like;              ///< material, section, reference and orientation
   bool directional = false;  ///< shells: not isotropic in the plane
 };
 
@@ -144,7 +141,7 @@ class AbaqusNodalThickness {
 };
 // abaqus_build_mesh.cpp
 void build_abaqus_nodes(AbaqusBuild& build);
-void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
+void build_abaqus_elements(AbaqusBuild& build);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
 // abaqus_home.cpp

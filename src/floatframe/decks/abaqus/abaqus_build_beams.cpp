@@ -3,13 +3,12 @@
 // t x n_1. CalculiX has OFFSET1 and OFFSET2 in thicknesses along these: the centroid lies at
 //   -OFFSET1 t_1 n_1 - OFFSET2 t_2 n_2
 // of the node, as its expanded elements show.
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -29,7 +28,7 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
 
 /// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
 void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) {
-  const DeckDialect given = build.content.dialect;
+  const DeckDialect given = build.content.options.dialect;
   if (!section.offset_at || given == DeckDialect::abaqus) return;
   const std::optional<DialectClues::Clue>& clue = build.clues.calculix;
   if (given == DeckDialect::calculix)
@@ -46,7 +45,7 @@ void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) 
 
 /// OFFSET1 and OFFSET2 in a deck of Abaqus.
 void check_calculix_offset(AbaqusBuild& build, const AbaqusSection& section) {
-  const DeckDialect given = build.content.dialect;
+  const DeckDialect given = build.content.options.dialect;
   if (!section.calculix_offset || given == DeckDialect::calculix) return;
   const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
   if (given == DeckDialect::abaqus)

@@ -1,8 +1,4 @@
 // Surfaces, spiders, equations and supports of an Abaqus deck in the model.
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <unordered_map>
 
 #include "floatframe/core/suggest.hpp"
@@ -106,10 +102,7 @@ int reference_of(AbaqusBuild& build, const AbaqusSpider& raw) {
 }
 
 void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) {
-  Spider spider;
-  spider.kind = raw.kind;
-  spider.name = raw.name;
-  spider.mask = raw.mask;
+  Spider spider = raw.made;
   spider.source = raw.where.at;
   const std::size_t before = build.source.errors();
   spider.reference = reference_of(build, raw);

@@ -5,8 +5,6 @@
 // (1, 2, 3, 1), after that rotation; without an orientation global x, or global z where x is within
 // 0.1 degrees of the normal. CalculiX has the axes in space; with the third along the normal that
 // is the same.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,7 +32,7 @@ struct DialectHabit {
 bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
                     const DialectHabit& d) {
   const DialectClues& clues = build.clues;
-  const bool given = build.content.dialect != DeckDialect::by_content;
+  const bool given = build.content.options.dialect != DeckDialect::by_content;
   const bool calculix = build.dialect() == DeckDialect::calculix;
   const bool known = given || (clues.abaqus && !clues.calculix && !clues.by_axes);
   if (calculix)
@@ -221,11 +219,10 @@ void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
 
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e) {
-  e.orientation = p.orientation;
   if (!is_abaqus_sheet(section.family) || !p.directional) return;
   std::vector<Vec3> corners;
   for (const int node : nodes_of_element(e)) corners.push_back(build.model.positions[node]);
-  if (p.orientation < 0) e.orientation = default_orientation(build, shell_normal(corners));
+  if (e.orientation < 0) e.orientation = default_orientation(build, shell_normal(corners));
   const bool own = std::any_of(section.plies.begin(), section.plies.end(),
                                [](const auto& ply) { return !ply.orientation.empty(); });
   if (!own) return;

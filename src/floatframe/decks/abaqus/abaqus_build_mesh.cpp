@@ -1,6 +1,4 @@
 // Nodes, elements, masses and sets of an Abaqus deck in the model.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <unordered_set>
@@ -97,7 +95,7 @@ void build_masses(AbaqusBuild& build) {
 }  // namespace
 
 DeckDialect AbaqusBuild::dialect() const {
-  if (content.dialect != DeckDialect::by_content) return content.dialect;
+  if (content.options.dialect != DeckDialect::by_content) return content.options.dialect;
   if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
   return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
 }
@@ -201,11 +199,8 @@ void no_section(AbaqusBuild& build, const AbaqusElement& element) {
 /// Nothing if one of its nodes is not there.
 std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
                                   const AbaqusProperties& p) {
-  Element result;
+  Element result = p.like;
   result.type = element.type->type;
-  result.material = p.material;
-  result.section = p.section;
-  result.reference = p.reference;
   result.id = element.id;
   result.source = element.at;
   for (int k = 0; k < element.type->nodes; ++k) {
@@ -217,7 +212,7 @@ std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& eleme
 
 }  // namespace
 
-void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
+void build_abaqus_elements(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
   const std::size_t before = build.source.errors();
@@ -226,11 +221,12 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   look_at_abaqus_beams(build, section_of);
   const std::vector<AbaqusProperties> properties = abaqus_properties(build);
   const bool mesh_only = c.sections.empty() && c.materials.empty();
+  const std::optional<Material>& material = c.options.material;
   AbaqusProperties given;
-  if (mesh_only && options.material) {
-    model.materials.push_back(*options.material);
+  given.like.material = mesh_only && material ? 0 : -1;
+  if (mesh_only && material) {
+    model.materials.push_back(*material);
     model.material_names.emplace_back();
-    given.material = 0;
   }
   const bool has_shells =
       std::any_of(c.sections.begin(), c.sections.end(),
@@ -283,7 +279,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   thickness.notes();
   note_elements(build, counts);
   numbers.note();
-  note_materials(build, counts, mesh_only, options.material.has_value());
+  note_materials(build, counts, mesh_only, material.has_value());
   build_masses(build);
 }
 

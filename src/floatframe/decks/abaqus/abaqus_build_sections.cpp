@@ -1,7 +1,5 @@
 // Sections and materials of an Abaqus deck: which elements have which, and what they are in the
 // model. Round sections depend on whose deck it is.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -61,7 +59,7 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
         clues.abaqus ? fmt::format("the deck has things of both ({}, {})", clues.abaqus->what,
                                    clues.calculix->what)
                      : "nothing in the deck shows whose it is");
-  } else if (build.content.dialect == DeckDialect::by_content) {
+  } else if (build.content.options.dialect == DeckDialect::by_content) {
     const DialectClues::Clue& clue = abaqus ? *clues.abaqus : *clues.calculix;
     build.note(section.where.at, "{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {})",
                section.shown, section.round, abaqus ? "radius" : "diameter",
@@ -73,7 +71,7 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
 /// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
 void check_form(AbaqusBuild& build, const AbaqusSection& section) {
   const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
-  if (section.calculix_form && clue && build.content.dialect != DeckDialect::calculix)
+  if (section.calculix_form && clue && build.content.options.dialect != DeckDialect::calculix)
     build.error(section, ErrorCode::unsupported,
                 ", SECTION={} has dimensions as in CalculiX, but the deck has {} ({}), which only "
                 "Abaqus has; if it is one of CalculiX give --dialect calculix",
@@ -97,7 +95,7 @@ void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
   const AbaqusContent& c = build.content;
   const auto instance = c.instances.find(section.where.scope);
   if (instance == c.instances.end() || instance->second.place.R.isIdentity(1e-12)) return;
-  const Material& m = build.model.materials[p.material];
+  const Material& m = build.model.materials[p.like.material];
   const bool directional =
       is_abaqus_sheet(section.family) ? p.directional : m.elasticity.has_value();
   if (directional && section.orientation.empty())
@@ -179,28 +177,28 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
     const auto material = [&](const std::string& name) {
       return material_of(build, section, name, material_index);
     };
-    p.material = material(section.material);
-    check_abaqus_material(build, section, model.materials[p.material]);
+    p.like.material = material(section.material);
+    check_abaqus_material(build, section, model.materials[p.like.material]);
     if (!section.orientation.empty())
-      p.orientation = abaqus_orientation(build, section.orientation, section);
+      p.like.orientation = abaqus_orientation(build, section.orientation, section);
     if (section.family == Family::beam) {
-      p.section = static_cast<int>(model.sections.size());
+      p.like.section = static_cast<int>(model.sections.size());
       check_form(build, section);
       check_abaqus_beam_offset(build, section);
       model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
       BeamSection& beam = model.sections.back();
-      check_beam_numbers(build, section, beam, model.materials[p.material]);
+      check_beam_numbers(build, section, beam, model.materials[p.like.material]);
       beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
-      p.reference = build.content.placement(section.where.scope).R * section.n1;
+      p.like.reference = build.content.placement(section.where.scope).R * section.n1;
     } else if (section.family == Family::solid && section.thickness > 0.0) {  // of rods
-      p.section = static_cast<int>(model.sections.size());
+      p.like.section = static_cast<int>(model.sections.size());
       model.sections.push_back({section.thickness, 0.0, 0.0, 0.0});
-      check_beam_numbers(build, section, model.sections.back(), model.materials[p.material]);
+      check_beam_numbers(build, section, model.sections.back(), model.materials[p.like.material]);
     } else if (is_abaqus_sheet(section.family)) {
-      p.section = static_cast<int>(model.shells.size());
+      p.like.section = static_cast<int>(model.shells.size());
       const ShellSection shell = abaqus_shell_section(build, section, material);
-      if (!section.nodal_thickness) check_abaqus_sheet(build, section, shell, p.material);
-      p.directional = !is_plain(shell, model.materials[p.material]);
+      if (!section.nodal_thickness) check_abaqus_sheet(build, section, shell, p.like.material);
+      p.directional = !is_plain(shell, model.materials[p.like.material]);
       model.shells.push_back(shell);
     }
     check_turned_instance(build, section, p);

@@ -30,11 +30,11 @@ void read_kind_of_coupling(AbaqusCard& kind, AbaqusSpider& spider) {
   if (mask == 0) mask = all_directions;
   if (kind.name == "KINEMATIC") {
     kind.allow_only("");
-    spider.mask = mask;
+    spider.made.mask = mask;
     return;
   }
   kind.allow_only("WEIGHTINGMETHOD COUPLING");
-  spider.kind = Spider::Kind::mean;
+  spider.made.kind = Spider::Kind::mean;
   kind.is_one_of("WEIGHTINGMETHOD", "UNIFORM", "has the weighting {}, expected UNIFORM");
   check_rotations_of_nodes(kind);
   if (mask != all_directions)
@@ -76,11 +76,11 @@ void add_mpc_bar(AbaqusContent& content, const AbaqusReference& node,
   for (AbaqusSpider& s : content.spiders) {
     const bool same = s.where.name == reference.name && s.where.first == reference.first &&
                       s.where.scope == reference.scope;
-    if (same && s.name.starts_with("MPC ")) return s.nodes.push_back(node);
+    if (same && s.made.name.starts_with("MPC ")) return s.nodes.push_back(node);
   }
   AbaqusSpider spider;
   spider.where = reference;
-  spider.name = "MPC " + content.text(reference, "node");
+  spider.made.name = "MPC " + content.text(reference, "node");
   spider.nodes = {node};
   content.spiders.push_back(std::move(spider));
 }
@@ -134,10 +134,10 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
     if (!card.has(parameter)) continue;
     (parameter == std::string_view("ELSET") ? spider.elements : spider.nodes)
         .push_back(card.named(parameter));
-    spider.name = card.word(parameter);
+    spider.made.name = card.word(parameter);
   }
   // Pinned nodes follow in translation only: for nodes without rotations there is no difference.
-  if (card.has("PINNSET")) spider.mask = all_translations;
+  if (card.has("PINNSET")) spider.made.mask = all_translations;
   if (card.has("PINNSET") && spider.nodes.size() != 1)
     card.error(ErrorCode::unsupported, "has PIN NSET beside another set, which is not supported");
   if (spider.nodes.empty() && spider.elements.empty())
@@ -150,7 +150,7 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
 
 void read_abaqus_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.name = card.word("CONSTRAINTNAME");
+  spider.made.name = card.word("CONSTRAINTNAME");
   const bool referred = !card.required("REF NODE").empty();
   const bool complete = !card.required("SURFACE").empty() && referred;
   AbaqusKeyword following;
@@ -184,14 +184,14 @@ void read_abaqus_kinematic_coupling(AbaqusCard& card) {
   }
   if (spider.nodes.empty()) return card.error(ErrorCode::missing, "has no nodes");
   if (!referred) return;
-  spider.mask = mask;
+  spider.made.mask = mask;
   spider.where = card.reference_of("REFNODE");
   card.content.spiders.push_back(std::move(spider));
 }
 
 void read_abaqus_distributing_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.kind = Spider::Kind::mean;
+  spider.made.kind = Spider::Kind::mean;
   const bool named = !card.required("ELSET").empty();
   while (card.next()) {
     spider.nodes.push_back(card.reference(0));

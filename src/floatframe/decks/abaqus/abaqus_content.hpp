@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -16,6 +15,8 @@
 #include "floatframe/decks/abaqus/abaqus_lines.hpp"
 #include "floatframe/decks/temperature_table.hpp"
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/fe/surface_ties.hpp"
+#include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {
 
@@ -203,14 +204,12 @@ struct AbaqusNodalValue : AbaqusThing {
 
 /// `where` is its reference.
 struct AbaqusSpider : AbaqusThing {
-  Spider::Kind kind = Spider::Kind::rigid;
-  std::string name;
+  Spider made;                              ///< with its kind, name and mask
   std::optional<AbaqusReference> rotation;  ///< ROT NODE
   std::vector<AbaqusReference> nodes, elements;
   std::vector<double> weights;             ///< one an entry of `nodes`; empty: 1
   std::optional<AbaqusReference> surface;  ///< its name
-  unsigned mask = 63u;
-  bool reference_by_element = false;  ///< `where` is the element set of a DCOUP3D
+  bool reference_by_element = false;       ///< `where` is the element set of a DCOUP3D
 };
 
 struct AbaqusEquation {
@@ -236,8 +235,8 @@ struct AbaqusSpring : AbaqusThing {
 /// *TIE, or a contact pair that is joined; `where` is its slave surface.
 struct AbaqusTie : AbaqusThing {
   AbaqusReference master;
-  double distance = 0.0;  ///< 0: in proportion to the faces
-  bool adjust = true, rotations = true, contact = false;
+  SurfaceTie made;  ///< how they are tied
+  bool contact = false;
 };
 
 /// Turned directions of degrees of freedom.
@@ -329,10 +328,7 @@ struct AbaqusContent {
   std::vector<AbaqusPendingConstants> pending;
   std::vector<std::string> notes;
   void note(const SourceMark& mark, const std::string& text);
-  DeckContact contact = DeckContact::refuse;  ///< as the user says
-  double contact_distance = 0.0;
-  DeckDialect dialect = DeckDialect::by_content;  ///< as the user says
-  std::optional<double> temperature;              ///< as the user says
+  FeReadOptions options;  ///< of the temperature also what the deck says
   DialectClues clues;
   /// Only nodes, sets and spiders are wanted: matrices hold what the rest would change.
   bool only_nodes = false;

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

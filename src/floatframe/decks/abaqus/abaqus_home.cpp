@@ -7,6 +7,7 @@
 #include <map>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {

@@ -1,7 +1,5 @@
 #include "floatframe/decks/abaqus/abaqus_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "floatframe/formats/text/text_fields.hpp"

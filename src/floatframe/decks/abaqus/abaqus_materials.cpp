@@ -25,8 +25,8 @@ void use_at_temperature(AbaqusCard& card, const AbaqusPendingConstants& p,
   if (found.chosen)
     card.note(
         "{} of material {} is taken at the temperature {:g} (its table goes from {:g} to {:g})",
-        card.shown, shown(p.material), *card.content.temperature, p.rows.front().temperature,
-        p.rows.back().temperature);
+        card.shown, shown(p.material), *card.content.options.temperature,
+        p.rows.front().temperature, p.rows.back().temperature);
   p.use(card, material->second, found.values);
 }
 
@@ -51,7 +51,7 @@ void take_constants(AbaqusCard& card, std::vector<TemperatureRow> rows,
   const bool density = card.name == "DENSITY";
   if ((density ? material.density : material.young).has_value())
     return card.error(ErrorCode::duplicate, "is given a second time for its material");
-  const AtTemperature found = at_temperature(rows, content.temperature);
+  const AtTemperature found = at_temperature(rows, content.options.temperature);
   AbaqusPendingConstants p{card, content.material, std::move(rows), use};
   if (found.error.empty()) return use_at_temperature(card, p, found);
   // Given once, whatever becomes of them.
@@ -61,7 +61,7 @@ void take_constants(AbaqusCard& card, std::vector<TemperatureRow> rows,
     material.young = 1.0;
     material.poisson = 0.0;
   }
-  if (content.temperature) return card.error(ErrorCode::incomplete, found.error);
+  if (content.options.temperature) return card.error(ErrorCode::incomplete, found.error);
   content.pending.push_back(std::move(p));
 }
 
@@ -202,7 +202,7 @@ void use_density(AbaqusCard& card, AbaqusMaterial& material, const std::vector<d
     card.error(ErrorCode::out_of_range, "is {:g}, expected no negative density", values[0]);
 }
 
-/// Why the deck says no temperature; empty: it says `content.temperature`.
+/// Why the deck says no temperature; empty: it says `content.options.temperature`.
 std::string initial_temperature(AbaqusContent& content, TextSource& source) {
   const std::vector<AbaqusNodalValue>& all = content.initial_temperatures;
   const AbaqusNodalValue& first = all.front();
@@ -213,7 +213,7 @@ std::string initial_temperature(AbaqusContent& content, TextSource& source) {
       return fmt::format("they are {:g} and {:g} ({})", first.value, t.value, place);
   }
   if (source.errors() > 0) {  // elements may lack nodes
-    content.temperature = first.value;
+    content.options.temperature = first.value;
     return {};
   }
   std::vector<char> has(content.nodes.size(), 0);
@@ -225,7 +225,7 @@ std::string initial_temperature(AbaqusContent& content, TextSource& source) {
       if (const int node = content.node_of(e, k); node >= 0 && has[node] == 0)
         return fmt::format("node {}{} has none", content.prefix(e.scope),
                            content.element_nodes[e.first + k]);
-  content.temperature = first.value;
+  content.options.temperature = first.value;
   content.note(source.mark(first.where.at),
                fmt::format("materials are taken at {:g}, the initial temperature of the deck "
                            "(--temperature, key `temperature`, is another one)",
@@ -296,7 +296,7 @@ void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content) {
   if (!content.initial_temperatures.empty()) why = initial_temperature(content, source);
   if (!why.empty()) why = "; the initial temperatures of the deck say none: " + why;
   for (const AbaqusPendingConstants& p : content.pending) {
-    const AtTemperature found = at_temperature(p.rows, content.temperature);
+    const AtTemperature found = at_temperature(p.rows, content.options.temperature);
     AbaqusCard card(p.keyword, lines, content);
     if (found.error.empty())
       use_at_temperature(card, p, found);

@@ -1,6 +1,4 @@
 // Nodes, elements, sets and surfaces of Abaqus decks.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -187,7 +185,7 @@ std::optional<AbaqusElement> element_of_fields(AbaqusCard& card, const AbaqusTyp
   if (!id)
     return wrong(ErrorCode::not_a_number, "element number: " + not_an_integer(card.field(0)));
   const bool directed = type.family == AbaqusType::Family::beam && card.fields.size() == count + 1;
-  if (directed && content.dialect == DeckDialect::calculix)
+  if (directed && content.options.dialect == DeckDialect::calculix)
     return wrong(ErrorCode::unsupported,
                  fmt::format("element {} ({}) has a node for its orientation, which CalculiX does "
                              "not know: give the direction in *BEAM SECTION",
@@ -229,7 +227,7 @@ AbaqusSurface* begin_surface(AbaqusCard& card, bool of_nodes) {
   AbaqusContent& content = card.content;
   AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
   const bool again = surface.at.line != 0;
-  if (again && content.dialect == DeckDialect::abaqus) {
+  if (again && content.options.dialect == DeckDialect::abaqus) {
     card.error(ErrorCode::duplicate, "names the surface {} a second time", shown(name));
     return nullptr;
   }

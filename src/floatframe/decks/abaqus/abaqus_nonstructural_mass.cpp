@@ -2,13 +2,12 @@
 // a total mass each element has its share in proportion to its own mass (which scales densities) or
 // to its volume (which adds the same density to all). Solids, beams and rods get it as density,
 // shells and membranes as mass over area in their middle.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

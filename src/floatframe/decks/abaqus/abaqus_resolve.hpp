@@ -1,7 +1,6 @@
 #pragma once
 // Numbers and names of an Abaqus deck as indices of its nodes and elements.
 #include <map>
-#include <span>
 #include <vector>
 
 #include "floatframe/core/suggest.hpp"

@@ -11,6 +11,7 @@
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -1,14 +1,11 @@
 // Springs of Abaqus and CalculiX decks: SPRINGA (along the line of its nodes), SPRING1 (a direction
 // of a node and the ground), SPRING2 (directions of two nodes). Of a table of forces the slope at
 // zero elongation counts. Dashpots and gaps have no linear stiffness.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

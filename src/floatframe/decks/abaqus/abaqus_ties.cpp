@@ -1,7 +1,5 @@
 // Surfaces joined by *TIE, and contact pairs, which are joined or left free as the options say
 // (fe/surface_ties.hpp).
-#include <fmt/format.h>
-
 #include <unordered_set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
@@ -32,7 +30,7 @@ void read_pairs(AbaqusCard& card, AbaqusTie tie) {
 
 /// Is contact ignored, as the options say? A note then.
 bool is_ignored(AbaqusCard& card, const char* what) {
-  if (card.content.contact != DeckContact::ignore) return false;
+  if (card.content.options.contact != DeckContact::ignore) return false;
   card.note("{} is ignored, as the options say: {}", card.shown, what);
   return true;
 }
@@ -64,12 +62,9 @@ void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& take
                        word, shown(master_name));
     return;
   }
-  SurfaceTie tie;
+  SurfaceTie tie = raw.made;
   tie.nodes = nodes_of_surface(build, *slave, slave_name);
   tie.faces = build.model.surfaces.at(master_name);
-  tie.distance = raw.distance;
-  tie.adjust = raw.adjust;
-  tie.rotations = raw.rotations;
   tie.source = raw.where.at;
   if (build.clues.abaqus && !build.clues.calculix) tie.part_of_size = 0.05;
   const TiedNodes done = add_surface_tie(build.model, tie, taken);
@@ -93,12 +88,12 @@ void read_abaqus_tie(AbaqusCard& card) {
         card.shown);
   AbaqusTie tie;
   const std::string_view tolerance = card.value("POSITIONTOLERANCE");
-  tie.distance = parse_real(tolerance).value_or(0.0);
-  if (card.has("POSITIONTOLERANCE") && !(tie.distance > 0.0))
+  tie.made.distance = parse_real(tolerance).value_or(0.0);
+  if (card.has("POSITIONTOLERANCE") && !(tie.made.distance > 0.0))
     card.error(ErrorCode::out_of_range, "has the position tolerance {}, expected a positive number",
                shown(tolerance));
-  tie.adjust = !same_word(card.value("ADJUST"), "NO");
-  tie.rotations = !card.has("NOROTATION");
+  tie.made.adjust = !same_word(card.value("ADJUST"), "NO");
+  tie.made.rotations = !card.has("NOROTATION");
   read_pairs(card, tie);
 }
 
@@ -106,7 +101,7 @@ void read_abaqus_tie(AbaqusCard& card) {
 void read_abaqus_contact(AbaqusCard& card) {
   if (card.content.only_nodes || is_ignored(card, "its surfaces are free")) return;
   card.error(ErrorCode::unsupported,
-             card.content.contact == DeckContact::tied
+             card.content.options.contact == DeckContact::tied
                  ? "is general contact, which names no surfaces to tie: use *TIE, or --contact "
                    "ignore (key `contact`), which leaves all surfaces free"
                  : "is not linear: --contact ignore (key `contact`) leaves all surfaces free");
@@ -114,14 +109,14 @@ void read_abaqus_contact(AbaqusCard& card) {
 
 void read_abaqus_contact_pair(AbaqusCard& card) {
   if (card.content.only_nodes || is_ignored(card, "its surfaces are free")) return;
-  if (card.content.contact == DeckContact::refuse)
+  if (card.content.options.contact == DeckContact::refuse)
     return card.error(ErrorCode::unsupported,
                       "is not linear: --contact ignore (key `contact`) leaves the surfaces free, "
                       "--contact tied joins them where they touch");
   AbaqusTie tie;
   tie.contact = true;
-  tie.adjust = false;
-  tie.distance = card.content.contact_distance;
+  tie.made.adjust = false;
+  tie.made.distance = card.content.options.contact_distance;
   read_pairs(card, tie);
 }
 

@@ -1,8 +1,5 @@
 #include "floatframe/decks/abaqus/read_abaqus.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <set>
 #include <unordered_map>
 
@@ -132,70 +129,66 @@ class DeckReader {
                            "the deck begins with {}, expected a keyword line (*...)", shown(first));
     }
     AbaqusKeyword keyword;
-    while (lines_.next_keyword(keyword)) one(keyword);
+    while (lines_.next_keyword(keyword)) {
+      content_.clues.look_at(keyword);
+      AbaqusCard card(keyword, lines_, content_);
+      one(card);
+    }
   }
 
  private:
-  void one(const AbaqusKeyword& keyword) {
-    content_.clues.look_at(keyword);
-    if (const AbaqusReader* const reader = reader_of(keyword.name)) {
-      AbaqusCard card(keyword, lines_, content_);
+  void one(AbaqusCard& card) {
+    if (const AbaqusReader* const reader = reader_of(card.name)) {
       if (reader->parameters != nullptr) card.allow_only(reader->parameters);
-      return reader->read(card);
-    }
-    if (keyword.name == "STEP") {
-      close_abaqus_blocks(content_, lines_.source(), "before *STEP");
-      note(keyword, "and what follows up to *END STEP is ignored");
-      return step(keyword);
-    }
-    if (is_harmless_in_abaqus(keyword.name)) {
-      note(keyword, "is ignored");
-    } else if (const char* const advice = advice_for_abaqus(keyword.name)) {
-      error(ErrorCode::unsupported, keyword, fmt::format("is not supported: {}", advice));
+      reader->read(card);
+    } else if (card.name == "STEP") {
+      close_abaqus_blocks(content_, card.source, "before *STEP");
+      note(card, "and what follows up to *END STEP is ignored");
+      step(card);
+    } else if (is_harmless_in_abaqus(card.name)) {
+      note(card, "is ignored");
+    } else if (const char* const advice = advice_for_abaqus(card.name)) {
+      error(ErrorCode::unsupported, card, fmt::format("is not supported: {}", advice));
     } else {
-      unknown(keyword);
+      unknown(card);
     }
   }
 
   /// *STEP to *END STEP: loads and results.
-  void step(const AbaqusKeyword& begin) {
+  void step(const AbaqusCard& begin) {
     AbaqusKeyword keyword;
     while (lines_.next_keyword(keyword) && keyword.name != "ENDSTEP") {
       content_.clues.look_at(keyword);
       if (content_.only_nodes || !changes_part(keyword)) continue;
-      error(
-          ErrorCode::contradiction, keyword,
-          fmt::format(
-              "is inside the *STEP of line {}, but the part must be complete before the first step",
-              begin.at.line));
+      AbaqusCard card(keyword, lines_, content_);
+      error(ErrorCode::contradiction, card,
+            fmt::format("is inside the *STEP of line {}, but the part must be complete before the "
+                        "first step",
+                        begin.at.line));
     }
   }
 
   /// Each keyword once: there may be millions of them.
-  void error(ErrorCode code, const AbaqusKeyword& keyword, const std::string& text) {
-    if (errors_.insert(keyword.name).second)
-      lines_.source().error(code, keyword.at, "{} {}", keyword.shown, text);
+  void error(ErrorCode code, AbaqusCard& card, const std::string& text) {
+    if (errors_.insert(card.name).second) card.error(code, text);
   }
 
-  void unknown(const AbaqusKeyword& keyword) {
-    if (errors_.contains(keyword.name) || noted_.contains(keyword.name)) return;
+  void note(AbaqusCard& card, std::string_view text) {
+    if (noted_.insert(card.name).second) card.note("{} {}", card.shown, text);
+  }
+
+  void unknown(AbaqusCard& card) {
+    if (errors_.contains(card.name) || noted_.contains(card.name)) return;
     if (content_.only_nodes && noted_.size() >= most_notes) return;
-    const std::string near = nearly(keyword.name);
-    if (!near.empty()) {
-      error(ErrorCode::unknown_key, keyword,
-            fmt::format("is not known, did you mean '*{}'?", near));
-    } else if (content_.only_nodes) {
-      note(keyword, "is not known and is ignored");
-    } else {
-      error(ErrorCode::unknown_key, keyword,
+    const std::string near = nearly(card.name);
+    if (!near.empty())
+      error(ErrorCode::unknown_key, card, fmt::format("is not known, did you mean '*{}'?", near));
+    else if (content_.only_nodes)
+      note(card, "is not known and is ignored");
+    else
+      error(ErrorCode::unknown_key, card,
             "is not known and may change stiffness, mass or constraints: take it out of the deck "
             "if it does not");
-    }
-  }
-
-  void note(const AbaqusKeyword& keyword, std::string_view text) {
-    if (!noted_.insert(keyword.name).second) return;
-    content_.note(lines_.source().mark(keyword.at), fmt::format("{} {}", keyword.shown, text));
   }
 
   static constexpr std::size_t most_notes = 500;  // the harmless ones are fewer
@@ -222,18 +215,14 @@ bool looks_like_abaqus(std::string_view beginning) {
 
 FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart part) {
   AbaqusContent content;
-  content.dialect = options.dialect;
+  content.options = options;
   content.only_nodes = part == DeckPart::nodes;
-  content.temperature = options.temperature;
-  content.contact = options.contact;
-  content.contact_distance = options.contact_distance;
   AbaqusLines lines(source);
   DeckReader(lines, content).read();
   finish_abaqus_assembly(content, source);
   finish_abaqus_constants(lines, content);
-  if (content.nodes.size() == 0 && source.errors() == 0) {
+  if (content.nodes.size() == 0 && source.errors() == 0)
     source.error(ErrorCode::missing, {0, 0}, "the deck has no nodes");
-  }
   source.throw_if_any();
   const bool only_nodes = content.only_nodes;
   content.clues.settle();
@@ -241,7 +230,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   build.element_index.assign(content.elements.size(), -1);
   build.model.notes = content.notes;
   build_abaqus_nodes(build);
-  if (!only_nodes) build_abaqus_elements(build, options);
+  if (!only_nodes) build_abaqus_elements(build);
   if (!only_nodes) as_in_home_program(build);
   if (!only_nodes) build_abaqus_nonstructural_mass(build);
   build_abaqus_sets(build, only_nodes);

@@ -126,11 +126,10 @@ class Springs {
   /// CalculiX leaves out degrees of freedom of nodes that only equations have.
   void must_be_in_an_element(const FeSource& source, int node) {
     if (in_elements_[node] != 0) return;
-    deck_.errors.add(
-        ErrorCode::unsupported, deck_.model.mark(source),
-        fmt::format("a spring that is neither along an axis nor along the line of its nodes ends "
-                    "at {}, which no element has: CalculiX would hold it there",
-                    deck_.model.node_label(node)));
+    deck_.error(source,
+                "a spring that is neither along an axis nor along the line of its nodes ends at "
+                "{}, which no element has: CalculiX would hold it there",
+                deck_.model.node_label(node));
   }
 
   End further_node(const FeSource& source, int node, const Vec6& direction) {
@@ -196,8 +195,8 @@ void add_masses(CalculixText& deck) {
     turning += !m.J.isZero(0.0);
     if (m.mass == 0.0) continue;
     const std::string set = written_name(fmt::format("MASS_{}", ++number), true, deck.names);
-    deck.text += fmt::format("*ELEMENT, TYPE=MASS, ELSET={0}\n{1}, {2}\n*MASS, ELSET={0}\n{3}\n",
-                             set, number, deck.node(m.node), calculix_number(m.mass));
+    deck.add("*ELEMENT, TYPE=MASS, ELSET={0}\n{1}, {2}\n*MASS, ELSET={0}\n{3}\n", set, number,
+             deck.node(m.node), calculix_number(m.mass));
   }
   if (turning > 0)
     deck.note("the inertia of {} about the node is left out: CalculiX has masses without inertia",

@@ -67,7 +67,7 @@ void add_elements(CalculixText& deck) {
     const bool pipe = element.type == ElementType::beam3 && s < deck.model.sections.size() &&
                       deck.model.sections[s].bore > 0.0;
     const std::string type = pipe ? "B32R" : calculix_type(element.type);
-    if (type != last) deck.text += fmt::format("*ELEMENT, TYPE={}\n", type);
+    if (type != last) deck.add("*ELEMENT, TYPE={}\n", type);
     last = type;
     std::vector<int> numbers = deck_nodes(deck, element);
     numbers.insert(numbers.begin(), deck.element(e));
@@ -143,7 +143,7 @@ void note_beams_on_shells(CalculixText& deck) {
 void add_set(CalculixText& deck, const char* keyword, const std::string& name,
              const std::vector<int>& members) {
   if (members.empty()) return;
-  deck.text += fmt::format("*{0}, {0}={1}\n", keyword, deck.name_of(name));
+  deck.add("*{0}, {0}={1}\n", keyword, deck.name_of(name));
   add_calculix_numbers(deck.text, members, false);
 }
 
@@ -168,8 +168,7 @@ void add_sets(CalculixText& deck) {
       else
         ++skins;
     }
-    if (!lines.empty())
-      deck.text += fmt::format("*SURFACE, NAME={}\n{}", deck.name_of(name), lines);
+    if (!lines.empty()) deck.add("*SURFACE, NAME={}\n{}", deck.name_of(name), lines);
   }
   if (skins > 0)
     deck.note("{} of surfaces left out: they are not faces of solids", plural(skins, "face"));
@@ -182,7 +181,7 @@ void add_supports(CalculixText& deck) {
   for (const Support& s : deck.model.supports)
     for (int axis = 0; axis < 6; ++axis)
       if ((s.mask >> static_cast<unsigned>(axis) & 1u) != 0u)
-        deck.text += fmt::format("** {}, {}, {}\n", deck.node(s.node), axis + 1, axis + 1);
+        deck.add("** {}, {}, {}\n", deck.node(s.node), axis + 1, axis + 1);
 }
 
 void add_step(CalculixText& deck, int modes) {
@@ -198,7 +197,7 @@ void add_step(CalculixText& deck, int modes) {
         "CalculiX prints zeros",
         plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom"));
   }
-  deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
+  deck.add("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
 }
 
 /// Turns of beams: CalculiX loses equations whose dependent term is the rotation of a beam.

@@ -210,13 +210,13 @@ void CalculixEquations::add(const std::pair<int, int>& place, const Terms& terms
     return;
   }
   if (axis > 3) refuse(node, source);
-  deck_.text += fmt::format("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
+  deck_.add("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
   int in_line = 1;
   for (const auto& [other, factor] : terms) {
     const auto& [there, direction] = place_[other];
     if (direction > 3) refuse(there, source);
     deck_.text += in_line++ % 4 == 0 ? ",\n" : ", ";
-    deck_.text += fmt::format("{}, {}, {}", there, direction, calculix_number(factor));
+    deck_.add("{}, {}, {}", there, direction, calculix_number(factor));
   }
   deck_.text += '\n';
 }
@@ -242,15 +242,13 @@ void CalculixEquations::refuse(int node, const FeSource& source) {
 void CalculixEquations::say_refused() {
   if (refused_.empty()) return;
   const auto more = static_cast<long>(refused_.size()) - 1;
-  deck_.errors.add(
-      ErrorCode::unsupported, deck_.model.mark(first_source_),
-      fmt::format("the rotation of node {}, of a beam or shell, is in an equation, a spring or the "
-                  "arm of an end beside its node; CalculiX, which makes solids of beams and "
-                  "shells, would lose it (.vtu and .msh show the mesh){}",
-                  first_refused_,
-                  more == 0 ? ""
-                            : fmt::format("; the same holds for {}",
-                                          plural(more, "more node", "more nodes"))));
+  deck_.error(
+      first_source_,
+      "the rotation of node {}, of a beam or shell, is in an equation, a spring or the arm of an "
+      "end beside its node; CalculiX, which makes solids of beams and shells, would lose it (.vtu "
+      "and .msh show the mesh){}",
+      first_refused_,
+      more == 0 ? "" : "; the same holds for " + plural(more, "more node", "more nodes"));
 }
 
 void CalculixEquations::add_zeros() {

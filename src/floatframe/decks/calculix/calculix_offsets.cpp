@@ -8,6 +8,7 @@
 #include "floatframe/decks/nodes_of_element.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {
@@ -34,8 +35,12 @@ class ArmEnds {
     const auto it = node_of_.find(end);
     return it == node_of_.end() ? -1 : it->second;
   }
+  /// The node that `node` of a beam is at when its arm is gone.
+  int foot(int node) const {
+    const int there = (*this)(node);
+    return there < 0 ? node : there;
+  }
   void leave_out(int end) { node_of_.erase(end); }
-  const std::map<int, int>& all() const { return node_of_; }
 
  private:
   /// u' = u + theta x d, theta' = theta: six equations; -1 if they say something else.
@@ -43,7 +48,7 @@ class ArmEnds {
     if (list.size() != 6) return -1;
     int node = -1;
     unsigned axes = 0;
-    Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
+    Mat6 A = Mat6::Zero();
     for (const LinearEquation* e : list) {
       const LinearEquation::Term& first = e->terms.front();
       axes |= 1u << static_cast<unsigned>(first.axis);
@@ -55,9 +60,7 @@ class ArmEnds {
       }
     }
     if (axes != 63u || node < 0 || node == end) return -1;
-    const Vec3 d = model_.positions[end] - model_.positions[node];
-    Eigen::Matrix<double, 6, 6> rigid = Eigen::Matrix<double, 6, 6>::Identity();
-    for (int k = 0; k < 3; ++k) rigid.block<1, 3>(k, 3) = d.cross(Vec3::Unit(k)).transpose();
+    const Mat6 rigid = rigid_motion_at(model_.positions[end] - model_.positions[node]);
     return (A - rigid).norm() <= same_arm * rigid.norm() ? node : -1;
   }
 
@@ -87,12 +90,6 @@ class ArmEnds {
   std::map<int, int> node_of_;
 };
 
-/// The node of the model that `node` of a beam is at when its arm is gone.
-int foot(const ArmEnds& ends, int node) {
-  const int there = ends(node);
-  return there < 0 ? node : there;
-}
-
 /// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
 std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
                                                      const ArmEnds& ends) {
@@ -103,7 +100,7 @@ std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const
   const int count = element_nodes(e.type);
   std::array<Vec3, 3> at{}, arm{};
   for (int k = 0; k < count; ++k) {
-    at[k] = model.positions[foot(ends, e.nodes[k])];
+    at[k] = model.positions[ends.foot(e.nodes[k])];
     arm[k] = model.positions[e.nodes[k]] - at[k];
   }
   const bool round = section.outline == BeamSection::Outline::round;
@@ -172,7 +169,7 @@ class ArmNodes {
 bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
                        const std::map<int, std::vector<int>>& beams_at, const Element& e) {
   for (const int node : nodes_of_element(e)) {
-    const auto at = beams_at.find(foot(ends, node));
+    const auto at = beams_at.find(ends.foot(node));
     if (at == beams_at.end()) continue;
     for (const int i : at->second) {
       const Element& other = model.elements[i];
@@ -192,7 +189,7 @@ void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
   for (std::size_t i = 0; i < model.elements.size(); ++i)
     if (is_beam(model.elements[i].type))
       for (const int node : nodes_of_element(model.elements[i]))
-        beams_at[foot(ends, node)].push_back(static_cast<int>(i));
+        beams_at[ends.foot(node)].push_back(static_cast<int>(i));
   bool changed = true;
   while (changed) {
     changed = false;

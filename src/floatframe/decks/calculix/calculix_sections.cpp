@@ -52,7 +52,7 @@ class SectionWriter {
     int number = 0;
     for (const auto& [key, elements] : sets) {
       const std::string set = written_name(fmt::format("SECTION_{}", ++number), true, deck_.names);
-      deck_.text += fmt::format("*ELSET, ELSET={}\n", set);
+      deck_.add("*ELSET, ELSET={}\n", set);
       add_calculix_numbers(deck_.text, elements, false);
       add_section(key, set);
     }
@@ -68,9 +68,8 @@ class SectionWriter {
     for (const auto& [what, elements] : refused_) {
       const Element& first = model_.elements[elements.first];
       const std::string more = plural(elements.more, "more element", "more elements");
-      deck_.errors.add(ErrorCode::unsupported, model_.mark(first.source),
-                       fmt::format("{} {}{}", model_.element_label(elements.first), what,
-                                   elements.more == 0 ? "" : "; the same holds for " + more));
+      deck_.error(first.source, "{} {}{}", model_.element_label(elements.first), what,
+                  elements.more == 0 ? "" : "; the same holds for " + more);
     }
   }
 
@@ -155,7 +154,7 @@ class SectionWriter {
                                  : written_name(written_material(model_, m), true, deck_.names);
     it->second = name;
     const Material& given = material(m);
-    deck_.text += fmt::format("*MATERIAL, NAME={}\n", name);
+    deck_.add("*MATERIAL, NAME={}\n", name);
     if (given.elasticity) {
       // Of the symmetric matrix the columns of the upper half, shear in the order 12, 13, 23.
       constexpr std::array<int, 6> order{0, 1, 2, 3, 5, 4};
@@ -163,16 +162,15 @@ class SectionWriter {
       for (std::size_t j = 0; j < 6; ++j)
         for (std::size_t i = 0; i <= j; ++i)
           terms.push_back(calculix_number((*given.elasticity)(order[i], order[j])));
-      deck_.text += fmt::format("*ELASTIC, TYPE=ANISO\n{}\n{}\n{}\n",
-                                fmt::join(terms.begin(), terms.begin() + 8, ", "),
-                                fmt::join(terms.begin() + 8, terms.begin() + 16, ", "),
-                                fmt::join(terms.begin() + 16, terms.end(), ", "));
+      deck_.add("*ELASTIC, TYPE=ANISO\n{}\n{}\n{}\n",
+                fmt::join(terms.begin(), terms.begin() + 8, ", "),
+                fmt::join(terms.begin() + 8, terms.begin() + 16, ", "),
+                fmt::join(terms.begin() + 16, terms.end(), ", "));
     } else {
-      deck_.text += fmt::format("*ELASTIC\n{}, {}\n", calculix_number(given.young),
-                                calculix_number(given.poisson));
+      deck_.add("*ELASTIC\n{}, {}\n", calculix_number(given.young), calculix_number(given.poisson));
     }
     if (given.density + further > 0.0)
-      deck_.text += fmt::format("*DENSITY\n{}\n", calculix_number(given.density + further));
+      deck_.add("*DENSITY\n{}\n", calculix_number(given.density + further));
     return name;
   }
 
@@ -190,9 +188,8 @@ class SectionWriter {
         a = axes.col(0);
         b = axes.col(1);
       }
-      deck_.text += fmt::format("*ORIENTATION, NAME={}, SYSTEM={}\n{}, {}\n", it->second,
-                                cylinder ? "CYLINDRICAL" : "RECTANGULAR", calculix_vector(a),
-                                calculix_vector(b));
+      deck_.add("*ORIENTATION, NAME={}, SYSTEM={}\n{}, {}\n", it->second,
+                cylinder ? "CYLINDRICAL" : "RECTANGULAR", calculix_vector(a), calculix_vector(b));
       if (key.alone >= 0 && !std::exchange(centre_noted_, true))
         deck_.note(
             "axes of materials that turn from place to place are those of the middle of each "
@@ -216,10 +213,9 @@ class SectionWriter {
     const std::string axes = orientation_word(key);
     const std::string words = fmt::format("ELSET={}, MATERIAL={}{}", set, of_material, axes);
     if (key.family == ElementFamily::solid)
-      deck_.text += fmt::format("*SOLID SECTION, {}\n", words);
+      deck_.add("*SOLID SECTION, {}\n", words);
     else if (key.family == ElementFamily::rod)
-      deck_.text +=
-          fmt::format("*SOLID SECTION, {}\n{}\n", words, calculix_number(beam(key.section).A));
+      deck_.add("*SOLID SECTION, {}\n{}\n", words, calculix_number(beam(key.section).A));
     else if (is_of_shell)
       add_sheet(key, words);
     else
@@ -230,9 +226,8 @@ class SectionWriter {
     const ShellSection& s = shell(key.section);
     const std::string offset =
         s.offset == 0.0 ? "" : ", OFFSET=" + calculix_number(-s.offset / s.thickness);
-    deck_.text += fmt::format("*{} SECTION, {}{}\n{}\n",
-                              key.family == ElementFamily::shell ? "SHELL" : "MEMBRANE", words,
-                              offset, calculix_number(s.thickness));
+    deck_.add("*{} SECTION, {}{}\n{}\n", key.family == ElementFamily::shell ? "SHELL" : "MEMBRANE",
+              words, offset, calculix_number(s.thickness));
   }
 
   void add_beam(const SectionKey& key, const std::string& words) {
@@ -242,12 +237,12 @@ class SectionWriter {
     const double first = pipe ? 0.5 * s.width : s.width;
     const double second = rectangle ? s.height : pipe ? 0.5 * (s.width - s.bore) : s.width;
     const Vec3 reference(key.reference[0], key.reference[1], key.reference[2]);
-    deck_.text += fmt::format("*BEAM SECTION, {}, SECTION={}{}\n{}, {}\n{}\n", words,
-                              rectangle ? "RECT"
-                              : pipe    ? "PIPE"
-                                        : "CIRC",
-                              key.offset, calculix_number(first), calculix_number(second),
-                              calculix_vector(reference));
+    deck_.add("*BEAM SECTION, {}, SECTION={}{}\n{}, {}\n{}\n", words,
+              rectangle ? "RECT"
+              : pipe    ? "PIPE"
+                        : "CIRC",
+              key.offset, calculix_number(first), calculix_number(second),
+              calculix_vector(reference));
   }
 
   CalculixText& deck_;

@@ -38,6 +38,15 @@ struct CalculixText {
     return name;
   }
   template <class... Values>
+  void add(fmt::format_string<Values...> lines, Values&&... values) {
+    text += fmt::format(lines, std::forward<Values>(values)...);
+  }
+  template <class... Values>
+  void error(const FeSource& at, fmt::format_string<Values...> sentence, Values&&... values) {
+    errors.add(ErrorCode::unsupported, model.mark(at),
+               fmt::format(sentence, std::forward<Values>(values)...));
+  }
+  template <class... Values>
   void note(fmt::format_string<Values...> sentence, Values&&... values) {
     notes.push_back(fmt::format(sentence, std::forward<Values>(values)...));
   }
