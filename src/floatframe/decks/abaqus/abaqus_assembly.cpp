@@ -4,10 +4,8 @@
 // without instances not at all.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <numbers>
 #include <set>
-#include <type_traits>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
@@ -73,18 +71,6 @@ void each_list(Content& c, Use use) {
       c.thicknesses, c.nonstructural, c.pre_tensions);
 }
 
-/// Entries of a scope; the keys begin with it.
-template <typename Map>
-auto entries_of(Map& map, AbaqusScope scope) {
-  using Second = decltype(map.begin()->first.second);
-  Second least{};
-  if constexpr (std::is_same_v<Second, int>) least = std::numeric_limits<int>::min();
-  const auto begin = map.lower_bound({scope, least});
-  auto end = begin;
-  while (end != map.end() && end->first.first == scope) ++end;
-  return std::pair{begin, end};
-}
-
 std::size_t weight(const AbaqusSet& set) { return set.items.size(); }
 std::size_t weight(const AbaqusSurface& s) { return s.items.size(); }
 std::size_t weight(const AbaqusOrientation&) { return 1; }
@@ -102,12 +88,12 @@ void copy_numbered(AbaqusNumbered<T>& all, std::size_t begin, std::size_t end, A
   }
 }
 
+/// The names of a scope once more in another one; the keys begin with it.
 template <typename Map>
 void copy_names(Map& map, AbaqusScope from, AbaqusScope to, TextSource& source) {
   const ScopeChange change(from, to);
   std::vector<std::pair<typename Map::key_type, typename Map::mapped_type>> copies;
-  const auto [begin, end] = entries_of(map, from);
-  for (auto it = begin; it != end; ++it) {
+  for (auto it = map.lower_bound({from, {}}); it != map.end() && it->first.first == from; ++it) {
     source.make(static_cast<std::int64_t>(weight(it->second)));
     copies.emplace_back(typename Map::key_type{to, it->first.second}, it->second);
   }

@@ -51,7 +51,7 @@ struct AbaqusBuild {
   /// Index of the node k of an element; -1 and an error if it is not there.
   int node_of(const AbaqusElement& element, int k);
   /// Nodes of elements of the deck, each once.
-  std::vector<int> nodes_of_elements(const std::vector<int>& list);
+  std::vector<int> nodes_of_elements(const std::vector<int>& list) const;
   template <class... Values>
   void note(const FeSource& at, fmt::format_string<Values...> text, Values&&... values) {
     model.notes.push_back(place(at) + ": " + fmt::format(text, std::forward<Values>(values)...));
@@ -72,10 +72,6 @@ struct AbaqusBuild {
   std::string place(const FeSource& at) const { return abaqus_place(source, at); }
   /// Whose deck it is: as the user says, else as the clues show; by_content: nothing shows it.
   DeckDialect dialect() const;
-
- private:
-  std::vector<int> list_of_node_;  // the last list of nodes_of_elements that got it
-  int node_list_ = 0;
 };
 
 /// What the elements of a section have in the model.

@@ -130,23 +130,13 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) 
   build.model.spiders.push_back(std::move(spider));
 }
 
-/// Displacements of a rotation node are rotations of its reference.
-class DofMap {
- public:
-  explicit DofMap(const FeModel& model) {
-    for (const Spider& s : model.spiders) {
-      if (s.rotation_node >= 0) reference_.emplace(s.rotation_node, s.reference);
-    }
-  }
-  bool is_rotation(int node) const { return reference_.contains(node); }
-  Dof operator()(int node, int axis) const {
-    const auto it = reference_.find(node);
-    return it == reference_.end() ? Dof{node, axis} : Dof{it->second, axis % 3 + 3};
-  }
+/// By rotation nodes: their references, whose rotations are their displacements.
+using Rotations = std::map<int, int>;
 
- private:
-  std::map<int, int> reference_;
-};
+Dof meant_dof(const Rotations& rotations, int node, int axis) {
+  const auto it = rotations.find(node);
+  return it == rotations.end() ? Dof{node, axis} : Dof{it->second, axis % 3 + 3};
+}
 
 /// A term in body axes: of a turned node one of each axis.
 void add_term(LinearEquation& equation, const Dof& dof, double factor,
@@ -167,7 +157,7 @@ void add_term(LinearEquation& equation, const Dof& dof, double factor,
   }
 }
 
-void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap& dofs,
+void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const Rotations& rotations,
                     const std::map<int, Mat3>& axes) {
   std::vector<std::vector<int>> nodes;
   const std::size_t before = build.source.errors();
@@ -185,7 +175,8 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap&
     LinearEquation equation;
     equation.source = raw.at;
     for (std::size_t t = 0; t < raw.terms.size(); ++t)
-      add_term(equation, dofs(nodes[t][nodes[t].size() == 1 ? 0 : k], raw.terms[t].axis),
+      add_term(equation,
+               meant_dof(rotations, nodes[t][nodes[t].size() == 1 ? 0 : k], raw.terms[t].axis),
                raw.terms[t].factor, axes);
     build.model.equations.push_back(std::move(equation));
   }
@@ -250,21 +241,23 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
     build.source.throw_if_any();
   }
   for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes);
-  const DofMap dofs(build.model);
+  Rotations rotations;
+  for (const Spider& s : build.model.spiders)
+    if (s.rotation_node >= 0) rotations.emplace(s.rotation_node, s.reference);
   const std::map<int, Mat3> axes = abaqus_node_axes(build);
   // A *MPC is several equations: one error is enough.
   FeSource wrong;
   for (const AbaqusEquation& equation : c.equations) {
     if (equation.at.file == wrong.file && equation.at.line == wrong.line) continue;
     const std::size_t before = build.source.errors();
-    build_equation(build, equation, dofs, axes);
+    build_equation(build, equation, rotations, axes);
     if (build.source.errors() != before) wrong = equation.at;
   }
   for (const AbaqusSupport& support : c.supports)
     for (const int node : build.nodes.resolve(support.where))
       build.model.supports.push_back(
-          {dofs(node, 0).node, dofs.is_rotation(node) ? (support.mask & 7u) << 3 : support.mask,
-           support.where.at});
+          {meant_dof(rotations, node, 0).node,
+           rotations.contains(node) ? (support.mask & 7u) << 3 : support.mask, support.where.at});
   check_turned_spiders(build, axes);
   if (!only_nodes && build.source.errors() == 0) build_abaqus_ties(build);
   build.arms.tie(build.model);

@@ -108,19 +108,14 @@ int AbaqusBuild::node_of(const AbaqusElement& element, int k) {
   return node;
 }
 
-std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
+std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) const {
   std::vector<int> result;
-  list_of_node_.resize(content.nodes.size(), 0);
-  ++node_list_;
-  for (const int e : list) {
-    const AbaqusElement& element = content.elements[e];
-    for (int k = 0; k < element.type->nodes; ++k) {
-      const int node = content.node_of(element, k);
-      if (node < 0 || list_of_node_[node] == node_list_) continue;
-      list_of_node_[node] = node_list_;
-      result.push_back(node);
-    }
-  }
+  std::unordered_set<int> known;
+  for (const int e : list)
+    for (int k = 0; k < content.elements[e].type->nodes; ++k)
+      if (const int node = content.node_of(content.elements[e], k);
+          node >= 0 && known.insert(node).second)
+        result.push_back(node);
   return result;
 }
 
@@ -166,19 +161,16 @@ struct ElementCounts {
 };
 
 void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
-  if (counts.structural.number == 0) {
+  if (counts.structural.number == 0)
     build.source.error(ErrorCode::missing, {0, 0}, "the deck has no element with stiffness");
-  }
-  for (const auto& [type, count] : counts.skins) {
+  for (const auto& [type, count] : counts.skins)
     build.note(count.at,
-               "{} elements of type {} have no section: skins of the mesh, "
-               "ignored; their element sets are node sets",
+               "{} elements of type {} have no section: skins of the mesh, ignored; their element "
+               "sets are node sets",
                count.number, type->name);
-  }
-  for (const auto& [type, count] : counts.read_as) {
+  for (const auto& [type, count] : counts.read_as)
     build.note(count.at, "{} elements of type {} are read {}", count.number, type->name,
                type->remark);
-  }
 }
 
 void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_only, bool given) {

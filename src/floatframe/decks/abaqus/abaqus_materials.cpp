@@ -66,18 +66,15 @@ void take_constants(AbaqusCard& card, std::vector<TemperatureRow> rows,
 }
 
 struct ElasticType {
-  const char* name;  ///< without blanks
+  const char* names;  ///< without blanks, between blanks
   std::size_t constants;
   enum class Form { engineering, orthotropic, anisotropic, lamina } form;
 };
 using Form = ElasticType::Form;
 
-constexpr ElasticType elastic_types[] = {{"ENGINEERINGCONSTANTS", 9, Form::engineering},
-                                         {"ENGINEERING", 9, Form::engineering},
-                                         {"ORTHO", 9, Form::orthotropic},
-                                         {"ORTHOTROPIC", 9, Form::orthotropic},
-                                         {"ANISO", 21, Form::anisotropic},
-                                         {"ANISOTROPIC", 21, Form::anisotropic},
+constexpr ElasticType elastic_types[] = {{"ENGINEERINGCONSTANTS ENGINEERING", 9, Form::engineering},
+                                         {"ORTHO ORTHOTROPIC", 9, Form::orthotropic},
+                                         {"ANISO ANISOTROPIC", 21, Form::anisotropic},
                                          {"LAMINA", 6, Form::lamina}};
 
 /// Place among xx yy zz xy yz zx of the program's 11 22 33 12 13 23, and their names.
@@ -101,9 +98,9 @@ Mat6 constants_matrix(const std::vector<double>& c, Form form) {
 }
 
 const ElasticType* elastic_type(const AbaqusCard& card) {
-  const std::string name = card.word("TYPE");
-  const auto it = std::find_if(std::begin(elastic_types), std::end(elastic_types),
-                               [&](const ElasticType& t) { return name == t.name; });
+  const auto it = std::find_if(
+      std::begin(elastic_types), std::end(elastic_types),
+      [&](const ElasticType& t) { return is_abaqus_word(t.names, card.word("TYPE")); });
   return it == std::end(elastic_types) ? nullptr : it;
 }
 
@@ -130,10 +127,10 @@ bool next_constants(AbaqusCard& card, std::size_t count, TemperatureRow& row) {
 }
 
 void use_anisotropic(AbaqusCard& card, AbaqusMaterial& material, const std::vector<double>& c) {
-  const ElasticType& type = *elastic_type(card);
+  const Form form = elastic_type(card)->form;
   std::string error;
-  if (type.form == Form::engineering || type.form == Form::lamina) {
-    const bool lamina = type.form == Form::lamina;
+  if (form == Form::engineering || form == Form::lamina) {
+    const bool lamina = form == Form::lamina;
     const EngineeringConstants e =
         lamina ? EngineeringConstants{c[0], c[1], 0.0, c[2], 0.0, 0.0, c[3], c[4], c[5]}
                : EngineeringConstants{c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]};
@@ -141,11 +138,11 @@ void use_anisotropic(AbaqusCard& card, AbaqusMaterial& material, const std::vect
     if (error.empty()) material.elasticity = lamina ? lamina_elasticity(e) : elasticity_of(e);
     material.plane = lamina;
   } else {
-    const Mat6 D = constants_matrix(c, type.form);
+    const Mat6 D = constants_matrix(c, form);
     error = elasticity_error(D, false, constant_name);
     if (error.empty()) material.elasticity = D;
   }
-  if (!error.empty()) card.error(ErrorCode::wrong_value, "TYPE={}: {}", type.name, error);
+  if (!error.empty()) card.error(ErrorCode::wrong_value, "TYPE={}: {}", card.word("TYPE"), error);
   material.young = c[0];
 }
 

@@ -58,42 +58,49 @@ void add_nodes(CalculixText& deck) {
 }
 
 void add_elements(CalculixText& deck) {
-  long pyramids = 0, spread = 0, expanded = 0, modes = 0, rods = 0;
+  const std::vector<Element>& elements = deck.model.elements;
   std::string last;
-  for (std::size_t e = 0; e < deck.model.elements.size(); ++e) {
-    const Element& element = deck.model.elements[e];
+  for (std::size_t e = 0; e < elements.size(); ++e) {
     // CalculiX has pipes in B32R only.
-    const auto s = static_cast<std::size_t>(element.section);
-    const bool pipe = element.type == ElementType::beam3 && s < deck.model.sections.size() &&
+    const auto s = static_cast<std::size_t>(elements[e].section);
+    const bool pipe = elements[e].type == ElementType::beam3 && s < deck.model.sections.size() &&
                       deck.model.sections[s].bore > 0.0;
-    const std::string type = pipe ? "B32R" : calculix_type(element.type);
+    const std::string type = pipe ? "B32R" : calculix_type(elements[e].type);
     if (type != last) deck.add("*ELEMENT, TYPE={}\n", type);
     last = type;
-    std::vector<int> numbers = deck_nodes(deck, element);
+    std::vector<int> numbers = deck_nodes(deck, elements[e]);
     numbers.insert(numbers.begin(), deck.element(e));
     add_calculix_numbers(deck.text, numbers, true);
-    pyramids += is_pyramid(element.type);
-    modes += element.type == ElementType::hex8i;
-    rods += is_rod(element.type);
-    spread += element.mass_form != MassForm::consistent;
-    expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type) ||
-                is_membrane(element.type);
   }
-  const auto note = [&](long count, const char* what) {
-    if (count > 0) deck.note("{} {}", plural(count, "element"), what);
-  };
-  note(pyramids,
-       "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
-  note(spread, "of lumped mass: CalculiX takes consistent mass");
-  note(expanded,
+}
+
+/// Kinds of elements, and what CalculiX does with them.
+void note_habits(CalculixText& deck) {
+  static constexpr std::pair<bool (*)(const Element&), const char*> habits[] = {
+      {[](const Element& e) { return is_pyramid(e.type); },
+       "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node"},
+      {[](const Element& e) { return e.mass_form != MassForm::consistent; },
+       "of lumped mass: CalculiX takes consistent mass"},
+      {[](const Element& e) {
+         return is_beam(e.type) || is_shell(e.type) || is_rod(e.type) || is_membrane(e.type);
+       },
        "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
-       "integration points (B32, S8, not B32R, S8R), its frequencies differ");
-  note(rods,
+       "integration points (B32, S8, not B32R, S8R), its frequencies differ"},
+      {[](const Element& e) { return is_rod(e.type); },
        "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, "
-       "and is clamped to beams at their nodes");
-  note(modes,
+       "and is clamped to beams at their nodes"},
+      {[](const Element& e) { return e.type == ElementType::hex8i; },
        "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
-       "frequencies are lower, by some percent where the mesh is coarse");
+       "frequencies are lower, by some percent where the mesh is coarse"}};
+  const std::vector<Element>& elements = deck.model.elements;
+  for (const auto& [is_of_kind, what] : habits)
+    if (const long count = std::count_if(elements.begin(), elements.end(), is_of_kind); count > 0)
+      deck.note("{} {}", plural(count, "element"), what);
+}
+
+/// 1 for each node of a beam.
+std::vector<char> nodes_of_beams(const FeModel& model) {
+  return nodes_of_elements(model, [](const Element& e) { return is_beam(e.type); });
 }
 
 /// CalculiX 2.20 joins what it makes of rods with what it makes of beams in all directions only if
@@ -101,8 +108,7 @@ void add_elements(CalculixText& deck) {
 /// get numbers above all others.
 void number_rods_after_beams(CalculixText& deck) {
   const std::vector<Element>& elements = deck.model.elements;
-  const std::vector<char> bends =
-      nodes_of_elements(deck.model, [](const Element& e) { return is_beam(e.type); });
+  const std::vector<char> bends = nodes_of_beams(deck.model);
   const auto any_node = [&](const Element& e) {
     const std::span<const int> nodes = nodes_of_element(e);
     return std::any_of(nodes.begin(), nodes.end(), [&](int n) { return bends[n] != 0; });
@@ -125,8 +131,7 @@ void number_rods_after_beams(CalculixText& deck) {
 
 /// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
 void note_beams_on_shells(CalculixText& deck) {
-  const std::vector<char> beams =
-      nodes_of_elements(deck.model, [](const Element& e) { return is_beam(e.type); });
+  const std::vector<char> beams = nodes_of_beams(deck.model);
   std::vector<char> both =
       nodes_of_elements(deck.model, [](const Element& e) { return is_shell(e.type); });
   for (std::size_t n = 0; n < both.size(); ++n) both[n] &= beams[n];
@@ -140,24 +145,21 @@ void note_beams_on_shells(CalculixText& deck) {
       deck.model.node_label(static_cast<int>(first - both.begin())));
 }
 
-void add_set(CalculixText& deck, const char* keyword, const std::string& name,
-             const std::vector<int>& members) {
-  if (members.empty()) return;
-  deck.add("*{0}, {0}={1}\n", keyword, deck.name_of(name));
-  add_calculix_numbers(deck.text, members, false);
+template <class Number>
+void add_sets_of(CalculixText& deck, const char* keyword,
+                 const std::map<std::string, std::vector<int>>& sets, Number number_of) {
+  for (const auto& [name, members] : sets) {
+    if (members.empty()) continue;
+    std::vector<int> numbers;
+    for (const int member : members) numbers.push_back(number_of(member));
+    deck.add("*{0}, {0}={1}\n", keyword, deck.name_of(name));
+    add_calculix_numbers(deck.text, numbers, false);
+  }
 }
 
 void add_sets(CalculixText& deck) {
-  for (const auto& [name, nodes] : deck.model.node_sets) {
-    std::vector<int> members;
-    for (const int n : nodes) members.push_back(deck.node(n));
-    add_set(deck, "NSET", name, members);
-  }
-  for (const auto& [name, elements] : deck.model.element_sets) {
-    std::vector<int> members;
-    for (const int e : elements) members.push_back(deck.element(e));
-    add_set(deck, "ELSET", name, members);
-  }
+  add_sets_of(deck, "NSET", deck.model.node_sets, [&](int n) { return deck.node(n); });
+  add_sets_of(deck, "ELSET", deck.model.element_sets, [&](int e) { return deck.element(e); });
   long skins = 0;
   for (const auto& [name, faces] : deck.model.surfaces) {
     std::string lines;
@@ -202,8 +204,7 @@ void add_step(CalculixText& deck, int modes) {
 
 /// Turns of beams: CalculiX loses equations whose dependent term is the rotation of a beam.
 std::size_t leave_out_beams(const FeModel& model, std::vector<FreeTurn>& turns) {
-  const std::vector<char> bends =
-      nodes_of_elements(model, [](const Element& e) { return is_beam(e.type); });
+  const std::vector<char> bends = nodes_of_beams(model);
   return std::erase_if(turns, [&](const FreeTurn& turn) {
     return std::any_of(turn.group.begin(), turn.group.end(), [&](int k) { return bends[k] != 0; });
   });
@@ -258,6 +259,7 @@ WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options)
   number_rods_after_beams(deck);
   add_nodes(deck);
   add_elements(deck);
+  note_habits(deck);
   note_beams_on_shells(deck);
   add_sets(deck);
   add_calculix_sections(deck);

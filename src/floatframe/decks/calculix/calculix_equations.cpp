@@ -1,16 +1,90 @@
+// Knots are nodes of beams whose rotations CalculiX keeps. It makes solids of beams. Beams that
+// meet at a node share what is made of it if they lie in one line; else it joins what is made of
+// each by a rigid knot, and rotations of the node in equations are those of the knot. In one line
+// are beams whose tangents and normals are within 20 degrees of those of the beam with the smallest
+// number, with its section and offsets (gen3dnor.f of CalculiX 2.20).
 #include "floatframe/decks/calculix/calculix_equations.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
-#include "floatframe/decks/calculix/calculix_knots.hpp"
+#include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {
+
+/// cos 20 degrees
+constexpr double within_20_degrees = 0.939693;
+
+/// A beam at a node.
+struct BeamEnd {
+  int number = 0;  ///< of the element in the deck
+  Vec3 tangent = Vec3::Zero(), normal = Vec3::Zero();
+  std::array<double, 2> thickness{}, offset{};
+  bool rectangle = false;
+};
+
+BeamEnd beam_end(const CalculixText& deck, std::size_t element, int k) {
+  const FeModel& model = deck.model;
+  const Element& e = model.elements[element];
+  const BeamSection& section = model.sections[e.section];
+  const int count = element_nodes(e.type);
+  std::array<Vec3, 3> at{};
+  for (int i = 0; i < count; ++i) at[i] = model.positions[e.nodes[i]];
+  BeamEnd end;
+  end.number = deck.element(element);
+  end.tangent = beam_tangent(at, count, k).normalized();
+  end.normal = end.tangent.cross(e.reference).normalized();
+  end.rectangle = section.outline == BeamSection::Outline::rectangle;
+  end.thickness = {section.width, end.rectangle ? section.height : section.width};
+  if (deck.beside != nullptr) end.offset = deck.beside->offsets[element];
+  return end;
+}
+
+/// Does CalculiX make other nodes of it than of `first`? Of round sections it may not tell pipes.
+bool is_apart(const BeamEnd& e, const BeamEnd& first) {
+  const auto differ = [](const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    return std::abs(a[0] - b[0]) > 1e-9 || std::abs(a[1] - b[1]) > 1e-9;
+  };
+  return !(e.tangent.dot(first.tangent) > within_20_degrees) ||
+         !(e.normal.dot(first.normal) > within_20_degrees) ||
+         differ(e.thickness, first.thickness) || differ(e.offset, first.offset) ||
+         e.rectangle != first.rectangle;
+}
+
+/// Numbers, in the deck, of the nodes with knots that nothing but beams has.
+std::set<int> knots_of(const CalculixText& deck) {
+  const FeModel& model = deck.model;
+  std::map<int, std::vector<BeamEnd>> ends;  // by nodes
+  std::set<int> others;
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const Element& e = model.elements[i];
+    const bool beam = is_beam(e.type) && e.section >= 0 &&
+                      static_cast<std::size_t>(e.section) < model.sections.size();
+    for (int k = 0; k < element_nodes(e.type); ++k) {
+      const int node = e.nodes[k];
+      if (beam)
+        ends[node].push_back(beam_end(deck, i, k));
+      else
+        others.insert(node);
+    }
+  }
+  std::set<int> out;
+  for (const auto& [node, list] : ends) {
+    if (others.contains(node)) continue;
+    const BeamEnd& first =
+        *std::min_element(list.begin(), list.end(),
+                          [](const BeamEnd& a, const BeamEnd& b) { return a.number < b.number; });
+    if (std::any_of(list.begin(), list.end(), [&](const BeamEnd& e) { return is_apart(e, first); }))
+      out.insert(deck.node(node));
+  }
+  return out;
+}
 
 /// Numbers of the nodes whose displacements are the rotations of another node; 0: none.
 std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
@@ -99,7 +173,7 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
   deck.dofs = std::count(dependences_.dependent.begin(), dependences_.dependent.end(), 0);
   if (!dependences_.any && deck.model.springs.empty()) return;
   const std::vector<int> rotations = add_rotation_nodes(deck, table_);
-  knots_ = calculix_knots(deck);
+  knots_ = knots_of(deck);
   for (int n = 0; n < deck.model.nodes(); ++n)
     for (int axis = 0; axis < table_.count(n); ++axis) {
       const int turned = axis < 3 ? 0 : rotations[n];

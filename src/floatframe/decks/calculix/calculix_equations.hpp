@@ -3,7 +3,7 @@
 // none. Rotations of nodes without beams and shells are displacements of further nodes.
 //
 // CalculiX makes solids of beams and shells. Equations with rotations of their nodes are in force
-// only where it joins several of them by a rigid knot (`calculix_knots`), elsewhere it loses them
+// only where it joins several of them by a rigid knot (`knots_of`), elsewhere it loses them
 // silently: refused.
 #include <set>
 #include <string>
