@@ -99,8 +99,6 @@ ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& secti
 /// An error if thickness, offset or mass over area are too large.
 void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const ShellSection& shell,
                         int material);
-void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
-                           const Material& material);
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e);

@@ -206,17 +206,6 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
   if (!huge.empty()) build.error(section, ErrorCode::not_finite, ": {}", huge);
 }
 
-void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
-                           const Material& material) {
-  if (!material.elasticity) return;
-  if (section.family == Family::beam)
-    build.error(section, ErrorCode::unsupported,
-                ": material {} is not isotropic, which beams must be", shown(section.material));
-  if (section.family == Family::solid && material.plane)
-    build.error(section, ErrorCode::unsupported,
-                ": material {} is a lamina, which only shells can have", shown(section.material));
-}
-
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e) {
   if (!is_abaqus_sheet(section.family) || !p.directional) return;

@@ -10,10 +10,9 @@
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
+namespace {
 
 using Family = AbaqusType::Family;
-
-namespace {
 
 /// Index of the section's material in the model, which gets it if it is not there yet.
 int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::string& name,
@@ -30,9 +29,8 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
                 c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order));
   } else {
     const AbaqusMaterial& m = it->second;
-    if (!m.young) {
+    if (!m.young)
       build.source.error(ErrorCode::missing, m.at, "material {} has no *ELASTIC", shown(name));
-    }
     if (!m.density) model.without_density[static_cast<int>(model.materials.size())] = {m.at};
     material = m.elasticity ? anisotropic_material(*m.elasticity, m.plane, m.density.value_or(0.0))
                             : Material{m.young.value_or(0.0), m.poisson.value_or(0.0),
@@ -43,6 +41,16 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
   model.materials.push_back(material);
   model.material_names.push_back(name);
   return place->second;
+}
+
+void check_material(AbaqusBuild& build, const AbaqusSection& section, const Material& material) {
+  if (!material.elasticity) return;
+  if (section.family == Family::beam)
+    build.error(section, ErrorCode::unsupported,
+                ": material {} is not isotropic, which beams must be", shown(section.material));
+  if (section.family == Family::solid && material.plane)
+    build.error(section, ErrorCode::unsupported,
+                ": material {} is a lamina, which only shells can have", shown(section.material));
 }
 
 /// The section of CIRC with one number: a radius in Abaqus, a diameter in CalculiX.
@@ -106,7 +114,7 @@ void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
 
 }  // namespace
 
-bool is_abaqus_point(Family family) noexcept {
+bool is_abaqus_point(AbaqusType::Family family) noexcept {
   return family == Family::mass || family == Family::rotary || family == Family::coupling ||
          family == Family::spring || family == Family::damper || family == Family::gap;
 }
@@ -178,7 +186,7 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       return material_of(build, section, name, material_index);
     };
     p.like.material = material(section.material);
-    check_abaqus_material(build, section, model.materials[p.like.material]);
+    check_material(build, section, model.materials[p.like.material]);
     if (!section.orientation.empty())
       p.like.orientation = abaqus_orientation(build, section.orientation, section);
     if (section.family == Family::beam) {

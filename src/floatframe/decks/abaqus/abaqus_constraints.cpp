@@ -122,11 +122,20 @@ void read_mpc_line(AbaqusCard& card) {
   }
 }
 
+/// The spider of a keyword with REF NODE; nothing without that.
+void add_spider(AbaqusCard& card, AbaqusSpider& spider) {
+  if (card.value("REFNODE").empty()) return;
+  spider.where = card.reference_of("REFNODE");
+  if (card.has("ROTNODE")) spider.rotation = card.reference_of("ROTNODE");
+  if (card.has("SURFACE")) spider.surface = card.named("SURFACE");
+  card.content.spiders.push_back(std::move(spider));
+}
+
 }  // namespace
 
 void read_abaqus_rigid_body(AbaqusCard& card) {
   AbaqusSpider spider;
-  const bool referred = !card.required("REF NODE").empty();
+  card.required("REF NODE");
   if (!card.value("POSITION").empty() && !same_word(card.value("POSITION"), "INPUT"))
     card.error(ErrorCode::unsupported,
                "moves its reference to the centre of mass (POSITION), which is not supported");
@@ -142,17 +151,14 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
     card.error(ErrorCode::unsupported, "has PIN NSET beside another set, which is not supported");
   if (spider.nodes.empty() && spider.elements.empty())
     card.error(ErrorCode::incomplete, "needs the parameter NSET or ELSET");
-  if (!referred) return;
-  spider.where = card.reference_of("REFNODE");
-  if (card.has("ROTNODE")) spider.rotation = card.reference_of("ROTNODE");
-  card.content.spiders.push_back(std::move(spider));
+  add_spider(card, spider);
 }
 
 void read_abaqus_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
   spider.made.name = card.word("CONSTRAINTNAME");
-  const bool referred = !card.required("REF NODE").empty();
-  const bool complete = !card.required("SURFACE").empty() && referred;
+  card.required("REF NODE");
+  const bool of_surface = !card.required("SURFACE").empty();
   AbaqusKeyword following;
   if (!card.lines.next_keyword(following) ||
       !is_abaqus_word("KINEMATIC DISTRIBUTING", following.name)) {
@@ -163,15 +169,12 @@ void read_abaqus_coupling(AbaqusCard& card) {
   }
   AbaqusCard kind(following, card.lines, card.content);
   read_kind_of_coupling(kind, spider);
-  if (!complete) return;
-  spider.where = card.reference_of("REFNODE");
-  spider.surface = card.named("SURFACE");
-  card.content.spiders.push_back(std::move(spider));
+  if (of_surface) add_spider(card, spider);
 }
 
 void read_abaqus_kinematic_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  const bool referred = !card.required("REF NODE").empty();
+  card.required("REF NODE");
   unsigned mask = 0;
   while (card.next()) {
     spider.nodes.push_back(card.reference(0));
@@ -183,10 +186,8 @@ void read_abaqus_kinematic_coupling(AbaqusCard& card) {
     mask = dofs;
   }
   if (spider.nodes.empty()) return card.error(ErrorCode::missing, "has no nodes");
-  if (!referred) return;
   spider.made.mask = mask;
-  spider.where = card.reference_of("REFNODE");
-  card.content.spiders.push_back(std::move(spider));
+  add_spider(card, spider);
 }
 
 void read_abaqus_distributing_coupling(AbaqusCard& card) {

@@ -183,9 +183,8 @@ struct AbaqusSection : AbaqusThing {
   std::vector<Ply> plies;  ///< of *SHELL SECTION, COMPOSITE from the bottom
   bool symmetric = false;  ///< `plies` are the lower half
   BeamSection beam;
-  std::string shape;  ///< of beams: "CIRC"
-  double round =
-      0.0;  ///< of CIRC with one number: that number, whose meaning depends on the dialect
+  std::string shape;           ///< of beams: "CIRC"
+  double round = 0.0;          ///< of CIRC with one number: it depends on the dialect what it is
   bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
   Vec3 n1 = -Vec3::UnitZ();
   Eigen::Vector2d arm = {0.0, 0.0};   ///< of beams: the centroid from the node, in directions 1, 2

@@ -15,9 +15,8 @@ bool is_comment(std::string_view line) noexcept { return line.starts_with("**");
 
 std::string without_blanks(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : text)
     if (c != ' ' && c != '\t') result += c;
-  }
   return upper_case(result);
 }
 
@@ -44,17 +43,15 @@ bool AbaqusKeyword::has(std::string_view parameter) const noexcept {
 }
 
 std::string_view AbaqusKeyword::value(std::string_view parameter) const noexcept {
-  for (const Parameter& p : parameters) {
+  for (const Parameter& p : parameters)
     if (p.name == parameter) return p.value;
-  }
   return {};
 }
 
 std::string abaqus_name(std::string_view text) {
   text = trimmed(text);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
     return std::string(text.substr(1, text.size() - 2));
-  }
   return without_blanks(text);
 }
 
@@ -73,9 +70,8 @@ bool AbaqusLines::next_line(std::string_view& line) {
     if (without_blanks(name.substr(0, name.find(','))) != "INCLUDE") return true;
     AbaqusKeyword keyword;
     parse_keyword(line, keyword);
-    if (keyword.value("INPUT").empty()) {
+    if (keyword.value("INPUT").empty())
       source_.stop(ErrorCode::incomplete, keyword.at, "*INCLUDE needs the parameter INPUT");
-    }
     source_.include(keyword.value("INPUT"), keyword.at);
   }
   return false;

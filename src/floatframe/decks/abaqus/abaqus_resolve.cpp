@@ -105,9 +105,8 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
   Members& result = members_[key];
   if (result.state == State::done) return result.list;
   const AbaqusSet& set = sets_.at(key);
-  if (depth >= deepest_set) {
+  if (depth >= deepest_set)
     source_.stop(ErrorCode::too_large, set.at, "sets are nested deeper than {}", deepest_set);
-  }
   result.state = State::busy;
   const std::size_t before = source_.errors();
   // A set that is opened again may name itself.
@@ -119,21 +118,18 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
     const AbaqusContent::Key* const inner =
         item.name < 0 || itself(item) ? nullptr : find_set(item);
     if (inner == nullptr) continue;
-    if (members_[*inner].state == State::busy) {
+    if (members_[*inner].state == State::busy)
       source_.stop(ErrorCode::cycle, item.at, "{} set {} contains itself", word_,
                    shown(content_.names[inner->second]));
-    }
     members(*inner, depth + 1);
   }
   ++list_;
   std::vector<int> list;
-  for (const AbaqusReference& item : set.items) {
+  for (const AbaqusReference& item : set.items)
     if (!itself(item)) append(item, list);
-  }
-  if (list.empty() && source_.errors() == before) {
+  if (list.empty() && source_.errors() == before)
     source_.error(ErrorCode::missing, set.at, "{} set {} is empty", word_,
                   shown(content_.names[key.second]));
-  }
   result.list = std::move(list);
   result.state = State::done;
   return result.list;
