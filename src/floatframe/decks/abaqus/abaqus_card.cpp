@@ -47,14 +47,6 @@ AbaqusSet* AbaqusCard::set(std::map<AbaqusContent::Key, AbaqusSet>& sets,
   return &out;
 }
 
-AbaqusReference AbaqusCard::reference_of(std::string_view parameter) const {
-  return content.reference(value(parameter), at);
-}
-
-AbaqusReference AbaqusCard::named(std::string_view parameter) const {
-  return content.named(value(parameter), at);
-}
-
 void AbaqusCard::take_input() {
   if (!value("INPUT").empty()) source.include(value("INPUT"), at);
 }
@@ -75,18 +67,10 @@ bool AbaqusCard::needs_line() {
   return false;
 }
 
-AbaqusReference AbaqusCard::reference(std::size_t k) const {
-  return content.reference(field(k), here());
-}
-
 double AbaqusCard::real(std::size_t k, std::string_view what) {
   const std::optional<double> value = parse_real(field(k));
   if (!value) error_in_line(ErrorCode::not_a_number, "{}: {}", what, not_a_real(field(k)));
   return value.value_or(0.0);
-}
-
-double AbaqusCard::real_or(std::size_t k, double otherwise, std::string_view what) {
-  return field(k).empty() ? otherwise : real(k, what);
 }
 
 double AbaqusCard::positive(std::size_t k, std::string_view what) {
@@ -107,10 +91,6 @@ int AbaqusCard::integer(std::string_view text, std::string_view what) {
   const std::optional<int> value = parse_integer(text);
   if (!value) error_in_line(ErrorCode::not_a_number, "{}: {}", what, not_an_integer(text));
   return value.value_or(0);
-}
-
-int AbaqusCard::integer_or(std::size_t k, int otherwise, std::string_view what) {
-  return field(k).empty() ? otherwise : integer(field(k), what);
 }
 
 unsigned AbaqusCard::dofs(std::size_t k, std::string_view what) {

@@ -31,9 +31,13 @@ class AbaqusCard : public AbaqusKeyword {
   /// The set that a parameter names, which is there from now on; null without the parameter.
   AbaqusSet* set(std::map<AbaqusContent::Key, AbaqusSet>& sets, std::string_view parameter);
   /// The number, set or surface that a parameter names.
-  AbaqusReference reference_of(std::string_view parameter) const;
+  AbaqusReference reference_of(std::string_view parameter) const {
+    return content.reference(value(parameter), at);
+  }
   /// The same; digits are a name too.
-  AbaqusReference named(std::string_view parameter) const;
+  AbaqusReference named(std::string_view parameter) const {
+    return content.named(value(parameter), at);
+  }
   /// Data lines come from the file of the parameter INPUT, if it is there.
   void take_input();
 
@@ -45,17 +49,21 @@ class AbaqusCard : public AbaqusKeyword {
   /// A field of the line; empty if it is not there.
   std::string_view field(std::size_t k) const { return k < fields.size() ? fields[k] : ""; }
   /// The node, element or set that a field names.
-  AbaqusReference reference(std::size_t k) const;
+  AbaqusReference reference(std::size_t k) const { return content.reference(field(k), here()); }
   /// A real field; an error that begins with `what` if it is none.
   double real(std::size_t k, std::string_view what);
   /// The same; an empty or missing field is `otherwise`.
-  double real_or(std::size_t k, double otherwise, std::string_view what);
+  double real_or(std::size_t k, double otherwise, std::string_view what) {
+    return field(k).empty() ? otherwise : real(k, what);
+  }
   /// One error if it is no positive number.
   double positive(std::size_t k, std::string_view what);
   /// Three fields from k on, 0 where they are empty or missing.
   Vec3 vector(std::size_t k, std::string_view what);
   int integer(std::string_view text, std::string_view what);
-  int integer_or(std::size_t k, int otherwise, std::string_view what);
+  int integer_or(std::size_t k, int otherwise, std::string_view what) {
+    return field(k).empty() ? otherwise : integer(field(k), what);
+  }
   /// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from k on, as a
   /// mask; 0 and an error if they are none.
   unsigned dofs(std::size_t k, std::string_view what);
