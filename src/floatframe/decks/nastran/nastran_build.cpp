@@ -49,14 +49,16 @@ Mat3 NastranBuild::axes(int node) const {
   return it == turned_axes.end() ? Mat3::Identity() : it->second;
 }
 
+Mat3 NastranBuild::axes_of_system(int system, const FeSource& at, int node) {
+  return nastran_axes_at(frame(system, at), model.positions[node]);
+}
+
 int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string& who) {
-  if (largest_id_ == 0) {
+  if (largest_id_ == 0)
     largest_id_ = *std::max_element(model.node_ids.begin(), model.node_ids.end());
-  }
-  if (largest_id_ == std::numeric_limits<int>::max()) {
+  if (largest_id_ == std::numeric_limits<int>::max())
     source.stop(ErrorCode::incomplete, at,
                 "{} needs a node of its own, but there is no number above {}", who, largest_id_);
-  }
   model.positions.push_back(p);
   model.node_ids.push_back(++largest_id_);
   model.node_sources.push_back(at);
@@ -66,14 +68,19 @@ int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string&
   return model.nodes() - 1;
 }
 
-void NastranBuild::give_rotations(int node, const FeSource& at, const std::string& who) {
+void NastranBuild::give_rotations(int node, const NastranEntity& e) {
   if (rotates[node] != 0) return;
   rotates[node] = 1;
+  add_rigid_spider(node, add_node(model.positions[node], e.at, e.label()), e.at, e.label());
+}
+
+void NastranBuild::add_rigid_spider(int reference, int node, const FeSource& at,
+                                    const std::string& name) {
   Spider s;
-  s.name = who;
-  s.reference = node;
+  s.name = name;
+  s.reference = reference;
+  s.nodes = {node};
   s.source = at;
-  s.nodes = {add_node(model.positions[node], at, who)};
   model.spiders.push_back(std::move(s));
 }
 
@@ -112,10 +119,10 @@ const NastranFrame& NastranBuild::frame(int id, const FeSource& at) {
 
 NastranFrame NastranBuild::made(int id, const FeSource& at) {
   if (id == 0) return {};
-  const auto it = content.systems.find(id);
   const auto by_nodes = content.node_systems.find(id);
   const bool nodes = by_nodes != content.node_systems.end();
-  if (it == content.systems.end() && !nodes) {
+  const auto it = nodes ? by_nodes : content.systems.find(id);
+  if (!nodes && it == content.systems.end()) {
     const auto other = content.other_systems.find(id);
     source.error(ErrorCode::not_found, at,
                  other == content.other_systems.end()
@@ -125,36 +132,31 @@ NastranFrame NastranBuild::made(int id, const FeSource& at) {
                                    id, other->second));
     return {};
   }
-  const FeSource own = nodes ? by_nodes->second.at : it->second.at;
+  const NastranSystem& s = it->second;
   if (!open_.insert(id).second || open_.size() > 100) {
-    source.error(ErrorCode::cycle, own,
+    source.error(ErrorCode::cycle, s.at,
                  "coordinate system {} refers to itself through its reference systems, or these "
                  "are more than 100 deep",
                  id);
     return {};
   }
-  if (nodes) {
-    const NastranNodeSystem& s = by_nodes->second;
-    const Vec3 a = place_of(s.a, own, id), b = place_of(s.b, own, id), c = place_of(s.c, own, id);
-    open_.erase(id);
-    return through(s.kind, a, b, c, id, own);
-  }
-  const NastranSystem& s = it->second;
-  const NastranFrame base = frame(s.rid, s.at);
+  const NastranFrame base = nodes ? NastranFrame{} : frame(s.rid, s.at);
+  std::array<Vec3, 3> points;
+  for (std::size_t k = 0; k < 3; ++k)
+    points[k] = nodes ? place_of(s.nodes[k], s) : to_basic(base, s.points[k]);
   open_.erase(id);
-  return through(s.kind, to_basic(base, s.a), to_basic(base, s.b), to_basic(base, s.c), id, own);
+  return through(points, s);
 }
 
 /// Origin a, b on z, c in the xz plane.
-NastranFrame NastranBuild::through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
-                                   const FeSource& at) {
+NastranFrame NastranBuild::through(const std::array<Vec3, 3>& points, const NastranSystem& s) {
   NastranFrame f;
-  f.kind = kind;
-  f.origin = a;
-  const Vec3 z = b - a, y = z.cross(c - a);
-  if (!(y.norm() > 1e-12 * z.norm() * (c - a).norm())) {
-    source.error(ErrorCode::geometry, at,
-                 "coordinate system {}: its points A, B and C are on a line", id);
+  f.kind = s.card.back();
+  f.origin = points[0];
+  const Vec3 z = points[1] - points[0], x = points[2] - points[0], y = z.cross(x);
+  if (!(y.norm() > 1e-12 * z.norm() * x.norm())) {
+    source.error(ErrorCode::geometry, s.at,
+                 "coordinate system {}: its points A, B and C are on a line", s.id);
     return f;
   }
   f.R.col(2) = z.normalized();
@@ -163,16 +165,14 @@ NastranFrame NastranBuild::through(char kind, const Vec3& a, const Vec3& b, cons
   return f;
 }
 
-Vec3 NastranBuild::place_of(int id, const FeSource& at, int system) {
-  if (grid_of_.empty()) {
-    for (const NastranGrid& g : content.grids) {
+Vec3 NastranBuild::place_of(int id, const NastranSystem& system) {
+  if (grid_of_.empty())
+    for (const NastranGrid& g : content.grids)
       grid_of_.try_emplace(g.id, static_cast<int>(&g - content.grids.data()));
-    }
-  }
   const auto it = grid_of_.find(id);
   if (it == grid_of_.end()) {
-    source.error(ErrorCode::not_found, at,
-                 "coordinate system {} has node {}, which is not in the file", system, id);
+    source.error(ErrorCode::not_found, system.at,
+                 "coordinate system {} has node {}, which is not in the file", system.id, id);
     return Vec3(id, 0.1 * id * id, 1.0);  // somewhere; the error is known
   }
   const NastranGrid& g = content.grids[it->second];
@@ -200,9 +200,8 @@ void build_nastran_nodes(NastranBuild& build) {
     // Cylindrical and spherical systems turn with the place.
     const NastranFrame* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
     build.turned.push_back(cd != nullptr && (cd->kind != 'R' || !cd->R.isIdentity(1e-9)));
-    if (build.turned.back() != 0) {
+    if (build.turned.back() != 0)
       build.turned_axes[model.nodes() - 1] = nastran_axes_at(*cd, model.positions.back());
-    }
   }
   if (n == 0) build.source.error(ErrorCode::missing, {0, 0}, "the file has no nodes (GRID)");
 }

@@ -28,7 +28,13 @@ struct NastranFrame {
 class NastranEquations {
  public:
   /// `rotation`: the block that the equation determines. The order of its terms does not matter.
-  void add(int node, bool rotation, LinearEquation equation);
+  void add(int node, bool rotation, LinearEquation equation) {
+    blocks_[{node, rotation}].push_back(std::move(equation));
+  }
+  /// A component 0 to 5 of a node, along its axes e, follows another node r rigidly:
+  ///   e.u = e.u_r + (arm x e).theta_r,   e.theta = e.theta_r.
+  void follow(int node, int component, const Mat3& axes, int reference, const Vec3& arm,
+              const FeSource& at);
   void flush(FeModel& model, TextSource& source);
   /// Node and block of each.
   std::vector<std::pair<int, bool>> blocks() const {
@@ -54,17 +60,44 @@ struct NastranBuild {
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
   /// Index of a node; an error and -1 if it is not there.
   int node(int id, const FeSource& at, const std::string& who);
+  int node(int id, const NastranEntity& e) { return node(id, e.at, e.label()); }
+  /// "CBAR 12: ..." where the card stands.
+  template <class... Values>
+  void error(ErrorCode code, const NastranEntity& e, fmt::format_string<Values...> text,
+             Values&&... values) {
+    source.error(code, e.at, "{}: {}", e.label(),
+                 fmt::format(text, std::forward<Values>(values)...));
+  }
+  /// The same; false.
+  template <class... Values>
+  bool fail(ErrorCode code, const NastranEntity& e, fmt::format_string<Values...> text,
+            Values&&... values) {
+    error(code, e, text, std::forward<Values>(values)...);
+    return false;
+  }
+  /// What an element has by a number; null with an error if it is not there.
+  template <class Property>
+  const Property* property(const std::map<int, Property>& all, int id, const char* card,
+                           const NastranEntity& element) {
+    const auto it = all.find(id);
+    if (it != all.end()) return &it->second;
+    error(ErrorCode::not_found, element, "property {} ({}) is not in the file", id, card);
+    return nullptr;
+  }
   /// The system in basic coordinates; an error (once a system) and basic axes if it is not there.
   const NastranFrame& frame(int id, const FeSource& at);
   void note(const FeSource& at, const std::string& text);
   /// Axes of the displacements of a node (CD) at its place; columns in basic axes.
   Mat3 axes(int node) const;
+  /// Those of a system at the place of a node.
+  Mat3 axes_of_system(int system, const FeSource& at, int node);
   std::unordered_map<int, Mat3> turned_axes;  ///< of the turned nodes
   /// A new node with a number of its own.
   int add_node(const Vec3& p, const FeSource& at, const std::string& who);
   std::vector<char> rotates;  ///< nodes that have rotations; empty until constraints are built
   /// A node that nothing else uses gets rotations by a spider with a node of its own.
-  void give_rotations(int node, const FeSource& at, const std::string& who);
+  void give_rotations(int node, const NastranEntity& e);
+  void add_rigid_spider(int reference, int node, const FeSource& at, const std::string& name);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
   /// there are too many in all.
   void spend(std::size_t members, const FeSource& at);
@@ -73,10 +106,9 @@ struct NastranBuild {
   int largest_id_ = 0;
   std::uint64_t spent_ = 0;
   NastranFrame made(int id, const FeSource& at);
-  NastranFrame through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
-                       const FeSource& at);
-  /// Where a node is, before it is in the model.
-  Vec3 place_of(int id, const FeSource& at, int system);
+  NastranFrame through(const std::array<Vec3, 3>& points, const NastranSystem& system);
+  /// Where a node of a system is, before it is in the model.
+  Vec3 place_of(int id, const NastranSystem& system);
   std::unordered_map<int, int> grid_of_;
   std::map<int, NastranFrame> frames_;
   std::set<int> open_;  // systems being made, to find circles
@@ -88,8 +120,19 @@ void build_nastran_nodes(NastranBuild& build);
 /// meridian (theta), around (phi). On the axis the angle around is zero.
 Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p);
 // nastran_masses.cpp
-/// Of each node one.
+/// CONM1 and CMASS of nodes: of each node one.
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
+/// Masses of scalar points are errors, but of those that are held.
+void check_nastran_scalar_masses(NastranBuild& build);
+// nastran_build_springs.cpp
+void build_nastran_springs(NastranBuild& build);
+/// GJ/L of rods; after what gives rotations to nodes.
+void build_nastran_torsion(NastranBuild& build);
+// nastran_equations.cpp
+/// Equations with scalar points. Each is solved for one of them; what is left without any is an
+/// equation of nodes.
+void build_nastran_scalar_equations(NastranBuild& build,
+                                    const std::vector<const NastranEquation*>& equations);
 // nastran_build_elements.cpp
 /// Lumped or consistent.
 void nastran_mass_forms(NastranBuild& build);
@@ -110,7 +153,9 @@ class NastranMaterials {
  public:
   explicit NastranMaterials(NastranBuild& build) : b_(build), c_(build.content) {}
   /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
-  int index(const NastranProperty& p, double nonstructural);
+  int index(const NastranProperty& p, double nonstructural) {
+    return index(p, nonstructural, p.material, true);
+  }
   int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
   /// The same as another without density.
   int massless(int material);
@@ -120,28 +165,26 @@ class NastranMaterials {
 
  private:
   Material elastic(int id, const NastranMaterial& m);
-  Material scaled(Material m) const;
   NastranBuild& b_;
   const NastranContent& c_;
   std::map<std::tuple<int, double, bool>, int> indices_;
   std::map<int, int> massless_;
-  std::set<int> inconsistent_, checked_, unfit_for_bars_;
+  std::set<int> checked_, unfit_for_bars_;
   std::set<std::tuple<int, int, int>> checked_properties_;  // file, line and material
   // Properties by line, whose nonstructural mass is said, and is too negative.
   std::set<std::pair<int, int>> noted_, negative_;
 };
-// nastran_build_weak_bars.cpp
+// nastran_build_bars.cpp
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
 bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
 std::string weak_nastran_bar_note(const NastranProperty& p);
 /// Springs that bend as the beam does; the rod has its material and reference vector.
 void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& section,
-                         double shear_modulus, const std::string& who);
-// nastran_build_bars.cpp
+                         double shear_modulus, const NastranEntity& bar);
 /// Columns x along the bar, y in the plane of x and v; zero where there is no direction.
 Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v);
 /// The error of a bar for which there is no direction.
-void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who);
+void nastran_bar_without_axes(NastranBuild& build, const NastranEntity& bar);
 /// Orientation and ends of bars. `finish` ties the ends to their nodes.
 class NastranBars {
  public:
@@ -177,6 +220,9 @@ void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
 /// Node of a term of an MPC; an error and -1 if it has none.
 int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
                          const NastranEquation::Term& term);
+/// Adds the part of a node's displacement (`first` 0) or rotation (3) along an axis.
+void add_nastran_direction(LinearEquation& equation, int node, int first, const Vec3& axis,
+                           double factor);
 /// Adds a term of a node in basic axes.
 void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
                       LinearEquation& equation);

@@ -2,12 +2,19 @@
 // theta. A pinned end is a node of its own too, tied only in the components that are not pinned, in
 // the axes of the element. What two pins of a bar release twice is released once, else nothing
 // would hold the end.
+//
+// Bars of which I1, I2 or J is 0. They have no stiffness there, so as beams they would leave
+// rotations of nodes without any, which Nastran takes out one by one (AUTOSPC). Here they are rods
+// with springs for what stiffness they have, since rotations that springs alone hold are condensed
+// (fe/springs.hpp). In a plane with EI and L, phi = 12 EI/(G As L^2), the beam is
+//   12 EI/(L^3 (1 + phi)) of v_2 - v_1 - L/2 (r_1 + r_2)  and  EI/L of r_2 - r_1,
+// exactly; torsion comes with the rod (build_nastran_torsion).
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/decks/stiffeners.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
@@ -38,15 +45,14 @@ Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
   return T;
 }
 
-void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who) {
-  build.source.error(ErrorCode::geometry, at,
-                     "{}: it has no length, or its orientation vector is along its axis", who);
+void nastran_bar_without_axes(NastranBuild& build, const NastranEntity& bar) {
+  build.error(ErrorCode::geometry, bar,
+              "it has no length, or its orientation vector is along its axis");
 }
 
 bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {
   static const NastranBarEnds plain;
   const NastranBarEnds& ends = e.ends < 0 ? plain : b_.content.bar_ends[e.ends];
-  const std::string who = fmt::format("{} {}", e.card, e.id);
   const int node[2] = {element.nodes[0], element.nodes[1]};
   const Vec3 p[2] = {b_.model.positions[node[0]], b_.model.positions[node[1]]};
   if (element.type != ElementType::rod2) {
@@ -55,7 +61,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     bars_.push_back({{node[0], node[1], -1}, beside, bends && !pinned});
   }
   if (e.orientation_node > 0) {
-    const int other = b_.node(e.orientation_node, e.at, who);
+    const int other = b_.node(e.orientation_node, e);
     if (other < 0) return false;
     element.reference = b_.model.positions[other] - p[0];
   } else {
@@ -64,7 +70,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
   }
   if (e.ends < 0 && turn == 0.0) {
     if (!is_along_axis(p[1] - p[0], element.reference)) return true;
-    nastran_bar_without_axes(b_, e.at, who);
+    nastran_bar_without_axes(b_, e);
     return false;
   }
   Vec3 arm[2], end[2];
@@ -76,7 +82,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
   }
   const Mat3 T = nastran_bar_axes(end[1] - end[0], element.reference);
   if (!(T.squaredNorm() > 2.5)) {  // a column without length is zero
-    nastran_bar_without_axes(b_, e.at, who);
+    nastran_bar_without_axes(b_, e);
     return false;
   }
   element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);
@@ -95,7 +101,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
       }
     }
     Tie t;
-    t.fresh = b_.add_node(end[k], e.at, who);
+    t.fresh = b_.add_node(end[k], e.at, e.label());
     t.node = node[k];
     t.arm = arm[k];
     if (pins[k] != 0) t.axes = T;
@@ -149,22 +155,57 @@ void NastranBars::tie(const Tie& t, bool rotates) {
       model.spiders[it->second].nodes.push_back(extra);
     }
   }
-  for (int c = 0; c < 6; ++c) {
-    if (((t.mask >> c) & 1u) == 0) continue;
-    const bool rotation = c >= 3;
-    const int first = rotation ? 3 : 0;
-    const Vec3 axis = t.axes.col(c % 3), lever = t.arm.cross(axis);
-    LinearEquation e;
-    e.source = t.at;
-    for (int k = 0; k < 3; ++k) {
-      if (axis(k) == 0.0) continue;
-      e.terms.push_back({t.fresh, first + k, axis(k)});
-      e.terms.push_back({t.node, first + k, -axis(k)});
+  for (int c = 0; c < 6; ++c)
+    if (((t.mask >> c) & 1u) != 0) b_.equations.follow(t.fresh, c, t.axes, t.node, t.arm, t.at);
+}
+
+bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends) {
+  const BeamSection& s = p.section;
+  if (!(s.A > 0.0) || s.Iy < 0.0 || s.Iz < 0.0 || s.J < 0.0) return false;  // an error
+  if (s.Iy == 0.0 && s.Iz == 0.0) return true;
+  return (ends == nullptr || ends->plain()) && (s.Iy == 0.0 || s.Iz == 0.0 || s.J == 0.0);
+}
+
+std::string weak_nastran_bar_note(const NastranProperty& p) {
+  const BeamSection& s = p.section;
+  std::string zero;
+  const std::pair<const char*, double> values[] = {{"I1", s.Iz}, {"I2", s.Iy}, {"J", s.J}};
+  for (const auto& [name, value] : values)
+    if (value == 0.0) zero += fmt::format("{}{}", zero.empty() ? "" : ", ", name);
+  const bool bends = s.Iy > 0.0 || s.Iz > 0.0;
+  return fmt::format("without {} its elements are rods{}{}", zero, s.J > 0.0 ? " with torsion" : "",
+                     bends ? " and springs that bend as the beam does (without rotary inertia, "
+                             "stress and stress stiffness of bending)"
+                           : "");
+}
+
+void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& s,
+                         double shear_modulus, const NastranEntity& bar) {
+  FeModel& model = build.model;
+  const Vec3 d = model.positions[rod.nodes[1]] - model.positions[rod.nodes[0]];
+  const Mat3 T = nastran_bar_axes(d, rod.reference);
+  if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(build, bar);
+  const double L = d.norm(), E = model.materials[rod.material].young;
+  for (const bool xz : {false, true}) {
+    const double EI = E * (xz ? s.Iy : s.Iz), area = xz ? s.shear_z : s.shear_y;
+    if (EI == 0.0) continue;
+    const double phi = area > 0.0 ? 12.0 * EI / (shear_modulus * area * L * L) : 0.0;
+    // The slope of the deflection is r about z, and -r about y.
+    const Vec3 across = T.col(xz ? 2 : 1), about = xz ? Vec3(-T.col(1)) : Vec3(T.col(2));
+    Spring shear, moment;
+    for (Spring* spring : {&shear, &moment}) {
+      spring->nodes = {rod.nodes[0], rod.nodes[1]};
+      spring->name = fmt::format("the bending of {}", bar.label());
+      spring->source = rod.source;
     }
-    for (int k = 0; k < 3 && !rotation; ++k) {
-      if (lever(k) != 0.0) e.terms.push_back({t.node, 3 + k, -lever(k)});
-    }
-    b_.equations.add(t.fresh, rotation, std::move(e));
+    shear.stiffness = 12.0 * EI / (L * L * L * (1.0 + phi));
+    shear.directions[0] << -across, -0.5 * L * about;
+    shear.directions[1] << across, -0.5 * L * about;
+    moment.stiffness = EI / L;
+    moment.directions[0].tail<3>() = -about;
+    moment.directions[1].tail<3>() = about;
+    model.springs.push_back(std::move(shear));
+    model.springs.push_back(std::move(moment));
   }
 }
 

@@ -35,9 +35,8 @@ class ElementBuilder {
     for (const NastranElement& e : c_.elements) {
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
       if (!fresh && e.id > 0) {
-        b_.source.error(ErrorCode::duplicate, e.at,
-                        "{}: this element number is in the file twice, first in line {}", label(e),
-                        it->second.line);
+        b_.error(ErrorCode::duplicate, e,
+                 "this element number is in the file twice, first in line {}", it->second.line);
       }
       if (mesh_only_ &&
           (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
@@ -51,8 +50,6 @@ class ElementBuilder {
   }
 
  private:
-  static std::string label(const NastranElement& e) { return fmt::format("{} {}", e.card, e.id); }
-
   std::vector<std::string> set_names(int property) const {
     std::vector<std::string> names = {fmt::format("PID {}", property)};
     const auto it = c_.property_names.find(property);
@@ -64,7 +61,7 @@ class ElementBuilder {
   void skin(const NastranElement& e) {
     if (skins_++ == 0) first_skin_ = e.at;
     for (int k = 0; k < e.count; ++k) {
-      const int node = b_.node(e.nodes[k], e.at, label(e));
+      const int node = b_.node(e.nodes[k], e);
       if (node < 0) return;
       for (const std::string& name : set_names(e.property)) {
         if (members_[name].insert(node).second) b_.model.node_sets[name].push_back(node);
@@ -72,24 +69,29 @@ class ElementBuilder {
     }
   }
 
-  /// The element's property, of one of the given cards; null with an error.
-  const NastranProperty* property(const NastranElement& e,
-                                  std::initializer_list<const char*> cards) {
+  /// The cards that its property may be; the first is expected.
+  static std::array<std::string_view, 3> property_cards(const NastranElement& e) {
+    if (e.type == ElementType::shear4) return {"PSHEAR"};
+    if (e.surface) return {"PSHELL", "PCOMP", "PCOMPG"};
+    if (e.card == "CBAR") return {"PBAR", "PBARL"};
+    if (e.card == "CBEAM") return {"PBEAM", "PBEAML"};
+    if (e.type == ElementType::rod2) return {e.card == "CTUBE" ? "PTUBE" : "PROD", "CONROD"};
+    return {"PSOLID"};
+  }
+
+  /// Null with an error.
+  const NastranProperty* property(const NastranElement& e) {
     const auto it = c_.properties.find(e.property);
     if (it == c_.properties.end()) {
-      if (missing_.insert(e.property).second) {
-        b_.source.error(ErrorCode::not_found, e.at, "{}: property {} is not in the file", label(e),
-                        e.property);
-      }
+      if (missing_.insert(e.property).second)
+        b_.error(ErrorCode::not_found, e, "property {} is not in the file", e.property);
       return nullptr;
     }
-    const std::string_view card = it->second.card;
-    if (std::find(cards.begin(), cards.end(), card) == cards.end()) {
-      b_.source.error(ErrorCode::wrong_value, e.at, "{}: property {} is a {}, expected a {}",
-                      label(e), e.property, card, *cards.begin());
-      return nullptr;
-    }
-    return &it->second;
+    const auto cards = property_cards(e);
+    if (std::find(cards.begin(), cards.end(), it->second.card) != cards.end()) return &it->second;
+    b_.error(ErrorCode::wrong_value, e, "property {} is a {}, expected a {}", e.property,
+             it->second.card, cards[0]);
+    return nullptr;
   }
 
   void element(const NastranElement& e) {
@@ -98,27 +100,23 @@ class ElementBuilder {
     result.id = e.id;
     result.source = e.at;
     for (int k = 0; k < e.count; ++k) {
-      const std::size_t i = k;
-      result.nodes[i] = b_.node(e.nodes[i], e.at, label(e));
-      if (result.nodes[i] < 0) return;
+      result.nodes[k] = b_.node(e.nodes[k], e);
+      if (result.nodes[k] < 0) return;
     }
     if (mesh_only_) {
       result.material = options_.material ? 0 : -1;
-    } else if (e.type == ElementType::shear4) {
-      const NastranProperty* p = property(e, {"PSHEAR"});
-      if (p == nullptr) return;
+      return add(e, result);
+    }
+    const NastranProperty* const p = property(e);
+    if (p == nullptr) return;
+    if (e.type == ElementType::shear4) {
       result.material = materials_.index(*p, density_of(p->nonstructural, p->thickness));
-      result.section = panel(e.property, *p);
+      result.section = panel(*p);
       edge_rods(*p, result);
     } else if (e.surface) {
-      const NastranProperty* p = property(e, {"PSHELL", "PCOMP", "PCOMPG"});
-      if (p == nullptr) return;
-      if (e.other) {
-        b_.source.error(ErrorCode::incomplete, e.at,
-                        "{}: only a part of its mid-side nodes is given; all or none must be",
-                        label(e));
-        return;
-      }
+      if (e.other)
+        return b_.error(ErrorCode::incomplete, e,
+                        "only a part of its mid-side nodes is given; all or none must be");
       // A PCOMP has its nonstructural mass in its section.
       const double t = thickness(e, *p);
       if (p->membrane) result.type = membrane_of(e.type);
@@ -126,26 +124,15 @@ class ElementBuilder {
           materials_.index(*p, p->plies.empty() ? density_of(p->nonstructural, t) : 0.0);
       result.section = shell(e, *p, t);
       orient_nastran_shell(b_, e, result);
-    } else if (e.type == ElementType::beam2) {
-      const bool bar = e.card == std::string_view("CBAR");
-      const NastranProperty* p =
-          bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
-      if (p == nullptr) return;
+    } else if (e.type == ElementType::beam2 || e.type == ElementType::rod2) {
+      const bool beam = e.type == ElementType::beam2;
       if (!p->stations.empty()) return tapered(e, *p, result);
-      if (is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
+      if (beam && is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
         return weak(e, *p, result);
-      if (!bars_.place(e, p->turn, true, result)) return;
+      if (beam && !bars_.place(e, p->turn, true, result)) return;
       result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
-      result.section = section(e.property, *p);
-    } else if (e.type == ElementType::rod2) {
-      const bool tube = e.card == std::string_view("CTUBE");
-      const NastranProperty* p = property(e, {tube ? "PTUBE" : "PROD", "CONROD"});
-      if (p == nullptr) return;
-      result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
-      result.section = rod_section(e.property, *p);
+      result.section = section(e.property, *p, beam);
     } else {
-      const NastranProperty* p = property(e, {"PSOLID"});
-      if (p == nullptr) return;
       result.material = materials_.index(*p, 0.0);
       orient_nastran_solid(b_, *p, result);
       if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
@@ -168,12 +155,12 @@ class ElementBuilder {
     if (!bars_.place(e, bends ? p.turn : 0.0, false, result)) return;
     result.type = ElementType::rod2;
     result.material = materials_.index(p, p.nonstructural / p.section.A);
-    result.section = rod_section(e.property, p);
+    result.section = section(e.property, p, false);
     if (weak_.insert(e.property).second)
-      b_.note(p.at, fmt::format("{} {}: {}", p.card, e.property, weak_nastran_bar_note(p)));
+      b_.note(p.at, fmt::format("{}: {}", p.label(), weak_nastran_bar_note(p)));
     const double shear =
         b_.model.materials[result.material].shear() * materials_.own_shear(p.material);
-    if (bends) add_nastran_bending(b_, result, p.section, shear, label(e));
+    if (bends) add_nastran_bending(b_, result, p.section, shear, e);
     add(e, result);
   }
 
@@ -183,14 +170,14 @@ class ElementBuilder {
     const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
     const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
     const Mat3 T = nastran_bar_axes(b - a, whole.reference);
-    if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(b_, e.at, label(e));
+    if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(b_, e);
     int last = whole.nodes[0];
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const NastranPiece& piece = pieces[k];
       Element part = whole;
       part.nodes[0] = last;
       if (k + 1 < pieces.size())
-        part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, label(e));
+        part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, e.label());
       last = part.nodes[1];
       part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
       part.material = materials_.index(p, density_of(piece.nonstructural, piece.section.A));
@@ -202,7 +189,7 @@ class ElementBuilder {
   int piece_section(int id, const NastranProperty& p, const NastranPiece& piece, std::size_t k) {
     std::vector<int>& known = piece_sections_[id];
     if (k < known.size()) return known[k];
-    if (k == 0) judge_section(p, id);
+    if (k == 0) judge_section(p);
     known.push_back(static_cast<int>(b_.model.sections.size()));
     b_.model.sections.push_back(piece.section);
     own_shear(p, b_.model.sections.back());
@@ -222,22 +209,26 @@ class ElementBuilder {
     }
   }
 
-  int section(int id, const NastranProperty& p) {
+  int section(int id, const NastranProperty& p, bool beam) {
     const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
     if (!fresh) return it->second;
-    judge_section(p, id);
+    if (beam) {
+      judge_section(p);
+    } else {
+      must_be_positive(p, "A", p.section.A);
+    }
     b_.model.sections.push_back(p.section);
     own_shear(p, b_.model.sections.back());
     return it->second;
   }
 
   /// What is wrong with a section of bars, and what is approximated.
-  void judge_section(const NastranProperty& p, int id) {
+  void judge_section(const NastranProperty& p) {
     const std::pair<const char*, double> values[] = {
         {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
-    for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
+    for (const auto& [name, value] : values) must_be_positive(p, name, value);
     for (const std::string& remark : p.remarks)
-      b_.note(p.at, fmt::format("{} {}: {}", p.card, id, remark));
+      b_.note(p.at, fmt::format("{}: {}", p.label(), remark));
   }
 
   void own_shear(const NastranProperty& p, BeamSection& own) {
@@ -245,28 +236,17 @@ class ElementBuilder {
     for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
   }
 
-  int rod_section(int id, const NastranProperty& p) {
-    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
-    if (!fresh) return it->second;
-    must_be_positive(p, std::abs(id), "A", p.section.A);
-    b_.model.sections.push_back(p.section);
-    b_.model.sections.back().J *= materials_.own_shear(p.material);
-    return it->second;
-  }
-
-  void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
+  void must_be_positive(const NastranProperty& p, const char* what, double value) {
     if (!(value > 0.0))
-      b_.source.error(ErrorCode::out_of_range, p.at, "{} {}: {} is {:g}, expected more than 0",
-                      p.card, id, what, value);
+      b_.error(ErrorCode::out_of_range, p, "{} is {:g}, expected more than 0", what, value);
   }
 
   /// The mean of the corners.
   double thickness(const NastranElement& e, const NastranProperty& p) {
     if (!e.own_thickness) return p.thickness;
     if (!p.plies.empty()) {
-      b_.source.error(ErrorCode::contradiction, e.at,
-                      "{}: it has thicknesses of its corners, and its property {} is a {}",
-                      label(e), e.property, p.card);
+      b_.error(ErrorCode::contradiction, e,
+               "it has thicknesses of its corners, and its property {} is a {}", p.id, p.card);
       return p.thickness;
     }
     const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
@@ -291,7 +271,7 @@ class ElementBuilder {
     const auto [it, fresh] =
         shells_.try_emplace({e.property, e.offset, t}, static_cast<int>(b_.model.shells.size()));
     if (!fresh) return it->second;
-    must_be_positive(p, e.property, "the thickness", t);
+    must_be_positive(p, "the thickness", t);
     ShellSection section = nastran_shell_section(b_, e, p, [&](int id) {
       // Of plies the mass counts, of a PSHELL that of its first material.
       return materials_.index(p, 0.0, id, !p.plies.empty());
@@ -302,10 +282,10 @@ class ElementBuilder {
     return it->second;
   }
 
-  int panel(int id, const NastranProperty& p) {
-    const auto [it, fresh] = panels_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
+  int panel(const NastranProperty& p) {
+    const auto [it, fresh] = panels_.try_emplace(p.id, static_cast<int>(b_.model.shells.size()));
     if (!fresh) return it->second;
-    must_be_positive(p, id, "the thickness", p.thickness);
+    must_be_positive(p, "the thickness", p.thickness);
     b_.model.shells.push_back(
         {.thickness = p.thickness, .shear = p.thickness * materials_.own_shear(p.material)});
     return it->second;
@@ -334,7 +314,7 @@ class ElementBuilder {
   }
 
   void notes() {
-    const bool nothing = b_.model.elements.empty() && c_.springs.list.empty();
+    const bool nothing = b_.model.elements.empty() && c_.springs.empty();
     if (nothing && b_.source.errors() == 0) {
       b_.source.error(
           ErrorCode::missing, {0, 0},

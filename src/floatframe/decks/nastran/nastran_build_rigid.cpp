@@ -19,8 +19,7 @@ struct Component {
 
 class RigidBuilder {
  public:
-  RigidBuilder(NastranBuild& build, const NastranRigid& rigid)
-      : b_(build), r_(rigid), who_(fmt::format("{} {}", rigid.card, rigid.id)) {}
+  RigidBuilder(NastranBuild& build, const NastranRigid& rigid) : b_(build), r_(rigid) {}
 
   void build() {
     std::vector<Component> independent, dependent;
@@ -33,11 +32,9 @@ class RigidBuilder {
     if (size_ == 0.0) size_ = 1.0;
     Mat6 N;
     for (int i = 0; i < 6; ++i) N.row(i) = row(independent[i]).transpose();
-    if (pivoted_rank(N, 1e-9) < 6) {
-      b_.source.error(ErrorCode::dependent, r_.at,
-                      "{}: its six independent components do not define a rigid motion", who_);
-      return;
-    }
+    if (pivoted_rank(N, 1e-9) < 6)
+      return b_.error(ErrorCode::dependent, r_,
+                      "its six independent components do not define a rigid motion");
     const Mat6 inverse = N.inverse();
     for (const Component& x : dependent) {
       // A node of solids has no rotations to follow.
@@ -55,7 +52,7 @@ class RigidBuilder {
  private:
   bool components(const std::vector<NastranRigid::Part>& parts, std::vector<Component>& out) {
     for (const NastranRigid::Part& p : parts) {
-      const int node = b_.node(p.node, r_.at, who_);
+      const int node = b_.node(p.node, r_);
       if (node < 0) return false;
       for (int axis = 0; axis < 6; ++axis)
         if (((p.mask >> axis) & 1u) != 0) out.push_back({node, axis});
@@ -79,28 +76,21 @@ class RigidBuilder {
   }
 
   void add(const Component& x, double factor, LinearEquation& e) {
-    const Vec3 axis = b_.axes(x.node).col(x.axis % 3);
-    for (int k = 0; k < 3; ++k)
-      if (axis(k) != 0.0) e.terms.push_back({x.node, x.axis < 3 ? k : 3 + k, factor * axis(k)});
+    add_nastran_direction(e, x.node, x.axis < 3 ? 0 : 3, b_.axes(x.node).col(x.axis % 3), factor);
   }
 
   NastranBuild& b_;
   const NastranRigid& r_;
-  std::string who_;
   Vec3 c_ = Vec3::Zero();
   double size_ = 0.0;
 };
 
 /// d.(u_b - u_a) = 0 with d from a to b.
 void rigid_rod(NastranBuild& build, const NastranRigidRod& r) {
-  const std::string who = fmt::format("RROD {}", r.id);
-  const int a = build.node(r.a, r.at, who), b = build.node(r.b, r.at, who);
+  const int a = build.node(r.a, r), b = build.node(r.b, r);
   if (a < 0 || b < 0) return;
   const Vec3 d = build.model.positions[b] - build.model.positions[a];
-  if (!(d.norm() > 0.0)) {
-    build.source.error(ErrorCode::geometry, r.at, "{}: it has no length", who);
-    return;
-  }
+  if (!(d.norm() > 0.0)) return build.error(ErrorCode::geometry, r, "it has no length");
   LinearEquation e;
   e.source = r.at;
   for (int k = 0; k < 3; ++k) {
@@ -117,8 +107,7 @@ void give_nastran_rigid_rotations(NastranBuild& build) {
   for (const NastranRigid& r : build.content.rigids)
     for (const NastranRigid::Part& p : r.independent) {
       const auto it = build.node_of.find(p.node);
-      if ((p.mask >> 3) != 0 && it != build.node_of.end())
-        build.give_rotations(it->second, r.at, fmt::format("{} {}", r.card, r.id));
+      if ((p.mask >> 3) != 0 && it != build.node_of.end()) build.give_rotations(it->second, r);
     }
 }
 

@@ -1,22 +1,10 @@
 // What Nastran takes for granted: lumped mass unless PARAM COUPMASS is positive (masses at the
-// nodes without rotary inertia, but of bars about their own axis), and the shear of named sections.
+// nodes without rotary inertia, but of bars about their own axis).
 #include <fmt/format.h>
-
-#include <string_view>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
 namespace floatframe {
-
-void nastran_shear_of_shape(std::string_view type, const double* d, BeamSection& s) noexcept {
-  if (type == "ROD") s.shear_y = s.shear_z = 0.9 * s.A;
-  if (type == "TUBE" || type == "TUBE2") s.shear_y = s.shear_z = 0.5 * s.A;
-  if (type == "BAR") s.shear_y = s.shear_z = 5.0 / 6.0 * s.A;
-  if (type == "BOX") {  // the walls along the force, between the middles of the others
-    s.shear_y = 2.0 * d[3] * (d[1] - d[2]);
-    s.shear_z = 2.0 * d[2] * (d[0] - d[3]);
-  }
-}
 
 namespace {
 

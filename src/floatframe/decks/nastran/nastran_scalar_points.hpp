@@ -3,7 +3,6 @@
 // without a place. In the model each that a spring or an equation uses is a node of its own, of
 // which the component ux is used, or rx where its springs turn. Springs condense it
 // (fe/springs.hpp), or it depends on nodes by an equation; its place only says where it is shown.
-#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -25,22 +24,7 @@ class NastranRanges {
   std::vector<std::pair<int, int>> ranges_;
 };
 
-/// CMASS3, CMASS4, and CMASS1, CMASS2 without components.
-struct NastranScalarMass {
-  const char* card = "";
-  int id = 0, property = 0;
-  std::array<int, 2> points{};  ///< 0: the ground
-  double mass = 1.0;            ///< CMASS1, CMASS3: times that of the property
-  FeSource at;
-};
-
-struct NastranContent;
 struct NastranBuild;
-class NastranFields;
-struct NastranEquation;
-void read_nastran_scalar_points(NastranFields&, NastranContent&);   ///< SPOINT
-void read_nastran_scalar_spring(NastranFields&, NastranContent&);   ///< CELAS3, CELAS4
-void read_nastran_mass_of_points(NastranFields&, NastranContent&);  ///< CMASS3, CMASS4
 
 /// Where a scalar point is in the model.
 struct NastranScalarPoint {
@@ -62,12 +46,5 @@ class NastranScalarPoints {
   std::map<int, NastranScalarPoint> points_;
   NastranRanges held_;
 };
-
-/// Equations with scalar points. Each is solved for one of them; what is left without any is an
-/// equation of nodes.
-void build_nastran_scalar_equations(NastranBuild& build,
-                                    const std::vector<const NastranEquation*>& equations);
-/// Masses of scalar points are errors, but of those that are held.
-void check_nastran_scalar_masses(NastranBuild& build);
 
 }  // namespace floatframe
