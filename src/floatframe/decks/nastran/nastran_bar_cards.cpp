@@ -7,17 +7,6 @@
 namespace floatframe {
 namespace {
 
-/// Fields 5 to 8: a vector or a node, and OFFT; false if the vector is blank.
-bool bar_orientation(NastranFields& f, Vec3& vector, int& node) {
-  if (f.blank(4) && f.blank(5) && f.blank(6)) return false;
-  if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
-    node = f.label(4, "node G0");
-  } else {
-    vector = f.vector(4, "the orientation vector");
-  }
-  return true;
-}
-
 /// OFFT; of BAROR only the first letter counts. CBEAM may have a number (BIT) there.
 void bar_axes(NastranFields& f, char* axes) {
   if (f.blank(7) || parse_real(f.text(7))) return;
@@ -45,7 +34,7 @@ void read_nastran_bar(NastranFields& f, NastranContent& c) {
   e.property = f.label(1, "the property", e.id);
   e.nodes[0] = f.label(2, "node GA");
   e.nodes[1] = f.label(3, "node GB");
-  e.default_orientation = !bar_orientation(f, e.orientation, e.orientation_node);
+  e.default_orientation = !read_nastran_direction(f, "node G0", e.orientation);
   NastranBarEnds ends;
   bar_axes(f, ends.axes);
   for (int k = 0; k < 2; ++k) {
@@ -63,7 +52,7 @@ void read_nastran_bar_default(NastranFields& f, NastranContent& c) {
   NastranBarDefault d;
   d.at = f.at();
   d.property = f.label(1, "the property", 0);
-  bar_orientation(f, d.orientation, d.orientation_node);
+  read_nastran_direction(f, "node G0", d.orientation);
   char axes[3] = {'G', 'G', 'G'};
   bar_axes(f, axes);
   d.axes = axes[0];
@@ -97,6 +86,16 @@ void read_nastran_rod(NastranFields& f, NastranContent& c) {
 
 }  // namespace
 
+bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction) {
+  if (f.blank(4) && f.blank(5) && f.blank(6)) return false;
+  if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
+    direction.node = f.label(4, node);
+  } else {
+    direction.vector = f.vector(4, "the orientation vector");
+  }
+  return true;
+}
+
 void complete_nastran_bars(NastranContent& c, TextSource& source) {
   for (NastranElement& e : c.elements) {
     if (!e.default_property && !e.default_orientation) continue;
@@ -104,12 +103,11 @@ void complete_nastran_bars(NastranContent& c, TextSource& source) {
     const NastranBarDefault* d = it == c.bar_defaults.end() ? nullptr : &it->second;
     if (e.default_property && d != nullptr && d->property > 0) e.property = d->property;
     if (!e.default_orientation) continue;
-    if (d == nullptr || (d->orientation_node == 0 && d->orientation == Vec3::Zero())) {
+    if (d == nullptr || (d->orientation.node == 0 && d->orientation.vector == Vec3::Zero())) {
       source.error(ErrorCode::missing, e.at, "{}: the orientation vector is missing", e.label());
       continue;
     }
     e.orientation = d->orientation;
-    e.orientation_node = d->orientation_node;
     if (d->axes == 'G') continue;
     if (e.ends < 0) {
       e.ends = static_cast<int>(c.bar_ends.size());

@@ -24,15 +24,19 @@ namespace {
 /// One of two equal releases that a bar has at both ends: 1, 4, and in each plane what is more than
 /// two of the deflections and slopes.
 void without_double_releases(unsigned& a, unsigned& b) {
-  for (const unsigned component : {1u, 8u}) {
+  for (const unsigned component : {1u, 8u})
     if ((a & b & component) != 0) b &= ~component;
-  }
   for (const auto& [deflection, slope] : {std::pair{2u, 32u}, std::pair{4u, 16u}}) {
     if ((a & b & deflection) != 0) b &= ~deflection;
     if ((a & b & slope) == 0) continue;
     a &= ~deflection;
     b &= ~deflection;
   }
+}
+
+bool bar_without_axes(NastranBuild& build, const NastranEntity& bar) {
+  return build.fail(ErrorCode::geometry, bar,
+                    "it has no length, or its orientation vector is along its axis");
 }
 
 }  // namespace
@@ -45,9 +49,10 @@ Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
   return T;
 }
 
-void nastran_bar_without_axes(NastranBuild& build, const NastranEntity& bar) {
-  build.error(ErrorCode::geometry, bar,
-              "it has no length, or its orientation vector is along its axis");
+bool find_nastran_bar_axes(NastranBuild& build, const NastranEntity& bar, const Vec3& along,
+                           const Vec3& v, Mat3& T) {
+  T = nastran_bar_axes(along, v);
+  return T.squaredNorm() > 2.5 || bar_without_axes(build, bar);  // a column without length is zero
 }
 
 bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {
@@ -60,19 +65,10 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     const bool beside = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
     bars_.push_back({{node[0], node[1], -1}, beside, bends && !pinned});
   }
-  if (e.orientation_node > 0) {
-    const int other = b_.node(e.orientation_node, e);
-    if (other < 0) return false;
-    element.reference = b_.model.positions[other] - p[0];
-  } else {
-    element.reference = e.orientation;
-    if (ends.axes[0] == 'G') element.reference = b_.axes(node[0]) * e.orientation;
-  }
-  if (e.ends < 0 && turn == 0.0) {
-    if (!is_along_axis(p[1] - p[0], element.reference)) return true;
-    nastran_bar_without_axes(b_, e);
+  if (!b_.direction(e.orientation, node[0], ends.axes[0] == 'G', e, element.reference))
     return false;
-  }
+  if (e.ends < 0 && turn == 0.0)
+    return !is_along_axis(p[1] - p[0], element.reference) || bar_without_axes(b_, e);
   Vec3 arm[2], end[2];
   for (int k = 0; k < 2; ++k) {
     const Mat3 T = ends.axes[1 + k] == 'G' ? b_.axes(node[k])
@@ -80,11 +76,8 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     arm[k] = ends.offset[k] == Vec3::Zero() ? Vec3::Zero() : Vec3(T * ends.offset[k]);
     end[k] = p[k] + arm[k];
   }
-  const Mat3 T = nastran_bar_axes(end[1] - end[0], element.reference);
-  if (!(T.squaredNorm() > 2.5)) {  // a column without length is zero
-    nastran_bar_without_axes(b_, e);
-    return false;
-  }
+  Mat3 T;
+  if (!find_nastran_bar_axes(b_, e, end[1] - end[0], element.reference, T)) return false;
   element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);
   unsigned pins[2] = {ends.pins[0], ends.pins[1]};
   without_double_releases(pins[0], pins[1]);
@@ -100,16 +93,10 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
         continue;
       }
     }
-    Tie t;
-    t.fresh = b_.add_node(end[k], e.at, e.label());
-    t.node = node[k];
-    t.arm = arm[k];
-    if (pins[k] != 0) t.axes = T;
-    t.mask = (rod ? 7u : 63u) & ~pins[k];
-    t.at = e.at;
-    element.nodes[k] = t.fresh;
-    if (shared != nullptr) *shared = t.fresh;
-    ties_.push_back(t);
+    const int fresh = element.nodes[k] = b_.add_node(end[k], e.at, e.label());
+    if (shared != nullptr) *shared = fresh;
+    ties_.push_back({fresh, node[k], arm[k], pins[k] != 0 ? T : Mat3(Mat3::Identity()),
+                     (rod ? 7u : 63u) & ~pins[k], e.at});
   }
   return true;
 }
@@ -183,8 +170,8 @@ void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSect
                          double shear_modulus, const NastranEntity& bar) {
   FeModel& model = build.model;
   const Vec3 d = model.positions[rod.nodes[1]] - model.positions[rod.nodes[0]];
-  const Mat3 T = nastran_bar_axes(d, rod.reference);
-  if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(build, bar);
+  Mat3 T;
+  if (!find_nastran_bar_axes(build, bar, d, rod.reference, T)) return;
   const double L = d.norm(), E = model.materials[rod.material].young;
   for (const bool xz : {false, true}) {
     const double EI = E * (xz ? s.Iy : s.Iz), area = xz ? s.shear_z : s.shear_y;
@@ -192,20 +179,15 @@ void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSect
     const double phi = area > 0.0 ? 12.0 * EI / (shear_modulus * area * L * L) : 0.0;
     // The slope of the deflection is r about z, and -r about y.
     const Vec3 across = T.col(xz ? 2 : 1), about = xz ? Vec3(-T.col(1)) : Vec3(T.col(2));
-    Spring shear, moment;
-    for (Spring* spring : {&shear, &moment}) {
-      spring->nodes = {rod.nodes[0], rod.nodes[1]};
-      spring->name = fmt::format("the bending of {}", bar.label());
-      spring->source = rod.source;
-    }
-    shear.stiffness = 12.0 * EI / (L * L * L * (1.0 + phi));
-    shear.directions[0] << -across, -0.5 * L * about;
-    shear.directions[1] << across, -0.5 * L * about;
-    moment.stiffness = EI / L;
-    moment.directions[0].tail<3>() = -about;
-    moment.directions[1].tail<3>() = about;
-    model.springs.push_back(std::move(shear));
-    model.springs.push_back(std::move(moment));
+    Vec6 left, right, turn = Vec6::Zero();
+    left << -across, -0.5 * L * about;
+    right << across, -0.5 * L * about;
+    turn.tail<3>() = about;
+    const std::array<int, 2> nodes = {rod.nodes[0], rod.nodes[1]};
+    const std::string name = fmt::format("the bending of {}", bar.label());
+    model.springs.push_back(
+        {nodes, {left, right}, 12.0 * EI / (L * L * L * (1.0 + phi)), name, rod.source});
+    model.springs.push_back({nodes, {Vec6(-turn), turn}, EI / L, name, rod.source});
   }
 }
 

@@ -121,27 +121,26 @@ class ConstraintBuilder {
       spider.nodes.push_back(b_.add_node(b_.model.positions[spider.reference], s.at, who));
     }
     b_.rotates[spider.reference] = 1;
-    if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; })) {
+    if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; }))
       spider.weights = s.weights;
-    }
     b_.model.spiders.push_back(std::move(spider));
   }
 
   void mass(const NastranMass& m) {
     const int node = b_.node(m.node, m);
     if (node < 0) return;
-    const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
-    if (axes.kind != 'R')
+    const Orientation system = m.system > 0 ? b_.frame(m.system, m.at) : Orientation{};
+    if (system.kind != Orientation::Kind::rectangular)
       return b_.error(ErrorCode::unsupported, m, "its system {} is not rectangular", m.system);
     PointMass point;
     point.node = node;
     point.source = m.at;
     point.name = m.label();
     point.mass = m.mass * b_.content.mass_factor;
-    point.J = b_.content.mass_factor * axes.R * m.J * axes.R.transpose();
+    point.J = b_.content.mass_factor * system.axes * m.J * system.axes.transpose();
     const Vec3 p = b_.model.positions[node];
     // CID -1: the offset is the place of the mass in basic coordinates.
-    const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
+    const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(system.axes * m.offset);
     if (b_.rotates[node] == 0) {
       if (offset.norm() > 0.0)
         return b_.source.error(ErrorCode::unsupported, m.at,
@@ -178,12 +177,12 @@ class ConstraintBuilder {
     for (const NastranEquation& e : b_.content.equations) there.insert(e.id);
     const std::set<int> selected =
         selected_nastran_sets(b_, b_.content.control.mpc, b_.content.added_mpc_sets, there, "MPC");
-    int set = 0, passed_over = 0, applied = 0;
-    FeSource first;
+    int set = 0, applied = 0;
+    NastranCount unselected;
     std::vector<const NastranEquation*> of_scalar_points;
     for (const NastranEquation& e : b_.content.equations) {
       if (by_control && !selected.contains(e.id)) {
-        if (passed_over++ == 0) first = e.at;
+        unselected.add(e.at);
         continue;
       }
       if (!by_control && set != 0 && e.id != set)
@@ -198,31 +197,24 @@ class ConstraintBuilder {
         of_scalar_points.push_back(&e);
         continue;
       }
-      LinearEquation equation;
-      equation.source = e.at;
-      for (const NastranEquation::Term& term : e.terms) {
-        const int node = nastran_node_of_term(b_, e, term);
-        if (node < 0) return;
-        add_nastran_term(b_, node, term, equation);
-      }
+      LinearEquation equation{{}, e.at};
+      for (const NastranEquation::Term& term : e.terms)
+        if (add_nastran_term(b_, e, term, equation) < 0) return;
       const int dependent = b_.node_of.at(e.terms[0].node);
       if (b_.turned[dependent] != 0) {
-        b_.equations.add(dependent, e.terms[0].component >= 3, std::move(equation));
+        b_.equations.add(dependent, e.terms[0].component >= 3, equation);
       } else {
         b_.model.equations.push_back(std::move(equation));
       }
     }
     build_nastran_scalar_equations(b_, of_scalar_points);
-    if (passed_over > 0) {
-      b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
-                                 "select: they are not applied",
-                                 passed_over));
-    }
-    if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0) {
+    b_.note(
+        unselected,
+        "MPC equations are in sets that the case control does not select: they are not applied");
+    if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0)
       b_.source.error(ErrorCode::not_found, b_.content.control.mpc.front().second,
                       "the case control selects MPC set {}, which is not in the file",
                       b_.content.control.mpc.front().first);
-    }
   }
 
   NastranBuild& b_;

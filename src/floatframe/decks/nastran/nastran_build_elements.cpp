@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/decks/nastran/nastran_tapers.hpp"
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -23,7 +22,7 @@ class ElementBuilder {
         options_(options),
         bars_(build),
         materials_(build),
-        tapers_(build) {}
+        tapers_(nastran_tapers(build)) {}
 
   void build() {
     mesh_only_ = c_.properties.empty() && c_.materials.empty() && c_.other_materials.empty();
@@ -34,10 +33,9 @@ class ElementBuilder {
     std::unordered_map<int, FeSource> seen;
     for (const NastranElement& e : c_.elements) {
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
-      if (!fresh && e.id > 0) {
+      if (!fresh && e.id > 0)
         b_.error(ErrorCode::duplicate, e,
                  "this element number is in the file twice, first in line {}", it->second.line);
-      }
       if (mesh_only_ &&
           (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
         skin(e);
@@ -52,20 +50,19 @@ class ElementBuilder {
  private:
   std::vector<std::string> set_names(int property) const {
     std::vector<std::string> names = {fmt::format("PID {}", property)};
-    const auto it = c_.property_names.find(property);
-    if (it != c_.property_names.end() && it->second != names[0]) names.push_back(it->second);
+    const auto it = c_.names.properties.find(property);
+    if (it != c_.names.properties.end() && it->second != names[0]) names.push_back(it->second);
     return names;
   }
 
   /// A surface or line of a mesh without properties: its nodes are a set.
   void skin(const NastranElement& e) {
-    if (skins_++ == 0) first_skin_ = e.at;
+    skins_.add(e.at);
     for (int k = 0; k < e.count; ++k) {
       const int node = b_.node(e.nodes[k], e);
       if (node < 0) return;
-      for (const std::string& name : set_names(e.property)) {
+      for (const std::string& name : set_names(e.property))
         if (members_[name].insert(node).second) b_.model.node_sets[name].push_back(node);
-      }
     }
   }
 
@@ -142,9 +139,8 @@ class ElementBuilder {
 
   void add(const NastranElement& e, const Element& result) {
     if (e.property > 0)  // a CONROD has none
-      for (const std::string& name : set_names(e.property)) {
+      for (const std::string& name : set_names(e.property))
         b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
-      }
     b_.model.elements.push_back(result);
   }
 
@@ -167,10 +163,10 @@ class ElementBuilder {
   /// A chain of beams of constant section between the ends of a tapered one.
   void tapered(const NastranElement& e, const NastranProperty& p, Element& whole) {
     if (!bars_.place(e, 0.0, true, whole)) return;
-    const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
+    const std::vector<NastranPiece>& pieces = tapers_.at(e.property);
     const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
-    const Mat3 T = nastran_bar_axes(b - a, whole.reference);
-    if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(b_, e);
+    Mat3 T;
+    if (!find_nastran_bar_axes(b_, e, b - a, whole.reference, T)) return;
     int last = whole.nodes[0];
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const NastranPiece& piece = pieces[k];
@@ -260,7 +256,7 @@ class ElementBuilder {
     }
     const double mean = sum / corners;
     if (most - least > 1e-6 * mean) {
-      if (uneven_++ == 0) first_uneven_ = e.at;
+      uneven_.add(e.at);
       unevenness_ = std::max(unevenness_, (most - least) / mean);
       return mean;
     }
@@ -315,30 +311,21 @@ class ElementBuilder {
 
   void notes() {
     const bool nothing = b_.model.elements.empty() && c_.springs.empty();
-    if (nothing && b_.source.errors() == 0) {
+    if (nothing && b_.source.errors() == 0)
       b_.source.error(
           ErrorCode::missing, {0, 0},
-          mesh_only_ && skins_ > 0
+          mesh_only_ && skins_.number > 0
               ? "the file has no solid elements, and its shells and bars have no properties"
               : "the file has no solid, shell, bar, rod or spring; of masses and rigid elements "
                 "alone there is no flexible part");
-    }
-    if (skins_ > 0) {
-      b_.note(first_skin_,
-              fmt::format(
-                  "{} surfaces and lines of the mesh have no property: they only make node sets",
-                  skins_));
-    }
-    if (uneven_ > 0)
-      b_.note(first_uneven_, fmt::format("{} shells have corners of different thickness, by {:.1f} "
-                                         "% at most: each has the mean of its corners",
-                                         uneven_, 100.0 * unevenness_));
-    if (mesh_only_ && !options_.material && !b_.model.elements.empty()) {
+    b_.note(skins_, "surfaces and lines of the mesh have no property: they only make node sets");
+    b_.note(uneven_, fmt::format("shells have corners of different thickness, by {:.1f} % at most: "
+                                 "each has the mean of its corners",
+                                 100.0 * unevenness_));
+    if (mesh_only_ && !options_.material && !b_.model.elements.empty())
       b_.note(b_.model.elements[0].source, "the file has no material");
-    }
-    if (!mesh_only_ && options_.material) {
-      b_.note({0, 1}, "the file has materials of its own; the one given is not used");
-    }
+    if (!mesh_only_ && options_.material)
+      b_.note(FeSource{0, 1}, "the file has materials of its own; the one given is not used");
   }
 
   NastranBuild& b_;
@@ -346,17 +333,15 @@ class ElementBuilder {
   const FeReadOptions& options_;
   NastranBars bars_;
   NastranMaterials materials_;
-  NastranTapers tapers_;
+  std::map<int, std::vector<NastranPiece>> tapers_;
   std::map<int, std::vector<int>> piece_sections_;
   bool mesh_only_ = false;
-  int skins_ = 0;
-  FeSource first_skin_;
+  NastranCount skins_;
   std::set<int> missing_, weak_;
   std::map<std::string, std::set<int>> members_;
   std::map<int, int> sections_, panels_;
   std::map<std::tuple<int, double, double>, int> shells_;
-  int uneven_ = 0;  // shells whose corners differ in thickness
-  FeSource first_uneven_;
+  NastranCount uneven_;  // shells whose corners differ in thickness
   double unevenness_ = 0.0;
 };
 

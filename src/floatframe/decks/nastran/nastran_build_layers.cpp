@@ -15,14 +15,7 @@ int system_orientation(NastranBuild& build, int system, const FeSource& at) {
   const auto [it, fresh] =
       build.orientation_of.try_emplace(system, static_cast<int>(build.model.orientations.size()));
   if (!fresh) return it->second;
-  const NastranFrame& frame = build.frame(system, at);
-  Orientation o;
-  o.kind = frame.kind == 'C'   ? Orientation::Kind::cylindrical
-           : frame.kind == 'S' ? Orientation::Kind::spherical
-                               : Orientation::Kind::rectangular;
-  o.axes = frame.R;
-  o.origin = frame.origin;
-  build.model.orientations.push_back(o);
+  build.model.orientations.push_back(build.frame(system, at));
   return it->second;
 }
 
@@ -102,11 +95,32 @@ void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element
   result.orientation = system_orientation(build, p.material_system, p.at);
 }
 
-std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card) {
-  const std::string_view have = m.card;
-  const bool shell = card == "PSHELL" || card.starts_with("PCOMP"), solid = card == "PSOLID";
-  if (have == "MAT1" || (solid && have == "MAT9") || (shell && have != "MAT9")) return {};
-  return solid ? "MAT1 or MAT9" : shell ? "MAT1, MAT2 or MAT8" : "MAT1";
+/// Shells that are read as others.
+void note_nastran_shells(NastranBuild& build) {
+  struct Kind {
+    std::string_view card;
+    ElementType type;
+    const char* text;
+    bool bends = false;  // said of shells only
+    NastranCount count = {};
+  };
+  Kind kinds[] = {
+      {"CTRIA6", ElementType::tri6, "CTRIA6 elements are four flat triangles each", true},
+      {"CQUAD8", ElementType::quad8, "CQUAD8 elements are flat triangles between all their nodes",
+       true},
+      {"CTRIA6", ElementType::tri3, "CTRIA6 elements without mid-side nodes are read as CTRIA3"},
+      {"CQUAD8", ElementType::quad4, "CQUAD8 elements without mid-side nodes are read as CQUAD4"},
+      {"CTRIAR", ElementType::tri3, "CTRIAR elements are read as CTRIA3"},
+      {"CQUADR", ElementType::quad4, "CQUADR elements are read as CQUAD4"}};
+  const auto membrane = [&](const NastranElement& e) {
+    const auto property = build.content.properties.find(e.property);
+    return property != build.content.properties.end() && property->second.membrane;
+  };
+  for (const NastranElement& e : build.content.elements)
+    for (Kind& k : kinds)
+      if (e.surface && e.type == k.type && e.card == k.card && !(k.bends && membrane(e)))
+        k.count.add(e.at);
+  for (const Kind& k : kinds) build.note(k.count, k.text);
 }
 
 }  // namespace floatframe

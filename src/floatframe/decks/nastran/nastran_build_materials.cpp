@@ -6,6 +6,17 @@
 #include "floatframe/fe/elasticity.hpp"
 
 namespace floatframe {
+namespace {
+
+/// The cards that a property of a kind could have in place of a material; empty if it may have it.
+std::string material_misfit(const NastranMaterial& m, std::string_view card) {
+  const std::string_view have = m.card;
+  const bool shell = card == "PSHELL" || card.starts_with("PCOMP"), solid = card == "PSOLID";
+  if (have == "MAT1" || (solid && have == "MAT9") || (shell && have != "MAT9")) return {};
+  return solid ? "MAT1 or MAT9" : shell ? "MAT1, MAT2 or MAT8" : "MAT1";
+}
+
+}  // namespace
 
 double NastranMaterials::own_shear(int id) {
   const auto it = c_.materials.find(id);
@@ -39,7 +50,7 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
   const bool first = checked_properties_.insert({p.at.file, p.at.line, id}).second;
   const auto found = c_.materials.find(id);
   if (found != c_.materials.end()) {
-    const std::string misfit = nastran_material_misfit(found->second, p.card);
+    const std::string misfit = material_misfit(found->second, p.card);
     if (!misfit.empty() && first)
       b_.source.error(ErrorCode::wrong_value, p.at, "{}: material {} is a {}, expected a {}",
                       p.card, id, found->second.card, misfit);
@@ -54,11 +65,10 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
                       "{}: its nonstructural mass makes the density of material {} {:g}, expected "
                       "no negative number",
                       p.card, id, m.density / c_.mass_factor);
-    if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second) {
+    if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second)
       b_.note(p.at,
               fmt::format("{}: its nonstructural mass is added to the density of its material",
                           p.card));
-    }
   } else if (first) {
     const auto other = c_.other_materials.find(id);
     b_.source.error(
@@ -69,9 +79,9 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
   }
   const int fresh = static_cast<int>(b_.model.materials.size());
   b_.model.materials.push_back(m);
-  const auto name = c_.material_names.find(id);
+  const auto name = c_.names.materials.find(id);
   b_.model.material_names.push_back(
-      name == c_.material_names.end()
+      name == c_.names.materials.end()
           ? fmt::format("{} {}", found == c_.materials.end() ? "MAT1" : found->second.card, id)
           : name->second);
   return indices_[key] = fresh;

@@ -122,8 +122,8 @@ class MeanBuilder {
     }
     for (const LinearEquation& e : b_.model.equations)
       taken_.insert({e.terms.front().node, e.terms.front().axis});
-    for (const auto& [node, rotation] : b_.equations.blocks())
-      for (int k = 0; k < 3; ++k) taken_.insert({node, rotation ? 3 + k : k});
+    for (const auto& [block, rows] : b_.equations.blocks())
+      for (int k = 0; k < 3; ++k) taken_.insert({block.first, block.second ? 3 + k : k});
   }
 
   /// Solves the rows for as many dofs, chosen by pivoting. False if these are too few.
@@ -144,12 +144,7 @@ class MeanBuilder {
       pivots.col(k) = columns_.at(solved.back());
     }
     const LeastNorm inverse(pivots);
-    for (int k = 0; k < rows_; ++k) {
-      LinearEquation e;
-      e.source = s_.at;
-      e.terms.push_back({solved[k].first, solved[k].second, 1.0});
-      equations_.push_back(std::move(e));
-    }
+    for (const auto& [node, axis] : solved) equations_.push_back({{{node, axis, 1.0}}, s_.at});
     for (const auto& [key, c] : columns_) {
       if (std::find(solved.begin(), solved.end(), key) != solved.end()) continue;
       const VecX f = inverse.solve(c);

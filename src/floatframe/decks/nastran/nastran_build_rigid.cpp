@@ -40,12 +40,11 @@ class RigidBuilder {
       // A node of solids has no rotations to follow.
       if (x.axis >= 3 && b_.rotates[x.node] == 0) continue;
       const Vec6 share = inverse.transpose() * row(x);
-      LinearEquation e;
-      e.source = r_.at;
+      LinearEquation e{{}, r_.at};
       add(x, unit(x), e);
       for (int i = 0; i < 6; ++i)
         if (std::abs(share(i)) > 1e-14) add(independent[i], -share(i) * unit(independent[i]), e);
-      b_.equations.add(x.node, x.axis >= 3, std::move(e));
+      b_.equations.add(x.node, x.axis >= 3, e);
     }
   }
 
@@ -86,19 +85,18 @@ class RigidBuilder {
 };
 
 /// d.(u_b - u_a) = 0 with d from a to b.
-void rigid_rod(NastranBuild& build, const NastranRigidRod& r) {
-  const int a = build.node(r.a, r), b = build.node(r.b, r);
+void rigid_rod(NastranBuild& build, const NastranRigid& r) {
+  const int a = build.node(r.independent[0].node, r), b = build.node(r.dependent[0].node, r);
   if (a < 0 || b < 0) return;
   const Vec3 d = build.model.positions[b] - build.model.positions[a];
   if (!(d.norm() > 0.0)) return build.error(ErrorCode::geometry, r, "it has no length");
-  LinearEquation e;
-  e.source = r.at;
+  LinearEquation e{{}, r.at};
   for (int k = 0; k < 3; ++k) {
     if (std::abs(d(k)) <= 1e-14 * d.norm()) continue;
     e.terms.push_back({b, k, d(k) / d.norm()});
     e.terms.push_back({a, k, -d(k) / d.norm()});
   }
-  build.equations.add(b, false, std::move(e));
+  build.equations.add(b, false, e);
 }
 
 }  // namespace
@@ -112,8 +110,9 @@ void give_nastran_rigid_rotations(NastranBuild& build) {
 }
 
 void build_nastran_rigids(NastranBuild& build) {
-  for (const NastranRigid& r : build.content.rigids) RigidBuilder(build, r).build();
-  for (const NastranRigidRod& r : build.content.rigid_rods) rigid_rod(build, r);
+  for (const bool rods : {false, true})
+    for (const NastranRigid& r : build.content.rigids)
+      if ((r.card == "RROD") == rods) rods ? rigid_rod(build, r) : RigidBuilder(build, r).build();
 }
 
 }  // namespace floatframe

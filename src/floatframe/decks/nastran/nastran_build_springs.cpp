@@ -162,12 +162,8 @@ class SpringBuilder {
           ErrorCode::incomplete, s, "{}",
           n[1] < 0 ? "it ends at the ground and has no axes; give a coordinate system CID"
                    : "its nodes are at one place, so it has no axis; give a coordinate system CID");
-    Vec3 v = b_.axes(n[0]) * s.orientation;
-    if (s.orientation_node > 0) {
-      const int go = b_.node(s.orientation_node, s);
-      if (go < 0) return false;
-      v = position(go) - position(n[0]);
-    }
+    Vec3 v;
+    if (!b_.direction(s.orientation, n[0], true, s, v)) return false;
     const bool across = k(1) != 0.0 || k(2) != 0.0 || k(4) != 0.0 || k(5) != 0.0;
     if (v.isZero(0.0)) {
       // Equal across the axis: any directions there will do.
@@ -199,14 +195,13 @@ void build_nastran_torsion(NastranBuild& build) {
     const double J = model.sections[e.section].J;
     const Vec3 d = model.positions[e.nodes[1]] - model.positions[e.nodes[0]];
     if (!(J > 0.0) || !(d.norm() > 0.0)) continue;
-    Spring s;
-    s.nodes = {e.nodes[0], e.nodes[1]};
-    s.directions[0].tail<3>() = -d.normalized();
-    s.directions[1].tail<3>() = d.normalized();
-    s.stiffness = model.materials[e.material].shear() * J / d.norm();
-    s.name = fmt::format("the torsion of rod {}", e.id);
-    s.source = e.source;
-    model.springs.push_back(std::move(s));
+    Vec6 turn = Vec6::Zero();
+    turn.tail<3>() = d.normalized();
+    model.springs.push_back({{e.nodes[0], e.nodes[1]},
+                             {Vec6(-turn), turn},
+                             model.materials[e.material].shear() * J / d.norm(),
+                             fmt::format("the torsion of rod {}", e.id),
+                             e.source});
   }
 }
 

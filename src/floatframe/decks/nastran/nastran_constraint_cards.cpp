@@ -150,10 +150,10 @@ void read_nastran_rbe1(NastranFields& f, NastranContent& c) {
 }
 
 void read_nastran_rrod(NastranFields& f, NastranContent& c) {
-  auto r = f.entity<NastranRigidRod>("the number of the element");
-  r.a = f.label(1, "node GA");
-  r.b = f.label(2, "node GB");
-  c.rigid_rods.push_back(std::move(r));
+  auto r = f.entity<NastranRigid>("the number of the element");
+  r.independent.push_back({f.label(1, "node GA")});
+  r.dependent.push_back({f.label(2, "node GB")});
+  c.rigids.push_back(std::move(r));
 }
 
 void read_nastran_mpc(NastranFields& f, NastranContent& c) {

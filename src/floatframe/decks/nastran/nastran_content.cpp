@@ -53,35 +53,15 @@ class ContentReader {
     if (has_control && !cards.ended())
       c_.notes.emplace_back("the file has no ENDDATA: if it is not cut short, nothing is missing");
     finish();
-    c_.property_names = cards.property_names();
-    c_.material_names = cards.material_names();
-    c_.set_names = cards.set_names();
+    c_.names = cards.names();
     return std::move(c_);
   }
 
  private:
-  using F = NastranFields;
-
-  struct Passed {
-    int number = 0;
-    FeSource at;
-    void add(const FeSource& where) {
-      if (number++ == 0) at = where;
-    }
-  };
-
-  /// WTMASS, CM1 or CK1.
-  struct Factor {
-    double value = 1.0;
-    FeSource at;
-  };
-
-  void one(F& f) {
+  void one(NastranFields& f) {
     const std::string& name = f.name();
-    if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&
-        !name.starts_with("SPC") && !name.starts_with("SET")) {
-      return;
-    }
+    static const NastranWords of_nodes("GRID GRDSET CORD* SPC* SET*");
+    if (only_nodes_ && !of_nodes.contains(name)) return;
     const auto reader = card_readers().find(name);
     if (reader != card_readers().end()) {
       reader->second(f, c_);
@@ -101,7 +81,7 @@ class ContentReader {
   }
 
   /// Masses and rigid elements given twice would count twice.
-  void once(F& f) {
+  void once(NastranFields& f) {
     static const NastranWords masses("CONM* CMASS*"), rigid("RBE* RBAR RROD RTRPLT");
     const bool mass = masses.contains(f.name());
     if (!mass && !rigid.contains(f.name())) return;
@@ -121,7 +101,7 @@ class ContentReader {
     if (known || passed_.size() < most_passed) passed_[known ? name : name.substr(0, 40)].add(at);
   }
 
-  void set(F& f) {
+  void set(NastranFields& f) {
     auto s = f.entity<NastranSet>("the number of the set");
     s.strict = f.name() != "SET1";
     s.elements = same_word(f.text(1), "ELEM");
@@ -135,44 +115,39 @@ class ContentReader {
     c_.sets.push_back(std::move(s));
   }
 
-  void parameter(F& f) {
+  void parameter(NastranFields& f) {
     const std::string name = upper_case(f.text(0)).substr(0, 40);
-    switch (nastran_parameter(name)) {
-      case NastranParameter::mass_factor:
-        c_.mass_factor *= factor(f, name);
-        break;
-      case NastranParameter::stiffness_factor:
-        c_.stiffness_factor *= factor(f, name);
-        break;
-      case NastranParameter::coupled_mass:
-        c_.coupled_mass = same_word(f.text(1), "YES") || same_word(f.text(1), "ON") ||
-                          parse_real(f.text(1)).value_or(0.0) > 0.0;
-        break;
-      case NastranParameter::harmless:
-        pass("PARAM", f.at());
-        break;
-      case NastranParameter::unknown:
-        refuse("PARAM " + name, f.at());
+    if (name == "WTMASS" || name == "CM1") {
+      c_.mass_factor *= factor(f, name);
+    } else if (name == "CK1") {
+      c_.stiffness_factor *= factor(f, name);
+    } else if (name == "COUPMASS") {
+      c_.coupled_mass = same_word(f.text(1), "YES") || same_word(f.text(1), "ON") ||
+                        parse_real(f.text(1)).value_or(0.0) > 0.0;
+    } else if (is_harmless_nastran_parameter(name)) {
+      pass("PARAM", f.at());
+    } else {
+      refuse("PARAM " + name, f.at());
     }
   }
 
   /// A positive factor, 1 if an entry before has given it. Subcases may repeat it; two values
   /// would be two parts.
-  double factor(F& f, const std::string& name) {
+  double factor(NastranFields& f, const std::string& name) {
     const double value = f.real(1, name.c_str());
     if (!(value > 0.0)) {
       f.error(ErrorCode::out_of_range, "{} is {}, expected more than 0", name, shown(f.text(1)));
       return 1.0;
     }
     f.must_be_zero(2, "an imaginary part");
-    const auto [it, fresh] = factors_.try_emplace(name, Factor{value, f.at()});
+    const auto [it, fresh] = factors_.try_emplace(name, value, f.at());
     if (fresh) return value;
-    if (value != it->second.value) {
-      const SourceMark first = source_.mark(it->second.at);
+    const auto& [before, at] = it->second;
+    const SourceMark first = source_.mark(at);
+    if (value != before)
       f.error(ErrorCode::exclusive,
               "{} is {}, but {:g} in {}:{}; a part can have only one of them, remove the other",
-              name, shown(f.text(1)), it->second.value, first.file, first.line);
-    }
+              name, shown(f.text(1)), before, first.file, first.line);
     return 1.0;
   }
 
@@ -200,23 +175,20 @@ class ContentReader {
       const std::string number =
           passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : "";
       const char* why = why_nastran_card_is_refused(name);
-      source_.error(ErrorCode::unsupported, passed.at,
+      source_.error(ErrorCode::unsupported, passed.first,
                     why == nullptr
                         ? fmt::format("{} is not read and may change stiffness or mass{}",
                                       name.substr(0, 40), number)
                         : fmt::format("{} is not read{}: {}", name, number, why));
     }
-    for (const auto& [name, factor] : factors_) {
-      const double value = factor.value;
-      if (value == 1.0) continue;
-      c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
-                                     name == "CK1" ? "stiffness" : "mass", value));
-    }
-    if (!c_.control.missing_includes.empty()) {
+    for (const auto& [name, factor] : factors_)
+      if (factor.first != 1.0)
+        c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
+                                       name == "CK1" ? "stiffness" : "mass", factor.first));
+    if (!c_.control.missing_includes.empty())
       c_.notes.push_back(
           fmt::format("files that the executive control includes are missing and ignored: {}",
                       fmt::join(c_.control.missing_includes, ", ")));
-    }
     note_passed();
   }
 
@@ -247,35 +219,35 @@ class ContentReader {
   /// Nodes that are in the file twice with the same numbers are one, as in Nastran.
   void once_each_grid() {
     std::unordered_map<int, std::size_t> first;
-    std::size_t kept = 0, twice = 0;
-    FeSource at;
+    std::size_t kept = 0;
+    NastranCount twice;
     for (std::size_t i = 0; i < c_.grids.size(); ++i) {
       const NastranGrid& g = c_.grids[i];
       const auto [it, fresh] = first.try_emplace(g.id, kept);
       const NastranGrid& other = c_.grids[fresh ? i : it->second];
       if (!fresh && g.id > 0 && g.cp == other.cp && g.cd == other.cd && g.held == other.held &&
           g.x == other.x) {
-        if (twice++ == 0) at = g.at;
+        twice.add(g.at);
         continue;
       }
       if (kept != i) c_.grids[kept] = g;
       ++kept;
     }
     c_.grids.resize(kept);
-    if (twice > 0)
+    if (twice.number > 0)
       c_.notes.push_back(
           fmt::format("{} nodes are in the file twice with the same numbers, first in line {}: "
                       "each is one, as in Nastran",
-                      twice, at.line));
+                      twice.number, twice.first.line));
   }
 
   TextSource& source_;
   bool only_nodes_;
   NastranContent c_;
   static constexpr std::size_t most_passed = 300;
-  std::map<std::string, Passed> passed_, unknown_;
+  std::map<std::string, NastranCount> passed_, unknown_;
   std::map<std::pair<bool, int>, FeSource> once_;  ///< masses, rigid elements by their numbers
-  std::map<std::string, Factor> factors_;
+  std::map<std::string, std::pair<double, FeSource>> factors_;  ///< WTMASS, CM1, CK1
 };
 
 }  // namespace

@@ -10,11 +10,33 @@
 #include <unordered_set>
 #include <vector>
 
-#include "floatframe/decks/nastran/nastran_scalar_points.hpp"
+#include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 
 namespace floatframe {
+
+/// Numbers as ranges: a few bytes can name very many.
+class NastranRanges {
+ public:
+  void add(int first, int last) { ranges_.emplace_back(first, last); }
+  /// Sorts and joins; before any question.
+  void finish();
+  bool contains(int id) const { return overlaps(id, id); }
+  bool overlaps(int first, int last) const;
+
+ private:
+  std::vector<std::pair<int, int>> ranges_;
+};
+
+/// How many there are, and where the first is.
+struct NastranCount {
+  int number = 0;
+  FeSource first;
+  void add(const FeSource& at) {
+    if (number++ == 0) first = at;
+  }
+};
 
 struct NastranGrid {
   int id = 0, cp = 0, cd = 0;    ///< while reading -1: not given, GRDSET decides
@@ -29,6 +51,12 @@ struct NastranSystem : NastranEntity {
   int rid = 0;
   std::array<Vec3, 3> points{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   std::array<int, 3> nodes{};  ///< 0: the points count
+};
+
+/// A vector, or the direction to a node.
+struct NastranDirection {
+  Vec3 vector = Vec3::Zero();
+  int node = 0;
 };
 
 /// Bars: offsets of the ends and components that these do not pass on.
@@ -46,8 +74,7 @@ struct NastranBarEnds {
 /// BAROR, BEAMOR.
 struct NastranBarDefault {
   int property = 0;  ///< 0: none
-  Vec3 orientation = Vec3::Zero();
-  int orientation_node = 0;
+  NastranDirection orientation;
   char axes = 'G';
   FeSource at;
 };
@@ -57,13 +84,12 @@ struct NastranElement : NastranEntity {
   int property = 0;
   std::array<int, 20> nodes{};  ///< in the order of ElementType
   int count = 0;
-  bool surface = false;             ///< a triangle or quadrilateral
-  bool other = false;               ///< surface with a part of its mid-side nodes: only a skin
-  Vec3 orientation = Vec3::Zero();  ///< bars: in the system of the first node's cd
-  int orientation_node = 0;         ///< bars: or a node
-  double theta = 0.0;               ///< shells: of axis 1 of the material from the side 1-2 [rad]
-  int material_system = -1;         ///< shells: MCID in place of the angle; -1: none
-  double offset = 0.0;              ///< shells: ZOFFS
+  bool surface = false;          ///< a triangle or quadrilateral
+  bool other = false;            ///< surface with a part of its mid-side nodes: only a skin
+  NastranDirection orientation;  ///< bars: in the system of the first node's cd
+  double theta = 0.0;            ///< shells: of axis 1 of the material from the side 1-2 [rad]
+  int material_system = -1;      ///< shells: MCID in place of the angle; -1: none
+  double offset = 0.0;           ///< shells: ZOFFS
   bool own_thickness = false, relative_thickness = false;  ///< shells: Ti, TFLAG
   std::array<double, 4> corner_thickness{};                ///< negative: that of the property
   int ends = -1;  ///< bars: index of what is special about their ends
@@ -154,17 +180,13 @@ struct NastranSpider : NastranEntity {
 };
 
 /// Components of nodes; RBE1, RBAR, RTRPLT: six that define a rigid motion and those that follow.
+/// RROD: two nodes, the distance of which stays.
 struct NastranRigid : NastranEntity {
   struct Part {
     int node = 0;
     unsigned mask = 0;
   };
   std::vector<Part> independent, dependent;
-};
-
-/// RROD: the distance of two nodes stays.
-struct NastranRigidRod : NastranEntity {
-  int a = 0, b = 0;
 };
 
 /// MPC; its number is that of its set.
@@ -200,12 +222,11 @@ struct NastranScalarElement : NastranEntity {
 
 /// CELAS1 to 4, CBUSH, CBUSH1D.
 struct NastranSpring : NastranScalarElement {
-  int system = -1;                  ///< CID; -1: by the line of its nodes
-  int orientation_node = 0;         ///< GO
-  Vec3 orientation = Vec3::Zero();  ///< X, in the displacement system of GA
-  double place = 0.5;               ///< S: on the line from GA to GB
-  int offset_system = -1;           ///< OCID; -1: `place` counts
-  Vec3 offset = Vec3::Zero();       ///< from GA
+  int system = -1;               ///< CID; -1: by the line of its nodes
+  NastranDirection orientation;  ///< X, in the displacement system of GA, or GO
+  double place = 0.5;            ///< S: on the line from GA to GB
+  int offset_system = -1;        ///< OCID; -1: `place` counts
+  Vec3 offset = Vec3::Zero();    ///< from GA
 };
 
 /// PELAS, PBUSH1D, PMASS.
@@ -238,7 +259,6 @@ struct NastranContent {
   std::optional<FeSource> damping;  ///< the first GE or B of springs
   std::vector<NastranSpider> spiders;
   std::vector<NastranRigid> rigids;
-  std::vector<NastranRigidRod> rigid_rods;
   std::vector<NastranEquation> equations;
   std::vector<NastranSupport> supports;
   std::vector<NastranSet> sets;
@@ -249,23 +269,13 @@ struct NastranContent {
   double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
   double stiffness_factor = 1.0;  ///< PARAM,CK1
   bool coupled_mass = false;      ///< PARAM,COUPMASS
-  std::map<int, std::string> property_names, material_names, set_names;
+  NastranNames names;
   std::vector<std::string> notes;
 };
 
 /// Errors are collected in the source. With `only_nodes` all but nodes, coordinate systems and
 /// supports is ignored.
 NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes);
-
-/// What a PARAM entry does to the part.
-enum class NastranParameter {
-  unknown,
-  harmless,
-  mass_factor,       ///< WTMASS, CM1
-  stiffness_factor,  ///< CK1
-  coupled_mass       ///< COUPMASS
-};
-NastranParameter nastran_parameter(std::string_view name);
 
 /// Names of cards, with blanks between, and the function that reads them into the content.
 struct NastranCardReader {
@@ -282,11 +292,16 @@ std::span<const NastranCardReader> nastran_constraint_cards();
 /// What is wrong with the constants of a MAT2 that is the material of a shell.
 std::string nastran_plane_error(const NastranMaterial& m);
 // nastran_bar_cards.cpp
+/// Fields 5 to 7; false if they are blank.
+bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction);
 /// What bars leave to BAROR and BEAMOR.
 void complete_nastran_bars(NastranContent&, TextSource&);
 // nastran_properties.cpp
 /// Material, A, J and nonstructural mass of PROD and CONROD.
 void read_nastran_rod_section(NastranFields& f, std::size_t first, NastranProperty& p);
+// nastran_tapers.cpp
+/// Stations of a beam as they stand on the card; blanks are filled when all are known.
+void read_nastran_beam_stations(NastranFields&, NastranProperty&, std::vector<NastranStation>);
 // nastran_sections.cpp
 void read_nastran_named_section(NastranFields&, NastranProperty&);
 /// Section about its principal axes, and nonstructural mass.
@@ -304,6 +319,8 @@ class NastranWords {
 };
 /// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
 bool is_harmless_nastran_card(std::string_view name);
+/// The same of a PARAM entry.
+bool is_harmless_nastran_parameter(std::string_view name);
 /// What to do about a card that is not read; null if there is nothing special about it.
 const char* why_nastran_card_is_refused(std::string_view name);
 

@@ -1,9 +1,9 @@
-// Equations of directions in turned axes, and MPC equations with scalar points.
-// Scalar points: by Gauss and Jordan each equation is solved for one as long as there is one, first for those without springs. An equation of one without springs only says where
-// that goes and is left out; one of another makes it depend on nodes; without scalar points it
-// ties nodes. A scalar point that is the difference of nodes does not move when the part is
-// displaced, so springs from it to the ground are springs of the part: they end at a node that an
-// equation holds.
+// Equations of directions in turned axes, and MPC equations with scalar points: by Gauss and Jordan
+// each of these is solved for a scalar point as long as there is one, first for those without
+// springs. An equation of one without springs only says where that goes and is left out; one of
+// another makes it depend on nodes; without scalar points it ties nodes. A scalar point that is the
+// difference of nodes does not move when the part is displaced, so springs from it to the ground
+// are springs of the part: they end at a node that an equation holds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,18 +19,17 @@
 namespace floatframe {
 namespace {
 
-using DofKey = std::pair<int, int>;  // node, axis
-using DofFactors = std::map<DofKey, double>;
+using DofKey = NastranEquations::Dof;
 
 /// The largest factor of the block in the rows that are left.
-std::pair<std::size_t, int> pivot_of(const std::vector<DofFactors>& rows, std::size_t from,
-                                     int node, int first, double& most) {
+std::pair<std::size_t, int> pivot_of(const std::vector<NastranEquations::Row>& rows,
+                                     std::size_t from, int node, int first, double& most) {
   std::pair<std::size_t, int> best{from, first};
   most = 0.0;
   for (std::size_t r = from; r < rows.size(); ++r) {
     for (int axis = first; axis < first + 3; ++axis) {
-      const auto it = rows[r].find({node, axis});
-      if (it == rows[r].end() || !(std::abs(it->second) > most * (1.0 + 1e-9))) continue;
+      const auto it = rows[r].factors.find({node, axis});
+      if (it == rows[r].factors.end() || !(std::abs(it->second) > most * (1.0 + 1e-9))) continue;
       most = std::abs(it->second);
       best = {r, axis};
     }
@@ -46,33 +45,34 @@ void add_nastran_direction(LinearEquation& equation, int node, int first, const 
     if (axis(k) != 0.0) equation.terms.push_back({node, first + k, factor * axis(k)});
 }
 
+void NastranEquations::add(int node, bool rotation, const LinearEquation& equation) {
+  Row& row = blocks_[{node, rotation}].emplace_back();
+  row.at = equation.source;
+  for (const LinearEquation::Term& t : equation.terms) row.factors[{t.node, t.axis}] += t.factor;
+}
+
 void NastranEquations::follow(int node, int component, const Mat3& axes, int reference,
                               const Vec3& arm, const FeSource& at) {
   const bool rotation = component >= 3;
   const int first = rotation ? 3 : 0;
   const Vec3 axis = axes.col(component % 3);
-  LinearEquation e;
-  e.source = at;
+  LinearEquation e{{}, at};
   add_nastran_direction(e, node, first, axis, 1.0);
   add_nastran_direction(e, reference, first, axis, -1.0);
   if (!rotation) add_nastran_direction(e, reference, 3, arm.cross(axis), -1.0);
-  add(node, rotation, std::move(e));
+  add(node, rotation, e);
 }
 
-int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
-                         const NastranEquation::Term& term) {
+int add_nastran_term(NastranBuild& build, const NastranEquation& e,
+                     const NastranEquation::Term& term, LinearEquation& equation) {
   const int node = build.node(term.node, e);
-  if (node < 0 || term.component >= 0) return node;
-  build.error(ErrorCode::missing, e, "the component of node {} is missing, expected one of 1 to 6",
-              term.node);
-  return -1;
-}
-
-void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
-                      LinearEquation& equation) {
+  if (node >= 0 && term.component < 0)
+    build.error(ErrorCode::missing, e,
+                "the component of node {} is missing, expected one of 1 to 6", term.node);
+  if (node < 0 || term.component < 0) return -1;
   if (build.turned[node] == 0) {
     equation.terms.push_back({node, term.component, term.factor});
-    return;
+    return node;
   }
   const Vec3 axis = build.axes(node).col(term.component % 3);
   for (int k = 0; k < 3; ++k) {
@@ -80,50 +80,41 @@ void add_nastran_term(const NastranBuild& build, int node, const NastranEquation
     if (std::abs(factor) > 1e-15 * std::abs(term.factor))
       equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
   }
+  return node;
 }
 
 /// Gauss and Jordan with full pivoting over the three directions of the block.
 void NastranEquations::flush(FeModel& model, TextSource& source) {
-  for (auto& [block, equations] : blocks_) {
+  for (auto& [block, rows] : blocks_) {
     const auto& [node, rotation] = block;
-    std::vector<DofFactors> rows;
-    std::vector<FeSource> places;
-    for (const LinearEquation& e : equations) {
-      DofFactors& row = rows.emplace_back();
-      for (const LinearEquation::Term& t : e.terms) row[{t.node, t.axis}] += t.factor;
-      places.push_back(e.source);
-    }
     for (std::size_t r = 0; r < rows.size(); ++r) {
       double most = 0.0;
       const auto [best, axis] = pivot_of(rows, r, node, rotation ? 3 : 0, most);
       if (!(most > 1e-9)) {
-        source.error(ErrorCode::duplicate, places[r],
+        source.error(ErrorCode::duplicate, rows[r].at,
                      "the equations for node {} hold a direction twice", model.node_ids[node]);
         break;
       }
       std::swap(rows[r], rows[best]);
-      std::swap(places[r], places[best]);
-      const double pivot = rows[r].at({node, axis});
-      for (auto& [dof, factor] : rows[r]) factor /= pivot;
+      const Dof dof = rows[r].pivot = {node, axis};
+      const double pivot = rows[r].factors.at(dof);
+      for (auto& [key, factor] : rows[r].factors) factor /= pivot;
       for (std::size_t other = 0; other < rows.size(); ++other) {
-        const auto it = rows[other].find({node, axis});
-        if (other == r || it == rows[other].end()) continue;
+        std::map<Dof, double>& factors = rows[other].factors;
+        const auto it = factors.find(dof);
+        if (other == r || it == factors.end()) continue;
         const double f = it->second;
-        for (const auto& [dof, factor] : rows[r]) rows[other][dof] -= f * factor;
-        rows[other].erase({node, axis});
+        for (const auto& [key, factor] : rows[r].factors) factors[key] -= f * factor;
+        factors.erase(dof);
       }
-      LinearEquation& e = equations[r];
-      e.terms = {{node, axis, 1.0}};  // the pivot; the rest when all are solved
     }
-    for (std::size_t r = 0; r < rows.size() && source.errors() == 0; ++r) {
-      LinearEquation e;
-      e.source = places[r];
-      e.terms = equations[r].terms;
-      for (const auto& [dof, factor] : rows[r]) {
-        const bool pivot = dof == std::pair{e.terms[0].node, e.terms[0].axis};
-        if (!pivot && std::abs(factor) > 1e-15) e.terms.push_back({dof.first, dof.second, factor});
-      }
-      model.equations.push_back(std::move(e));
+    if (source.errors() > 0) continue;
+    for (const Row& row : rows) {
+      LinearEquation& e = model.equations.emplace_back(
+          LinearEquation{{{row.pivot.first, row.pivot.second, 1.0}}, row.at});
+      for (const auto& [key, factor] : row.factors)
+        if (key != row.pivot && std::abs(factor) > 1e-15)
+          e.terms.push_back({key.first, key.second, factor});
     }
   }
   blocks_.clear();
@@ -154,10 +145,9 @@ class ScalarEquations {
         points_[key] = Point{p->sprung, t.node};
         continue;
       }
-      const int node = nastran_node_of_term(b_, e, t);
-      if (node < 0) return;
       LinearEquation basic;
-      add_nastran_term(b_, node, t, basic);
+      const int node = add_nastran_term(b_, e, t, basic);
+      if (node < 0) return;
       for (const LinearEquation::Term& x : basic.terms) row.terms[{x.node, x.axis}] += x.factor;
       if (row.first < 0) row.first = node, row.rotation = t.component >= 3;
     }
@@ -189,7 +179,7 @@ class ScalarEquations {
     int id = 0;
   };
   struct Row {
-    DofFactors terms;
+    std::map<DofKey, double> terms;
     const NastranEquation* equation = nullptr;
     double scale = 0.0;
     int first = -1;  ///< the first node that is no scalar point
@@ -250,10 +240,7 @@ class ScalarEquations {
   int ground(int axis, const FeSource& at) {
     if (ground_ < 0) ground_ = b_.add_node(b_.model.positions.front(), at, "a spring");
     if (grounded_.insert(axis).second) {
-      LinearEquation e;
-      e.source = at;
-      e.terms.push_back({ground_, axis, 1.0});
-      b_.model.equations.push_back(std::move(e));
+      b_.model.equations.push_back({{{ground_, axis, 1.0}}, at});
     }
     return ground_;
   }
@@ -261,8 +248,7 @@ class ScalarEquations {
   void finish(const Row& row) {
     if (row.terms.empty()) return;
     const NastranEquation& from = *row.equation;
-    LinearEquation e;
-    e.source = from.at;
+    LinearEquation e{{}, from.at};
     if (row.pivot) {
       if (!points_.at(*row.pivot).sprung) return;
       e.terms.push_back({row.pivot->first, row.pivot->second, row.terms.at(*row.pivot)});
@@ -287,7 +273,7 @@ class ScalarEquations {
       b_.model.equations.push_back(std::move(e));
     } else {
       const LinearEquation::Term& t = e.terms.front();
-      b_.equations.add(t.node, t.axis >= 3, std::move(e));
+      b_.equations.add(t.node, t.axis >= 3, e);
     }
   }
 

@@ -1,5 +1,5 @@
-// Masses of scalar points, and CONM1 and CMASS1, 2: matrices of mass of nodes. Those of a rigid body with the mass m, its centre
-// at c from the node and J about the node are
+// Masses of scalar points, and CONM1 and CMASS1, 2: matrices of mass of nodes. Those of a rigid
+// body with the mass m, its centre at c from the node and J about the node are
 //   [ m 1          -m skew(c) ]
 //   [ m skew(c)     J         ]
 // Others, as a mass in one direction only, have no meaning in a part that moves freely.
@@ -14,12 +14,6 @@ namespace floatframe {
 
 namespace {
 
-/// All of a node, in basic axes.
-struct Sum {
-  const NastranMassMatrix* first = nullptr;
-  Mat6 M = Mat6::Zero();
-};
-
 Mat6 in_basic_axes(NastranBuild& build, const NastranMassMatrix& m, int node) {
   Mat6 T = Mat6::Zero();
   T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() =
@@ -27,25 +21,25 @@ Mat6 in_basic_axes(NastranBuild& build, const NastranMassMatrix& m, int node) {
   return T * m.M * T.transpose();
 }
 
-bool rigid_body(NastranBuild& build, const Sum& sum, NastranMass& out) {
-  const NastranMassMatrix& first = *sum.first;
+/// `sum`: of all cards of a node, in basic axes; the first gives its name.
+bool rigid_body(NastranBuild& build, const NastranMassMatrix& sum, NastranMass& out) {
   const Mat3 A = sum.M.topLeftCorner<3, 3>(), B = sum.M.topRightCorner<3, 3>();
   const double m = A.trace() / 3.0, size = std::abs(m) + A.norm();
   const Vec3 moment(0.5 * (B(1, 2) - B(2, 1)), 0.5 * (B(2, 0) - B(0, 2)),
                     0.5 * (B(0, 1) - B(1, 0)));
   if ((A - m * Mat3::Identity()).norm() > 1e-6 * size)
     return build.fail(
-        ErrorCode::unsupported, first,
+        ErrorCode::unsupported, sum,
         "node {} has the masses {:g}, {:g} and {:g} along x, y and z; a part that moves freely has "
         "one mass in all directions (CONM2)",
-        first.node, A(0, 0), A(1, 1), A(2, 2));
+        sum.node, A(0, 0), A(1, 1), A(2, 2));
   if ((B + skew(moment)).norm() > 1e-6 * B.norm() || (m == 0.0 && B.norm() > 0.0) || m < 0.0)
-    return build.fail(ErrorCode::unsupported, first,
+    return build.fail(ErrorCode::unsupported, sum,
                       "the mass matrix of node {} is not that of a rigid body; give CONM2",
-                      first.node);
+                      sum.node);
   NastranEntity& entity = out;
-  entity = first;
-  out.node = first.node;
+  entity = sum;
+  out.node = sum.node;
   out.mass = m;
   if (m > 0.0) out.offset = moment / m;
   const Mat3 S = skew(out.offset), about_node = sum.M.bottomRightCorner<3, 3>();
@@ -57,7 +51,7 @@ bool rigid_body(NastranBuild& build, const Sum& sum, NastranMass& out) {
 }  // namespace
 
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build) {
-  std::map<int, Sum> sums;
+  std::map<int, NastranMassMatrix> sums;
   const NastranContent& c = build.content;
   for (const NastranMassMatrix& given : c.mass_matrices) {
     NastranMassMatrix m = given;
@@ -68,9 +62,9 @@ std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build) {
       if (p == nullptr) continue;
       m.M *= p->value;
     }
-    Sum& sum = sums[node];
-    if (sum.first == nullptr) sum.first = &given;
-    sum.M += in_basic_axes(build, m, node);
+    m.M = in_basic_axes(build, m, node);
+    const auto [it, fresh] = sums.try_emplace(node, m);
+    if (!fresh) it->second.M += m.M;
   }
   std::vector<NastranMass> out;
   for (const auto& [node, sum] : sums) {
@@ -82,8 +76,7 @@ std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build) {
 
 void check_nastran_scalar_masses(NastranBuild& build) {
   const NastranContent& c = build.content;
-  int held = 0;
-  FeSource first;
+  NastranCount held;
   for (const NastranScalarElement& m : c.scalar_masses) {
     double mass = m.value.value_or(1.0);
     if (m.property > 0) {
@@ -104,7 +97,7 @@ void check_nastran_scalar_masses(NastranBuild& build) {
     }
     if (mass == 0.0) continue;
     if (point == 0) {
-      if (held++ == 0) first = m.at;
+      held.add(m.at);
       continue;
     }
     build.error(
@@ -114,11 +107,14 @@ void check_nastran_scalar_masses(NastranBuild& build) {
         "component and tied to the part by MPC in the others",
         mass, point);
   }
-  if (held > 0)
-    build.note(
-        first,
-        fmt::format("{} masses of scalar points that are held (SPC) or of the ground are left out",
-                    held));
+  build.note(held, "masses of scalar points that are held (SPC) or of the ground are left out");
+}
+
+// Nastran takes lumped mass for granted: at the nodes without rotary inertia, but of bars about
+// their own axis, unless PARAM COUPMASS is positive.
+void nastran_mass_forms(NastranBuild& build) {
+  if (build.content.properties.empty() || build.content.coupled_mass) return;
+  for (Element& e : build.model.elements) e.mass_form = MassForm::lumped_without_rotation;
 }
 
 }  // namespace floatframe

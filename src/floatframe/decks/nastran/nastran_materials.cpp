@@ -32,14 +32,14 @@ void read_mat8(NastranFields& f, NastranMaterial& m) {
   m.density = f.real_if_given(7, "RHO");
   if (f.blank(1) || f.blank(2) || f.blank(3)) return;
   const std::string error = engineering_error(c, true);
-  if (!error.empty()) return f.error(ErrorCode::wrong_value, error);
+  if (!error.empty()) return f.error(ErrorCode::wrong_value, "{}", error);
   m.elasticity = lamina_elasticity(c);
   m.plane = true;
 }
 
 /// The upper half of a matrix from field 1 on, then RHO.
 template <class Matrix>
-Matrix read_constants(NastranFields& f, NastranMaterial& m) {
+Matrix read_upper_half(NastranFields& f, NastranMaterial& m) {
   Matrix D;
   std::size_t k = 1;
   for (int i = 0; i < D.rows(); ++i)
@@ -50,14 +50,14 @@ Matrix read_constants(NastranFields& f, NastranMaterial& m) {
 
 void read_mat2(NastranFields& f, NastranMaterial& m) {
   // Checked where it is used: not as MID4.
-  m.elasticity = layer_elasticity(read_constants<Mat3>(f, m), 0.0, 0.0);
+  m.elasticity = layer_elasticity(read_upper_half<Mat3>(f, m), 0.0, 0.0);
   m.plane = true;
 }
 
 void read_mat9(NastranFields& f, NastranMaterial& m) {
-  const auto D = read_constants<Mat6>(f, m);
+  const auto D = read_upper_half<Mat6>(f, m);
   const std::string error = elasticity_error(D, false, solid_constant);
-  if (!error.empty()) return f.error(ErrorCode::wrong_value, error);
+  if (!error.empty()) return f.error(ErrorCode::wrong_value, "{}", error);
   m.elasticity = D;
 }
 

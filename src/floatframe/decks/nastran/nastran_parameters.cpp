@@ -56,12 +56,9 @@ constexpr std::string_view harmless_names =
 
 }  // namespace
 
-NastranParameter nastran_parameter(std::string_view name) {
+bool is_harmless_nastran_parameter(std::string_view name) {
   static const NastranWords harmless(harmless_names);
-  if (name == "WTMASS" || name == "CM1") return NastranParameter::mass_factor;
-  if (name == "COUPMASS") return NastranParameter::coupled_mass;
-  if (name == "CK1") return NastranParameter::stiffness_factor;
-  return harmless.contains(name) ? NastranParameter::harmless : NastranParameter::unknown;
+  return harmless.contains(name);
 }
 
 }  // namespace floatframe

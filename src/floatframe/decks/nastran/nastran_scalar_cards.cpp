@@ -60,7 +60,7 @@ void read_nastran_spring(NastranFields& f, NastranContent& c) {
     std::swap(s.components[0], s.components[1]);
   }
   if (s.nodes[0] == 0)
-    return f.error(ErrorCode::missing, points ? "it has no scalar point" : "it has no node");
+    return f.error(ErrorCode::missing, "{}", points ? "it has no scalar point" : "it has no node");
   c.springs.push_back(std::move(s));
 }
 
@@ -116,11 +116,7 @@ void read_nastran_bush(NastranFields& f, NastranContent& c) {
     s.system = f.integer(4, "the coordinate system CID", -1);
     return c.springs.push_back(std::move(s));
   }
-  if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
-    s.orientation_node = f.label(4, "node GO");
-  } else {
-    s.orientation = f.vector(4, "the orientation vector");
-  }
+  read_nastran_direction(f, "node GO", s.orientation);
   s.system = f.integer(7, "the coordinate system CID", -1);
   s.place = f.real(8, "the place S", 0.5);
   s.offset_system = f.integer(9, "the coordinate system OCID", -1);

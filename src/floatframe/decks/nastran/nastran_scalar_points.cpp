@@ -1,5 +1,7 @@
-#include "floatframe/decks/nastran/nastran_scalar_points.hpp"
-
+// Scalar points of Nastran bulk data (SPOINT, or named by CELAS3 and CELAS4): one degree of freedom
+// without a place. In the model each that a spring or an equation uses is a node of its own, of
+// which the component ux is used, or rx where its springs turn. Springs condense it
+// (fe/springs.hpp), or it depends on nodes by an equation; its place only says where it is shown.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,7 +60,7 @@ class ScalarPointBuilder {
       point.node = b_.model.nodes();
       b_.model.positions.push_back(b_.model.positions[std::max(group.node, 0)]);
       b_.model.node_ids.push_back(id);
-      b_.model.node_sources.push_back(first_[id]);
+      b_.model.node_sources.push_back(point.at);
       b_.turned.push_back(0);
     }
   }
@@ -74,23 +76,21 @@ class ScalarPointBuilder {
   /// Null if it is no scalar point, or the ground.
   NastranScalarPoint* use(int id, const FeSource& at) {
     if (!is_point(id) || b_.scalars.held(id)) return nullptr;
-    const auto [it, fresh] = points_.try_emplace(id);
-    if (fresh) {
-      first_[id] = at;
-      parent_[id] = id;
-    }
-    return &it->second;
+    return &points_.try_emplace(id, NastranScalarPoint{.root = id, .at = at}).first->second;
   }
 
   int root(int id) {
-    while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
+    while (points_.at(id).root != id) {
+      int& above = points_.at(id).root;
+      id = above = points_.at(above).root;
+    }
     return id;
   }
 
   void springs() {
     for (const NastranSpring& s : c_.springs)
       if (points_.contains(s.nodes[0]) && points_.contains(s.nodes[1]))
-        parent_[root(s.nodes[0])] = root(s.nodes[1]);
+        points_.at(root(s.nodes[0])).root = root(s.nodes[1]);
     for (const NastranSpring& s : c_.springs)
       for (int end = 0; end < 2; ++end) {
         const int id = s.nodes[end], other = s.nodes[1 - end];
@@ -136,8 +136,6 @@ class ScalarPointBuilder {
   NastranBuild& b_;
   const NastranContent& c_;
   std::map<int, NastranScalarPoint>& points_;
-  std::map<int, FeSource> first_;
-  std::map<int, int> parent_;
   std::map<int, Group> groups_;
 };
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/decks/nastran/nastran_tapers.hpp"
 #include "floatframe/fe/plate_section.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 

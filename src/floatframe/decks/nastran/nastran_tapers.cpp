@@ -1,5 +1,11 @@
-#include "floatframe/decks/nastran/nastran_tapers.hpp"
-
+// Beams whose section changes along them (PBEAM, PBEAML with stations). A, I1, I2, I12, J and the
+// nonstructural mass are linear between stations, as in Nastran. Such a beam becomes a chain of
+// beams of constant section with nodes of their own. A piece has the mean area, so that mass is
+// exact, and I and J with which torsion and a constant moment are, the mean over its length of 1/I
+// and 1/J,
+//   I = (I_b - I_a)/ln(I_b/I_a).
+// Under a force at its end the deflection of a cantilever of ratio r and n pieces is off by about
+// 0.25 ln(r)/n^2: n is chosen for 0.05 %. Its elongation is off by less than 0.1 %.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,7 +79,7 @@ NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
   set_nastran_section(p, s);
   p.section.shear_y = harmonic(a.shape.shear_y, b.shape.shear_y);
   p.section.shear_z = harmonic(a.shape.shear_z, b.shape.shear_z);
-  return {a.x, b.x, p.section, p.turn, p.nonstructural};
+  return {b.x, p.section, p.turn, p.nonstructural};
 }
 
 std::vector<NastranPiece> chain_of(const std::vector<NastranStation>& stations, double share) {
@@ -132,7 +138,7 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
   if (!same) p.stations = std::move(stations);
 }
 
-NastranTapers::NastranTapers(NastranBuild& build) {
+std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build) {
   const NastranContent& c = build.content;
   // Pieces are nodes and elements: a file may have so many for its size.
   const double most = 1000.0 + static_cast<double>(c.grids.size() + c.elements.size());
@@ -147,10 +153,11 @@ NastranTapers::NastranTapers(NastranBuild& build) {
     for (std::size_t k = 1; k < s.size(); ++k)
       wanted += number_of_pieces(wanted_pieces(s[k - 1], s[k]), 1.0);
   }
+  std::map<int, std::vector<NastranPiece>> tapers;
   const double share = std::min(1.0, most / std::max(wanted, 1.0));
   for (const auto& [id, count] : beams) {
     const NastranProperty& p = c.properties.at(id);
-    std::vector<NastranPiece>& pieces = pieces_[id] = chain_of(p.stations, share);
+    std::vector<NastranPiece>& pieces = tapers[id] = chain_of(p.stations, share);
     build.note(
         p.at, fmt::format(
                   "{}: its section changes along the beam: {} elements are chains of {} beams "
@@ -161,12 +168,7 @@ NastranTapers::NastranTapers(NastranBuild& build) {
                                     share)
                       : ""));
   }
-}
-
-const std::vector<NastranPiece>& NastranTapers::pieces(int property) const {
-  static const std::vector<NastranPiece> none;
-  const auto it = pieces_.find(property);
-  return it == pieces_.end() ? none : it->second;
+  return tapers;
 }
 
 }  // namespace floatframe

@@ -86,20 +86,14 @@ class NastranFields {
   /// Errors of the file so far.
   std::size_t errors() const { return source_.errors(); }
   /// "CTETRA 12: ..." at the card, or at the line of a field.
-  void error(ErrorCode code, const std::string& message) { error_at(code, card_.at, message); }
-  template <class First, class... Rest>
-  void error(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
-             Rest&&... rest) {
-    error(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  template <class... Values>
+  void error(ErrorCode code, fmt::format_string<Values...> text, Values&&... values) {
+    error_at(code, card_.at, fmt::format(text, std::forward<Values>(values)...));
   }
-  template <class First, class... Rest>
-  void error_in(ErrorCode code, std::size_t field, fmt::format_string<First, Rest...> text,
-                First&& first, Rest&&... rest) {
-    error_in(code, field,
-             fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
-  }
-  void error_in(ErrorCode code, std::size_t field, const std::string& message) {
-    error_at(code, card_.place(field), message);
+  template <class... Values>
+  void error_in(ErrorCode code, std::size_t field, fmt::format_string<Values...> text,
+                Values&&... values) {
+    error_at(code, card_.place(field), fmt::format(text, std::forward<Values>(values)...));
   }
   /// Error if the field is neither blank nor zero.
   void must_be_zero(std::size_t i, const char* what);
