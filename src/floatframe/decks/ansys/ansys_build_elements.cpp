@@ -1,5 +1,4 @@
 // Solids, shells, beams and rods.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -23,9 +22,7 @@ class AnsysElementBuilder {
     for (std::size_t k = 0; k < elements.size(); ++k) one(elements[k], b_.index[k]);
     b_.report_shared();
     const bool springs = std::any_of(elements.begin(), elements.end(), [&](const auto& e) {
-      const auto type = b_.content.types.find(e.type);
-      const auto* library =
-          type == b_.content.types.end() ? nullptr : ansys_library_element(type->second.number);
+      const auto* library = b_.known(e).second;
       return library != nullptr && (library->family == F::spring || library->family == F::matrix);
     });
     if (b_.model.elements.empty() && !springs && b_.source.errors() == 0)
@@ -63,19 +60,14 @@ class AnsysElementBuilder {
   bool volume(const AnsysElement& e, const AnsysType& type, const AnsysLibraryElement& library,
               Element& element) {
     if (static_cast<int>(nodes_.size()) > library.nodes &&
-        std::any_of(nodes_.begin() + library.nodes, nodes_.end(), [](int n) { return n >= 0; })) {
-      b_.error(
-          ErrorCode::wrong_count, e,
-          fmt::format("it has {} nodes, at most {} are expected", nodes_.size(), library.nodes));
-      return false;
-    }
+        std::any_of(nodes_.begin() + library.nodes, nodes_.end(), [](int n) { return n >= 0; }))
+      return b_.error(ErrorCode::wrong_count, e, "it has {} nodes, at most {} are expected",
+                      nodes_.size(), library.nodes);
     for (int& n : nodes_) ++n;  // 0: none
     const auto shape = ansys_shape(library, type, nodes_);
-    if (!shape) {
-      b_.error(ErrorCode::missing, e,
-               "its nodes are repeated or missing in a way that makes no element");
-      return false;
-    }
+    if (!shape)
+      return b_.error(ErrorCode::missing, e,
+                      "its nodes are repeated or missing in a way that makes no element");
     element.type = shape->type;
     for (int k = 0; k < shape->count; ++k) element.nodes[k] = shape->nodes[k] - 1;
     middles(e, *shape, element);
@@ -114,8 +106,6 @@ class AnsysElementBuilder {
   }
 
   static std::span<const shape::Edge> edges_of(ElementType type) {
-    static constexpr std::array<shape::Edge, 3> triangle{{{0, 1}, {1, 2}, {2, 0}}};
-    static constexpr std::array<shape::Edge, 4> quadrilateral{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
     switch (type) {
       case ElementType::tet10:
         return shape::tet_edges;
@@ -127,9 +117,9 @@ class AnsysElementBuilder {
       case ElementType::pyramid13:
         return shape::pyramid_edges;
       case ElementType::tri6:
-        return triangle;
+        return shape::tri_edges;
       case ElementType::quad8:
-        return quadrilateral;
+        return shape::quad_edges;
       default:
         return {};
     }
@@ -137,22 +127,19 @@ class AnsysElementBuilder {
 
   void notes() {
     for (const auto& [name, count] : passed_over_)
-      b_.model.notes.push_back(
-          fmt::format("{}: {} {} have neither stiffness nor mass and are left out",
-                      b_.source.files()[0], count, name));
+      b_.file_note("{} {} have neither stiffness nor mass and are left out", count, name);
     if (!middles_.empty())
-      b_.model.notes.push_back(
-          fmt::format("{}: {} edges without their mid-side node are kept straight, by equations",
-                      b_.source.files()[0], middles_.size()));
+      b_.file_note("{} edges without their mid-side node are kept straight, by equations",
+                   middles_.size());
     const auto layered = std::count_if(b_.model.elements.begin(), b_.model.elements.end(),
                                        [](const Element& e) { return e.layup >= 0; });
     if (layered > 0)
-      b_.model.notes.push_back(
-          fmt::format("{}: {} solids have layers: each layer has the points of its element here, "
-                      "in ANSYS as many through its thickness as SECDATA says",
-                      b_.source.files()[0], layered));
+      b_.file_note(
+          "{} solids have layers: each layer has the points of its element here, in ANSYS as many "
+          "through its thickness as SECDATA says",
+          layered);
     if (b_.content.materials.empty() && !b_.options.material)
-      b_.model.notes.push_back(fmt::format("{}: the file has no material", b_.source.files()[0]));
+      b_.file_note("the file has no material");
   }
 
   AnsysBuild& b_;

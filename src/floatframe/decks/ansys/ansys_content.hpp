@@ -1,10 +1,9 @@
 #pragma once
 // What the commands of an ANSYS deck say, by kind and with the user's numbers, before it is a
 // model.
-#include <array>
 #include <map>
 #include <optional>
-#include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -117,7 +116,8 @@ struct AnsysContent {
   bool lumped = false;                                   ///< LUMPM,ON
 
   // While reading: what the commands before have set.
-  int type = 1, material = 1, real = 1, section = 1, system = 0, nodal_system = 0;
+  AnsysElement current = {0, 1, 1, 1, 1, 0, 0, 0, {}};
+  int nodal_system = 0;
   int branch = 0;  ///< depth of a *IF whose lines are ignored
   std::vector<double> temperatures;
   std::string table;  ///< of TB, with its material
@@ -138,42 +138,19 @@ int ansys_axis(std::string_view word) noexcept;
 /// Is field 1 the mark of the commands that CDWRITE writes, "R5.0" or "UNBL"?
 bool ansys_written(const AnsysFields& f);
 
-using AnsysCommandReader = void (*)(AnsysFields&, AnsysContent&);
-// ansys_mesh_commands.cpp
-void read_ansys_node(AnsysFields&, AnsysContent&);
-void read_ansys_node_block(AnsysFields&, AnsysContent&);
-void read_ansys_element(AnsysFields&, AnsysContent&);
-void read_ansys_element_more(AnsysFields&, AnsysContent&);
-void read_ansys_element_block(AnsysFields&, AnsysContent&);
-void read_ansys_component(AnsysFields&, AnsysContent&);
-void read_ansys_system(AnsysFields&, AnsysContent&);
-// ansys_property_commands.cpp
-void read_ansys_type(AnsysFields&, AnsysContent&);
-void read_ansys_type_block(AnsysFields&, AnsysContent&);
-void read_ansys_key_option(AnsysFields&, AnsysContent&);
-void read_ansys_real(AnsysFields&, AnsysContent&);
-void read_ansys_real_more(AnsysFields&, AnsysContent&);
-void read_ansys_real_block(AnsysFields&, AnsysContent&);
-void read_ansys_section(AnsysFields&, AnsysContent&);
-void read_ansys_section_data(AnsysFields&, AnsysContent&);
-void read_ansys_section_block(AnsysFields&, AnsysContent&);
-void read_ansys_section_offset(AnsysFields&, AnsysContent&);
-void read_ansys_section_control(AnsysFields&, AnsysContent&);
-// ansys_materials.cpp
-void read_ansys_material(AnsysFields&, AnsysContent&);
-void read_ansys_temperatures(AnsysFields&, AnsysContent&);
-void read_ansys_material_data(AnsysFields&, AnsysContent&);
-void read_ansys_table(AnsysFields&, AnsysContent&);
-void read_ansys_table_temperature(AnsysFields&, AnsysContent&);
-void read_ansys_table_field(AnsysFields&, AnsysContent&);
-void read_ansys_table_data(AnsysFields&, AnsysContent&);
+/// A command and what reads it.
+struct AnsysCommand {
+  const char* name;
+  void (*read)(AnsysFields&, AnsysContent&);
+};
+// Each in its source: nodes and elements; types, constants and sections; materials; constraints.
+std::span<const AnsysCommand> ansys_mesh_commands();
+std::span<const AnsysCommand> ansys_property_commands();
+std::span<const AnsysCommand> ansys_material_commands();
+std::span<const AnsysCommand> ansys_constraint_commands();
+
 /// The material in the units of the deck; its density is 0 if there is none.
 Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,
                         AnsysContent& content, TextSource& source);
-// ansys_constraint_commands.cpp
-void read_ansys_equation(AnsysFields&, AnsysContent&);
-void read_ansys_coupling(AnsysFields&, AnsysContent&);
-void read_ansys_rigid(AnsysFields&, AnsysContent&);
-void read_ansys_support(AnsysFields&, AnsysContent&);
 
 }  // namespace floatframe

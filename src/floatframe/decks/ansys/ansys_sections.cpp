@@ -1,9 +1,8 @@
 // Beams and rods: their sections, axes and ends.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <tuple>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
 
@@ -12,12 +11,8 @@ namespace {
 
 /// BEAM4: AREA, IZZ, IYY, TKZ, TKY, THETA, ISTRN, IXX, SHEARZ, SHEARY, SPIN, ADDMAS.
 std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e) {
-  const AnsysReal* real = b.real(e);
-  if (real == nullptr) {
-    b.shared_error(ErrorCode::not_found, e,
-                   fmt::format("its real constants {} are not in the file", e.real));
-    return std::nullopt;
-  }
+  const AnsysReal* real = b.needed_real(e);
+  if (real == nullptr) return std::nullopt;
   AnsysBeam beam;
   const auto r = [&](std::size_t k) { return real->value(k); };
   BeamSection& s = beam.section;
@@ -27,19 +22,18 @@ std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e)
   s.J = r(7) != 0.0 ? r(7) : r(1) + r(2);
   if (r(8) > 0.0) s.shear_z = s.A / r(8);
   if (r(9) > 0.0) s.shear_y = s.A / r(9);
-  beam.turn = r(5) * std::numbers::pi / 180.0;
+  beam.turn = r(5) * ansys_degree;
   beam.mass = r(11);
   if (!(s.A > 0.0 && s.Iz > 0.0 && s.Iy > 0.0)) {
     b.error_once(
         ErrorCode::out_of_range, real->at,
-        fmt::format(
-            "real constants {}: AREA, IZZ and IYY are {:g}, {:g} and {:g}, expected more than 0",
-            e.real, s.A, s.Iz, s.Iy));
+
+        "real constants {}: AREA, IZZ and IYY are {:g}, {:g} and {:g}, expected more than 0",
+        e.real, s.A, s.Iz, s.Iy);
     return std::nullopt;
   }
   if (const std::string misfit = ansys_beam_misfit(beam); !misfit.empty()) {
-    b.error_once(ErrorCode::wrong_value, real->at,
-                 fmt::format("real constants {}: {}", e.real, misfit));
+    b.error_once(ErrorCode::wrong_value, real->at, "real constants {}: {}", e.real, misfit);
     return std::nullopt;
   }
   return beam;
@@ -51,8 +45,8 @@ std::optional<AnsysBeam> beam_section_of(AnsysBuild& b, const AnsysElement& e,
   const char* const kind = type.number == 288 || type.number == 289 ? "PIPE" : "BEAM";
   const AnsysSection* s = b.section(e, kind);
   if (s == nullptr) {
-    b.shared_error(ErrorCode::not_found, e,
-                   fmt::format("its section {} is no SECTYPE,{},{}", e.section, e.section, kind));
+    b.shared_error(ErrorCode::not_found, e, "its section {} is no SECTYPE,{},{}", e.section,
+                   e.section, kind);
     return std::nullopt;
   }
   return ansys_beam_section(b, *s, e);
@@ -68,13 +62,12 @@ Vec3 local_y(const Vec3& along, const Vec3* towards_z) {
 }
 
 int add_section(FeModel& model, const BeamSection& s) {
-  for (std::size_t k = model.sections.size(); k-- > 0;) {
-    const BeamSection& o = model.sections[k];
-    if (o.A == s.A && o.Iy == s.Iy && o.Iz == s.Iz && o.J == s.J && o.shear_y == s.shear_y &&
-        o.shear_z == s.shear_z && o.outline == s.outline && o.width == s.width &&
-        o.height == s.height && o.bore == s.bore)
-      return static_cast<int>(k);
-  }
+  const auto key = [](const BeamSection& x) {
+    return std::tie(x.A, x.Iy, x.Iz, x.J, x.shear_y, x.shear_z, x.outline, x.width, x.height,
+                    x.bore);
+  };
+  for (std::size_t k = model.sections.size(); k-- > 0;)
+    if (key(model.sections[k]) == key(s)) return static_cast<int>(k);
   model.sections.push_back(s);
   return static_cast<int>(model.sections.size()) - 1;
 }
@@ -93,18 +86,14 @@ bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& e
     if (type.number == 180) mass = real->value(1);
     one_way = type.number == 180 && real->value(2) != 0.0;
   }
-  if (one_way) {
-    b.shared_error(ErrorCode::unsupported, e,
-                   "it is for tension or compression alone (TENSKEY), which is not linear");
-    return false;
-  }
-  if (!(s.A > 0.0)) {
-    b.shared_error(ErrorCode::missing, e,
-                   fmt::format("neither its section {} (SECTYPE,{},LINK) nor its real constants {} "
-                               "give an area above 0",
-                               e.section, e.section, e.real));
-    return false;
-  }
+  if (one_way)
+    return b.shared_error(ErrorCode::unsupported, e,
+                          "it is for tension or compression alone (TENSKEY), which is not linear");
+  if (!(s.A > 0.0))
+    return b.shared_error(
+        ErrorCode::missing, e,
+        "neither its section {} (SECTYPE,{},LINK) nor its real constants {} give an area above 0",
+        e.section, e.section, e.real);
   element.type = ElementType::rod2;
   element.material = b.material(e.material, e, mass / s.A);
   element.section = add_section(b.model, s);
@@ -118,18 +107,13 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   const AnsysFamily family = ansys_library_element(type.number)->family;
   const std::size_t count = family == AnsysFamily::beam3 ? 3 : 2;
   if (nodes.size() < count || std::any_of(nodes.begin(), nodes.begin() + static_cast<int>(count),
-                                          [](int n) { return n < 0; })) {
-    b.error(ErrorCode::wrong_count, e, fmt::format("it has fewer than {} nodes", count));
-    return false;
-  }
+                                          [](int n) { return n < 0; }))
+    return b.error(ErrorCode::wrong_count, e, "it has fewer than {} nodes", count);
   const std::vector<Vec3>& p = b.model.positions;
   const Vec3 along = p[nodes[1]] - p[nodes[0]];
   element.nodes[0] = nodes[0];
   element.nodes[1] = nodes[1];
-  if (!(along.norm() > 0.0)) {
-    b.error(ErrorCode::geometry, e, "its ends are at one place");
-    return false;
-  }
+  if (!(along.norm() > 0.0)) return b.error(ErrorCode::geometry, e, "its ends are at one place");
   if (family == AnsysFamily::rod) return rod(b, e, type, element);
   const auto beam = beam_section_of(b, e, type);
   if (!beam) return false;
@@ -141,10 +125,8 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   const bool oriented = nodes.size() > count && nodes[count] >= 0;
   const Vec3 towards = oriented ? Vec3(p[nodes[count]] - p[nodes[0]]) : Vec3::Zero();
   const Vec3 x = along.normalized();
-  if (oriented && !(x.cross(towards).norm() > 1e-8 * towards.norm())) {
-    b.error(ErrorCode::geometry, e, "its node for the orientation is on its axis");
-    return false;
-  }
+  if (oriented && !(x.cross(towards).norm() > 1e-8 * towards.norm()))
+    return b.error(ErrorCode::geometry, e, "its node for the orientation is on its axis");
   const Vec3 y = local_y(along, oriented ? &towards : nullptr);
   const Vec3 unit_y = (y - y.dot(x) * x).normalized(), z = x.cross(unit_y);
   element.reference = std::cos(beam->turn) * unit_y + std::sin(beam->turn) * z;

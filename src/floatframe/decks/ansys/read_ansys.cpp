@@ -18,9 +18,7 @@ void note_passed_over(AnsysBuild& build) {
   std::string list;
   for (const auto& [word, at] : build.content.passed_over)
     list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
-  if (!list.empty())
-    build.model.notes.push_back(
-        fmt::format("{}: ignored, of loads and analyses: {}", build.source.files()[0], list));
+  if (!list.empty()) build.file_note("ignored, of loads and analyses: {}", list);
 }
 
 }  // namespace
