@@ -8,7 +8,6 @@
 
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/formats/sid/sid_second_order.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -35,23 +34,15 @@ Vec3 moment(const Mat3& s) { return Vec3(s(1, 2) - s(2, 1), s(2, 0) - s(0, 2), s
 void inertia_blocks(const InertiaInvariants& v, SidContent& c) {
   const int nq = v.modes();
   c.mass = v.m;
-  c.mdCM = SidTaylor(3, 1, nq);
   c.mdCM.m0 = v.m_u;
-  c.J = SidTaylor(6, 1, nq);
   const Mat3 J = v.inertia_about_origin();
   for (int a = 0; a < 3; ++a) {
     c.J.m0(a, 0) = J(a, a);
     c.J.m0(3 + a, 0) = J(pair_of_J[a][0], pair_of_J[a][1]);
   }
-  c.Ct = SidTaylor(nq, 3, 0);
   c.Ct.m0 = v.S.transpose();
-  c.Cr = SidTaylor(nq, 3, nq);
-  c.Me = SidTaylor(nq, nq, 0);
   const MatX Me = modal_mass(v);
   c.Me.m0 = 0.5 * (Me + Me.transpose());
-  c.Gr = SidTaylor(3, 3 * nq, 0);
-  c.Ge = SidTaylor(nq, 3 * nq, 0);
-  c.Oe = SidTaylor(nq, 6, nq);
   for (int k = 0; k < nq; ++k) {
     Mat3 s;  // s(i, j) = int r_i phi_kj dm
     for (int i = 0; i < 3; ++i) s.row(i) = v.Si[i].col(k).transpose();
@@ -67,11 +58,8 @@ void inertia_blocks(const InertiaInvariants& v, SidContent& c) {
     c.Oe.m0.row(k) = centrifugal(s);
     for (int l = 0; l < nq; ++l) {
       Mat3 t;  // t(i, j) = int phi_li phi_kj dm
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-          t(i, j) = v.Sij[i][j](l, k);
-        }
-      }
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) t(i, j) = v.Sij[i][j](l, k);
       const std::size_t p = l;
       c.Cr.m1[p].row(k) = moment(t).transpose();
       c.Ge.m0.block<1, 3>(k, 3 * l) = 2.0 * c.Cr.m1[p].row(k);
@@ -101,11 +89,8 @@ std::vector<std::string> frame_numbers(const std::vector<ModalNode>& nodes) {
 SidFrame frame_of(const ModalNode& node, std::string number, int nq) {
   SidFrame f;
   f.node = std::move(number);
-  f.origin = SidTaylor(3, 1, nq);
+  for (const auto& block : sid_frame_blocks) block.clear(f, nq);
   f.origin.m0 = node.p;
-  f.phi = SidTaylor(3, nq, 0);
-  f.psi = SidTaylor(3, nq, 0);
-  f.AP = SidTaylor(3, 3, nq);
   f.AP.m0.setIdentity();
   if (node.X.cols() == nq) f.phi.m0 = node.X;
   if (node.X_theta.cols() == nq) f.psi.m0 = node.X_theta;
@@ -136,28 +121,24 @@ bool SidTaylor::first_order() const {
 SidContent sid_content(const FlexibleBody& body) {
   const int nq = body.modes();
   const auto fits = [nq](const MatX& m) { return m.rows() == nq && m.cols() == nq; };
-  if (!fits(body.K) || (body.D.size() > 0 && !fits(body.D))) {
+  if (!fits(body.K) || (body.D.size() > 0 && !fits(body.D)))
     throw InputError(
         ErrorCode::wrong_count,
         fmt::format("the body has {} modes, but its stiffness is {} x {} and its damping {} x {}",
                     nq, body.K.rows(), body.K.cols(), body.D.rows(), body.D.cols()));
-  }
   SidContent c;
   c.modes = nq;
+  for (const auto& block : sid_modal_blocks) block.clear(c, nq);
   inertia_blocks(body.invariants, c);
-  c.ksigma = SidTaylor(nq, 1, 0);
-  c.Ke = SidTaylor(nq, nq, 0);
   c.Ke.m0 = 0.5 * (body.K + body.K.transpose());
-  c.De = SidTaylor(nq, nq, 0);
   if (body.D.size() > 0) c.De.m0 = 0.5 * (body.D + body.D.transpose());
   for (int k = 0; k < nq; ++k) c.mode_names.push_back(mode_label(body, c, k));
   const std::vector<std::string> numbers = frame_numbers(body.nodes);
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
     c.frames.push_back(frame_of(body.nodes[i], numbers[i], nq));
-    if (numbers[i] != body.nodes[i].name && !body.nodes[i].name.empty() && c.comment.size() < 150) {
+    if (numbers[i] != body.nodes[i].name && !body.nodes[i].name.empty() && c.comment.size() < 150)
       c.comment += fmt::format("{} {} = {}", c.comment.empty() ? " Frames:" : ",", numbers[i],
                                body.nodes[i].name);
-    }
   }
   add_sid_second_order(body, c);
   return c;

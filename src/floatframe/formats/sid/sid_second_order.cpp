@@ -1,10 +1,9 @@
-#include "floatframe/formats/sid/sid_second_order.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+
+#include "floatframe/formats/sid/sid_content.hpp"
 
 namespace floatframe {
 namespace {
@@ -194,13 +193,12 @@ class SecondOrderOfSid {
                         off));
     } else if (!inertia) {
       note_(c_.Oe.first_order() ? c_.Oe.line : c_.Me.line,
-            std::string(
-                c_.Oe.first_order()
-                    ? fmt::format("m1 of Oe does not give the modal masses (deviation {:.2g} from "
-                                  "Me), so it holds more than inertia: geometric stiffening, whose "
-                                  "sum with inertia is kept. ",
-                                  off)
-                    : "") +
+            std::string(c_.Oe.first_order()
+                            ? fmt::format("m1 of Oe does not give the modal masses (deviation "
+                                          "{:.2g} from Me), so it holds more than inertia: "
+                                          "geometric stiffening, whose sum with inertia is kept. ",
+                                          off)
+                            : "") +
                 "The file has no second-order inertia terms: the mass matrix at zero deformation "
                 "and its first derivative are exact, its second derivative and softening by spin "
                 "are not (S^11, S^22 and S^33 are each taken as a third of Me)");

@@ -17,12 +17,11 @@ void line(Out& out, int indent, const std::string& key, const std::string& value
 }
 
 std::string real(double x, const char* block) {
-  if (!std::isfinite(x)) {
+  if (!std::isfinite(x))
     throw InputError(
         ErrorCode::not_finite,
         fmt::format("block {} holds a number that is not finite; a SID file cannot hold it",
                     block));
-  }
   std::string text = fmt::format("{:23.16E}", x);
   std::replace(text.begin(), text.end(), 'E', 'D');
   return text;
@@ -42,29 +41,24 @@ int structure_of(const SidTaylor& t) {
 void block(Out& out, int indent, const char* name, const SidTaylor& t, int modes) {
   fmt::format_to(std::back_inserter(out), "{:{}}{}\n", "", indent, name);
   const int inner = 26, structure = structure_of(t);
-  line(out, inner, "order", fmt::format("{:4}", t.m1.empty() ? 0 : 1));
-  line(out, inner, "nrow", fmt::format("{:4}", t.m0.rows()));
-  line(out, inner, "ncol", fmt::format("{:4}", t.m0.cols()));
-  line(out, inner, "nq", fmt::format("{:4}", modes));
-  line(out, inner, "nqn", fmt::format("{:4}", 0));
-  line(out, inner, "structure", fmt::format("{:4}", structure));
+  const std::pair<const char*, Eigen::Index> head[] = {{"order", t.m1.empty() ? 0 : 1},
+                                                       {"nrow", t.m0.rows()},
+                                                       {"ncol", t.m0.cols()},
+                                                       {"nq", modes},
+                                                       {"nqn", 0},
+                                                       {"structure", structure}};
+  for (const auto& [key, value] : head) line(out, inner, key, fmt::format("{:4}", value));
   if (structure != 0 && structure != 4) {
-    for (Eigen::Index r = 0; r < t.m0.rows(); ++r) {
-      for (Eigen::Index c = 0; c < t.m0.cols(); ++c) {
-        if (t.m0(r, c) == 0.0) continue;
-        line(out, inner, fmt::format("m0({:2},{:2})", r + 1, c + 1), real(t.m0(r, c), name));
-      }
-    }
-    for (Eigen::Index c = 0; c < t.m0.cols(); ++c) {
-      for (Eigen::Index r = 0; r < t.m0.rows(); ++r) {
-        for (std::size_t q = 0; q < t.m1.size(); ++q) {
-          const double value = t.m1[q](r, c);
-          if (value == 0.0) continue;
-          line(out, inner, fmt::format("m1({:2},{:2},{:2})", r + 1, q + 1, c + 1),
-               real(value, name));
-        }
-      }
-    }
+    const auto entry = [&](const std::string& key, double value) {
+      if (value != 0.0) line(out, inner, key, real(value, name));
+    };
+    for (Eigen::Index r = 0; r < t.m0.rows(); ++r)
+      for (Eigen::Index c = 0; c < t.m0.cols(); ++c)
+        entry(fmt::format("m0({:2},{:2})", r + 1, c + 1), t.m0(r, c));
+    for (Eigen::Index c = 0; c < t.m0.cols(); ++c)
+      for (Eigen::Index r = 0; r < t.m0.rows(); ++r)
+        for (std::size_t q = 0; q < t.m1.size(); ++q)
+          entry(fmt::format("m1({:2},{:2},{:2})", r + 1, q + 1, c + 1), t.m1[q](r, c));
   }
   fmt::format_to(std::back_inserter(out), "{:{}}end {}\n", "", indent, name);
 }
@@ -77,10 +71,7 @@ void frames(Out& out, const SidContent& c) {
   for (const SidFrame& f : c.frames) {
     line(out, 16, "new node", f.node);
     line(out, 21, "rframe", "body ref");
-    block(out, 21, "origin", f.origin, c.modes);
-    block(out, 21, "phi", f.phi, c.modes);
-    block(out, 21, "psi", f.psi, c.modes);
-    block(out, 21, "AP", f.AP, c.modes);
+    for (const auto& b : sid_frame_blocks) block(out, 21, b.name, f.*b.block, c.modes);
     put("                end node");
   }
   put("           end frame");
@@ -99,22 +90,11 @@ std::string sid_text(const SidContent& c) {
   fmt::format_to(std::back_inserter(out), "           refmod\n");
   line(out, 16, "mass", real(c.mass, "refmod"));
   line(out, 16, "nelastq", fmt::format("{:4}", c.modes));
-  for (std::size_t k = 0; k < c.mode_names.size(); ++k) {
+  for (std::size_t k = 0; k < c.mode_names.size(); ++k)
     line(out, 16, fmt::format("ielastq ({:4})", k + 1), c.mode_names[k]);
-  }
   fmt::format_to(std::back_inserter(out), "           end refmod\n");
   frames(out, c);
-  block(out, 11, "mdCM", c.mdCM, c.modes);
-  block(out, 11, "J", c.J, c.modes);
-  block(out, 11, "Ct", c.Ct, c.modes);
-  block(out, 11, "Cr", c.Cr, c.modes);
-  block(out, 11, "Me", c.Me, c.modes);
-  block(out, 11, "Gr", c.Gr, c.modes);
-  block(out, 11, "Ge", c.Ge, c.modes);
-  block(out, 11, "Oe", c.Oe, c.modes);
-  block(out, 11, "ksigma", c.ksigma, c.modes);
-  block(out, 11, "Ke", c.Ke, c.modes);
-  block(out, 11, "De", c.De, c.modes);
+  for (const auto& b : sid_modal_blocks) block(out, 11, b.name, c.*b.block, c.modes);
   fmt::format_to(std::back_inserter(out), "      end modal\n end part\n");
   return fmt::to_string(out);
 }
