@@ -7,7 +7,6 @@
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/json_text.hpp"
-#include "floatframe/formats/body_file/second_order_arrays.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
@@ -52,9 +51,8 @@ class Check {
       if (std::abs(f - header_.frequencies[k]) <= same_number * std::max(f, header_.frequencies[k]))
         continue;
       error(ErrorCode::contradiction,
-            fmt::format("found {:.6g} Hz for mode {}, but K and the modal "
-                        "mass S11 + S22 + S33 give {:.6g} Hz",
-                        header_.frequencies[k], k + 1, f));
+            "found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give {:.6g} Hz",
+            header_.frequencies[k], k + 1, f);
       break;
     }
     health(v);
@@ -72,9 +70,9 @@ class Check {
         const ModalNode& node = file_.part.body.nodes[k];
         if (point < 0 || point >= part.surface_positions.cols()) {
           error(ErrorCode::out_of_range,
-                fmt::format(
-                    "found the surface point {} for marker '{}', expected a number from 0 to {}",
-                    point, excerpt(node.name), part.surface_positions.cols() - 1));
+
+                "found the surface point {} for marker '{}', expected a number from 0 to {}", point,
+                excerpt(node.name), part.surface_positions.cols() - 1);
           return;
         }
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
@@ -93,9 +91,8 @@ class Check {
     const MassProperties& said = h.from_invariants;
     if (!(said.mass > 0.0)) return;  // no report
     if (h.modes != v.modes())
-      error(
-          ErrorCode::wrong_count,
-          fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
+      error(ErrorCode::wrong_count, "health: found {} modes, expected the {} of this file", h.modes,
+            v.modes());
     if (!(std::abs(v.m - said.mass) <= same_number * said.mass)) {
       arrays_.error(ErrorCode::contradiction, "m",
                     "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
@@ -152,8 +149,10 @@ class Check {
     }
   }
 
-  void error(ErrorCode code, const std::string& sentence) {
-    errors_.add(code, {name_, 0, 0}, "member 'header.json': " + sentence);
+  template <class... Args>
+  void error(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
+    errors_.add(code, {name_, 0, 0},
+                "member 'header.json': " + fmt::format(text, std::forward<Args>(args)...));
   }
 
   const BodyFile& file_;

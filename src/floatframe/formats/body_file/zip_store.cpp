@@ -70,16 +70,17 @@ class ArchiveReader {
       fail(ErrorCode::unsupported,
            "the archive is a zip64 archive, expected less than 4 GB and 65535 members");
     if (start > end || size > end - start || start + size != end)
-      fail(ErrorCode::damaged, fmt::format("the directory of the archive is damaged: found {} "
-                                           "bytes at {} of it, expected them to end at {}",
-                                           size, start, end));
+      fail(ErrorCode::damaged,
+           "the directory of the archive is damaged: found {} bytes at {} of it, expected them to "
+           "end at {}",
+           size, start, end);
     std::vector<ZipMember> out;
     std::set<std::string> names;
     std::size_t at = start;
     for (std::size_t k = 0; k < count; ++k) {
       out.push_back(member(at, end));
       if (!names.insert(out.back().name).second)
-        fail(ErrorCode::duplicate, "member '" + out.back().name + "': found twice, expected once");
+        fail(ErrorCode::duplicate, "member '{}': found twice, expected once", out.back().name);
     }
     if (at != end)
       fail(ErrorCode::contradiction,
@@ -88,8 +89,9 @@ class ArchiveReader {
   }
 
  private:
-  [[noreturn]] void fail(ErrorCode code, const std::string& sentence) const {
-    throw InputError(code, SourceMark{file_, 0, 0}, sentence);
+  template <class... Args>
+  [[noreturn]] void fail(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) const {
+    throw InputError(code, SourceMark{file_, 0, 0}, fmt::format(text, std::forward<Args>(args)...));
   }
   std::size_t u16(std::size_t at) const {
     return static_cast<unsigned char>(bytes_[at]) |
@@ -123,29 +125,26 @@ class ArchiveReader {
     m.name = std::string(bytes_.substr(at + entry_size, name_size));
     at += entry_size + rest;
     const std::string who = "member '" + m.name + "': ";
-    if (flags & 1u) fail(ErrorCode::unsupported, who + "is encrypted, expected plain bytes");
+    if (flags & 1u) fail(ErrorCode::unsupported, "{}is encrypted, expected plain bytes", who);
     if (method != 0)
-      fail(ErrorCode::unsupported,
-           fmt::format("{}is compressed (method {}), expected a stored member", who, method));
+      fail(ErrorCode::unsupported, "{}is compressed (method {}), expected a stored member", who,
+           method);
     if (packed != size)
-      fail(ErrorCode::damaged,
-           fmt::format("{}found {} stored bytes for a size of {}, expected as many", who, packed,
-                       size));
+      fail(ErrorCode::damaged, "{}found {} stored bytes for a size of {}, expected as many", who,
+           packed, size);
     if (local > end || end - local < local_size || u32(local) != local_mark)
-      fail(ErrorCode::damaged,
-           fmt::format("{}found no header at byte {}, expected one", who, local));
+      fail(ErrorCode::damaged, "{}found no header at byte {}, expected one", who, local);
     const std::size_t data = local + local_size + u16(local + 26) + u16(local + 28);
     if (u16(local + 26) != name_size || bytes_.substr(local + local_size, name_size) != m.name)
-      fail(ErrorCode::damaged, who + "found another name in its own header, expected the same");
+      fail(ErrorCode::damaged, "{}found another name in its own header, expected the same", who);
     if (data > end || size > end - data)
-      fail(ErrorCode::damaged, fmt::format("{}found {} bytes of {}: it is truncated", who,
-                                           data > end ? 0 : end - data, size));
+      fail(ErrorCode::damaged, "{}found {} bytes of {}: it is truncated", who,
+           data > end ? 0 : end - data, size);
     m.content = bytes_.substr(data, size);
     const std::uint32_t found = crc_of(m.content);
     if (found != crc)
       fail(ErrorCode::damaged,
-           fmt::format("{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who,
-                       found, crc));
+           "{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who, found, crc);
     return m;
   }
 
