@@ -22,67 +22,63 @@ SectionPlate plate(double y0, double y1, double z0, double z1) {
   return {0.5 * (y0 + y1), 0.5 * (z0 + z1), y1 - y0, z1 - z0};
 }
 
-/// W1, W2 of the flanges below and above, W3 overall depth, t1, t2 of the flanges, t3 of the web.
-BeamPlates ansys_i(const ShapeRow& d) {
-  return {plate(-d[0] / 2, d[0] / 2, 0, d[3]), plate(-d[5] / 2, d[5] / 2, d[3], d[2] - d[4]),
-          plate(-d[1] / 2, d[1] / 2, d[2] - d[4], d[2])};
-}
-
-/// The same, the web at the left.
-BeamPlates ansys_channel(const ShapeRow& d) {
-  return {plate(0, d[5], 0, d[2]), plate(d[5], d[0], 0, d[3]),
-          plate(d[5], d[1], d[2] - d[4], d[2])};
-}
-
-/// The same, the lower flange to the right, the upper one to the left of the web.
-BeamPlates ansys_z(const ShapeRow& d) {
-  return {plate(0, d[5], 0, d[2]), plate(d[5], d[0], 0, d[3]),
-          plate(d[5] - d[1], 0, d[2] - d[4], d[2])};
-}
-
-/// W1, W2 of the legs, t1, t2: the first to the right, the second up.
-BeamPlates ansys_l(const ShapeRow& d) {
-  return {plate(0, d[0], 0, d[2]), plate(0, d[3], d[2], d[1])};
-}
-
-/// W1 of the flange, W2 overall depth, t1 of the flange, t2 of the stem.
-BeamPlates ansys_t(const ShapeRow& d) {
-  return {plate(-d[0] / 2, d[0] / 2, 0, d[2]), plate(-d[3] / 2, d[3] / 2, d[2], d[1])};
-}
-
-/// W1, W2 outside, t1 to t4 of the walls at the left, at the right, below and above.
-BeamPlates ansys_box(const ShapeRow& d) {
-  return {plate(0, d[2], 0, d[1]), plate(d[0] - d[3], d[0], 0, d[1]),
-          plate(d[2], d[0] - d[3], 0, d[4]), plate(d[2], d[0] - d[3], d[1] - d[5], d[1])};
-}
-
-/// W1, W2 of the brims, W3 of the top, W4 overall depth, t1, t2 of the brims, t3 of the top, t4, t5
-/// of the webs.
-BeamPlates ansys_hat(const ShapeRow& d) {
-  return {plate(-d[0], 0, 0, d[4]), plate(d[2], d[2] + d[1], 0, d[5]),
-          plate(0, d[2], d[3] - d[6], d[3]), plate(0, d[7], 0, d[3] - d[6]),
-          plate(d[2] - d[8], d[2], 0, d[3] - d[6])};
-}
-
 struct PlateShape {
   const char* name;
   std::size_t dimensions;
   BeamPlates (*plates)(const ShapeRow&);
-  bool origin;         ///< it is known where the origin is: at 0, 0 of the plates
-  bool sides;          ///< and to which side the shape points
-  const char* remark;  ///< what is taken for granted
+  bool origin = false;           ///< it is known where the origin is: at 0, 0 of the plates
+  bool sides = true;             ///< and to which side the shape points
+  const char* remark = nullptr;  ///< what is taken for granted
 };
 
-constexpr PlateShape plate_shapes[] = {
-    {"I", 6, ansys_i, true, true, nullptr},
-    {"HREC", 6, ansys_box, true, true, nullptr},
-    {"CHAN", 6, ansys_channel, false, true, nullptr},
-    {"L", 4, ansys_l, false, true, nullptr},
-    {"T", 4, ansys_t, false, false, nullptr},
-    {"Z", 6, ansys_z, false, true,
-     "its lower flange is taken to point to +y and the upper one to -y"},
-    {"HATS", 9, ansys_hat, false, true,
-     "its brims are taken to begin at the outer sides of the webs"},
+const PlateShape plate_shapes[] = {
+    // W1, W2 of the flanges below and above, W3 overall depth, t1, t2 of these, t3 of the web.
+    {"I", 6,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(-d[0] / 2, d[0] / 2, 0, d[3]), plate(-d[5] / 2, d[5] / 2, d[3], d[2] - d[4]),
+               plate(-d[1] / 2, d[1] / 2, d[2] - d[4], d[2])};
+     },
+     true},
+    // W1, W2 outside, t1 to t4 of the walls at the left, at the right, below and above.
+    {"HREC", 6,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(0, d[2], 0, d[1]), plate(d[0] - d[3], d[0], 0, d[1]),
+               plate(d[2], d[0] - d[3], 0, d[4]), plate(d[2], d[0] - d[3], d[1] - d[5], d[1])};
+     },
+     true},
+    // As I, the web at the left.
+    {"CHAN", 6,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(0, d[5], 0, d[2]), plate(d[5], d[0], 0, d[3]),
+               plate(d[5], d[1], d[2] - d[4], d[2])};
+     }},
+    // W1, W2 of the legs, t1, t2: the first to the right, the second up.
+    {"L", 4,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(0, d[0], 0, d[2]), plate(0, d[3], d[2], d[1])};
+     }},
+    // W1 of the flange, W2 overall depth, t1 of the flange, t2 of the stem.
+    {"T", 4,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(-d[0] / 2, d[0] / 2, 0, d[2]), plate(-d[3] / 2, d[3] / 2, d[2], d[1])};
+     },
+     false, false},
+    // As I, the lower flange to the right, the upper one to the left of the web.
+    {"Z", 6,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(0, d[5], 0, d[2]), plate(d[5], d[0], 0, d[3]),
+               plate(d[5] - d[1], 0, d[2] - d[4], d[2])};
+     },
+     false, true, "its lower flange is taken to point to +y and the upper one to -y"},
+    // W1, W2 of the brims, W3 of the top, W4 overall depth, t1, t2 of the brims, t3 of the top, t4,
+    // t5 of the webs.
+    {"HATS", 9,
+     [](const ShapeRow& d) -> BeamPlates {
+       return {plate(-d[0], 0, 0, d[4]), plate(d[2], d[2] + d[1], 0, d[5]),
+               plate(0, d[2], d[3] - d[6], d[3]), plate(0, d[7], 0, d[3] - d[6]),
+               plate(d[2] - d[8], d[2], 0, d[3] - d[6])};
+     },
+     false, true, "its brims are taken to begin at the outer sides of the webs"},
 };
 
 class BeamShape {

@@ -64,7 +64,6 @@ struct AnsysBuild {
   void report_shared();
   /// An error of what many elements have; equal ones are one.
   bool error_once(ErrorCode code, const FeSource& at, const std::string& text);
-  void note(const FeSource& at, const std::string& text);
   /// Each also with a text of fmt and its values.
   template <class... Args>
   bool error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
@@ -83,12 +82,12 @@ struct AnsysBuild {
   }
   template <class... Args>
   void note(const FeSource& at, fmt::format_string<Args...> text, Args&&... args) {
-    note(at, fmt::format(text, std::forward<Args>(args)...));
+    source.note(model, at, text, std::forward<Args>(args)...);
   }
   /// Of the whole file.
   template <class... Args>
   void file_note(fmt::format_string<Args...> text, Args&&... args) {
-    note({0, 0}, fmt::format(text, std::forward<Args>(args)...));
+    source.note(model, {0, 0}, text, std::forward<Args>(args)...);
   }
 
   std::map<std::pair<int, double>, int> materials = {};
@@ -118,8 +117,6 @@ void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType
 bool ansys_has_layers(const AnsysBuild& build, const AnsysElement& e, const AnsysType& type);
 bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                         Element& element);
-bool build_ansys_line(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
-                      const std::vector<int>& nodes, Element& element);
 /// BEAM and PIPE sections; none with an error.
 std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSection& section,
                                             const AnsysElement& e);

@@ -191,7 +191,7 @@ class ContactBuilder {
     if (!done.free.empty())
       text += fmt::format("; not tied: {}{}", b_.model.node_label(done.free.front()),
                           done.free.size() > 1 ? ", ..." : "");
-    b_.note(p.at, text);
+    b_.note(p.at, "{}", text);
   }
 
   std::vector<ElementFace> faces_of(const ContactPair& p) {

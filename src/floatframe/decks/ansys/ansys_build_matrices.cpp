@@ -3,8 +3,6 @@
 //   K = c c^T/k + rest,
 // so a spring of stiffness k along c/k is a part of it, and the rest has one pivot less. The
 // displacements come first: what is left then is of rotations alone.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -37,10 +35,10 @@ class AnsysMatrix {
     }
     const bool mass = type.keyopt[3] == 2;
     if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
-      return b_.shared_error(ErrorCode::unsupported, e_,
-                             "KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
-                             "stiffness (0, 4) or mass (0, 2)",
-                             type.keyopt[2], type.keyopt[3]);
+      return b_.shared_error(
+          ErrorCode::unsupported, e_,
+          "KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric stiffness (0, 4) or mass (0, 2)",
+          type.keyopt[2], type.keyopt[3]);
     for (std::size_t k = matrix_constants; k < real->values.size(); ++k)
       if (real->values[k] != 0.0)
         return b_.error_once(
@@ -51,8 +49,8 @@ class AnsysMatrix {
     for (std::size_t k = 0; k < real->values.size(); ++k)
       if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
         return b_.error_once(ErrorCode::not_finite, real->at,
-                             "real constants {}: constant {} is {:g}, expected a "
-                             "number whose square does not overflow",
+                             "real constants {}: constant {} is {:g}, expected a number whose "
+                             "square does not overflow",
                              e_.real, k + 1, x);
     if (nodes.size() < 2 || nodes[0] < 0 || nodes[1] < 0 || nodes[0] == nodes[1])
       return b_.error(ErrorCode::missing, e_, "it has no two different nodes");

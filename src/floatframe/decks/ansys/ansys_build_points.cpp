@@ -14,78 +14,72 @@ namespace {
 
 using F = AnsysFamily;
 
-/// Calls what is given with every element of a family, its type and nodes.
+/// An element with its type and nodes.
+struct AnsysItem {
+  const AnsysElement& e;
+  const AnsysType& type;
+  const std::vector<int>& nodes;
+};
+
+/// Calls what is given with every element of a family.
 template <typename Use>
 void each(AnsysBuild& b, F family, Use use) {
   std::vector<int> nodes;
   for (const AnsysElement& e : b.content.elements) {
     const auto [type, library] = b.known(e);
     if (library != nullptr && library->family == family && b.nodes_of(e, nodes))
-      use(e, *type, nodes);
+      use(AnsysItem{e, *type, nodes});
   }
+}
+
+/// Sets the directions along the line of its nodes.
+bool along_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Spring& s) {
+  if (type.keyopt[3] != 0 && type.keyopt[3] != 1)
+    return b.shared_error(ErrorCode::unsupported, e,
+                          "KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]);
+  if (s.nodes[1] < 0)
+    return b.error(ErrorCode::incomplete, e, "it has one node, and no direction (KEYOPT(2))");
+  const Vec3 d = b.model.positions[s.nodes[1]] - b.model.positions[s.nodes[0]];
+  if (!(d.norm() > 0.0))
+    return b.error(ErrorCode::geometry, e,
+                   "its nodes are at one place, and it has no direction (KEYOPT(2))");
+  const int first = type.keyopt[3] == 1 ? 3 : 0;
+  s.directions[0].segment<3>(first) = -d.normalized();
+  s.directions[1].segment<3>(first) = d.normalized();
+  return true;
 }
 
 /// COMBIN14: KEYOPT(2) = 0 along the line of its nodes (KEYOPT(3) = 1: a torsion spring about it),
 /// 1 to 6 a direction of its nodes.
-class AnsysSprings {
- public:
-  explicit AnsysSprings(AnsysBuild& build) : b_(build) {}
-
-  bool one(const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
-    const AnsysReal* real = b_.needed_real(e);
-    if (real == nullptr) return false;
-    if (real->value(1) != 0.0 || real->value(2) != 0.0) ++dampers_;
-    Spring s;
-    s.stiffness = real->value(0);
-    if (s.stiffness == 0.0) return true;
-    if (s.stiffness < 0.0)
-      return b_.shared_error(ErrorCode::out_of_range, e,
-                             "its stiffness is {:g}, expected none below 0", s.stiffness);
-    s.name = b_.label(e);
-    s.source = e.at;
-    if (nodes.empty() || nodes[0] < 0) return b_.error(ErrorCode::missing, e, "it has no node");
-    s.nodes = {nodes[0], nodes.size() > 1 ? nodes[1] : -1};
-    const int direction = type.keyopt[2];
-    if (direction < 0 || direction > 6 || type.keyopt[1] != 0)
-      return b_.shared_error(
-          ErrorCode::unsupported, e,
-          "KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring of its line or of UX to ROTZ",
-          type.keyopt[1], direction);
-    if (direction == 0 && !along(e, type, s)) return false;
-    for (int end = 0; end < 2 && direction > 0; ++end)
-      if (s.nodes[end] >= 0)
-        s.directions[end].segment<3>(direction > 3 ? 3 : 0) =
-            (end == 0 ? -1.0 : 1.0) * b_.nodal_axes(s.nodes[end]).col((direction - 1) % 3);
-    b_.model.springs.push_back(std::move(s));
-    return true;
-  }
-
-  void notes() {
-    if (dampers_ > 0)
-      b_.file_note("the damping of {} COMBIN14 is ignored, the part has modal damping (--damping)",
-                   dampers_);
-  }
-
- private:
-  bool along(const AnsysElement& e, const AnsysType& type, Spring& s) {
-    if (type.keyopt[3] != 0 && type.keyopt[3] != 1)
-      return b_.shared_error(ErrorCode::unsupported, e,
-                             "KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]);
-    if (s.nodes[1] < 0)
-      return b_.error(ErrorCode::incomplete, e, "it has one node, and no direction (KEYOPT(2))");
-    const Vec3 d = b_.model.positions[s.nodes[1]] - b_.model.positions[s.nodes[0]];
-    if (!(d.norm() > 0.0))
-      return b_.error(ErrorCode::geometry, e,
-                      "its nodes are at one place, and it has no direction (KEYOPT(2))");
-    const int first = type.keyopt[3] == 1 ? 3 : 0;
-    s.directions[0].segment<3>(first) = -d.normalized();
-    s.directions[1].segment<3>(first) = d.normalized();
-    return true;
-  }
-
-  AnsysBuild& b_;
-  int dampers_ = 0;
-};
+bool add_spring(AnsysBuild& b, const AnsysItem& item, int& dampers) {
+  const auto& [e, type, nodes] = item;
+  const AnsysReal* real = b.needed_real(e);
+  if (real == nullptr) return false;
+  if (real->value(1) != 0.0 || real->value(2) != 0.0) ++dampers;
+  Spring s;
+  s.stiffness = real->value(0);
+  if (s.stiffness == 0.0) return true;
+  if (s.stiffness < 0.0)
+    return b.shared_error(ErrorCode::out_of_range, e,
+                          "its stiffness is {:g}, expected none below 0", s.stiffness);
+  s.name = b.label(e);
+  s.source = e.at;
+  if (nodes.empty() || nodes[0] < 0) return b.error(ErrorCode::missing, e, "it has no node");
+  s.nodes = {nodes[0], nodes.size() > 1 ? nodes[1] : -1};
+  const int direction = type.keyopt[2];
+  if (direction < 0 || direction > 6 || type.keyopt[1] != 0)
+    return b.shared_error(
+        ErrorCode::unsupported, e,
+        "KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring of its line or of UX to ROTZ",
+        type.keyopt[1], direction);
+  if (direction == 0 && !along_line(b, e, type, s)) return false;
+  for (int end = 0; end < 2 && direction > 0; ++end)
+    if (s.nodes[end] >= 0)
+      s.directions[end].segment<3>(direction > 3 ? 3 : 0) =
+          (end == 0 ? -1.0 : 1.0) * b.nodal_axes(s.nodes[end]).col((direction - 1) % 3);
+  b.model.springs.push_back(std::move(s));
+  return true;
+}
 
 /// Nodes joined by rigid beams move as one body: a spider of each connected set.
 class RigidBodies {
@@ -127,8 +121,8 @@ class RigidBodies {
 };
 
 /// MASS21: KEYOPT(3) = 0 masses of the three directions, then moments of inertia; 2 a mass.
-bool add_point_mass(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
-                    const std::vector<int>& n) {
+bool add_point_mass(AnsysBuild& b, const AnsysItem& item) {
+  const auto& [e, type, n] = item;
   const AnsysReal* real = b.needed_real(e);
   if (real == nullptr) return false;
   if (n.empty() || n[0] < 0) return b.error(ErrorCode::missing, e, "it has no node");
@@ -172,8 +166,8 @@ bool add_point_mass(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
 }
 
 /// KEYOPT(1) of MPC184: 0 a rigid link, of which only the length is kept, 1 a rigid beam.
-bool add_rigid(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
-               const std::vector<int>& n, RigidBodies& bodies) {
+bool add_rigid(AnsysBuild& b, const AnsysItem& item, RigidBodies& bodies) {
+  const auto& [e, type, n] = item;
   if (type.keyopt[1] > 1)
     return b.shared_error(ErrorCode::unsupported, e,
                           "KEYOPT(1) = {}: joints are not read, they are joints of the model; "
@@ -200,27 +194,25 @@ bool add_rigid(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
 
 /// MATRIX27, those of mass or all others.
 void build_matrices(AnsysBuild& b, bool of_mass) {
-  each(b, F::matrix, [&](const AnsysElement& e, const AnsysType& type, const auto& nodes) {
-    if ((type.keyopt[3] == 2) == of_mass) build_ansys_matrix(b, e, type, nodes);
+  each(b, F::matrix, [&](const AnsysItem& i) {
+    if ((i.type.keyopt[3] == 2) == of_mass) build_ansys_matrix(b, i.e, i.type, i.nodes);
   });
 }
 
 }  // namespace
 
 void build_ansys_springs(AnsysBuild& b) {
-  AnsysSprings springs(b);
-  each(b, F::spring, [&](const AnsysElement& e, const AnsysType& type, const auto& nodes) {
-    springs.one(e, type, nodes);
-  });
-  springs.notes();
+  int dampers = 0;
+  each(b, F::spring, [&](const AnsysItem& i) { add_spring(b, i, dampers); });
+  if (dampers > 0)
+    b.file_note("the damping of {} COMBIN14 is ignored, the part has modal damping (--damping)",
+                dampers);
   build_matrices(b, false);
 }
 
 void build_ansys_rigid(AnsysBuild& b) {
   RigidBodies bodies(b.model.nodes());
-  each(b, F::rigid, [&](const AnsysElement& e, const AnsysType& type, const auto& nodes) {
-    add_rigid(b, e, type, nodes, bodies);
-  });
+  each(b, F::rigid, [&](const AnsysItem& i) { add_rigid(b, i, bodies); });
   bodies.add_to(b.model);
   std::map<std::pair<int, unsigned>, std::size_t> regions;
   for (const AnsysRigid& r : b.content.rigid) {
@@ -256,9 +248,7 @@ bool add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
 
 void build_ansys_masses(AnsysBuild& b) {
   b.rotates = b.nodes_with_rotations();
-  each(b, F::mass, [&](const AnsysElement& e, const AnsysType& type, const auto& nodes) {
-    add_point_mass(b, e, type, nodes);
-  });
+  each(b, F::mass, [&](const AnsysItem& i) { add_point_mass(b, i); });
   build_matrices(b, true);
 }
 

@@ -63,8 +63,9 @@ void check_target_shape(AnsysFields& f, AnsysContent&) {
 }
 
 void note_units(AnsysFields& f, AnsysContent& c) {
-  f.note(c.model, "the file says that its units are {}; the units given with the file are taken",
-         shown(f.text(1)));
+  f.source().note(c.model, f.at(),
+                  "the file says that its units are {}; the units given with the file are taken",
+                  shown(f.text(1)));
 }
 
 void end_of_file(AnsysFields&, AnsysContent& c) { c.ended = true; }
@@ -94,53 +95,29 @@ constexpr AnsysCommand session_commands[] = {
 };
 
 /// Loads, solutions, files, pictures: ignored without a word.
-constexpr std::array ansys_silent = {
-    "/PREP7",     "/NOPR",     "/GOPR",    "/GO",     "/TITLE",     "/SOLU",      "/SOL",
-    "/POST1",     "/POST26",   "/BATCH",   "/CONFIG", "/SHOW",      "/OUTPUT",    "/STITLE",
-    "/NERR",      "/GST",      "/FILNAME", "/CLEAR",  "/WB",        "/VIEW",      "/ESHAPE",
-    "/COLOR",     "/PBC",      "/PNUM",    "/REPLOT", "/NUMBER",    "/AUX15",     "/DEVICE",
-    "/GRAPHICS",  "/EXIT",     "/DELETE",  "/UIS",    "FINISH",     "NUMOFF",     "DOF",
-    "CSCIR",      "CMGRP",     "CMSEL",    "ALLSEL",  "EXTOPT",     "SHPP",       "CHECK",
-    "SAVE",       "TBPT",      "TBEO",     "FC",      "ANTYPE",     "MODOPT",     "MXPAND",
-    "EMUNIT",     "TOFFST",    "STEF",     "TRNOPT",  "THOPT",      "DMPOPT",     "EQSLV",
-    "HROPT",      "BUCOPT",    "LVSCALE",  "MSAVE",   "SOLVE",      "NLGEOM",     "PSTRES",
-    "SSTIF",      "OUTPR",     "OUTRES",   "ERESX",   "TREF",       "TUNIF",      "BFUNIF",
-    "IRLF",       "ACEL",      "OMEGA",    "DOMEGA",  "CGLOC",      "CGOMGA",     "DCGOMG",
-    "CMOMEGA",    "KUSE",      "TIME",     "ALPHAD",  "BETAD",      "DMPRAT",     "DMPSTR",
-    "CRPLIM",     "NCNV",      "NEQIT",    "AUTOTS",  "KBC",        "DELTIM",     "NSUBST",
-    "CNVTOL",     "LNSRCH",    "PRED",     "TIMINT",  "TINTP",      "NROPT",      "RATE",
-    "RESCONTROL", "F",         "SF",       "SFE",     "BF",         "BFE",        "FDELE",
-    "DDELE",      "LSWRITE",   "LSCLEAR",  "NSEL",    "ESEL",       "NSLE",       "ESLN",
-    "SHSD",       "PRNSOL",    "SET",      "EPLOT",   "NPLOT",      "STAOPT",     "SBCLIM",
-    "BCSOPTION",  "DSPOPTION", "NLDIAG",   "RSTOFF",  "OPNCONTROL", "CUTCONTROL", "MONITOR",
-    "SOLCONTROL", "GRP",       "SPOPT",    "CINT",    "GAUGE",      "IC",         "_CDRDOFF",
-    "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TALLOW",     "DMP",        "ETCONTROL",
-    "WPSTYLE",    "WPCSYS",    "MPAMOD",   "/NOLIST", "/GOLIST",    "/AUTO",      "/DIST",
-    "/ANGLE",     "/TYPE",     "/FOCUS",   "/LINE",   "/RGB",       "/TRIAD",     "/PLOPTS",
-    "/EDGE",      "/INQUIRE",  "/XML",     "/STATUS", "/HEADER",    "/PAGE",      "/FORMAT",
-    "*ABSET",     "*ABCHECK",  "*ABFINI",  "KEYW",    "TBLIST",     "MPLIST",     "ETLIST",
-    "NLIST",      "ELIST",     "CM",       "*CFOPEN", "*CFCLOS",    "*DEL",       "SLIST",
-};
+constexpr std::string_view ansys_silent =
+    "/PREP7 /NOPR /GOPR /GO /TITLE /SOLU /SOL /POST1 /POST26 /BATCH /CONFIG /SHOW /OUTPUT /STITLE "
+    "/NERR /GST /FILNAME /CLEAR /WB /VIEW /ESHAPE /COLOR /PBC /PNUM /REPLOT /NUMBER /AUX15 /DEVICE "
+    "/GRAPHICS /EXIT /DELETE /UIS FINISH NUMOFF DOF CSCIR CMGRP CMSEL ALLSEL EXTOPT SHPP CHECK "
+    "SAVE TBPT TBEO FC ANTYPE MODOPT MXPAND EMUNIT TOFFST STEF TRNOPT THOPT DMPOPT EQSLV HROPT "
+    "BUCOPT LVSCALE MSAVE SOLVE NLGEOM PSTRES SSTIF OUTPR OUTRES ERESX TREF TUNIF BFUNIF IRLF ACEL "
+    "OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA KUSE TIME ALPHAD BETAD DMPRAT DMPSTR CRPLIM NCNV "
+    "NEQIT AUTOTS KBC DELTIM NSUBST CNVTOL LNSRCH PRED TIMINT TINTP NROPT RATE RESCONTROL F SF SFE "
+    "BF BFE FDELE DDELE LSWRITE LSCLEAR NSEL ESEL NSLE ESLN SHSD PRNSOL SET EPLOT NPLOT STAOPT "
+    "SBCLIM BCSOPTION DSPOPTION NLDIAG RSTOFF OPNCONTROL CUTCONTROL MONITOR SOLCONTROL GRP SPOPT "
+    "CINT GAUGE IC _CDRDOFF _BUTTON _RETURN *DIM *STATUS TALLOW DMP ETCONTROL WPSTYLE WPCSYS "
+    "MPAMOD /NOLIST /GOLIST /AUTO /DIST /ANGLE /TYPE /FOCUS /LINE /RGB /TRIAD /PLOPTS /EDGE "
+    "/INQUIRE /XML /STATUS /HEADER /PAGE /FORMAT *ABSET *ABCHECK *ABFINI KEYW TBLIST MPLIST ETLIST "
+    "NLIST ELIST CM *CFOPEN *CFCLOS *DEL SLIST";
 
-constexpr const char* no_geometry = "geometry is not meshed here: write the mesh with CDWRITE";
-constexpr const char* no_generation = "generated nodes are not read: write the model with CDWRITE";
-
-/// What to do instead, of commands that are met in decks of a session.
-constexpr std::pair<const char*, const char*> ansys_refused[] = {
+/// What to do instead, of commands (words between blanks) that are met in decks of a session.
+constexpr std::pair<std::string_view, const char*> ansys_refused[] = {
     {"*DO", "loops are not read: write the model with CDWRITE"},
     {"PSMESH", "take the cut and its tension out of the model"},
     {"*USE", "macros are not read: write the model with CDWRITE"},
     {"/INPUT", "further files are not read: write the model with CDWRITE"},
-    {"K", no_geometry},
-    {"L", no_geometry},
-    {"A", no_geometry},
-    {"V", no_geometry},
-    {"BLOCK", no_geometry},
-    {"VMESH", no_geometry},
-    {"AMESH", no_geometry},
-    {"LMESH", no_geometry},
-    {"NGEN", no_generation},
-    {"FILL", no_generation},
+    {"K L A V BLOCK VMESH AMESH LMESH", "geometry is not meshed here: write the mesh with CDWRITE"},
+    {"NGEN FILL", "generated nodes are not read: write the model with CDWRITE"},
     {"EGEN", "generated elements are not read: write the model with CDWRITE"},
     {"RBE3", "it takes arrays of the session: write the model with CDWRITE, which has it as CE"},
     {"CEINTF", "it takes the selection of the session: write the model with CDWRITE"},
@@ -155,60 +132,49 @@ constexpr std::pair<const char*, const char*> ansys_refused[] = {
 };
 
 /// Silent ones that need not be told.
-constexpr std::array ansys_untold = {"FINISH", "NUMOFF", "DOF",    "CSCIR",   "CMGRP",
-                                     "CMSEL",  "ALLSEL", "EXTOPT", "SHPP",    "CHECK",
-                                     "SAVE",   "GRP",    "*DIM",   "_BUTTON", "_RETURN"};
+constexpr std::string_view ansys_untold =
+    "FINISH NUMOFF DOF CSCIR CMGRP CMSEL ALLSEL EXTOPT SHPP CHECK SAVE GRP *DIM _BUTTON _RETURN";
 
-class AnsysReader {
- public:
-  explicit AnsysReader(TextSource& source) : f_(source) {}
+/// `names`: words between blanks.
+bool is_ansys_word(const AnsysFields& f, std::string_view names) {
+  for (auto name = next_word(names); !name.empty(); name = next_word(names))
+    if (f.is(name)) return true;
+  return false;
+}
 
-  AnsysContent read() {
-    while (!c_.ended && f_.next()) one();
-    return std::move(c_);
+void read_command(AnsysFields& f, AnsysContent& c) {
+  const std::string& word = f.command();
+  if (c.branch > 0 && word != "*ELSE" && word != "*ENDIF") return;
+  // NAME=value; a text or an expression is kept as unknown, an error where it is used.
+  if (const std::size_t sign = word.find('='); sign != std::string::npos)
+    return f.set_parameter(f.line().substr(0, sign),
+                           parse_real(trimmed(std::string_view(f.line()).substr(sign + 1))));
+  for (const auto& commands :
+       {ansys_mesh_commands(), ansys_property_commands(), ansys_material_commands(),
+        ansys_constraint_commands(), std::span<const AnsysCommand>(session_commands)})
+    for (const AnsysCommand& command : commands)
+      if (f.is(command.name)) return command.read(f, c);
+  for (const auto& [names, advice] : ansys_refused)
+    if (is_ansys_word(f, names)) f.stop(ErrorCode::unsupported, "{}: {}", word, advice);
+  if (is_ansys_word(f, ansys_silent)) {
+    if (word.front() != '/' && !is_ansys_word(f, ansys_untold))
+      c.passed_over.try_emplace(word, f.at());
+    return;
   }
-
- private:
-  void one() {
-    const std::string& word = f_.command();
-    if (c_.branch > 0 && word != "*ELSE" && word != "*ENDIF") return;
-    if (const std::size_t sign = word.find('='); sign != std::string::npos) return assignment(sign);
-    for (const auto& commands :
-         {ansys_mesh_commands(), ansys_property_commands(), ansys_material_commands(),
-          ansys_constraint_commands(), std::span<const AnsysCommand>(session_commands)})
-      for (const AnsysCommand& command : commands)
-        if (f_.is(command.name)) return command.read(f_, c_);
-    for (const auto& [name, advice] : ansys_refused)
-      if (f_.is(name)) f_.stop(ErrorCode::unsupported, "{}: {}", word, advice);
-    if (is_one_of(ansys_silent)) {
-      if (word.front() != '/' && !is_one_of(ansys_untold))
-        c_.passed_over.try_emplace(word, f_.at());
-      return;
-    }
-    if (word == "-1") return;  // the end of a block whose count came first
-    f_.stop(ErrorCode::unknown_key,
-            "{} is not known: whether it changes stiffness or mass is not clear; remove it from "
-            "the file if it does not",
-            shown(f_.text(0)));
-  }
-
-  template <class List>
-  bool is_one_of(const List& names) const {
-    return std::any_of(names.begin(), names.end(), [&](const char* name) { return f_.is(name); });
-  }
-
-  /// NAME=value; a text or an expression is kept as unknown, an error where it is used.
-  void assignment(std::size_t sign) {
-    const std::string& line = f_.line();
-    f_.set_parameter(line.substr(0, sign), parse_real(trimmed(line.substr(sign + 1))));
-  }
-
-  AnsysFields f_;
-  AnsysContent c_;
-};
+  if (word == "-1") return;  // the end of a block whose count came first
+  f.stop(ErrorCode::unknown_key,
+         "{} is not known: whether it changes stiffness or mass is not clear; remove it from the "
+         "file if it does not",
+         shown(f.text(0)));
+}
 
 }  // namespace
 
-AnsysContent read_ansys_content(TextSource& source) { return AnsysReader(source).read(); }
+AnsysContent read_ansys_content(TextSource& source) {
+  AnsysFields f(source);
+  AnsysContent c;
+  while (!c.ended && f.next()) read_command(f, c);
+  return c;
+}
 
 }  // namespace floatframe

@@ -81,7 +81,6 @@ double AnsysFields::real(std::size_t k, const char* what, double missing) {
   const auto value = number(k);
   if (!value)
     stop(ErrorCode::unsupported,
-
          "{}: {}: {}; expressions and parameters that no *SET gives as a number are not read",
          command_, what, not_a_real(text(k)));
   return *value;
@@ -120,9 +119,8 @@ FortranColumns AnsysFields::columns() {
                  command_);
   const auto format = parse_fortran_columns(line);
   if (!format)
-    source_.stop(ErrorCode::wrong_value, source_.here(),
-                 "{}: a format like (3i9,6e21.13e3) is expected, found {}", command_,
-                 shown(trimmed(line)));
+    source_.stop(ErrorCode::wrong_value, "{}: a format like (3i9,6e21.13e3) is expected, found {}",
+                 command_, shown(trimmed(line)));
   return *format;
 }
 
@@ -136,7 +134,7 @@ bool AnsysFields::block_line(std::string_view& line) {
   }
   if (command_ == "NBLOCK" || command_ == "EBLOCK")
     source_.stop(
-        ErrorCode::damaged, source_.here(),
+        ErrorCode::damaged,
         "the file ends within {}, which begins in line {} and ends with -1: it is cut short",
         command_, at_.line);
   return false;
@@ -148,7 +146,7 @@ bool AnsysFields::row(const FortranColumns& format) {
   cells_.clear();
   if (trimmed(line) == "-1") return false;
   if (!format.split(line, cells_).empty())
-    source_.stop(ErrorCode::wrong_count, source_.here(),
+    source_.stop(ErrorCode::wrong_count,
                  "{}: the line is longer than its format, which has {} columns", command_,
                  format.columns.size());
   while (!cells_.empty() && cells_.back().empty()) cells_.pop_back();
@@ -169,22 +167,22 @@ void AnsysFields::skip_block() {
   }
 }
 
-int AnsysFields::cell_integer(std::size_t k, const char* what) {
+template <class Value>
+Value AnsysFields::cell(std::size_t k, const char* what,
+                        std::optional<Value> (*parse)(std::string_view),
+                        std::string (*wrong)(std::string_view)) {
   if (k >= cells_.size() || cells_[k].empty()) return 0;
-  const auto value = parse_integer(cells_[k]);
-  if (!value)
-    source_.stop(ErrorCode::not_a_number, source_.here(), "{}: {}: {}", command_, what,
-                 not_an_integer(cells_[k]));
+  const auto value = parse(cells_[k]);
+  if (!value) source_.stop(ErrorCode::not_a_number, "{}: {}: {}", command_, what, wrong(cells_[k]));
   return *value;
 }
 
+int AnsysFields::cell_integer(std::size_t k, const char* what) {
+  return cell<int>(k, what, parse_integer, not_an_integer);
+}
+
 double AnsysFields::cell_real(std::size_t k, const char* what) {
-  if (k >= cells_.size() || cells_[k].empty()) return 0.0;
-  const auto value = parse_real(cells_[k]);
-  if (!value)
-    source_.stop(ErrorCode::not_a_number, source_.here(), "{}: {}: {}", command_, what,
-                 not_a_real(cells_[k]));
-  return *value;
+  return cell<double>(k, what, parse_real, not_a_real);
 }
 
 void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<int>& out) {
@@ -193,10 +191,6 @@ void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<
 
 void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<double>& out) {
   for (std::size_t k = first; k < cells(); ++k) out.push_back(cell_real(k, what));
-}
-
-void AnsysFields::add_note(FeModel& model, const std::string& text) const {
-  model.notes.push_back(source_.mark(at_).before(text));
 }
 
 void AnsysFields::stop(ErrorCode code, const std::string& message) {

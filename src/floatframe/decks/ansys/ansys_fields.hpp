@@ -71,11 +71,6 @@ class AnsysFields {
   void append_cells(std::size_t first, const char* what, std::vector<int>& out);
   void append_cells(std::size_t first, const char* what, std::vector<double>& out);
 
-  /// A note at the command.
-  template <class... Args>
-  void note(FeModel& model, fmt::format_string<Args...> text, Args&&... args) const {
-    add_note(model, fmt::format(text, std::forward<Args>(args)...));
-  }
   [[noreturn]] void stop(ErrorCode code, const std::string& message);
   template <class First, class... Rest>
   [[noreturn]] void stop(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
@@ -84,8 +79,10 @@ class AnsysFields {
   }
 
  private:
-  void add_note(FeModel& model, const std::string& text) const;
   bool block_line(std::string_view& line);
+  template <class Value>
+  Value cell(std::size_t k, const char* what, std::optional<Value> (*parse)(std::string_view),
+             std::string (*wrong)(std::string_view));
   void split(std::string_view command);
 
   TextSource& source_;

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
 #include "floatframe/decks/temperature_table.hpp"
@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t most_temperatures = 100;
 
 /// Labels that the part needs.
-constexpr std::array needed_labels = {"EX",   "EY",   "EZ",  "PRXY", "PRYZ", "PRXZ", "NUXY",
-                                      "NUYZ", "NUXZ", "GXY", "GYZ",  "GXZ",  "DENS"};
+constexpr std::string_view needed_labels =
+    "EX EY EZ PRXY PRYZ PRXZ NUXY NUYZ NUXZ GXY GYZ GXZ DENS";
 
 AnsysMaterial& open_ansys_material(AnsysFields& f, AnsysContent& c, int id) {
   AnsysMaterial& m = c.materials[id];
@@ -28,15 +28,17 @@ AnsysMaterial& open_ansys_material(AnsysFields& f, AnsysContent& c, int id) {
 
 /// Tables of TB that change nothing of the linear part, and those that stand beside elastic
 /// constants: the part is linear with these.
-constexpr std::array harmless_tables = {"UVID", "PARA", "FCON", "FLIM", "CTE",  "THER",
-                                        "SPEC", "FRIC", "PELE", "CGCR", "FATI", "ACP"};
-constexpr std::array linear_beside = {"BISO", "MISO", "BKIN", "MKIN", "KINH", "NLIS", "CHAB",
-                                      "PLAS", "CREE", "PRON", "RATE", "CONC", "DP",   "EDP",
-                                      "SDAM", "DMGI", "DMGE", "SHIF", "VISC", "HILL", "GURS"};
+constexpr std::string_view harmless_tables =
+    "UVID PARA FCON FLIM CTE THER SPEC FRIC PELE CGCR FATI ACP";
+constexpr std::string_view linear_beside =
+    "BISO MISO BKIN MKIN KINH NLIS CHAB PLAS CREE PRON RATE CONC DP EDP SDAM DMGI DMGE SHIF VISC "
+    "HILL GURS";
 
-template <typename List>
-bool holds(const List& list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
+/// `list`: words between blanks.
+bool holds(std::string_view list, std::string_view word) {
+  for (auto entry = next_word(list); !entry.empty(); entry = next_word(list))
+    if (entry == word) return true;
+  return false;
 }
 
 class AnsysElastic {
@@ -84,8 +86,10 @@ class AnsysElastic {
     if (!found.error.empty()) {
       error(ErrorCode::wrong_value, "its {} {}", label, found.error);
     } else if (found.chosen && temperatures_noted_++ == 0) {
-      note("is taken at the temperature {:g} (its table of {} goes from {:g} to {:g})",
-           *temperature_, label, table->front().first, table->back().first);
+      source_.note(
+          content_.model, m_.at,
+          "material {} is taken at the temperature {:g} (its table of {} goes from {:g} to {:g})",
+          id_, *temperature_, label, table->front().first, table->back().first);
     }
     return x;
   }
@@ -96,15 +100,15 @@ class AnsysElastic {
       const auto mp = at(m_.values, by_mp), tb = at(m_.tables, by_tb);
       if (mp && tb && *mp != *tb)
         error(ErrorCode::exclusive,
-
               "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the file", by_mp,
               *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC");
     };
     compare("DENS", "DENS");
     const bool isotropic = m_.tables.contains("EX"), any = !m_.anisotropic.empty();
     if (any && m_.find("EX") != nullptr)
-      note("has TB,ANEL, which is taken, and EX by {}, which is not",
-           isotropic ? "TB,ELASTIC" : "MP");
+      source_.note(content_.model, m_.at,
+                   "material {} has TB,ANEL, which is taken, and EX by {}, which is not", id_,
+                   isotropic ? "TB,ELASTIC" : "MP");
     if (any || !isotropic) return;
     compare("EX", "EX");
     compare("PRXY", "PRXY");
@@ -118,16 +122,9 @@ class AnsysElastic {
   }
 
   template <class... Args>
-  void note(fmt::format_string<Args...> text, Args&&... args) {
-    content_.model.notes.push_back(source_.mark(m_.at).before(
-        fmt::format("material {} {}", id_, fmt::format(text, std::forward<Args>(args)...))));
-  }
-  template <class... Args>
   void error(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
     const std::string text = fmt::format(format, std::forward<Args>(args)...);
-    if (holds(said_, text)) return;
-    said_.push_back(text);
-    source_.error(code, m_.at, "material {}: {}", id_, text);
+    if (said_.insert(text).second) source_.error(code, m_.at, "material {}: {}", id_, text);
   }
 
   Material isotropic(Material m) {
@@ -143,7 +140,6 @@ class AnsysElastic {
             m.poisson);
     if (const auto G = value("GXY"); G && std::abs(*G - m.shear()) > 1e-3 * std::abs(m.shear()))
       error(ErrorCode::incomplete,
-
             "GXY is {:g}, but EX and PRXY give {:g}: an orthotropic material needs EY and EZ", *G,
             m.shear());
     return m;
@@ -219,7 +215,7 @@ class AnsysElastic {
   AnsysContent& content_;
   TextSource& source_;
   int temperatures_noted_ = 0;
-  std::vector<std::string> said_;
+  std::set<std::string> said_;
 };
 
 /// MP,EX,1,2.1e5: with further constants it is a polynomial of the temperature.
@@ -298,8 +294,9 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
   }
   if (holds(harmless_tables, c.table)) return;
   if (holds(linear_beside, c.table))
-    return f.note(
-        c.model, "TB,{} of material {} is not linear: the part has the elastic constants beside it",
+    return f.source().note(
+        c.model, f.at(),
+        "TB,{} of material {} is not linear: the part has the elastic constants beside it",
         f.word(1), c.table_material);
   f.stop(ErrorCode::unsupported,
          "TB,{}: this table is not read; a part needs EX and PRXY, EX to GXZ, or TB,ANEL",

@@ -34,9 +34,10 @@ int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSou
 /// A block that says another number of nodes or elements than follow.
 void note_count(AnsysFields& f, AnsysContent& c, double said, std::size_t found, const char* what) {
   if (said > 0.0 && said != static_cast<double>(found))
-    f.note(c.model,
-           "{} says {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
-           f.command(), said, what, found);
+    f.source().note(
+        c.model, f.at(),
+        "{} says {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
+        f.command(), said, what, found);
 }
 
 void set_angles(AnsysContent& c, int index, const Vec3& angles) {
