@@ -31,8 +31,8 @@ class BlockReader {
       const SidItem item = next_sid_item(source_, wanted.c_str());
       if (item.key == end) break;
       if (!item.has_value)
-        source_.stop(ErrorCode::wrong_value, source_.here(), "found {} in block {}, expected {}",
-                     shown(item.key), name_, wanted);
+        source_.stop(ErrorCode::wrong_value, "found {} in block {}, expected {}", shown(item.key),
+                     name_, wanted);
       if (item.key.starts_with("m0(") || item.key.starts_with("m1(")) {
         if (sizes_fit_) read_entry(item);
       } else {
@@ -44,17 +44,13 @@ class BlockReader {
 
  private:
   void read_header(const SidItem& item) {
-    if (seen0_.size() > 0) {
-      source_.error(ErrorCode::wrong_value, "{} of block {} comes after its entries",
-                    shown(item.key), name_);
-      return;
-    }
+    if (seen0_.size() > 0)
+      return source_.error(ErrorCode::wrong_value, "{} of block {} comes after its entries",
+                           shown(item.key), name_);
     const auto value = parse_integer(item.value);
-    if (!value) {
-      source_.error(ErrorCode::not_a_number, "{} of block {}: {}", shown(item.key), name_,
-                    not_an_integer(item.value));
-      return;
-    }
+    if (!value)
+      return source_.error(ErrorCode::not_a_number, "{} of block {}: {}", shown(item.key), name_,
+                           not_an_integer(item.value));
     const auto size = [&](Eigen::Index expected, const char* why) {
       if (*value != expected)
         misfit(ErrorCode::wrong_value, "{} is {}, expected {}{}", item.key, *value, expected, why);
@@ -140,16 +136,12 @@ class BlockReader {
     if (!e) return;
     const auto value = sid_real(source_, item.value);
     if (!value) return;
-    if (structure_ == 0 || structure_ == 4) {
-      source_.error(ErrorCode::missing, "{} in block {}, whose structure {} has no entries",
-                    shown(item.key), name_, structure_);
-      return;
-    }
-    if (structure_ == 1 && e->row != e->column && *value != 0.0) {
-      source_.error(ErrorCode::contradiction, "{} in block {}, whose structure 1 is diagonal",
-                    shown(item.key), name_);
-      return;
-    }
+    if (structure_ == 0 || structure_ == 4)
+      return source_.error(ErrorCode::missing, "{} in block {}, whose structure {} has no entries",
+                           shown(item.key), name_, structure_);
+    if (structure_ == 1 && e->row != e->column && *value != 0.0)
+      return source_.error(ErrorCode::contradiction,
+                           "{} in block {}, whose structure 1 is diagonal", shown(item.key), name_);
     if (seen0_.size() == 0) seen0_ = MatX::Zero(block_.m0.rows(), block_.m0.cols());
     if (e->order == 1 && block_.m1.empty()) {
       const std::size_t modes = modes_;
@@ -159,11 +151,10 @@ class BlockReader {
     const std::size_t mode = e->mode;
     MatX& values = e->order == 1 ? block_.m1[mode] : block_.m0;
     double& line = (e->order == 1 ? seen1_[mode] : seen0_)(e->row, e->column);
-    if (line > 0.0) {
-      source_.error(ErrorCode::duplicate, "{} of block {} is in the file twice, first in line {}",
-                    shown(item.key), name_, line);
-      return;
-    }
+    if (line > 0.0)
+      return source_.error(ErrorCode::duplicate,
+                           "{} of block {} is in the file twice, first in line {}", shown(item.key),
+                           name_, line);
     line = source_.here().line;
     values(e->row, e->column) = *value;
   }
@@ -218,8 +209,7 @@ SidItem next_sid_item(TextSource& source, const char* wanted) {
     text = trimmed(text);
     if (!text.empty()) break;
   }
-  if (text.empty())
-    source.stop(ErrorCode::damaged, source.here(), "the file ends where {} was expected", wanted);
+  if (text.empty()) source.stop(ErrorCode::damaged, "the file ends where {} was expected", wanted);
 
   SidItem item;
   const std::size_t equals = text.find('=');
@@ -235,8 +225,7 @@ void expect_sid_item(TextSource& source, const char* key) {
                                                                  : key;
   const SidItem item = next_sid_item(source, fmt::format("'{}'", words).c_str());
   if (item.key != key)
-    source.stop(ErrorCode::wrong_value, source.here(), "found {}, expected '{}'", shown(item.key),
-                words);
+    source.stop(ErrorCode::wrong_value, "found {}, expected '{}'", shown(item.key), words);
 }
 
 void skip_sid_block(TextSource& source, const std::string& key) {

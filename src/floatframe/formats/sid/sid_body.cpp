@@ -19,8 +19,6 @@ namespace {
 constexpr double same_in_sid = 1e-6;  // numbers of a file have 12 digits
 constexpr double own_digits = 1e-5;   // of a moment of inertia about the centre of mass
 constexpr double close = 0.05;        // lumped masses of some writers against consistent ones
-constexpr int axes_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};
-constexpr int axes_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 /// Component c of a cross product: first(c) x second(c).
 constexpr int axes_of_cross[3][2] = {{1, 2}, {2, 0}, {0, 1}};
 
@@ -70,7 +68,8 @@ class BodyOfSid {
     } else {
       for (int a = 0; a < 3; ++a) {
         J(a, a) = j(a, 0);
-        J(axes_of_J[a][0], axes_of_J[a][1]) = J(axes_of_J[a][1], axes_of_J[a][0]) = j(3 + a, 0);
+        J(sid_pairs_of_J[a][0], sid_pairs_of_J[a][1]) =
+            J(sid_pairs_of_J[a][1], sid_pairs_of_J[a][0]) = j(3 + a, 0);
       }
     }
     return 0.5 * (J + J.transpose());
@@ -106,8 +105,8 @@ class BodyOfSid {
     if (from_Oe)
       note(c_.J.line, "{}",
            c_.Oe.line > 0 ? "block J has no first-order terms; they are taken from Oe"
-                          : "block J has no first-order terms and there is no Oe: the "
-                            "inertia tensor does not change with the deformation");
+                          : "block J has no first-order terms and there is no Oe: the inertia "
+                            "tensor does not change with the deformation");
     double of_Gr = 0.0, of_Oe = 0.0, scale_Gr = 0.0, scale_Oe = 0.0;
     for (int k = 0; k < nq_; ++k) {
       const std::size_t q = k;
@@ -117,7 +116,7 @@ class BodyOfSid {
         const double trace = -0.5 * (Oe(0) + Oe(1) + Oe(2));
         for (int a = 0; a < 3; ++a) {
           sum(a, a) = 2.0 * (trace + Oe(a));
-          const auto [i, j] = axes_of_Oe[a];
+          const auto [i, j] = sid_pairs_of_Oe[a];
           sum(i, j) = sum(j, i) = Oe(3 + a);
         }
       } else {
@@ -132,14 +131,10 @@ class BodyOfSid {
       }
       for (int i = 0; i < 3; ++i) v.Si[i].col(k) = s.row(i).transpose();
 
-      const Mat3 Gr = 2.0 * (s.trace() * Mat3::Identity() - s.transpose());
+      const Mat3 Gr = sid_gyroscopic(s);
       of_Gr = std::max(of_Gr, (c_.Gr.m0.middleCols<3>(3 * k) - Gr).cwiseAbs().maxCoeff());
       scale_Gr = std::max(scale_Gr, Gr.cwiseAbs().maxCoeff());
-      for (int a = 0; a < 3; ++a) {
-        const auto [i, j] = axes_of_Oe[a];
-        of_Oe = std::max({of_Oe, std::abs(Oe(a) - s(a, a) + s.trace()),
-                          std::abs(Oe(3 + a) - s(i, j) - s(j, i))});
-      }
+      of_Oe = std::max(of_Oe, (Oe - sid_centrifugal(s)).cwiseAbs().maxCoeff());
       scale_Oe = std::max(scale_Oe, Oe.cwiseAbs().maxCoeff());
     }
     if (c_.Gr.line > 0 && of_Gr > same_in_sid * scale_Gr)
@@ -149,7 +144,6 @@ class BodyOfSid {
            of_Gr / scale_Gr);
     if (c_.Oe.line > 0 && !from_Oe && of_Oe > same_in_sid * scale_Oe)
       note(c_.Oe.line,
-
            "block Oe differs from what J implies by {:.2g} of its largest entry; J is used",
            of_Oe / std::max(scale_Oe, 1e-300));
   }
@@ -201,13 +195,12 @@ class BodyOfSid {
         Eigen::SelfAdjointEigenSolver<Mat3>(J_c, Eigen::EigenvaluesOnly).eigenvalues();
     const double size = moments.cwiseAbs().maxCoeff();
     const double digits = 1e-12 * v.inertia_about_origin().cwiseAbs().maxCoeff();
-    if (moments(0) < -own_digits * size - digits) {
-      error(ErrorCode::out_of_range, c_.J.line,
-            "block J gives a moment of inertia of {:.6g} about the centre of mass (with mass and "
-            "mdCM), expected none below zero",
-            moments(0));
-      return;
-    }
+    if (moments(0) < -own_digits * size - digits)
+      return error(
+          ErrorCode::out_of_range, c_.J.line,
+          "block J gives a moment of inertia of {:.6g} about the centre of mass (with mass and "
+          "mdCM), expected none below zero",
+          moments(0));
     const double excess = moments(2) - moments(0) - moments(1);
     if (excess <= own_digits * size + digits) return;
     const std::string text = fmt::format(
@@ -266,7 +259,6 @@ class BodyOfSid {
     const double least = symmetric_eigenvalues(scaled)(0);
     if (!(least >= -same_in_sid))
       error(ErrorCode::out_of_range, c_.Me.line,
-
             "the mass matrix at zero deformation is not positive: scaled to a unit diagonal its "
             "smallest eigenvalue is {:.3g}; mass, mdCM, J, Ct, Cr and Me contradict each other",
             least);

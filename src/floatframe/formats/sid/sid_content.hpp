@@ -26,6 +26,7 @@
 // of m1 in the file: (row, mode, column). ksigma is zero, Ke and De are the modal stiffness and
 // damping of first order. Displacements of second order add to the first-order terms of Ct, Cr,
 // Oe, phi and psi, as below.
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -107,6 +108,18 @@ inline constexpr SidBlock<SidFrame> sid_frame_blocks[] = {
 
 /// The blocks of a body. Me, Ke and De are symmetrised.
 SidContent sid_content(const FlexibleBody& body);
+
+// Of moments s(i, j) = int a_i b_j dm, with a = r or phi_l and b = phi_k:
+inline constexpr int sid_pairs_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};  ///< behind the squares
+inline constexpr int sid_pairs_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};   ///< behind the diagonal
+/// Row k of Oe.
+Eigen::Matrix<double, 1, 6> sid_centrifugal(const Mat3& s);
+/// int a x b dm: row k of Cr.
+Vec3 sid_cross(const Mat3& s);
+/// Block k of Gr.
+Mat3 sid_gyroscopic(const Mat3& s);
+/// With phi_l and phi_k, from matrices of all modes.
+Mat3 sid_moments(const std::array<std::array<MatX, 3>, 3>& S, int l, int k);
 
 /// The text of a file.
 std::string sid_text(const SidContent& content);

@@ -54,29 +54,23 @@ class SidParser {
   }
 
  private:
-  [[noreturn]] void stop(ErrorCode code, std::string message) {
-    source_.stop(code, source_.here(), std::move(message));
-  }
-
   SidItem next(const char* wanted) { return next_sid_item(source_, wanted); }
 
   void first_line() {
     std::string_view text;
-    if (!source_.next(text)) stop(ErrorCode::missing, "the file is empty");
+    if (!source_.next(text)) source_.stop(ErrorCode::missing, "the file is empty");
     const std::string_view numbers = text.substr(0, text.find(':'));
     std::vector<std::string_view> fields;
     split_blanks(numbers, fields);
     const auto nodes = fields.size() == 2 ? parse_integer(fields[0]) : std::nullopt;
     const auto modes = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
     if (!nodes || !modes || *nodes < 0 || *modes < 0)
-      stop(
-          ErrorCode::wrong_value,
-          fmt::format("found {}, expected the numbers of nodes and of modes, as in '3 1 : comment'",
-                      shown(trimmed(text))));
-
+      source_.stop(ErrorCode::wrong_value,
+                   "found {}, expected the numbers of nodes and of modes, as in '3 1 : comment'",
+                   shown(trimmed(text)));
     if (*modes > most_modes)
-      stop(ErrorCode::too_large,
-           fmt::format("{} modes are more than the {} that can be read", *modes, most_modes));
+      source_.stop(ErrorCode::too_large, "{} modes are more than the {} that can be read", *modes,
+                   most_modes);
     nodes_ = *nodes;
     const int nq = content_.modes = *modes;
     content_.comment = std::string(trimmed(
@@ -122,11 +116,9 @@ class SidParser {
     std::string_view number = std::string_view(item.key).substr(7);
     if (number.size() > 2) number = number.substr(1, number.size() - 2);
     const auto k = parse_integer(number);
-    if (!k || *k < 1 || *k > content_.modes) {
-      source_.error(ErrorCode::not_found, "{} names no mode (there are {})", shown(item.key),
-                    content_.modes);
-      return;
-    }
+    if (!k || *k < 1 || *k > content_.modes)
+      return source_.error(ErrorCode::not_found, "{} names no mode (there are {})", shown(item.key),
+                           content_.modes);
     content_.mode_names.resize(content_.modes);
     std::string_view name = item.value;
     if (name.ends_with("Hz")) name = trimmed(name.substr(0, name.rfind(':')));
@@ -142,8 +134,8 @@ class SidParser {
       const SidItem item = next("'new node' or 'end frame'");
       if (item.key == "endframe") break;
       if (item.key != "newnode")
-        stop(ErrorCode::wrong_value,
-             fmt::format("found {}, expected 'new node' or 'end frame'", shown(item.key)));
+        source_.stop(ErrorCode::wrong_value, "found {}, expected 'new node' or 'end frame'",
+                     shown(item.key));
       node(std::string(item.value));
     }
     if (static_cast<int>(content_.frames.size()) != nodes_)
