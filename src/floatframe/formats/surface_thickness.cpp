@@ -53,7 +53,8 @@ SurfaceThickness::Choice SurfaceThickness::choose(std::span<const int> corners,
     if (choice.section >= 0 &&
         sections_[choice.section].thickness != sections_[named->second].thickness) {
       choice.error = fmt::format(
-          "is in the groups '{}' and '{}', to which different thicknesses are given ({:g}, {:g})",
+          "is in the groups '{}' and '{}', to which different thicknesses "
+          "are given ({:g}, {:g})",
           from, group, sections_[choice.section].thickness, sections_[named->second].thickness);
       return choice;
     }
@@ -72,16 +73,16 @@ std::vector<std::string> SurfaceThickness::not_found(const std::vector<std::stri
   std::vector<std::string> out;
   if (others_ >= 0 && !others_seen_)
     out.emplace_back(
-        "a thickness is given, but all surface elements are faces of solids or in groups with a "
-        "thickness of their own: leave it out, or name a group");
+        "a thickness is given, but all surface elements are faces of solids or in "
+        "groups with a thickness of their own: leave it out, or name a group");
   for (const auto& group : groups_) {
     const std::string& name = group.first;
     if (!seen_.contains(name)) {
       const bool known = std::any_of(groups.begin(), groups.end(),
                                      [&](const std::string& g) { return utf8_text(g) == name; });
       out.push_back(
-          fmt::format("a thickness is given for the group '{}', but no surface element is in a "
-                      "group of this name{}",
+          fmt::format("a thickness is given for the group '{}', but no surface element "
+                      "is in a group of this name{}",
                       name, known ? "" : did_you_mean(name, groups)));
     }
   }

@@ -45,7 +45,7 @@ void marker_matrices(IO& io, Nodes& nodes, Eigen::Index nm) {
       "marker_X_theta", n, 3, nm, [&](std::size_t k) -> auto& { return nodes[k].X_theta; });
 }
 
-/// Behind its masses stand those of M_6 or M_s.
+/// M_6 or M_s follow.
 template <class IO, class Data>
 void projection_matrices(IO& io, Data& data, Eigen::Index n, Eigen::Index nm) {
   io.points("projection_p", data.p, n);

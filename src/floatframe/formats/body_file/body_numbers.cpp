@@ -68,13 +68,10 @@ class Check {
     for (std::size_t k = 0; k < header_.moves_with.size(); ++k)
       for (const std::int64_t point : header_.moves_with[k]) {
         const ModalNode& node = file_.part.body.nodes[k];
-        if (point < 0 || point >= part.surface_positions.cols()) {
-          error(ErrorCode::out_of_range,
-
-                "found the surface point {} for marker '{}', expected a number from 0 to {}", point,
-                excerpt(node.name), part.surface_positions.cols() - 1);
-          return;
-        }
+        if (point < 0 || point >= part.surface_positions.cols())
+          return error(ErrorCode::out_of_range,
+                       "found the surface point {} for marker '{}', expected a number from 0 to {}",
+                       point, excerpt(node.name), part.surface_positions.cols() - 1);
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
         if (off <= same_number * scale) continue;
         arrays_.error(ErrorCode::contradiction, "marker_X",
@@ -93,11 +90,9 @@ class Check {
     if (h.modes != v.modes())
       error(ErrorCode::wrong_count, "health: found {} modes, expected the {} of this file", h.modes,
             v.modes());
-    if (!(std::abs(v.m - said.mass) <= same_number * said.mass)) {
-      arrays_.error(ErrorCode::contradiction, "m",
-                    "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
-      return;
-    }
+    if (!(std::abs(v.m - said.mass) <= same_number * said.mass))
+      return arrays_.error(ErrorCode::contradiction, "m",
+                           "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
     if (h.rotary_inertia) of_the_part(v, h);
     const Mat3 J = v.inertia_about_origin();
     const double length = std::sqrt(J.trace() / v.m);

@@ -125,13 +125,12 @@ void read_projection_second_order(ArrayReader& arrays, Eigen::Index nm, Projecti
   arrays.grouped("projection_rotations", data.rotations, rotations, 3, nm);
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto [point, rotation] = pairs[k];
-    if (point >= nodes || rotation >= rotations || (k > 0 && point < data.turning.back().point)) {
-      arrays.error(ErrorCode::wrong_value, "projection_turning",
-                   "found point {} with rotation {} in row {}, expected points in ascending order "
-                   "below {} and rotations below {}",
-                   point, rotation, k + 1, nodes, rotations);
-      return;
-    }
+    if (point >= nodes || rotation >= rotations || (k > 0 && point < data.turning.back().point))
+      return arrays.error(
+          ErrorCode::wrong_value, "projection_turning",
+          "found point {} with rotation {} in row {}, expected points in ascending order "
+          "below {} and rotations below {}",
+          point, rotation, k + 1, nodes, rotations);
     data.turning.push_back({point, rotation, arms.row(k).transpose()});
   }
 }

@@ -41,13 +41,12 @@ void read_places(ArrayReader& arrays, Eigen::Index points, BodyStress& out) {
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto& [point, node, number, layer, group, doubtful] = rows[k];
     if (point > points || layer >= layers || group >= static_cast<int>(out.groups.size()) ||
-        doubtful > 1) {
-      arrays.error(ErrorCode::wrong_value, "stress_places",
-                   "place {} is not one: expected a point up to {}, a layer below {}, a group "
-                   "below {} and 0 or 1",
-                   k + 1, points, layers, out.groups.size());
-      return;
-    }
+        doubtful > 1)
+      return arrays.error(
+          ErrorCode::wrong_value, "stress_places",
+          "place {} is not one: expected a point up to {}, a layer below {}, a group "
+          "below {} and 0 or 1",
+          k + 1, points, layers, out.groups.size());
     out.places.push_back({.layer = static_cast<StressPlace::Layer>(layer),
                           .point = point - 1,
                           .node = node,
@@ -66,13 +65,12 @@ void read_sections(ArrayReader& arrays, const StressNames& names, BodyStress& ou
   int before = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto& [element, node, number, end, first] = rows[k];
-    if (end != k % 2 || first < before || first > places) {
-      arrays.error(ErrorCode::wrong_value, "stress_sections",
-                   "section {} is not one: expected the ends 0 and 1 in turn and first places that "
-                   "ascend up to {}",
-                   k + 1, places);
-      return;
-    }
+    if (end != k % 2 || first < before || first > places)
+      return arrays.error(
+          ErrorCode::wrong_value, "stress_sections",
+          "section {} is not one: expected the ends 0 and 1 in turn and first places that "
+          "ascend up to {}",
+          k + 1, places);
     before = first;
     const std::size_t at = k;
     out.sections.push_back({element, node, number, end, p.row(k).transpose(),

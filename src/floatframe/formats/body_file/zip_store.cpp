@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <set>
 
@@ -22,13 +23,14 @@ constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22;
 constexpr std::uint16_t needed_version = 20, first_january_1980 = 0x21, utf8_names = 0x0800;
 constexpr std::size_t largest = std::numeric_limits<std::uint32_t>::max();
 
-void put16(std::string& out, std::size_t x) {
-  out += static_cast<char>(x & 0xff);
-  out += static_cast<char>((x >> 8) & 0xff);
-}
-void put32(std::string& out, std::size_t x) {
-  put16(out, x & 0xffff);
-  put16(out, x >> 16);
+/// A number in so many bytes.
+struct ZipField {
+  int bytes;
+  std::size_t value;
+};
+void put(std::string& out, std::initializer_list<ZipField> fields) {
+  for (const auto& [bytes, value] : fields)
+    for (int k = 0; k < bytes; ++k) out += static_cast<char>((value >> 8 * k) & 0xff);
 }
 
 std::uint32_t crc_of(std::string_view bytes) {
@@ -43,16 +45,17 @@ std::uint32_t crc_of(std::string_view bytes) {
 
 /// What the local header and the directory entry have in common: version to checksum, sizes, name.
 void put_common(std::string& out, const ZipMember& m, std::uint32_t crc) {
-  put16(out, needed_version);
-  put16(out, utf8_names);
-  put16(out, 0);  // stored
-  put16(out, 0);  // midnight
-  put16(out, first_january_1980);
-  put32(out, crc);
-  put32(out, m.content.size());
-  put32(out, m.content.size());
-  put16(out, m.name.size());
-  put16(out, 0);  // no extra field
+  constexpr std::size_t stored = 0, midnight = 0, extra_field = 0;
+  put(out, {{2, needed_version},
+            {2, utf8_names},
+            {2, stored},
+            {2, midnight},
+            {2, first_january_1980},
+            {4, crc},
+            {4, m.content.size()},
+            {4, m.content.size()},
+            {2, m.name.size()},
+            {2, extra_field}});
 }
 
 class ArchiveReader {
@@ -168,30 +171,26 @@ std::string zip_archive(const std::vector<ZipMember>& members) {
   for (const ZipMember& m : members) {
     const std::uint32_t crc = crc_of(m.content);
     const std::size_t place = out.size();
-    put32(out, local_mark);
+    put(out, {{4, local_mark}});
     put_common(out, m, crc);
     out += m.name;
     out += m.content;
-    put32(directory, entry_mark);
-    put16(directory, needed_version);
+    put(directory, {{4, entry_mark}, {2, needed_version}});
     put_common(directory, m, crc);
-    put16(directory, 0);  // no comment
-    put16(directory, 0);  // first volume
-    put16(directory, 0);  // attributes
-    put32(directory, 0);
-    put32(directory, place);
+    // No comment, the first volume, no attributes.
+    put(directory, {{2, 0}, {2, 0}, {2, 0}, {4, 0}, {4, place}});
     directory += m.name;
   }
   const std::size_t start = out.size();
   out += directory;
-  put32(out, end_mark);
-  put16(out, 0);
-  put16(out, 0);
-  put16(out, members.size());
-  put16(out, members.size());
-  put32(out, directory.size());
-  put32(out, start);
-  put16(out, archive_comment.size());
+  put(out, {{4, end_mark},
+            {2, 0},
+            {2, 0},
+            {2, members.size()},
+            {2, members.size()},
+            {4, directory.size()},
+            {4, start},
+            {2, archive_comment.size()}});
   out += archive_comment;
   return out;
 }

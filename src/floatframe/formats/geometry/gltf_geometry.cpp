@@ -253,7 +253,6 @@ class GltfReader {
     if (!inside)
       out_.stop(
           ErrorCode::damaged,
-
           "accessor {} reaches beyond its buffer of {} bytes: the file is cut short or damaged", k,
           all.size());
     n.bytes = all.substr(offset + start);

@@ -152,16 +152,15 @@ class GmshModel {
     int dimension = -1;
     for (const GmshElement& e : mesh_.elements) dimension = std::max(dimension, e.type->dimension);
     if (dimension < 3 && !(dimension == 2 && thickness_.any())) {
-      const auto what = dimension < 0    ? std::string("no elements")
-                        : dimension == 2 ? std::string("no solid elements, only surfaces")
-                        : dimension == 1 ? std::string("no solid elements, only lines")
-                                         : std::string("no solid elements, only points");
+      constexpr const char* what[] = {"no elements", "no solid elements, only points",
+                                      "no solid elements, only lines",
+                                      "no solid elements, only surfaces"};
       throw InputError(
           ErrorCode::missing, {model_.files[0], 0, 0},
           fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges (in Gmsh: "
                       "mesh in 3D and give the volume a physical group), or surfaces to which a "
                       "thickness is given (--thickness, key `thickness`)",
-                      what));
+                      what[dimension + 1]));
     }
     const bool repeats = mesh_.element_per_group && several_groups();
     std::map<int, std::pair<const GmshElement*, int>> unsupported;  // first of a type, number
@@ -227,7 +226,6 @@ class GmshModel {
     if (section_[i] == known.section || section_[i] == others) return;
     if (known.section != others)
       error(ErrorCode::contradiction, e.at,
-
             "element {} is there again, and different thicknesses are given to its groups", e.id);
     known.section = section_[i];
   }

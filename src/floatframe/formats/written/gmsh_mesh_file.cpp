@@ -16,7 +16,7 @@
 namespace floatframe {
 namespace {
 
-/// Place in the file of each node of the element; of solids the order comes from the reader's table.
+/// Place in the file of each node of the element; of solids as the table of the reader has it.
 std::array<int, 20> file_order(ElementType type, const GmshType& gmsh) {
   if (gmsh.element) return gmsh.order;
   std::array<int, 20> order{};

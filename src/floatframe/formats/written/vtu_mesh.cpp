@@ -22,7 +22,6 @@ constexpr std::size_t most_sets = 200;
 struct Cells {
   std::vector<std::int32_t> element, kind, material;
   std::vector<double> young, density, thickness;
-  std::vector<std::string> kinds;
 
   void add(int number, int kind_of, int material_of, const Material& m, double t) {
     element.push_back(number);
