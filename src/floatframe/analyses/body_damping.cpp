@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "floatframe/body/modal_damping.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -12,7 +11,6 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/log_plot.hpp"
-#include "floatframe/report/plot_ticks.hpp"
 
 namespace floatframe {
 namespace {
@@ -67,25 +65,6 @@ std::string road_text(const RoadLoading& loading, const RoadResponse& road) {
       "(height: rms {:.4g} m):\n{}",
       loading.roughness, loading.waviness, loading.speed, road.from, road.to, road.road,
       table.text());
-}
-
-/// Curves of one unit share panels, a few of them each.
-template <class Curve, class Unit>
-std::vector<std::vector<const Curve*>> panels_of(const std::vector<Curve>& curves,
-                                                 const Unit& unit) {
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<const Curve*>> groups;
-  for (const Curve& c : curves) {
-    if (groups[unit(c)].empty()) order.push_back(unit(c));
-    groups[unit(c)].push_back(&c);
-  }
-  std::vector<std::vector<const Curve*>> panels;
-  for (const std::string& u : order)
-    for (std::size_t k = 0; k < groups[u].size(); ++k) {
-      if (k % max_curves_per_plot == 0) panels.emplace_back();
-      panels.back().push_back(groups[u][k]);
-    }
-  return panels;
 }
 
 }  // namespace

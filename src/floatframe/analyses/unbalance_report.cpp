@@ -3,33 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <optional>
 
+#include "floatframe/analyses/response_result.hpp"
+#include "floatframe/analyses/rotor_options.hpp"
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/log_plot.hpp"
-#include "floatframe/report/plot_ticks.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
-
-std::optional<double> whole_number(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 std::string place_of(const Unbalance& u) { return u.node.empty() ? u.body : u.body + ":" + u.node; }
 
@@ -48,9 +38,9 @@ Unbalance unbalance_of(const std::string& text) {
   const std::size_t equals = text.rfind('='), at = text.rfind('@');
   const bool angled = at != std::string::npos && equals != std::string::npos && at > equals;
   if (equals != std::string::npos && equals > 0) {
-    const auto moment = whole_number(
-                   text.substr(equals + 1, angled ? at - equals - 1 : std::string::npos)),
-               angle = angled ? whole_number(text.substr(at + 1)) : std::optional(0.0);
+    const auto moment =
+                   number_of(text.substr(equals + 1, angled ? at - equals - 1 : std::string::npos)),
+               angle = angled ? number_of(text.substr(at + 1)) : std::optional(0.0);
     const std::string place = text.substr(0, equals);
     const std::size_t colon = place.find(':');
     if (moment && angle)
@@ -156,26 +146,18 @@ std::string unbalance_csv(const UnbalanceResponse& r) {
 
 std::string unbalance_svg(const std::string& model, const UnbalanceOptions& o,
                           const UnbalanceResponse& r) {
-  std::vector<std::string> units;
-  std::map<std::string, std::vector<const UnbalanceCurve*>> of_unit;
-  for (const UnbalanceCurve& c : r.curves) {
-    if (of_unit[c.output.unit].empty()) units.push_back(c.output.unit);
-    of_unit[c.output.unit].push_back(&c);
-  }
   std::vector<LogPanel> panels;
-  for (const std::string& unit : units)
-    for (std::size_t k = 0; k < of_unit[unit].size(); k += max_curves_per_plot) {
-      LogPanel size{"Amplitude", "[" + unit + "]", LogPanel::Scale::logarithmic, {}},
-          phase{"Phase", "", LogPanel::Scale::degrees, {}};
-      const std::size_t end = std::min(k + max_curves_per_plot, of_unit[unit].size());
-      for (std::size_t i = k; i < end; ++i) {
-        const UnbalanceCurve& c = *of_unit[unit][i];
-        size.curves.push_back({c.output.name, amplitudes_of(c)});
-        phase.curves.push_back({c.output.name, phases_of(c)});
-      }
-      panels.push_back(std::move(size));
-      panels.push_back(std::move(phase));
+  for (const auto& group :
+       panels_of(r.curves, [](const UnbalanceCurve& c) { return c.output.unit; })) {
+    LogPanel size{"Amplitude", "[" + group[0]->output.unit + "]", LogPanel::Scale::logarithmic, {}},
+        phase{"Phase", "", LogPanel::Scale::degrees, {}};
+    for (const UnbalanceCurve* c : group) {
+      size.curves.push_back({c->output.name, amplitudes_of(*c)});
+      phase.curves.push_back({c->output.name, phases_of(*c)});
     }
+    panels.push_back(std::move(size));
+    panels.push_back(std::move(phase));
+  }
   return log_plots(fmt::format("{}: unbalance {}", model, unbalances_text(o)),
                    fmt::format("speed of '{}' [rad/s]", o.joint), r.speeds, panels,
                    PlotAxis::linear);

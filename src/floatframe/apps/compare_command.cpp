@@ -1,7 +1,5 @@
 // floatframe compare: how far two results are apart.
-#include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "floatframe/apps/commands.hpp"
@@ -9,7 +7,6 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/report/check_page.hpp"
-#include "floatframe/report/comparison_page.hpp"
 #include "floatframe/report/comparison_report.hpp"
 
 namespace floatframe {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "floatframe/core/content_hash.hpp"
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model_file/instance_parameters.hpp"
+#include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
 namespace {
@@ -93,8 +93,7 @@ class Loader {
     for (auto& [name, value] : list->named("a map of names")) {
       auto section = value.section();
       if (!section) continue;
-      if (const auto when = section->get("when"))
-        if (!when->boolean().value_or(true)) continue;
+      if (!section->boolean("when", true)) continue;
       const auto file_value = section->require("file");
       std::vector<GivenParameter> given;
       if (const auto p = section->get("parameters"))
@@ -120,9 +119,7 @@ class Loader {
               "found more than " + std::to_string(most_instances) + " subsystems, expected fewer");
         continue;
       }
-      const std::string full = (std::filesystem::path(self.document->file).parent_path() / *file)
-                                   .lexically_normal()
-                                   .string();
+      const std::string full = beside(self, *file);
       std::error_code ignored;
       const std::string canonical = std::filesystem::weakly_canonical(full, ignored).string();
       bool recursive = false;

@@ -74,9 +74,8 @@ ModalDamping read_damping(const YamlValue& value) {
       out.beta = (*factors)[1];
     }
   }
-  if (const auto v = s->get("reference"))
-    if (const auto k = v->word({"frame", "free", "mounted"}))
-      out.reference = static_cast<DampingReference>(*k);
+  constexpr const char* references[] = {"frame", "free", "mounted"};
+  s->word("reference", references, out.reference);
   if (const auto v = s->get("frequency"))
     out.interface_frequency = v->number(rules::mode_frequency).value_or(0.0);
   s->finish();

@@ -2,7 +2,6 @@
 // material are in the units of that file.
 #include <set>
 
-#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/parts/node_ways.hpp"
@@ -12,7 +11,6 @@
 namespace floatframe {
 namespace {
 
-const std::vector<std::string> dof_words(std::begin(node_dof_words), std::end(node_dof_words));
 using Special = PartOption::Special;
 
 class JobReader {
@@ -224,26 +222,13 @@ class JobReader {
     i.name = name;
     choice(*s, i.choice);
     if (const auto v = s->get("at")) i.at = v->vector("");
-    if (const auto v = s->get("type"))
-      if (const auto k = v->word(tie_words)) i.kind = static_cast<Spider::Kind>(*k);
-    if (const auto v = s->get("dofs")) i.mask = dofs(*v);
+    s->word("type", tie_words, i.kind);
+    if (const auto v = s->get("dofs")) {
+      i.mask = 0;
+      for (const unsigned k : read_dofs(*v)) i.mask |= 1u << k;
+    }
     s->finish();
     o().interfaces.push_back(std::move(i));
-  }
-
-  static unsigned dofs(const YamlValue& value) {
-    if (value.is_list()) {
-      unsigned mask = 0;
-      for (const YamlValue& item : value.list())
-        if (const auto k = item.word(dof_words)) mask |= 1u << *k;
-      if (value.node().items.empty())
-        value.error(ErrorCode::missing,
-                    "found an empty list, expected directions such as [x, y, z]");
-      return mask;
-    }
-    const auto t = value.text("all or a list of x, y, z, rx, ry, rz");
-    if (t && *t != "all") value.unexpected("all or a list of x, y, z, rx, ry, rz");
-    return 63u;
   }
 
   void marker(const std::string& name, const YamlValue& value) {

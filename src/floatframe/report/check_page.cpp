@@ -68,20 +68,13 @@ std::string check_page(const Model& model, const CheckedStart& start) {
   Json tables = tables_json(start.tables);
   tables.push_back(joint_table(model));
   tables.push_back(force_table(model));
-  const Json page{{"schema", 1},
-                  {"kind", "check"},
-                  {"title", model.name},
-                  {"program", "Floatframe " + build_description()},
-                  {"status",
-                   {{"state", start.failure.empty() ? "completed" : "failed"},
-                    {"sentences", sentences},
-                    {"warnings", Json::array()}}},
-                  {"facts", facts_json(start.facts)},
-                  {"tables", tables},
-                  {"curves", nullptr},
-                  {"trust", nullptr},
-                  {"speed", nullptr},
-                  {"scene", scene_json(model, scene_frames(model, start.state), buffer)}};
+  Json page = empty_page("check", model.name, build_description(),
+                         {{"state", start.failure.empty() ? "completed" : "failed"},
+                          {"sentences", sentences},
+                          {"warnings", Json::array()}});
+  page["facts"] = facts_json(start.facts);
+  page["tables"] = std::move(tables);
+  page["scene"] = scene_json(model, scene_frames(model, start.state), buffer);
   return page_html(page_template(), page, buffer);
 }
 

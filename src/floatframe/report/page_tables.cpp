@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/body/body_shape.hpp"
-#include "floatframe/body/modal_mass.hpp"
+#include "floatframe/history/history_content.hpp"
 #include "floatframe/model/joint_list.hpp"
-#include "floatframe/model/output_list.hpp"
 
 namespace floatframe {
 namespace {
@@ -72,14 +70,11 @@ std::string names_text(const std::vector<std::string>& names) {
 
 void add_modes(const Body& body, PageTable& table) {
   const FlexibleBody& data = *body.data;
-  const MatX M = modal_mass(data.invariants);
-  for (int k = 0; k < data.modes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double omega = std::sqrt(data.K(k, k) / M(k, k));
+  const std::vector<double> own = own_frequencies(data);
+  for (std::size_t k = 0; k < own.size(); ++k)
     table.rows.push_back({body.name, std::to_string(k + 1),
-                          i < data.mode_names.size() ? data.mode_names[i] : "",
-                          short_number(omega / (2.0 * std::numbers::pi), "{:.4g}")});
-  }
+                          k < data.mode_names.size() ? data.mode_names[k] : "",
+                          short_number(own[k], "{:.4g}")});
 }
 
 }  // namespace
