@@ -37,8 +37,7 @@ std::string report_of(const ComparedResults& results, const ResultsReader& a,
 }
 
 int compare(const CompareArguments& a) {
-  if (!a.report.empty() && page_template().empty())
-    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
+  if (!a.report.empty()) require_page("--report");
   ComparedResults results;
   results.file_a = results_file(a.a);
   results.file_b = results_file(a.b);

@@ -11,6 +11,7 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/realtime/signal_log.hpp"
+#include "floatframe/report/json_values.hpp"
 #include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
@@ -153,8 +154,6 @@ Json direction_json(const SignalLayout& layout) {
   return {{"layout", hash_text(layout)}, {"bytes", packet_size(layout.signals.size())}};
 }
 
-using Json = nlohmann::ordered_json;
-
 Json histogram_json(const Histogram& h) {
   Json bins = Json::array();
   for (std::size_t k = 0; k < Histogram::bins; ++k)
@@ -282,8 +281,7 @@ std::string layout_json(const Model& model) {
   for (std::size_t i = 0; i < out.signals.size(); ++i)
     outputs["signals"].push_back(
         {{"name", out.signals[i].name}, {"unit", out.signals[i].unit}, {"offset", packet_size(i)}});
-  const Json json = {{"model", model.name}, {"inputs", inputs}, {"outputs", outputs}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_document({{"model", model.name}, {"inputs", inputs}, {"outputs", outputs}});
 }
 
 std::string realtime_json(const RealTimeReport& r, const RealTimeOptions& options,
@@ -347,7 +345,7 @@ std::string realtime_json(const RealTimeReport& r, const RealTimeOptions& option
   json["outputs"] = outputs;
   json["build"] = build_description();
   json["processor"] = processor_name();
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json_document(json);
 }
 
 }  // namespace floatframe

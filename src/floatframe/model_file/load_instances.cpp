@@ -1,5 +1,6 @@
 #include "floatframe/model_file/load_instances.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -12,12 +13,6 @@ namespace floatframe {
 namespace {
 
 constexpr int most_instances = 1000;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string s;
-  for (const std::string& w : words) s += (s.empty() ? "" : ", ") + w;
-  return s;
-}
 
 class Loader {
  public:
@@ -122,9 +117,7 @@ class Loader {
       const std::string full = beside(self, *file);
       std::error_code ignored;
       const std::string canonical = std::filesystem::weakly_canonical(full, ignored).string();
-      bool recursive = false;
-      for (const std::string& s : stack) recursive = recursive || s == canonical;
-      if (recursive) {
+      if (std::find(stack.begin(), stack.end(), canonical) != stack.end()) {
         file_value->error(ErrorCode::cycle, "'" + full + "' includes itself");
         continue;
       }
@@ -199,17 +192,18 @@ class Loader {
       if (!exists && off)
         value.error(ErrorCode::not_found, "'" + *target + "' is switched off by its 'when'");
       else if (!exists)
-        value.error(ErrorCode::not_found,
-                    "unknown name '" + *target + "'" + errors_.suggestion(*target, known));
+        value.not_known("unknown name '" + *target + "'", *target, known);
       child.external.emplace(name, exists ? *target : "");
     }
-    std::vector<std::string> missing;
-    for (const std::string& name : order)
-      if (!given.count(name)) missing.push_back(name);
-    for (const std::string& name : missing) child.external.emplace(name, "");
+    std::string missing;
+    for (const std::string& name : order) {
+      if (given.contains(name)) continue;
+      missing += (missing.empty() ? "" : ", ") + name;
+      child.external.emplace(name, "");
+    }
     if (!missing.empty())
-      section.error(ErrorCode::incomplete, "'" + child.document->file + "' needs " +
-                                               joined(missing) + ", expected it in 'connect'");
+      section.error(ErrorCode::incomplete, "'" + child.document->file + "' needs " + missing +
+                                               ", expected it in 'connect'");
   }
 
   ModelFiles& files_;

@@ -40,15 +40,18 @@ class FlexibleReader {
     m->finish();
   }
 
-  /// A node of this body by the name of its point.
+  /// A node of this body by the name of its point, at the key `point`.
+  std::optional<std::string> node_name(YamlSection& s) {
+    const auto point = s.require("point");
+    return point ? node_name(*point) : std::nullopt;
+  }
   std::optional<std::string> node_name(const YamlValue& value) {
     const auto name = value.text("the name of an end point of a bar");
     if (!name) return std::nullopt;
     if (out_.named_nodes.count(*name)) return name;
     if (!out_.valid) return std::nullopt;
-    const auto known = [&] { return keys_of(out_.named_nodes); };
-    value.error(ErrorCode::not_found,
-                sentences::no_end_point(*name) + value.context().errors->suggestion(*name, known));
+    value.not_known(sentences::no_end_point(*name), *name,
+                    [&] { return keys_of(out_.named_nodes); });
     return std::nullopt;
   }
 
@@ -60,8 +63,7 @@ class FlexibleReader {
       if (!s) continue;
       NodeMass m;
       m.origin = s->origin();
-      const auto point = s->require("point");
-      const auto name = point ? node_name(*point) : std::nullopt;
+      const auto name = node_name(*s);
       m.mass = s->required_number("mass", rules::mass, 0.0);
       s->finish();
       if (!name) continue;
@@ -82,8 +84,7 @@ class FlexibleReader {
       if (item.is_map()) {
         auto s = item.section();
         d.origin = s->origin();
-        const auto point = s->require("point");
-        name = point ? node_name(*point) : std::nullopt;
+        name = node_name(*s);
         if (const auto v = s->require("dofs")) bits = read_dofs(*v);
         s->finish();
       } else {

@@ -35,10 +35,8 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
     return false;
   }
   if (it->second.named_nodes.count(node)) return true;
-  const auto known = [&] { return keys_of(it->second.named_nodes); };
-  value.error(ErrorCode::not_found,
-              sentences::no_node_named(self.written(body), it->second.flexible, node) +
-                  self.context.errors->suggestion(node, known));
+  value.not_known(sentences::no_node_named(self.written(body), it->second.flexible, node), node,
+                  [&] { return keys_of(it->second.named_nodes); });
   return false;
 }
 

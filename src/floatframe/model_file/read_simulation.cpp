@@ -1,6 +1,7 @@
 // How a model starts and is run: `simulation`, `initial`, and the `inputs` that come from outside.
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/state_json.hpp"
 
@@ -110,6 +111,21 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
 
 }  // namespace
 
+const std::vector<SimulationNumber>& simulation_numbers() {
+  using S = SimulationDescription;
+  static const std::vector<SimulationNumber> numbers{
+      {"step", &S::step, rules::step},
+      {"duration", &S::duration, rules::duration},
+      {"output_interval", &S::output_interval, rules::output_interval},
+      {"spectral_radius", &S::spectral_radius, rules::spectral_radius},
+      {"tolerance", &S::tolerance, rules::tolerance},
+      {"min_step", &S::min_step, rules::min_step},
+      {"penalty", &S::penalty, rules::penalty},
+      {"position_tolerance", &S::position_tolerance, rules::position_tolerance},
+      {"velocity_tolerance", &S::velocity_tolerance, rules::velocity_tolerance}};
+  return numbers;
+}
+
 void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (!self.root) return;
   YamlSection root = *self.root;
@@ -126,19 +142,10 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
     d.geometric_stiffening = s.boolean("geometric_stiffening", false);
   if (const auto v = s.get("start")) read_start(self, *v, d);
   s.vector("velocity", "m/s", d.velocity);
-  d.step = s.number("step", rules::step, d.step);
-  d.duration = s.number("duration", rules::duration, d.duration);
-  d.output_interval = s.number("output_interval", rules::output_interval, d.output_interval);
-  d.spectral_radius = s.number("spectral_radius", rules::spectral_radius, d.spectral_radius);
-  d.tolerance = s.number("tolerance", rules::tolerance, d.tolerance);
+  for (const SimulationNumber& n : simulation_numbers())
+    d.*n.at = s.number(n.name, n.rule, d.*n.at);
   if (const auto v = s.get("max_iterations"))
     d.max_iterations = v->integer(rules::max_iterations).value_or(d.max_iterations);
-  d.min_step = s.number("min_step", rules::min_step, d.min_step);
-  d.penalty = s.number("penalty", rules::penalty, d.penalty);
-  d.position_tolerance =
-      s.number("position_tolerance", rules::position_tolerance, d.position_tolerance);
-  d.velocity_tolerance =
-      s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
   d.locate_edges = s.boolean("locate_edges", d.locate_edges);
   s.word("input", rules::input_uses, d.input);
   if (const auto v = s.get("record")) read_record(self, *v, d.record);

@@ -7,6 +7,7 @@
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/history/history_content.hpp"
 #include "floatframe/model/joint_list.hpp"
+#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -41,11 +42,6 @@ const char* mass_text(const FlexibleBody& data) {
   return "exact integrals of beams";
 }
 
-std::string body_name(const Model& model, int marker) {
-  const int body = marker < 0 ? -1 : model.markers[marker].body;
-  return body < 0 ? ground_name : model.bodies[body].name;
-}
-
 std::string short_number(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string();
 }
@@ -58,16 +54,6 @@ std::string direction_text(const Vec3& d) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", rounded(d[0]), rounded(d[1]), rounded(d[2]));
 }
 
-/// "a, b, c and 7 more"
-std::string names_text(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 3;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k)
-    text += (k == 0 ? "" : ", ") + names[k];
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
-  return text;
-}
-
 void add_modes(const Body& body, PageTable& table) {
   const FlexibleBody& data = *body.data;
   const std::vector<double> own = own_frequencies(data);
@@ -78,6 +64,11 @@ void add_modes(const Body& body, PageTable& table) {
 }
 
 }  // namespace
+
+std::string body_name(const Model& model, int marker) {
+  const int body = marker < 0 ? -1 : model.markers[marker].body;
+  return body < 0 ? ground_name : model.bodies[body].name;
+}
 
 std::vector<PageTable> body_tables(const Model& model) {
   PageTable bodies{
@@ -109,9 +100,9 @@ PageTable bending_table(const Model& model) {
     const std::string& body = model.bodies[b.body].name;
     const std::string stiffness = short_number(b.stiffness[0], "{:.5g}");
     if (b.alike())
-      table.rows.push_back({body, names_text(b.bars), "any", stiffness, "", ""});
+      table.rows.push_back({body, names_text(b.bars, 3), "any", stiffness, "", ""});
     else
-      table.rows.push_back({body, names_text(b.bars), direction_text(b.direction[0]), stiffness,
+      table.rows.push_back({body, names_text(b.bars, 3), direction_text(b.direction[0]), stiffness,
                             direction_text(b.direction[1]),
                             short_number(b.stiffness[1], "{:.5g}")});
   }

@@ -30,14 +30,9 @@ std::vector<std::vector<int>> places_at(const BodyStress& stress, const SurfaceM
     const std::size_t section = 2 * static_cast<std::size_t>(mesh.bar_ends[v].bar) +
                                 static_cast<std::size_t>(mesh.bar_ends[v].end);
     if (section + 1 >= stress.first_place.size()) continue;
-    double least = std::numeric_limits<double>::infinity();
-    int nearest = -1;
-    for (int k = stress.first_place[section]; k < stress.first_place[section + 1]; ++k) {
-      const double away =
-          (stress.places[k].p - mesh.positions.col(static_cast<Eigen::Index>(v))).squaredNorm();
-      if (away < least) nearest = k;
-      least = std::min(least, away);
-    }
+    const int nearest =
+        nearest_place(stress, stress.first_place[section], stress.first_place[section + 1],
+                      mesh.positions.col(static_cast<Eigen::Index>(v)));
     if (nearest >= 0) out[v].push_back(nearest);
   }
   return out;
@@ -61,7 +56,35 @@ bool loads_matter(const std::vector<float>& without, const std::vector<float>& w
   return apart > 0.01F * most;
 }
 
+/// The components of each place by column, in units of `factor`; 0 where there is no place.
+std::vector<float> scaled(const MatX& columns, const std::vector<int>& places, double& factor) {
+  // Halves go from 6e-5 to 6e4: the largest stays well below.
+  const double largest = columns.cwiseAbs().maxCoeff();
+  factor = largest > 0.0 ? largest / 1e4 : 1.0;
+  std::vector<float> out;
+  out.reserve(6 * places.size() * static_cast<std::size_t>(columns.cols()));
+  for (const int place : places)
+    for (Eigen::Index k = 0; k < columns.cols(); ++k)
+      for (Eigen::Index c = 0; c < 6; ++c)
+        out.push_back(place < 0
+                          ? 0.0F
+                          : static_cast<float>(
+                                columns(6 * static_cast<Eigen::Index>(place) + c, k) / factor));
+  return out;
+}
+
 }  // namespace
+
+int nearest_place(const BodyStress& stress, int first, int end, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  int nearest = -1;
+  for (int k = first; k < end; ++k) {
+    const double away = (stress.places[k].p - p).squaredNorm();
+    if (away < least) nearest = k;
+    least = std::min(least, away);
+  }
+  return nearest;
+}
 
 SceneStress scene_stress(const FlexibleBody& body) {
   SceneStress out;
@@ -91,34 +114,13 @@ SceneStress scene_stress(const FlexibleBody& body) {
     out.places.push_back(shown);
   }
   if (known == 0) return {};
-  // Halves go from 6e-5 to 6e4: the largest stays well below.
-  const double largest = stress.modes.cwiseAbs().maxCoeff();
-  out.factor = largest > 0.0 ? largest / 1e4 : 1.0;
-  out.modes.assign(6 * vertices * nm, 0.0F);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    if (out.places[v] < 0) continue;
-    const Eigen::Index row = 6 * static_cast<Eigen::Index>(out.places[v]);
-    for (std::size_t m = 0; m < nm; ++m)
-      for (std::size_t c = 0; c < 6; ++c)
-        out.modes[6 * (v * nm + m) + c] = static_cast<float>(
-            stress.modes(row + static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m)) /
-            out.factor);
-  }
+  out.modes = scaled(stress.modes, out.places, out.factor);
   return out;
 }
 
 SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress) {
   SceneLoads out;
-  const auto loads = body.stress->loads.leftCols<body_load_cases>();
-  const double largest = loads.cwiseAbs().maxCoeff();
-  out.factor = largest > 0.0 ? largest / 1e4 : 1.0;
-  for (const int place : stress.places)
-    for (Eigen::Index k = 0; k < body_load_cases; ++k)
-      for (Eigen::Index c = 0; c < 6; ++c)
-        out.loads.push_back(
-            place < 0 ? 0.0F
-                      : static_cast<float>(loads(6 * static_cast<Eigen::Index>(place) + c, k) /
-                                           out.factor));
+  out.loads = scaled(body.stress->loads.leftCols<body_load_cases>(), stress.places, out.factor);
   return out;
 }
 

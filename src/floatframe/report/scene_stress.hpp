@@ -31,6 +31,9 @@ struct SceneStress {
 };
 SceneStress scene_stress(const FlexibleBody& body);
 
+/// Of the places from `first` to before `end` that next to p; -1: there is none.
+int nearest_place(const BodyStress& stress, int first, int end, const Vec3& p);
+
 /// Stress per vertex and load coefficient, and what one unit of it is [Pa].
 struct SceneLoads {
   double factor = 1.0;

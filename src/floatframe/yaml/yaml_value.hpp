@@ -65,6 +65,11 @@ class YamlValue {
   void complain(ErrorCode code, const std::optional<std::string>& complaint) const {
     if (complaint) error(code, *complaint);
   }
+  /// Error about a name that is not one of `known()`, with the one that is meant perhaps.
+  template <class Known>
+  void not_known(const std::string& sentence, const std::string& name, const Known& known) const {
+    error(ErrorCode::not_found, sentence + context_->errors->suggestion(name, known));
+  }
   /// "found ..., expected `what`".
   void unexpected(const std::string& what, ErrorCode code = ErrorCode::wrong_value) const {
     error(code, "found " + found() + ", expected " + what);
