@@ -3,11 +3,12 @@
 // analysis becomes a command by its entry in analyses/analysis_list.hpp.
 #include <vector>
 
-#include "floatframe/apps/analysis_command.hpp"
 #include "floatframe/apps/command.hpp"
 
 namespace floatframe {
 
+/// One for each analysis, in the order of analyses/analysis_list.hpp.
+std::vector<Command> analysis_commands();
 Command run_command();
 Command realtime_command();
 Command sweep_command();

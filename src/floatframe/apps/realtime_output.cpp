@@ -1,14 +1,17 @@
-// A paced run in words, for people.
+#include "floatframe/apps/realtime_output.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/realtime_output.hpp"
+#include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/realtime/signal_log.hpp"
+#include "floatframe/report/json_values.hpp"
 #include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
@@ -137,6 +140,65 @@ std::string log_text(const RealTimeOptions& options) {
   return text + "\n";
 }
 
+using Json = nlohmann::ordered_json;
+
+std::string hash_text(const SignalLayout& layout) {
+  return fmt::format("0x{:016x}", layout.hash());
+}
+
+std::string limit(double x) { return std::isfinite(x) ? fmt::format("{:g}", x) : ""; }
+
+Json limit_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json direction_json(const SignalLayout& layout) {
+  return {{"layout", hash_text(layout)}, {"bytes", packet_size(layout.signals.size())}};
+}
+
+Json histogram_json(const Histogram& h) {
+  Json bins = Json::array();
+  for (std::size_t k = 0; k < Histogram::bins; ++k)
+    if (h.count(k) > 0)
+      bins.push_back({1e6 * Histogram::lower(k), 1e6 * Histogram::upper(k), h.count(k)});
+  return {{"count", h.count()},
+          {"min_us", 1e6 * h.min()},
+          {"mean_us", 1e6 * h.mean()},
+          {"p50_us", 1e6 * h.percentile(0.5)},
+          {"p99_us", 1e6 * h.percentile(0.99)},
+          {"p999_us", 1e6 * h.percentile(0.999)},
+          {"max_us", 1e6 * h.max()},
+          {"bins_us", bins}};
+}
+
+Json packets_json(const UdpPort& port) {
+  const UdpCounts c = port.counts();
+  Json others = Json::array();
+  for (const OtherSender& o : port.other_senders())
+    others.push_back({{"address", o.address.text()}, {"packets", o.packets}});
+  return {{"received", c.received},
+          {"used", c.used},
+          {"superseded", c.superseded},
+          {"stale", c.stale},
+          {"mismatched", c.mismatched},
+          {"foreign", c.foreign},
+          {"of_other_senders", c.other},
+          {"sent", c.sent},
+          {"repeated", c.repeated},
+          {"send_errors", c.send_errors},
+          {"largest_age_steps", c.largest_age},
+          {"heard", port.peer().known() ? Json(port.peer().text()) : Json(nullptr)},
+          {"other_senders", others}};
+}
+
+Json silences_json(const RealTimeReport& r) {
+  Json list = Json::array();
+  const auto listed = std::min(static_cast<std::size_t>(r.input_timeouts), r.silences.size());
+  for (std::size_t k = 0; k < listed; ++k)
+    list.push_back({{"from_s", r.silences[k].from},
+                    {"to_s", r.silences[k].to},
+                    {"came_again", r.silences[k].ended}});
+  return list;
+}
+
 }  // namespace
 
 std::string realtime_text(const RealTimeReport& r, const RealTimeOptions& options,
@@ -181,6 +243,109 @@ std::string realtime_text(const RealTimeReport& r, const RealTimeOptions& option
   if (r.wake.count() > 0)
     text += "\nwake-up latency of the host, number of sleeps\n" + histogram_text(r.wake);
   return text;
+}
+
+std::string layout_text(const Model& model) {
+  const SignalLayout in = input_layout(model), out = output_layout(model);
+  std::string text = fmt::format("inputs of {}: kind 1, layout {}, {} bytes per packet\n",
+                                 model.name, hash_text(in), packet_size(in.signals.size()));
+  TextTable inputs({"offset", "name", "unit", "initial", "min", "max"}, {1, 2});
+  for (std::size_t i = 0; i < model.inputs.size(); ++i) {
+    const Input& x = model.inputs[i];
+    inputs.add({std::to_string(packet_size(i)), x.name, x.unit, fmt::format("{:g}", x.initial),
+                limit(x.low), limit(x.high)});
+  }
+  text += inputs.empty() ? "  none\n" : inputs.text(2);
+  text += fmt::format("\noutputs of {}: kind 2, layout {}, {} bytes per packet\n", model.name,
+                      hash_text(out), packet_size(out.signals.size()));
+  TextTable outputs({"offset", "name", "unit"}, {1, 2});
+  for (std::size_t i = 0; i < out.signals.size(); ++i)
+    outputs.add({std::to_string(packet_size(i)), out.signals[i].name, out.signals[i].unit});
+  return text + (outputs.empty() ? "  none\n" : outputs.text(2));
+}
+
+std::string layout_json(const Model& model) {
+  const SignalLayout in = input_layout(model), out = output_layout(model);
+  Json inputs = direction_json(in), outputs = direction_json(out);
+  inputs["signals"] = outputs["signals"] = Json::array();
+  for (std::size_t i = 0; i < model.inputs.size(); ++i) {
+    const Input& x = model.inputs[i];
+    inputs["signals"].push_back({{"name", x.name},
+                                 {"unit", x.unit},
+                                 {"offset", packet_size(i)},
+                                 {"initial", x.initial},
+                                 {"min", limit_json(x.low)},
+                                 {"max", limit_json(x.high)},
+                                 {"clamp", x.clamp}});
+  }
+  for (std::size_t i = 0; i < out.signals.size(); ++i)
+    outputs["signals"].push_back(
+        {{"name", out.signals[i].name}, {"unit", out.signals[i].unit}, {"offset", packet_size(i)}});
+  return json_document({{"model", model.name}, {"inputs", inputs}, {"outputs", outputs}});
+}
+
+std::string realtime_json(const RealTimeReport& r, const RealTimeOptions& options,
+                          const Model& model, const UdpPort* port) {
+  Json json = {{"status", r.status},
+               {"message", r.message},
+               {"model", r.model},
+               {"coordinates", r.coordinates},
+               {"inertia", r.inertia},
+               {"step_s", r.step},
+               {"time_s", r.time},
+               {"wall_s", r.wall},
+               {"paced", r.paced},
+               {"real_time_priority", r.priority},
+               {"memory_locked", r.memory_locked},
+               {"refusals", r.refusals},
+               {"notes", r.start.notes},
+               {"warnings", sentences(r.warnings)},
+               {"steps", r.steps},
+               {"substeps", r.substeps},
+               {"iterations", r.iterations},
+               {"factorizations", r.factorizations},
+               {"cut_short", r.cut_short},
+               {"max_position_violation_m", r.max_position_violation},
+               {"max_velocity_violation_m_per_s", r.max_velocity_violation},
+               {"overruns", {{"program", r.program_overruns}, {"host", r.host_overruns}}},
+               {"late_steps", r.late_steps},
+               {"slips", r.slips},
+               {"slipped_s", r.slipped},
+               {"preemptions", r.preemptions},
+               {"page_faults", r.page_faults},
+               {"stolen_s", r.stolen},
+               {"worst_cpu_at_s", r.worst_cpu_at},
+               {"worst_cpu_iterations", r.worst_cpu_iterations},
+               {"largest_cpu_share", r.cpu.max() / r.step},
+               {"steps_above_30_percent", r.cpu.count_above(0.3 * r.step)},
+               {"cpu", histogram_json(r.cpu)},
+               {"wall_clock", histogram_json(r.elapsed)},
+               {"wake_up", histogram_json(r.wake)}};
+  if (port != nullptr) json["packets"] = packets_json(*port);
+  if (options.log != nullptr)
+    json["log"] = {{"rows", options.log->rows()}, {"lost", options.log->lost()}};
+  json["by_iterations"] = Json::array();
+  for (std::size_t k = 0; k < r.by_iterations.size(); ++k) {
+    const StepsOfWork& work = r.by_iterations[k];
+    if (work.steps > 0)
+      json["by_iterations"].push_back(
+          {{"iterations", k},
+           {"steps", work.steps},
+           {"cpu_mean_us", 1e6 * work.cpu_sum / static_cast<double>(work.steps)},
+           {"cpu_max_us", 1e6 * work.cpu_max}});
+  }
+  json["input_timeouts"] = r.input_timeouts;
+  json["silences"] = silences_json(r);
+  Json inputs = Json::object(), outputs = Json::object();
+  for (std::size_t i = 0; i < r.inputs.size(); ++i)
+    inputs[model.inputs[i].name] = {
+        {"value", r.inputs[i]}, {"refused", r.refused_inputs[i]}, {"clamped", r.clamped_inputs[i]}};
+  for (std::size_t i = 0; i < r.outputs.size(); ++i) outputs[model.outputs[i].name] = r.outputs[i];
+  json["inputs"] = inputs;
+  json["outputs"] = outputs;
+  json["build"] = build_description();
+  json["processor"] = processor_name();
+  return json_document(json);
 }
 
 }  // namespace floatframe

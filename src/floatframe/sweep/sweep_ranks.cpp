@@ -1,16 +1,16 @@
-// The part of the processes of mpirun other than 0.
+#include "floatframe/sweep/sweep_ranks.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
 #include <deque>
 #include <thread>
 
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
-#include "floatframe/sweep/sweep_messages.hpp"
-#include "floatframe/sweep/sweep_ranks.hpp"
 
 namespace floatframe {
-
 void dismiss_ranks(Ranks& ranks) {
   for (int k = 1; k < ranks.size(); ++k) ranks.send(k, "stop");
 }
@@ -82,6 +82,32 @@ void serve_sweep(const SweepOptions& options, SweepWorkers* workers, Ranks& rank
     while (!dismissed && ranks.receive(message)) dismissed = word_of(message.text) == "stop";
     if (!dismissed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+}
+
+std::string word_of(const std::string& text) { return text.substr(0, text.find(' ')); }
+
+std::string rest_of(const std::string& text) {
+  const std::size_t blank = text.find(' ');
+  return blank == std::string::npos ? "" : text.substr(blank + 1);
+}
+
+std::optional<std::string> line_of(const SweepOptions& options,
+                                   const SweepWorkers::Answer& answer) {
+  if (!answer.lost.empty()) return lost_line(options, answer.run, answer.lost);
+  if (answer.kind == ServiceAnswer::Kind::given_up) return std::nullopt;
+  if (!answer.errors.empty()) throw InputError(answer.errors);
+  return answer.text;
+}
+
+std::optional<std::string> first_run_files(const SweepOptions& options, SweepWorkers& workers,
+                                           const std::atomic<bool>& stop) {
+  const auto answer = workers.ask(0, {ServiceRequest::What::files, 0}, stop);
+  if (!answer) return std::nullopt;
+  if (!answer->lost.empty())
+    throw RunError(ErrorCode::worker_lost,
+                   fmt::format("{}: reading it {}", options.model, answer->lost));
+  if (!answer->errors.empty()) throw InputError(answer->errors);
+  return answer->text;
 }
 
 }  // namespace floatframe
