@@ -72,8 +72,9 @@ class AbaqusCard : public AbaqusKeyword {
 
   /// Is there an error in what was read since the keyword or the last line?
   bool misread() const noexcept { return source.errors() != errors_before_line_; }
-  /// Is there an error since the parameters were looked at, or the last `start`?
+  /// Errors up to here count no more for `wrong`.
   void start() noexcept { errors_before_ = source.errors(); }
+  /// Is there an error since the parameters were looked at, or the last `start`?
   bool wrong() const noexcept { return source.errors() != errors_before_; }
   FeSource here() const noexcept { return source.here(); }
   /// "deck.inp:12"
