@@ -11,10 +11,11 @@ namespace floatframe {
 
 class AbaqusCard : public AbaqusKeyword {
  public:
-  AbaqusCard(AbaqusKeyword keyword, AbaqusLines& of_deck, AbaqusContent& to_fill);
+  AbaqusCard(AbaqusKeyword keyword, AbaqusLines& of_deck, AbaqusContent& to_fill)
+      : AbaqusKeyword(std::move(keyword)), lines(of_deck), content(to_fill) {}
 
   AbaqusLines& lines;
-  TextSource& source;
+  TextSource& source = lines.source();
   AbaqusContent& content;
   std::vector<std::string_view> fields;  ///< of the last data line
 
@@ -101,7 +102,7 @@ class AbaqusCard : public AbaqusKeyword {
   }
 
  private:
-  std::size_t errors_before_line_, errors_before_;
+  std::size_t errors_before_line_ = source.errors(), errors_before_ = source.errors();
 };
 
 /// Adds a node or an element; false and an error if its number is there already.
