@@ -122,8 +122,6 @@ class AbaqusNodalThickness {
   void notes();
 
  private:
-  void missing(const AbaqusSection& section, const Element& e, int node);
-
   AbaqusBuild& b_;
   std::vector<double> at_node_;
   std::map<std::pair<int, double>, int> sections_;  // of a section and a thickness

@@ -21,30 +21,25 @@ namespace {
 using Family = AbaqusType::Family;
 using Kind = AbaqusOrientation::Kind;
 
-/// What the two programs read in their own ways.
-struct DialectHabit {
-  std::string what;      ///< "SYSTEM=Z RECTANGULAR"
-  const char* calculix;  ///< what CalculiX does with it: "takes it as RECTANGULAR"
-  const char* taken;     ///< and what it is then: "taken as RECTANGULAR"
-};
-
-/// Whether it is CalculiX' way here. A note where it is not sure that the user knows.
+/// Whether something, as "SYSTEM=Z RECTANGULAR", is meant as in CalculiX, which "ignores it"; it is
+/// "ignored" then. A note where it is not sure that the user knows.
 bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
-                    const DialectHabit& d) {
+                    const std::string& what, const char* does, const char* done) {
   const DialectClues& clues = build.clues;
   const bool given = build.content.options.dialect != DeckDialect::by_content;
   const bool calculix = build.dialect() == DeckDialect::calculix;
   const bool known = given || (clues.abaqus && !clues.calculix && !clues.by_axes);
   if (calculix)
     build.note(o.at,
-               "orientation {}: {} is {}, as CalculiX does; if the deck is one "
-               "of Abaqus give --dialect abaqus",
-               shown(name), d.what, d.taken);
+               "orientation {}: {} is {}, as CalculiX does; if the deck is one of Abaqus give "
+               "--dialect abaqus",
+               shown(name), what, done);
   else if (!known)
-    build.note(o.at,
-               "orientation {}: {} is taken as in Abaqus; if the deck is one of "
-               "CalculiX, which {}, give --dialect calculix",
-               shown(name), d.what, d.calculix);
+    build.note(
+        o.at,
+        "orientation {}: {} is taken as in Abaqus; if the deck is one of CalculiX, which {}, "
+        "give --dialect calculix",
+        shown(name), what, does);
   return calculix;
 }
 
@@ -52,25 +47,22 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
 /// axis is blank.
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                                      const std::string& name, bool shell) {
-  const char* const ignores = "ignores it";
-  const char* const ignored = "ignored";
   if (o.kind == Kind::z_rectangular &&
-      is_of_calculix(build, o, name,
-                     {"SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR", "taken as RECTANGULAR"}))
+      is_of_calculix(build, o, name, "SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR",
+                     "taken as RECTANGULAR"))
     o.kind = Kind::rectangular;
   if (o.kind != Kind::cylindrical && o.c != Vec3::Zero() &&
       is_of_calculix(build, o, name,
-                     {fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
-                      ignores, ignored}))
+                     fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
+                     "ignores it", "ignored"))
     o.c.setZero();
   // Of shells the axis alone says which one is about the normal.
   if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
       is_of_calculix(
           build, o, name,
-          {fmt::format(
-               "the additional rotation of {:g} degrees, whose axis is blank (1 in Abaqus),",
-               o.angle * 180.0 / std::numbers::pi),
-           ignores, ignored}))
+          fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 in Abaqus),",
+                      o.angle * 180.0 / std::numbers::pi),
+          "ignores it", "ignored"))
     o.axis = 0;
   if (o.points_on_a_line())
     build.source.error(ErrorCode::wrong_value, o.at, "orientation {} {}", shown(name),

@@ -6,14 +6,6 @@
 
 namespace floatframe {
 
-AbaqusCard::AbaqusCard(AbaqusKeyword keyword, AbaqusLines& of_deck, AbaqusContent& to_fill)
-    : AbaqusKeyword(std::move(keyword)),
-      lines(of_deck),
-      source(of_deck.source()),
-      content(to_fill),
-      errors_before_line_(source.errors()),
-      errors_before_(source.errors()) {}
-
 void AbaqusCard::allow_only(std::string_view known) {
   for (const Parameter& p : parameters)
     if (!is_abaqus_word(known, p.name))

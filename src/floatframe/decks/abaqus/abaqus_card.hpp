@@ -11,10 +11,11 @@ namespace floatframe {
 
 class AbaqusCard : public AbaqusKeyword {
  public:
-  AbaqusCard(AbaqusKeyword keyword, AbaqusLines& of_deck, AbaqusContent& to_fill);
+  AbaqusCard(AbaqusKeyword keyword, AbaqusLines& of_deck, AbaqusContent& to_fill)
+      : AbaqusKeyword(std::move(keyword)), lines(of_deck), content(to_fill) {}
 
   AbaqusLines& lines;
-  TextSource& source;
+  TextSource& source = lines.source();
   AbaqusContent& content;
   std::vector<std::string_view> fields;  ///< of the last data line
 
@@ -72,8 +73,9 @@ class AbaqusCard : public AbaqusKeyword {
 
   /// Is there an error in what was read since the keyword or the last line?
   bool misread() const noexcept { return source.errors() != errors_before_line_; }
-  /// Is there an error since the parameters were looked at, or the last `start`?
+  /// Errors up to here count no more for `wrong`.
   void start() noexcept { errors_before_ = source.errors(); }
+  /// Is there an error since the parameters were looked at, or the last `start`?
   bool wrong() const noexcept { return source.errors() != errors_before_; }
   FeSource here() const noexcept { return source.here(); }
   /// "deck.inp:12"
@@ -100,7 +102,7 @@ class AbaqusCard : public AbaqusKeyword {
   }
 
  private:
-  std::size_t errors_before_line_, errors_before_;
+  std::size_t errors_before_line_ = source.errors(), errors_before_ = source.errors();
 };
 
 /// Adds a node or an element; false and an error if its number is there already.

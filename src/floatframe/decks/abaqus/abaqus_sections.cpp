@@ -217,7 +217,13 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
   double sum = 0.0, least = HUGE_VAL, most = 0.0;
   for (int k = 0; k < nodes; ++k) {
     const double t = at_node_.empty() ? 0.0 : at_node_[e.nodes[k]];
-    if (!(t > 0.0) && k < corners) return missing(section, e, e.nodes[k]);
+    if (!(t > 0.0) && k < corners) {
+      if (missing_++ == 0)
+        b_.error(section, ErrorCode::missing,
+                 " has NODAL THICKNESS, but node {} of element {} has none (*NODAL THICKNESS)",
+                 b_.model.node_ids[e.nodes[k]], e.id);
+      return;
+    }
     if (!(t > 0.0)) continue;
     if (k < corners) sum += t;
     least = std::min(least, t);
@@ -244,13 +250,6 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
     check_abaqus_sheet(b_, section, shell, e.material);
   }
   e.section = it->second;
-}
-
-void AbaqusNodalThickness::missing(const AbaqusSection& section, const Element& e, int node) {
-  if (missing_++ > 0) return;
-  b_.error(section, ErrorCode::missing,
-           " has NODAL THICKNESS, but node {} of element {} has none (*NODAL THICKNESS)",
-           b_.model.node_ids[node], e.id);
 }
 
 void AbaqusNodalThickness::notes() {
