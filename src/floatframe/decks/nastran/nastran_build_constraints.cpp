@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <unordered_map>
 #include <vector>
@@ -202,7 +201,7 @@ class ConstraintBuilder {
         if (add_nastran_term(b_, e, term, equation) < 0) return;
       const int dependent = b_.node_of.at(e.terms[0].node);
       if (b_.turned[dependent] != 0) {
-        b_.equations.add(dependent, e.terms[0].component >= 3, equation);
+        b_.equations.add(dependent, e.terms[0].axis >= 3, equation);
       } else {
         b_.model.equations.push_back(std::move(equation));
       }

@@ -4,9 +4,6 @@
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/fe/elasticity.hpp"
-#include "floatframe/fe/element_faces.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -108,7 +105,7 @@ class ElementBuilder {
     if (p == nullptr) return;
     if (e.type == ElementType::shear4) {
       result.material = materials_.index(*p, density_of(p->nonstructural, p->thickness));
-      result.section = panel(*p);
+      result.section = shell(e, *p, p->thickness);
       edge_rods(*p, result);
     } else if (e.surface) {
       if (e.other)
@@ -128,7 +125,7 @@ class ElementBuilder {
         return weak(e, *p, result);
       if (beam && !bars_.place(e, p->turn, true, result)) return;
       result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
-      result.section = section(e.property, *p, beam);
+      result.section = section(e, *p, p->section, beam);
     } else {
       result.material = materials_.index(*p, 0.0);
       orient_nastran_solid(b_, *p, result);
@@ -151,7 +148,7 @@ class ElementBuilder {
     if (!bars_.place(e, bends ? p.turn : 0.0, false, result)) return;
     result.type = ElementType::rod2;
     result.material = materials_.index(p, p.nonstructural / p.section.A);
-    result.section = section(e.property, p, false);
+    result.section = section(e, p, p.section, false);
     if (weak_.insert(e.property).second)
       b_.note(p.at, fmt::format("{}: {}", p.label(), weak_nastran_bar_note(p)));
     const double shear =
@@ -177,19 +174,9 @@ class ElementBuilder {
       last = part.nodes[1];
       part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
       part.material = materials_.index(p, density_of(piece.nonstructural, piece.section.A));
-      part.section = piece_section(e.property, p, piece, k);
+      part.section = section(e, p, piece.section, true, k);
       add(e, part);
     }
-  }
-
-  int piece_section(int id, const NastranProperty& p, const NastranPiece& piece, std::size_t k) {
-    std::vector<int>& known = piece_sections_[id];
-    if (k < known.size()) return known[k];
-    if (k == 0) judge_section(p);
-    known.push_back(static_cast<int>(b_.model.sections.size()));
-    b_.model.sections.push_back(piece.section);
-    own_shear(p, b_.model.sections.back());
-    return known.back();
   }
 
   static ElementType membrane_of(ElementType shell) {
@@ -205,16 +192,18 @@ class ElementBuilder {
     }
   }
 
-  int section(int id, const NastranProperty& p, bool beam) {
-    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
+  /// Of an element's property, or a piece of it if it is tapered.
+  int section(const NastranElement& e, const NastranProperty& p, const BeamSection& own, bool beam,
+              std::size_t piece = 0) {
+    const auto [it, fresh] =
+        sections_.try_emplace({e.property, piece}, static_cast<int>(b_.model.sections.size()));
     if (!fresh) return it->second;
-    if (beam) {
-      judge_section(p);
-    } else {
-      must_be_positive(p, "A", p.section.A);
-    }
-    b_.model.sections.push_back(p.section);
-    own_shear(p, b_.model.sections.back());
+    if (!beam) must_be_positive(p, "A", p.section.A);
+    if (beam && piece == 0) judge_section(p);
+    b_.model.sections.push_back(own);
+    const double ratio = materials_.own_shear(p.material);
+    BeamSection& s = b_.model.sections.back();
+    for (double* x : {&s.J, &s.shear_y, &s.shear_z}) *x *= ratio;
     return it->second;
   }
 
@@ -225,11 +214,6 @@ class ElementBuilder {
     for (const auto& [name, value] : values) must_be_positive(p, name, value);
     for (const std::string& remark : p.remarks)
       b_.note(p.at, fmt::format("{}: {}", p.label(), remark));
-  }
-
-  void own_shear(const NastranProperty& p, BeamSection& own) {
-    const double ratio = materials_.own_shear(p.material);
-    for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
   }
 
   void must_be_positive(const NastranProperty& p, const char* what, double value) {
@@ -268,22 +252,18 @@ class ElementBuilder {
         shells_.try_emplace({e.property, e.offset, t}, static_cast<int>(b_.model.shells.size()));
     if (!fresh) return it->second;
     must_be_positive(p, "the thickness", t);
-    ShellSection section = nastran_shell_section(b_, e, p, [&](int id) {
-      // Of plies the mass counts, of a PSHELL that of its first material.
-      return materials_.index(p, 0.0, id, !p.plies.empty());
-    });
-    if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
+    ShellSection section;
+    if (e.type == ElementType::shear4) {
+      section.shear = t * materials_.own_shear(p.material);
+    } else {
+      section = nastran_shell_section(b_, e, p, [&](int id) {
+        // Of plies the mass counts, of a PSHELL that of its first material.
+        return materials_.index(p, 0.0, id, !p.plies.empty());
+      });
+      if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
+    }
     section.thickness = t;
     b_.model.shells.push_back(std::move(section));
-    return it->second;
-  }
-
-  int panel(const NastranProperty& p) {
-    const auto [it, fresh] = panels_.try_emplace(p.id, static_cast<int>(b_.model.shells.size()));
-    if (!fresh) return it->second;
-    must_be_positive(p, "the thickness", p.thickness);
-    b_.model.shells.push_back(
-        {.thickness = p.thickness, .shear = p.thickness * materials_.own_shear(p.material)});
     return it->second;
   }
 
@@ -334,12 +314,11 @@ class ElementBuilder {
   NastranBars bars_;
   NastranMaterials materials_;
   std::map<int, std::vector<NastranPiece>> tapers_;
-  std::map<int, std::vector<int>> piece_sections_;
   bool mesh_only_ = false;
   NastranCount skins_;
   std::set<int> missing_, weak_;
   std::map<std::string, std::set<int>> members_;
-  std::map<int, int> sections_, panels_;
+  std::map<std::pair<int, std::size_t>, int> sections_;
   std::map<std::tuple<int, double, double>, int> shells_;
   NastranCount uneven_;  // shells whose corners differ in thickness
   double unevenness_ = 0.0;

@@ -6,7 +6,6 @@
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/elasticity.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -60,8 +59,8 @@ ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
   s.shear = p.shell_shear;
   s.smeared = p.smeared;
   s.mass = p.nonstructural * build.content.mass_factor;
-  for (const NastranPly& ply : p.plies)
-    s.plies.push_back({material(ply.material), ply.thickness, ply.angle});
+  s.plies = p.plies;
+  for (ShellPly& ply : s.plies) ply.material = material(ply.material);
   if (!p.z0) return s;
   const double middle = *p.z0 + 0.5 * p.thickness;
   if (e.offset != 0.0 && std::abs(middle) > 1e-6 * p.thickness)

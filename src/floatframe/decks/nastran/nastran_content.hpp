@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <unordered_set>
@@ -104,11 +103,6 @@ struct NastranMaterial : NastranEntity {
   bool plane = false;              ///< MAT2, MAT8
 };
 
-struct NastranPly {
-  int material = 0;
-  double thickness = 0.0, angle = 0.0;  ///< [rad]
-};
-
 /// Of a bar: I1 = int y^2, I2 = int z^2, I12 = int y z dA about the centroid.
 struct NastranSection {
   double A = 0.0, I1 = 0.0, I2 = 0.0, I12 = 0.0, J = 0.0;
@@ -140,7 +134,7 @@ struct NastranProperty : NastranEntity {
   bool membrane = false;            ///< PSHELL without MID2, PCOMP with LAM = MEM
   int bending = 0, coupling = 0;    ///< PSHELL: MID2, MID4; 0: none
   double bending_factor = 1.0;      ///< PSHELL: 12I/T**3
-  std::vector<NastranPly> plies;    ///< PCOMP, from the bottom
+  std::vector<ShellPly> plies;      ///< PCOMP, from the bottom; materials by their numbers
   std::optional<double> z0;         ///< PCOMP: of the bottom from the nodes
   bool smeared = false;             ///< PCOMP: LAM = SMEAR
   double shell_shear = 0.0;         ///< PSHELL with MID3, PCOMP
@@ -191,11 +185,8 @@ struct NastranRigid : NastranEntity {
 
 /// MPC; its number is that of its set.
 struct NastranEquation : NastranEntity {
-  struct Term {
-    int node = 0, component = 0;  ///< -1: none, of a scalar point
-    double factor = 0.0;
-  };
-  std::vector<Term> terms;
+  using Term = LinearEquation::Term;
+  std::vector<Term> terms;  ///< nodes by their numbers; axis -1: none, of a scalar point
 };
 
 struct NastranSupport {

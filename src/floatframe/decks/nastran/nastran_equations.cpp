@@ -66,19 +66,19 @@ void NastranEquations::follow(int node, int component, const Mat3& axes, int ref
 int add_nastran_term(NastranBuild& build, const NastranEquation& e,
                      const NastranEquation::Term& term, LinearEquation& equation) {
   const int node = build.node(term.node, e);
-  if (node >= 0 && term.component < 0)
+  if (node >= 0 && term.axis < 0)
     build.error(ErrorCode::missing, e,
                 "the component of node {} is missing, expected one of 1 to 6", term.node);
-  if (node < 0 || term.component < 0) return -1;
+  if (node < 0 || term.axis < 0) return -1;
   if (build.turned[node] == 0) {
-    equation.terms.push_back({node, term.component, term.factor});
+    equation.terms.push_back({node, term.axis, term.factor});
     return node;
   }
-  const Vec3 axis = build.axes(node).col(term.component % 3);
+  const Vec3 axis = build.axes(node).col(term.axis % 3);
   for (int k = 0; k < 3; ++k) {
     const double factor = term.factor * axis(k);
     if (std::abs(factor) > 1e-15 * std::abs(term.factor))
-      equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
+      equation.terms.push_back({node, term.axis >= 3 ? 3 + k : k, factor});
   }
   return node;
 }
@@ -133,11 +133,11 @@ class ScalarEquations {
     row.equation = &e;
     for (const NastranEquation::Term& t : e.terms) {
       if (b_.content.scalar_points.contains(t.node)) {
-        if (t.component > 0)
+        if (t.axis > 0)
           return b_.error(
               ErrorCode::wrong_value, e,
               "the component is {}, but {} is a scalar point, which has one only (0 or blank)",
-              t.component + 1, t.node);
+              t.axis + 1, t.node);
         const NastranScalarPoint* p = b_.scalars.find(t.node);
         if (p == nullptr) continue;  // held
         const DofKey key{p->node, p->axis};
@@ -149,7 +149,7 @@ class ScalarEquations {
       const int node = add_nastran_term(b_, e, t, basic);
       if (node < 0) return;
       for (const LinearEquation::Term& x : basic.terms) row.terms[{x.node, x.axis}] += x.factor;
-      if (row.first < 0) row.first = node, row.rotation = t.component >= 3;
+      if (row.first < 0) row.first = node, row.rotation = t.axis >= 3;
     }
     for (const auto& [key, factor] : row.terms) {
       row.scale = std::max(row.scale, std::abs(factor));

@@ -62,7 +62,7 @@ void read_pshell(NastranFields& f, NastranProperty& p) {
 void read_nastran_ply(NastranFields& f, std::size_t first, NastranProperty& p) {
   const std::string what = fmt::format("ply {}", p.plies.size() + 1);
   const bool before = !p.plies.empty();
-  NastranPly ply = before ? p.plies.back() : NastranPly{};
+  ShellPly ply = before ? p.plies.back() : ShellPly{};
   if (!f.blank(first) || !before)
     ply.material = f.label(first, ("the material of " + what).c_str());
   if (!f.blank(first + 1) || !before)
@@ -100,7 +100,7 @@ void read_pcomp(NastranFields& f, NastranProperty& p) {
   if (symmetric)
     for (std::size_t k = p.plies.size(); k-- > 0;) p.plies.push_back(p.plies[k]);
   p.material = p.plies.front().material;
-  for (const NastranPly& ply : p.plies) p.thickness += ply.thickness;
+  for (const ShellPly& ply : p.plies) p.thickness += ply.thickness;
   p.shell_shear = 5.0 / 6.0 * p.thickness;
 }
 

@@ -117,10 +117,10 @@ class ScalarPointBuilder {
       int node = -1;
       for (const NastranEquation::Term& t : e.terms) {
         const auto it = b_.node_of.find(t.node);
-        if (it == b_.node_of.end() || t.component < 0) continue;
+        if (it == b_.node_of.end() || t.axis < 0) continue;
         if (node < 0) node = it->second;
         any = true;
-        all = all && t.component >= 3;
+        all = all && t.axis >= 3;
       }
       for (const NastranEquation::Term& t : e.terms) {
         if (!points_.contains(t.node) || !any) continue;

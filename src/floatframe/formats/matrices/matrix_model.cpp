@@ -330,6 +330,14 @@ FeModel matrix_model_of(const MatrixTexts& texts, FeModel nodes,
   return model;
 }
 
+void note_other_matrices(FeModel& model, const std::string& file,
+                         const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  model.notes.push_back(fmt::format(
+      "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}", file,
+      fmt::join(names, ", ")));
+}
+
 void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source) {
   model.matrices->C = in_model_axes(std::move(C), model, source);
   add_file(model, source.files().front());

@@ -49,6 +49,9 @@ using MatrixReader = std::function<SparseMatrix(TextSource& source, const std::s
 /// The same from texts, which are read in this order; `labels` may be known with the first.
 FeModel matrix_model_of(const MatrixTexts& texts, FeModel nodes,
                         const std::vector<DofLabel>& labels, const MatrixReader& read);
+/// A note of matrices that are not read.
+void note_other_matrices(FeModel& model, const std::string& file,
+                         const std::vector<std::string>& names);
 /// Viscous damping, rows as those of the stiffness, beside stiffness and mass.
 void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -71,11 +72,11 @@ class DmigFile {
   }
   const std::string& name() const { return name_; }
   /// Matrices that `matrix` has not given.
-  std::string others() const {
-    std::string text;
-    for (const std::string& name : names_)
-      if (!used_.contains(name)) text += (text.empty() ? "" : ", ") + name;
-    return text;
+  std::vector<std::string> others() const {
+    std::vector<std::string> names;
+    std::set_difference(names_.begin(), names_.end(), used_.begin(), used_.end(),
+                        std::back_inserter(names));
+    return names;
   }
 
  private:
@@ -182,10 +183,7 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
   FeModel model =
       matrix_model_of({stiffness, mass == nullptr ? stiffness : *mass, damping, stiffness},
                       std::move(nodes), labels, read);
-  if (!first.others().empty())
-    model.notes.push_back(fmt::format(
-        "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}",
-        stiffness.files().front(), first.others()));
+  note_other_matrices(model, stiffness.files().front(), first.others());
   return model;
 }
 

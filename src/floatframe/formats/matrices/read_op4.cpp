@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "floatframe/formats/matrices/matrix_files.hpp"
@@ -129,10 +128,7 @@ FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options
   std::erase_if(names, [&](const std::string& n) {
     return n == K->name || n == M->name || (B != nullptr && n == B->name);
   });
-  if (!names.empty())
-    model.notes.push_back(fmt::format(
-        "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}", name,
-        fmt::join(names, ", ")));
+  note_other_matrices(model, name, names);
   return model;
 }
 

@@ -182,11 +182,7 @@ void NastranCards::split(std::string_view text, Line& line) {
     std::string wide;  // up to the last column that counts
     for (const char c : text) {
       if (wide.size() >= 80) break;
-      if (c == '\t') {
-        wide.append(8 - wide.size() % 8, ' ');
-      } else {
-        wide += c;
-      }
+      wide.append(c == '\t' ? 8 - wide.size() % 8 : 1, c == '\t' ? ' ' : c);
     }
     text = expanded_.emplace_back(std::move(wide));
   }
