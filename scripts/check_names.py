@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that sources which are compiled as one have no name of their own in common.
 
-Many sources of a room - a folder of src/floatframe or of tests - are compiled as one (FLOATFRAME_UNITY): what stands in
+Many sources of a room - a folder of src/floatframe, bench/floatframe or tests - are compiled as one (FLOATFRAME_UNITY): what stands in
 their unnamed namespaces, or is static, then shares one scope. Whether two equal names meet depends on how the batches
 fall, and a new file moves them; so no two sources of a room may have one. Functions, variables and types count, functions
 whatever their arguments: of two overloads the wrong one could be called. The same alias of a type may be written again.
@@ -17,7 +17,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ("src/floatframe", "tests")
+ROOMS = ("src/floatframe", "bench/floatframe", "tests")
 ALONE = ("src/floatframe/fe/elements",)
 
 # What holds no declarations: comments, raw strings, strings, characters, preprocessor lines.

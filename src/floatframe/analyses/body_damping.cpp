@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "floatframe/body/modal_damping.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/report/notes_text.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 
 namespace floatframe {
@@ -50,12 +50,8 @@ nlohmann::ordered_json damped_modes_json(const std::vector<DampedMode>& modes) {
 std::string body_damping_text(const Model& model) {
   std::string text;
   for (const DampedBodies& body : damped_bodies(model)) {
-    std::string names;
-    for (std::size_t k = 0; k < std::min(body.names.size(), shown_modes); ++k)
-      names += (k > 0 ? ", " : "") + body.names[k];
-    if (body.names.size() > shown_modes)
-      names += fmt::format(" and {} more", body.names.size() - shown_modes);
-    text += fmt::format("\n  damping of {}, fractions of critical [%] of its own modes\n", names) +
+    text += fmt::format("\n  damping of {}, fractions of critical [%] of its own modes\n",
+                        names_text(body.names, shown_modes)) +
             own_damping_text(body.own, shown_modes, 2);
   }
   return text;

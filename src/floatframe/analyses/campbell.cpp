@@ -4,14 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/analyses/rotor_options.hpp"
-#include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/campbell_picture.hpp"

@@ -134,8 +134,7 @@ std::string check_json(const ModelCounts& c, const Model& model) {
 
 /// The page of the model where a run of it begins.
 std::string page_of_start(const Model& model, const ModelCounts& counts) {
-  if (page_template().empty())
-    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
+  require_page("--report");
   StartedModel<RelativeFormulation> start(model, model.simulation);
   JointFollower joints(start.model());
   SystemState state = system_state(start.formulation(), start.state(), joints);
@@ -157,8 +156,7 @@ std::string page_of_start(const Model& model, const ModelCounts& counts) {
 
 /// The page of a model that a run cannot start with.
 std::string page_of_failure(const Model& model, const std::string& why) {
-  if (page_template().empty())
-    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
+  require_page("--report");
   return check_page(model, {{}, {}, {}, body_tables(model), why});
 }
 

@@ -260,8 +260,7 @@ std::string place_text(const std::string& at, double time) {
 std::string page_of_modes(const Model& model, const LinearSystem& system,
                           const std::vector<ShownMotion>& modes, const MatX& rigid,
                           const std::string& at) {
-  if (page_template().empty())
-    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
+  require_page("--report");
   ModesPage page;
   page.state = model.simulation.coordinates == Coordinates::relative
                    ? linearised_state<RelativeFormulation>(model)

@@ -2,8 +2,6 @@
 // to random roads.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <memory>
 
 #include "floatframe/analyses/analysis.hpp"
@@ -30,18 +28,10 @@ struct ResponseOptions {
   std::vector<std::string> unbalance;
 };
 
-std::optional<double> number_in(const std::string& text) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [read, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || read != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 double roughness_of(const std::string& text) {
   for (int k = 0; k < static_cast<int>(std::size(road_classes::names)); ++k)
     if (text == road_classes::names[k]) return road_classes::roughness(k);
-  const std::optional<double> value = number_in(text);
+  const std::optional<double> value = number_of(text);
   if (!value || !(*value > 0.0))
     throw InputError(ErrorCode::wrong_value,
                      fmt::format("--road-spectrum: found '{}', expected a class, A to H, or the "
@@ -58,8 +48,8 @@ struct HarmonicRequest {
 HarmonicRequest harmonic_request(const std::string& text) {
   const std::size_t equals = text.rfind('='), at = text.rfind('@');
   if (equals != std::string::npos && at != std::string::npos && equals < at) {
-    const auto amplitude = number_in(text.substr(equals + 1, at - equals - 1)),
-               frequency = number_in(text.substr(at + 1));
+    const auto amplitude = number_of(text.substr(equals + 1, at - equals - 1)),
+               frequency = number_of(text.substr(at + 1));
     if (amplitude && frequency && *frequency >= 0.0)
       return {text.substr(0, equals), *amplitude, *frequency};
   }

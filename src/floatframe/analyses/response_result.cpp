@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
-#include "floatframe/report/log_plot.hpp"
-#include "floatframe/report/plot_ticks.hpp"
 
 namespace floatframe {
 namespace {
@@ -20,6 +17,8 @@ namespace {
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 double phase_of(std::complex<double> value) { return degrees * std::arg(value); }
+
+std::string name_of(const ResponseCurve& c) { return c.output.name + " / " + c.input.name; }
 
 std::string density_unit(const Column& output) {
   const std::string& u = output.unit;
@@ -32,7 +31,7 @@ std::string curves_text(const ResponseResult& r) {
       {"output", "input", "unit", "at [Hz]", "magnitude", "phase [deg]", "largest", "there [Hz]"},
       {1, 2});
   for (const ResponseCurve& c : r.curves) {
-    const std::vector<double> sizes = c.magnitudes(), phases = c.phases();
+    const auto [sizes, phases, real, imaginary] = parts_of(c.values);
     const auto top = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
     const std::size_t ends[] = {0, sizes.size() - 1};
     for (const std::size_t k : ends) {
@@ -69,25 +68,6 @@ std::string road_text(const RoadLoading& loading, const RoadResponse& road) {
       table.text());
 }
 
-/// Curves of one unit share panels, a few of them each.
-template <class Curve, class Unit>
-std::vector<std::vector<const Curve*>> panels_of(const std::vector<Curve>& curves,
-                                                 const Unit& unit) {
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<const Curve*>> groups;
-  for (const Curve& c : curves) {
-    if (groups[unit(c)].empty()) order.push_back(unit(c));
-    groups[unit(c)].push_back(&c);
-  }
-  std::vector<std::vector<const Curve*>> panels;
-  for (const std::string& u : order)
-    for (std::size_t k = 0; k < groups[u].size(); ++k) {
-      if (k % max_curves_per_plot == 0) panels.emplace_back();
-      panels.back().push_back(groups[u][k]);
-    }
-  return panels;
-}
-
 }  // namespace
 
 std::string ResponseCurve::unit() const {
@@ -95,19 +75,20 @@ std::string ResponseCurve::unit() const {
   return input.unit.empty() ? above : above + " per " + input.unit;
 }
 
-std::vector<double> ResponseCurve::magnitudes() const {
-  std::vector<double> all;
-  for (const std::complex<double>& v : values) all.push_back(std::abs(v));
-  return all;
-}
-
-std::vector<double> ResponseCurve::phases() const {
-  std::vector<double> all;
-  for (const std::complex<double>& v : values) {
-    const double phase = phase_of(v);
-    all.push_back(all.empty() ? phase : all.back() + std::remainder(phase - all.back(), 360.0));
+ComplexParts parts_of(const std::vector<std::complex<double>>& values, bool at_rest) {
+  ComplexParts out;
+  const auto moves = [](const std::complex<double>& v) { return std::abs(v) > 0.0; };
+  auto first = at_rest ? std::find_if(values.begin(), values.end(), moves) : values.begin();
+  if (first == values.end()) first = values.begin();
+  for (auto v = values.begin(); v != values.end(); ++v) {
+    const double phase = phase_of(v < first ? *first : *v);
+    out.size.push_back(std::abs(*v));
+    out.phase.push_back(
+        v <= first ? phase : out.phase.back() + std::remainder(phase - out.phase.back(), 360.0));
+    out.real.push_back(v->real());
+    out.imaginary.push_back(v->imag());
   }
-  return all;
+  return out;
 }
 
 std::string response_text(const ResponseResult& r) {
@@ -128,16 +109,14 @@ std::string response_json(const ResponseResult& r) {
   using Json = nlohmann::ordered_json;
   Json curves = Json::array(), harmonics = Json::array();
   for (const ResponseCurve& c : r.curves) {
-    std::vector<double> real, imaginary;
-    for (const std::complex<double>& v : c.values)
-      real.push_back(v.real()), imaginary.push_back(v.imag());
+    const ComplexParts parts = parts_of(c.values);
     curves.push_back({{"output", c.output.name},
                       {"input", c.input.name},
                       {"unit", c.unit()},
-                      {"magnitude", c.magnitudes()},
-                      {"phase_deg", c.phases()},
-                      {"real", real},
-                      {"imaginary", imaginary}});
+                      {"magnitude", parts.size},
+                      {"phase_deg", parts.phase},
+                      {"real", parts.real},
+                      {"imaginary", parts.imaginary}});
   }
   for (const HarmonicResponse& h : r.harmonics) {
     Json outputs = Json::array();
@@ -181,14 +160,14 @@ std::string response_csv(const ResponseResult& r) {
   std::vector<std::pair<std::string, std::vector<double>>> columns;
   columns.emplace_back("frequency [Hz]", r.frequencies);
   for (const ResponseCurve& c : r.curves) {
-    const std::string name = c.output.name + " / " + c.input.name;
-    columns.emplace_back(csv_title(name + " magnitude", c.unit()), c.magnitudes());
-    columns.emplace_back(csv_title(name + " phase", "deg"), c.phases());
-    std::vector<double> real, imaginary;
-    for (const std::complex<double>& v : c.values)
-      real.push_back(v.real()), imaginary.push_back(v.imag());
-    columns.emplace_back(csv_title(name + " real", c.unit()), std::move(real));
-    columns.emplace_back(csv_title(name + " imaginary", c.unit()), std::move(imaginary));
+    ComplexParts parts = parts_of(c.values);
+    const auto add = [&](const char* what, const std::string& unit, std::vector<double>& values) {
+      columns.emplace_back(csv_title(name_of(c) + what, unit), std::move(values));
+    };
+    add(" magnitude", c.unit(), parts.size);
+    add(" phase", "deg", parts.phase);
+    add(" real", c.unit(), parts.real);
+    add(" imaginary", c.unit(), parts.imaginary);
   }
   if (r.road)
     for (const OutputSpectrum& o : r.road->outputs)
@@ -206,18 +185,9 @@ std::string response_csv(const ResponseResult& r) {
 }
 
 std::string response_svg(const ResponseResult& r) {
-  std::vector<LogPanel> panels;
-  for (const auto& group : panels_of(r.curves, [](const ResponseCurve& c) { return c.unit(); })) {
-    LogPanel size{"Magnitude", "[" + group[0]->unit() + "]", LogPanel::Scale::logarithmic, {}},
-        phase{"Phase", "", LogPanel::Scale::degrees, {}};
-    for (const ResponseCurve* c : group) {
-      const std::string name = c->output.name + " / " + c->input.name;
-      size.curves.push_back({name, c->magnitudes()});
-      phase.curves.push_back({name, c->phases()});
-    }
-    panels.push_back(std::move(size));
-    panels.push_back(std::move(phase));
-  }
+  std::vector<LogPanel> panels = bode_panels(
+      "Magnitude", r.curves, [](const ResponseCurve& c) { return c.unit(); }, name_of,
+      [](const ResponseCurve& c) { return parts_of(c.values); });
   if (r.road)
     for (const auto& group : panels_of(
              r.road->outputs, [](const OutputSpectrum& o) { return density_unit(o.output); })) {

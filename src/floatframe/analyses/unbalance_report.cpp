@@ -3,35 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <optional>
 
+#include "floatframe/analyses/response_result.hpp"
+#include "floatframe/analyses/rotor_options.hpp"
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
-#include "floatframe/report/log_plot.hpp"
-#include "floatframe/report/plot_ticks.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
-std::optional<double> whole_number(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 std::string place_of(const Unbalance& u) { return u.node.empty() ? u.body : u.body + ":" + u.node; }
+
+ComplexParts parts_over_speed(const UnbalanceCurve& c) { return parts_of(c.amplitudes, true); }
 
 std::string unbalances_text(const UnbalanceOptions& o) {
   std::string text;
@@ -48,9 +39,9 @@ Unbalance unbalance_of(const std::string& text) {
   const std::size_t equals = text.rfind('='), at = text.rfind('@');
   const bool angled = at != std::string::npos && equals != std::string::npos && at > equals;
   if (equals != std::string::npos && equals > 0) {
-    const auto moment = whole_number(
-                   text.substr(equals + 1, angled ? at - equals - 1 : std::string::npos)),
-               angle = angled ? whole_number(text.substr(at + 1)) : std::optional(0.0);
+    const auto moment =
+                   number_of(text.substr(equals + 1, angled ? at - equals - 1 : std::string::npos)),
+               angle = angled ? number_of(text.substr(at + 1)) : std::optional(0.0);
     const std::string place = text.substr(0, equals);
     const std::size_t colon = place.find(':');
     if (moment && angle)
@@ -63,24 +54,6 @@ Unbalance unbalance_of(const std::string& text) {
                                excerpt(text)));
 }
 
-std::vector<double> amplitudes_of(const UnbalanceCurve& curve) {
-  std::vector<double> all;
-  for (const std::complex<double>& y : curve.amplitudes) all.push_back(std::abs(y));
-  return all;
-}
-
-std::vector<double> phases_of(const UnbalanceCurve& curve) {
-  std::vector<double> all;
-  bool begun = false;  // at standstill there is none
-  for (const std::complex<double>& y : curve.amplitudes) {
-    const double phase = degrees_per_radian * std::arg(y);
-    all.push_back(begun ? all.back() + std::remainder(phase - all.back(), 360.0) : phase);
-    if (!begun && std::abs(y) > 0.0) std::fill(all.begin(), all.end(), phase);
-    begun = begun || std::abs(y) > 0.0;
-  }
-  return all;
-}
-
 std::string unbalance_text(const std::string& model, const UnbalanceOptions& o,
                            const UnbalanceResponse& r) {
   std::string text = r.stiffening.empty() ? "" : r.stiffening + ".\n\n";
@@ -90,7 +63,7 @@ std::string unbalance_text(const std::string& model, const UnbalanceOptions& o,
                    "there [rad/s]"},
                   {1});
   for (const UnbalanceCurve& c : r.curves) {
-    const std::vector<double> sizes = amplitudes_of(c), phases = phases_of(c);
+    const auto [sizes, phases, real, imaginary] = parts_over_speed(c);
     const auto top =
         static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
     for (const std::size_t k : {std::size_t{0}, sizes.size() - 1}) {
@@ -117,15 +90,13 @@ std::string unbalance_json(const std::string& model, const UnbalanceOptions& o,
                           {"kg_m", u.moment},
                           {"angle_deg", u.angle * degrees_per_radian}});
   for (const UnbalanceCurve& c : r.curves) {
-    std::vector<double> real, imaginary;
-    for (const std::complex<double>& y : c.amplitudes)
-      real.push_back(y.real()), imaginary.push_back(y.imag());
+    const ComplexParts parts = parts_over_speed(c);
     outputs.push_back({{"name", c.output.name},
                        {"unit", c.output.unit},
-                       {"amplitude", amplitudes_of(c)},
-                       {"phase_deg", phases_of(c)},
-                       {"real", real},
-                       {"imaginary", imaginary},
+                       {"amplitude", parts.size},
+                       {"phase_deg", parts.phase},
+                       {"real", parts.real},
+                       {"imaginary", parts.imaginary},
                        {"mean", c.means}});
   }
   return json_document({{"model", model},
@@ -143,12 +114,12 @@ std::string unbalance_csv(const UnbalanceResponse& r) {
     text += "," + csv_field(csv_title(c.output.name + " amplitude", c.output.unit)) + "," +
             csv_field(csv_title(c.output.name + " phase", "deg"));
   text += "\n";
-  std::vector<std::vector<double>> phases;
-  for (const UnbalanceCurve& c : r.curves) phases.push_back(phases_of(c));
+  std::vector<ComplexParts> curves;
+  for (const UnbalanceCurve& c : r.curves) curves.push_back(parts_over_speed(c));
   for (std::size_t s = 0; s < r.speeds.size(); ++s) {
     text += fmt::format("{}", r.speeds[s]);
-    for (std::size_t k = 0; k < r.curves.size(); ++k)
-      text += fmt::format(",{:.12g},{:.12g}", std::abs(r.curves[k].amplitudes[s]), phases[k][s]);
+    for (const ComplexParts& c : curves)
+      text += fmt::format(",{:.12g},{:.12g}", c.size[s], c.phase[s]);
     text += "\n";
   }
   return text;
@@ -156,26 +127,9 @@ std::string unbalance_csv(const UnbalanceResponse& r) {
 
 std::string unbalance_svg(const std::string& model, const UnbalanceOptions& o,
                           const UnbalanceResponse& r) {
-  std::vector<std::string> units;
-  std::map<std::string, std::vector<const UnbalanceCurve*>> of_unit;
-  for (const UnbalanceCurve& c : r.curves) {
-    if (of_unit[c.output.unit].empty()) units.push_back(c.output.unit);
-    of_unit[c.output.unit].push_back(&c);
-  }
-  std::vector<LogPanel> panels;
-  for (const std::string& unit : units)
-    for (std::size_t k = 0; k < of_unit[unit].size(); k += max_curves_per_plot) {
-      LogPanel size{"Amplitude", "[" + unit + "]", LogPanel::Scale::logarithmic, {}},
-          phase{"Phase", "", LogPanel::Scale::degrees, {}};
-      const std::size_t end = std::min(k + max_curves_per_plot, of_unit[unit].size());
-      for (std::size_t i = k; i < end; ++i) {
-        const UnbalanceCurve& c = *of_unit[unit][i];
-        size.curves.push_back({c.output.name, amplitudes_of(c)});
-        phase.curves.push_back({c.output.name, phases_of(c)});
-      }
-      panels.push_back(std::move(size));
-      panels.push_back(std::move(phase));
-    }
+  const std::vector<LogPanel> panels = bode_panels(
+      "Amplitude", r.curves, [](const UnbalanceCurve& c) { return c.output.unit; },
+      [](const UnbalanceCurve& c) { return c.output.name; }, parts_over_speed);
   return log_plots(fmt::format("{}: unbalance {}", model, unbalances_text(o)),
                    fmt::format("speed of '{}' [rad/s]", o.joint), r.speeds, panels,
                    PlotAxis::linear);

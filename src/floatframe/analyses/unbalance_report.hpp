@@ -11,10 +11,6 @@ namespace floatframe {
 /// "disc=1e-4@90" or "shaft:middle=1e-4": BODY or BODY:NODE, kg m, degrees. Throws InputError.
 Unbalance unbalance_of(const std::string& text);
 
-/// What of it changes over the speed.
-std::vector<double> amplitudes_of(const UnbalanceCurve& curve);
-std::vector<double> phases_of(const UnbalanceCurve& curve);  ///< without jumps [deg]
-
 std::string unbalance_text(const std::string& model, const UnbalanceOptions& o,
                            const UnbalanceResponse& r);
 std::string unbalance_json(const std::string& model, const UnbalanceOptions& o,

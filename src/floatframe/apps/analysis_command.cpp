@@ -1,11 +1,10 @@
 // A command for each analysis: reads and builds the model, runs the analysis, prints what it found.
-#include "floatframe/apps/analysis_command.hpp"
-
 #include <fmt/format.h>
 
 #include <chrono>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -44,7 +43,6 @@ std::vector<OutputFile> output_files(const Analysis& analysis, const AnalysisArg
   return files;
 }
 
-/// Where it fails, files that say so take the place of older ones.
 /// On a terminal, of what takes longer than a second or two.
 ProgressListener progress_on_terminal() {
   using Clock = std::chrono::steady_clock;
@@ -57,6 +55,7 @@ ProgressListener progress_on_terminal() {
       };
 }
 
+/// Where it fails, files that say so take the place of older ones.
 AnalysisReport run_with_files(const Analysis& analysis, const Model& model,
                               const AnalysisArguments& a) {
   try {
@@ -96,12 +95,7 @@ Command analysis_command(const Analysis& analysis) {
   const auto a = std::make_shared<AnalysisArguments>();
   a->files.resize(analysis.files.size());
   std::vector<Option> options = model_options(a->model);
-  if (analysis.makes_steps) {
-    options.push_back(text_option("--step", a->step, "SECONDS",
-                                  "Time step [s]; default: that of the model file"));
-    options.push_back(text_option("--duration", a->duration, "SECONDS",
-                                  "Time to simulate [s]; default: that of the model file"));
-  }
+  if (analysis.makes_steps) options = joined(options, clock_options(a->step, a->duration));
   options = joined(options, analysis.options);
   options.push_back(flag("--json", a->json, analysis.json_help));
   for (std::size_t k = 0; k < analysis.files.size(); ++k)

@@ -34,6 +34,20 @@ std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>&
   return first;
 }
 
+std::pair<std::string, std::string> setting_of(const std::string& text) {
+  const std::size_t equal = text.find('=');
+  if (equal == std::string::npos || equal == 0)
+    throw InputError(ErrorCode::wrong_value,
+                     fmt::format("--set: found '{}', expected NAME=VALUE", text));
+  return {text.substr(0, equal), text.substr(equal + 1)};
+}
+
+std::vector<Option> clock_options(std::string& step, std::string& duration) {
+  return {text_option("--step", step, "SECONDS", "Time step [s]; default: that of the model file"),
+          text_option("--duration", duration, "SECONDS",
+                      "Time to simulate [s]; default: that of the model file")};
+}
+
 Option coordinates_option(std::string& word, std::string help) {
   return word_option("--coordinates", word, {"relative", "absolute"}, std::move(help));
 }
@@ -58,11 +72,7 @@ Settings settings_of(const ModelArguments& arguments) {
   Settings settings;
   std::optional<std::vector<std::string>> parameters;  // read only where a name may be both
   for (const std::string& setting : arguments.settings) {
-    const std::size_t equal = setting.find('=');
-    if (equal == std::string::npos || equal == 0)
-      throw InputError(ErrorCode::wrong_value,
-                       fmt::format("--set: found '{}', expected NAME=VALUE", setting));
-    const std::string name = setting.substr(0, equal), value = setting.substr(equal + 1);
+    const auto [name, value] = setting_of(setting);
     if (name.starts_with(prefix) && is_among(known, name.substr(prefix.size()))) {
       settings.options.push_back({name.substr(prefix.size()), value});
       continue;
@@ -144,6 +154,12 @@ void set_clock(SimulationDescription& simulation, const std::string& step,
     simulation.duration = positive_number("--duration", duration);
     simulation.given_by("--duration", "duration");
   }
+}
+
+void set_formulation(SimulationDescription& simulation, const std::string& coordinates,
+                     const std::string& inertia) {
+  if (!coordinates.empty()) simulation.coordinates = coordinates_from(coordinates);
+  if (!inertia.empty()) simulation.inertia = inertia_from(inertia);
 }
 
 Option overwrite_option(bool& overwrite) {

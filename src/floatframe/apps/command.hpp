@@ -2,6 +2,7 @@
 // What a command is, and what the commands share.
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "floatframe/core/number_rule.hpp"
@@ -37,9 +38,19 @@ struct ModelArguments {
 std::vector<Option> model_options(ModelArguments& arguments);
 /// `first`, then `second`.
 std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second);
+/// "NAME=VALUE" of --set. Throws InputError.
+std::pair<std::string, std::string> setting_of(const std::string& text);
 /// --coordinates and --inertia.
-Option coordinates_option(std::string& word, std::string help);
-Option inertia_option(std::string& word, std::string help);
+Option coordinates_option(
+    std::string& word,
+    std::string help =
+        "Formulation: relative (joint coordinates) or absolute (natural coordinates)");
+Option inertia_option(
+    std::string& word,
+    std::string help =
+        "Inertia terms: preprocessing (constant integrals) or projection (all nodes)");
+/// --step and --duration.
+std::vector<Option> clock_options(std::string& step, std::string& duration);
 
 /// Parts that are reduced meanwhile are named on standard error, unless `quiet`. `used`, if given,
 /// receives what was read. Throws InputError.
@@ -55,6 +66,9 @@ double positive_number(const std::string& option, const std::string& text);
 /// What --step and --duration say, where they are given.
 void set_clock(SimulationDescription& simulation, const std::string& step,
                const std::string& duration);
+/// What --coordinates and --inertia say, likewise.
+void set_formulation(SimulationDescription& simulation, const std::string& coordinates,
+                     const std::string& inertia);
 
 /// Files that other programs have written are replaced only with --overwrite.
 Option overwrite_option(bool& overwrite);

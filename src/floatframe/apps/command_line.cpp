@@ -38,8 +38,10 @@ int report(const InputError& error) {
   return exit_code::bad_input;
 }
 
-int parse_and_act(int argc, char** argv) {
-  const ParsedCommand command = parse_command_line(all_commands(), argc, argv);
+int parse_and_act(int argc, char** argv, const std::vector<Command>& more) {
+  std::vector<Command> commands = all_commands();
+  commands.insert(commands.end(), more.begin(), more.end());
+  const ParsedCommand command = parse_command_line(commands, argc, argv);
   return command.run ? command.run() : command.exit_code;
 }
 
@@ -52,9 +54,9 @@ void occupy_standard_files() {
       static_cast<void>(::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-int act_or_say_why(int argc, char** argv) {
+int act_or_say_why(int argc, char** argv, const std::vector<Command>& more) {
   try {
-    return parse_and_act(argc, argv);
+    return parse_and_act(argc, argv, more);
   } catch (const InputError& error) {
     return report(error);
   } catch (const RunError& error) {
@@ -69,11 +71,11 @@ int act_or_say_why(int argc, char** argv) {
 
 }  // namespace
 
-int command_line_main(int argc, char** argv) {
+int command_line_main(int argc, char** argv, const std::vector<Command>& more) {
   occupy_standard_files();
   // A limit of the size of files is an error of the file that reaches it.
   std::signal(SIGXFSZ, SIG_IGN);
-  return on_ample_stack([&] { return act_or_say_why(argc, argv); });
+  return on_ample_stack([&] { return act_or_say_why(argc, argv, more); });
 }
 
 }  // namespace floatframe

@@ -1,7 +1,6 @@
 #pragma once
 // Reads a command line by the tables of the commands and makes their help.
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -3,14 +3,14 @@
 // analysis becomes a command by its entry in analyses/analysis_list.hpp.
 #include <vector>
 
-#include "floatframe/apps/analysis_command.hpp"
 #include "floatframe/apps/command.hpp"
 
 namespace floatframe {
 
+/// One for each analysis, in the order of analyses/analysis_list.hpp.
+std::vector<Command> analysis_commands();
 Command run_command();
 Command realtime_command();
-Command bench_command();
 Command sweep_command();
 Command reduce_command();
 Command info_command();
@@ -24,9 +24,9 @@ Command rainflow_command();
 inline std::vector<Command> all_commands() {
   std::vector<Command> commands{run_command()};
   for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
-  for (const auto make : {realtime_command, bench_command, sweep_command, reduce_command,
-                          info_command, convert_command, compare_command, outputs_command,
-                          export_command, stress_command, rainflow_command})
+  for (const auto make :
+       {realtime_command, sweep_command, reduce_command, info_command, convert_command,
+        compare_command, outputs_command, export_command, stress_command, rainflow_command})
     commands.push_back(make());
   return commands;
 }

@@ -1,7 +1,5 @@
 // floatframe compare: how far two results are apart.
-#include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "floatframe/apps/commands.hpp"
@@ -9,7 +7,6 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/report/check_page.hpp"
-#include "floatframe/report/comparison_page.hpp"
 #include "floatframe/report/comparison_report.hpp"
 
 namespace floatframe {
@@ -40,8 +37,7 @@ std::string report_of(const ComparedResults& results, const ResultsReader& a,
 }
 
 int compare(const CompareArguments& a) {
-  if (!a.report.empty() && page_template().empty())
-    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
+  if (!a.report.empty()) require_page("--report");
   ComparedResults results;
   results.file_a = results_file(a.a);
   results.file_b = results_file(a.b);

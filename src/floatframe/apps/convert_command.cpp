@@ -1,5 +1,4 @@
 // floatframe convert: a finite-element model as a file of another program.
-#include <fmt/format.h>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"

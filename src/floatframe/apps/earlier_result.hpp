@@ -1,10 +1,23 @@
 #pragma once
-// The completed run that a folder held before: it is set aside when the first row of a new run
-// exists, and goes when the new one is complete. A run that cannot start leaves it where it is; one
-// that fails, is interrupted or is killed leaves it in the folder `previous`.
+// The run that a folder held before, and what its summary says of it. One that was completed is set
+// aside when the first row of a new run exists, and goes when the new one is complete. A run that
+// cannot start leaves it where it is; one that fails, is interrupted or is killed leaves it in the
+// folder `previous`.
 #include <string>
 
+#include "floatframe/simulation/results.hpp"
+
 namespace floatframe {
+
+enum class EarlierRun {
+  incomplete,  ///< or none, or no summary that can be read
+  other,       ///< completed, of another model or with other options
+  completed
+};
+
+/// `summary`: the file; `asked`: of the run that is compared, with its duration. Files of the model
+/// count by their content, wherever they lie.
+EarlierRun earlier_run(const std::string& summary, const RunSummary& asked);
 
 struct RunPaths;
 

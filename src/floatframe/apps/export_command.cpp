@@ -2,12 +2,9 @@
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/apps/recorded_run.hpp"
-#include "floatframe/apps/selection_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/export/body_tables.hpp"
-#include "floatframe/export/glb_scene.hpp"
-#include "floatframe/export/vtk_series.hpp"
+#include "floatframe/export/export_file.hpp"
 #include "floatframe/history/recorded_motion.hpp"
 #include "floatframe/simulation/run_error.hpp"
 

@@ -1,5 +1,4 @@
 // floatframe info: what is in a finite-element file, a body file or a SID_FEM file.
-#include <fmt/format.h>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"

@@ -1,7 +1,5 @@
 #include "floatframe/apps/own_file.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -80,10 +80,7 @@ std::string ranges_csv(const CountedChannel& c, int bins) {
 }
 
 std::string history_csv(const CountedChannel& c, const std::vector<double>& time) {
-  std::string text = fmt::format(
-      "time [s],{}\n",
-      csv_field(c.column.unit.empty() ? c.column.name
-                                      : fmt::format("{} [{}]", c.column.name, c.column.unit)));
+  std::string text = fmt::format("time [s],{}\n", csv_title(c.column.name, c.column.unit));
   for (std::size_t k = 0; k < time.size(); ++k)
     text += fmt::format("{},{}\n", time[k], c.values[k]);
   return text;

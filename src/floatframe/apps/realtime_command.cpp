@@ -32,13 +32,6 @@ struct RealTimeArguments {
 constexpr const char* default_send = "127.0.0.1:47101";
 constexpr std::uint16_t default_input_port = 47100;
 
-void apply_arguments(const RealTimeArguments& arguments, SimulationDescription& simulation) {
-  if (!arguments.coordinates.empty())
-    simulation.coordinates = coordinates_from(arguments.coordinates);
-  if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
-  set_clock(simulation, arguments.step, arguments.duration);
-}
-
 RealTimeOptions realtime_options(const RealTimeArguments& arguments) {
   RealTimeOptions options;
   options.paced = !arguments.no_pace;
@@ -149,7 +142,8 @@ int run_paced(const RealTimeArguments& arguments) {
                      "--json: found without --layout; a run writes JSON with --report FILE");
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, false, &used);
-  apply_arguments(arguments, description.simulation);
+  set_formulation(description.simulation, arguments.coordinates, arguments.inertia);
+  set_clock(description.simulation, arguments.step, arguments.duration);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   if (arguments.layout) {
@@ -201,11 +195,8 @@ std::vector<Option> options_of(RealTimeArguments& a) {
     return text_option(name, value, "SECONDS", help);
   };
   return {
-      coordinates_option(
-          a.coordinates,
-          "Formulation: relative (joint coordinates) or absolute (natural coordinates)"),
-      inertia_option(a.inertia,
-                     "Inertia terms: preprocessing (constant integrals) or projection (all nodes)"),
+      coordinates_option(a.coordinates),
+      inertia_option(a.inertia),
       seconds("--step", a.step, "Time step [s]; default: that of the model file"),
       seconds("--duration", a.duration, "Time to run [s]; default: that of the model file"),
       flag("--endless", a.endless, "Run until Ctrl-C instead"),

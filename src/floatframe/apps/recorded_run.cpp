@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "floatframe/apps/command.hpp"
 #include "floatframe/apps/run_files.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/history/new_channels.hpp"
@@ -97,6 +98,25 @@ SimulationDescription recorded_options(const RecordedRun& run) {
   o.duration = h.duration;
   o.output_interval = h.output_interval;
   return o;
+}
+
+std::vector<Option> SelectionArguments::table() {
+  return {
+      text_option("--from", from, "SECONDS", "First instant [s]; default: the first"),
+      text_option("--to", to, "SECONDS", "Last instant [s]; default: the last"),
+      whole_option("--every", taken.every, 1, 1'000'000'000, "Of the recorded instants every N-th"),
+      repeated_option("--body", taken.bodies, "NAME", "Only this body; may be repeated")};
+}
+
+ExportSelection SelectionArguments::selection() const {
+  ExportSelection out = taken;
+  const NumberRule any = any_number("s");
+  if (!from.empty()) out.from = option_number("--from", from, any);
+  if (!to.empty()) out.to = option_number("--to", to, any);
+  if (out.from > out.to)
+    throw InputError(ErrorCode::contradiction,
+                     "found --from " + from + " after --to " + to + ", expected an earlier time");
+  return out;
 }
 
 }  // namespace floatframe

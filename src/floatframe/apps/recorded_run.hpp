@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "floatframe/apps/command.hpp"
+#include "floatframe/core/options.hpp"
+#include "floatframe/export/export_selection.hpp"
 #include "floatframe/history/state_history.hpp"
 
 namespace floatframe {
@@ -32,5 +34,14 @@ RecordedRun load_recorded_run(const RecordedRunArguments& arguments);
 
 /// Those the run was made with, in whose formulation its states are.
 SimulationDescription recorded_options(const RecordedRun& run);
+
+struct SelectionArguments {
+  std::string from{}, to{};
+  ExportSelection taken{};  ///< what the options fill directly
+
+  std::vector<Option> table();
+  /// Throws InputError.
+  ExportSelection selection() const;
+};
 
 }  // namespace floatframe

@@ -46,8 +46,7 @@ int reduce_file(const ReduceArguments& a) {
   if (name.extension() == ".gz") name = name.stem();
   const std::string out = a.out.empty() ? name.stem().string() + ".ffb" : a.out;
   const bool page = is_page_name(a.report);
-  if (page && page_template().empty())
-    throw InputError(ErrorCode::unavailable, page_is_missing("--report"));
+  if (page) require_page("--report");
   const PartJob job = job_of(a);
   const std::vector<OutputFile> outputs{{"-o", out}, {"--report", a.report}, {"--sid", a.sid}};
   std::vector<std::string> inputs{a.part};

@@ -8,6 +8,7 @@
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/report/page_json.hpp"
 #include "floatframe/report/scene_json.hpp"
 
 namespace floatframe {
@@ -129,27 +130,21 @@ std::string part_page(const BodyFile& content) {
   PageBuffer buffer;
   Json scene = scene_json(model, SceneFrames{}, buffer);
   scene["bodies"][0]["spiders"] = spiders(content.part, scene["points"], buffer);
-  Json facts = Json::array();
-  facts.push_back({"source", content.provenance.source});
-  facts.push_back({"units", content.provenance.units});
-  facts.push_back({"nodes", std::to_string(health.nodes)});
-  facts.push_back({"elements", std::to_string(health.elements)});
-  facts.push_back({"degrees of freedom", std::to_string(health.dofs)});
-  facts.push_back({"modes", std::to_string(health.modes)});
-  for (const auto& [option, value] : content.provenance.options) facts.push_back({option, value});
-  const Json page{
-      {"schema", 1},
-      {"kind", "reduce"},
-      {"title", name},
-      {"program", "Floatframe " + build_description()},
-      {"status",
-       {{"state", "completed"}, {"sentences", health.notes}, {"warnings", health.warnings}}},
-      {"facts", Json::array({Json{{"heading", "Part"}, {"rows", facts}}})},
-      {"tables", health_tables(health)},
-      {"curves", nullptr},
-      {"trust", nullptr},
-      {"speed", nullptr},
-      {"scene", scene}};
+  FactTable facts{"Part",
+                  {{"source", content.provenance.source},
+                   {"units", content.provenance.units},
+                   {"nodes", std::to_string(health.nodes)},
+                   {"elements", std::to_string(health.elements)},
+                   {"degrees of freedom", std::to_string(health.dofs)},
+                   {"modes", std::to_string(health.modes)}}};
+  for (const auto& [option, value] : content.provenance.options)
+    facts.rows.push_back({option, value});
+  Json page = empty_page(
+      "reduce", name, build_description(),
+      {{"state", "completed"}, {"sentences", health.notes}, {"warnings", health.warnings}});
+  page["facts"] = facts_json({std::move(facts)});
+  page["tables"] = health_tables(health);
+  page["scene"] = std::move(scene);
   return page_html(page_template(), page, buffer);
 }
 

@@ -20,11 +20,10 @@
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/notes_text.hpp"
 #include "floatframe/report/page_writer.hpp"
-#include "floatframe/report/run_facts.hpp"
 #include "floatframe/report/run_page.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
-#include "floatframe/sweep/program_identity.hpp"
+#include "floatframe/sweep/sweep_identity.hpp"
 
 namespace floatframe {
 namespace {
@@ -37,10 +36,7 @@ struct RunArguments {
 };
 
 void apply(const RunArguments& arguments, SimulationDescription& simulation) {
-  if (!arguments.coordinates.empty()) {
-    simulation.coordinates = coordinates_from(arguments.coordinates);
-  }
-  if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
+  set_formulation(simulation, arguments.coordinates, arguments.inertia);
   set_clock(simulation, arguments.step, arguments.duration);
   using States = RecordDescription::States;
   if (!arguments.record.empty())
@@ -94,17 +90,9 @@ std::string files_text(const RunPaths& paths, bool has_table, bool no_report) {
   return text + fmt::format("  summary  {}\n", paths.summary);
 }
 
-HistoryOrigin history_origin(const RunArguments& arguments, const ModelFingerprint& used,
-                             const RunPaths& paths) {
-  HistoryOrigin o;
-  o.program = version();
-  o.library = build_description();
-  o.model_file = arguments.model.path;
-  std::error_code ignored;
-  const auto folder = std::filesystem::weakly_canonical(paths.folder, ignored);
-  o.from_here = std::filesystem::weakly_canonical(arguments.model.path, ignored)
-                    .lexically_relative(folder)
-                    .string();
+HistoryOrigin origin_of(const RunArguments& arguments, const ModelFingerprint& used,
+                        const RunPaths& paths) {
+  HistoryOrigin o = history_origin(arguments.model.path, paths.folder);
   o.settings = arguments.model.settings;
   o.files = relative_to_model(arguments.model.path, used.files);
   o.text = used.text;
@@ -120,7 +108,7 @@ RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFin
   if (description.simulation.record.states != RecordDescription::States::none)
     o.history = [&](const StateLayout& layout) {
       return history_content(model, description.simulation, layout,
-                             history_origin(arguments, used, paths));
+                             origin_of(arguments, used, paths));
     };
   o.report = !arguments.no_report;
   o.resume = arguments.resume;
@@ -272,18 +260,10 @@ Command run_command() {
       .name = "run",
       .help = "Simulate a model; write results, report and summary",
       .options = joined(
-          model_options(a->model),
-          {coordinates_option(
-               a->coordinates,
-               "Formulation: relative (joint coordinates) or absolute (natural coordinates)"),
-           inertia_option(
-               a->inertia,
-               "Inertia terms: preprocessing (constant integrals) or projection (all nodes)"),
-           text_option("--step", a->step, "SECONDS",
-                       "Time step [s]; default: that of the model file"),
-           text_option("--duration", a->duration, "SECONDS",
-                       "Time to simulate [s]; default: that of the model file"),
-           text_option("--out", a->out, "DIR", "Folder for the files; default: out/<model name>"),
+          joined(joined(model_options(a->model),
+                        {coordinates_option(a->coordinates), inertia_option(a->inertia)}),
+                 clock_options(a->step, a->duration)),
+          {text_option("--out", a->out, "DIR", "Folder for the files; default: out/<model name>"),
            text_option("--write-state", a->write_state, "FILE",
                        "Write the state at the end, for start: {state: FILE}"),
            text_option("--checkpoint-every", a->checkpoint_every, "SECONDS",

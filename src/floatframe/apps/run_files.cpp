@@ -2,24 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "floatframe/apps/completed_run.hpp"
 #include "floatframe/apps/earlier_result.hpp"
 #include "floatframe/apps/own_file.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/output_place.hpp"
-#include "floatframe/history/state_history.hpp"
-#include "floatframe/report/page_trust.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/report/results_reader.hpp"
 #include "floatframe/report/run_page.hpp"
+#include "floatframe/report/scene_frames.hpp"
 #include "floatframe/report/scene_json.hpp"
-#include "floatframe/report/scene_loads.hpp"
 #include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/state_layout.hpp"
 
@@ -197,12 +193,7 @@ void RunFiles::write_report(Report& report) const {
   PageBuffer buffer;
   auto page = run_page(report, curves, buffer);
   if (states_ && options_.model) {
-    const StateHistory states(paths_.states);
-    SceneFrames frames = scene_frames(*options_.model, states);
-    if (options_.simulation)
-      add_load_coefficients(*options_.model, states, *options_.simulation, frames);
-    page["scene"] = scene_json(*options_.model, frames, buffer);
-    add_trust_curves(states, page["trust"], buffer);
+    add_states(page, *options_.model, paths_.states, options_.simulation, buffer);
   } else if (options_.model && report.result.table.columns.empty()) {  // it could not start
     page["scene"] =
         scene_json(*options_.model, scene_frames(*options_.model, SystemState()), buffer);

@@ -3,7 +3,6 @@
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/recorded_run.hpp"
-#include "floatframe/apps/selection_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/export/stress_field.hpp"

@@ -84,11 +84,8 @@ SweepOptions options_from(const SweepArguments& a) {
     o.model = (std::filesystem::path(a.files_in) / file.filename()).string();
   }
   for (const std::string& setting : a.model.settings) {
-    const std::size_t equal = setting.find('=');
-    if (equal == std::string::npos || equal == 0)
-      throw InputError(ErrorCode::wrong_value,
-                       fmt::format("--set: found '{}', expected NAME=VALUE", setting));
-    o.fixed.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
+    const auto [name, value] = setting_of(setting);
+    o.fixed.push_back({name, value});
   }
   const auto fix = [&](const char* name, const std::string& value) {
     if (!value.empty()) o.fixed.push_back({std::string("simulation.") + name, value});

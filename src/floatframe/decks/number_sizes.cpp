@@ -8,19 +8,22 @@
 
 namespace floatframe {
 
+namespace {
+
+bool has_huge_square(double x) { return !std::isfinite(x * x); }
+
+std::string huge_square(const char* what, double value) {
+  return fmt::format("its {} is {:g}, expected a number whose square does not overflow", what,
+                     value);
+}
+
+}  // namespace
+
 std::string huge_constant(const Material& m) {
-  const auto text = [](const char* what, double value) {
-    return fmt::format("its {} is {:g}, expected a number whose square does not overflow", what,
-                       value);
-  };
-  const auto huge = [](double x) { return !std::isfinite(x * x); };
-  if (huge(m.density)) return text("density", m.density);
-  if (m.elasticity) {
-    for (const double x : m.elasticity->reshaped())
-      if (huge(x)) return text("elasticity", x);
-  } else if (huge(m.young)) {
-    return text("Young's modulus", m.young);
-  }
+  if (has_huge_square(m.density)) return huge_square("density", m.density);
+  if (!m.elasticity) return has_huge_square(m.young) ? huge_square("Young's modulus", m.young) : "";
+  for (const double x : m.elasticity->reshaped())
+    if (has_huge_square(x)) return huge_square("elasticity", x);
   return {};
 }
 
@@ -42,10 +45,8 @@ std::string huge_sheet(const ShellSection& shell, double density,
 
 std::string huge_mass(double mass, const Mat3& J) {
   const double inertia = J.cwiseAbs().maxCoeff();
-  const bool by_mass = !std::isfinite(mass * mass);
-  if (!by_mass && std::isfinite(inertia * inertia)) return {};
-  return fmt::format("its {} is {:g}, expected a number whose square does not overflow",
-                     by_mass ? "mass" : "moment of inertia", by_mass ? mass : inertia);
+  if (has_huge_square(mass)) return huge_square("mass", mass);
+  return has_huge_square(inertia) ? huge_square("moment of inertia", inertia) : "";
 }
 
 std::string huge_place(const Vec3& p) {

@@ -10,22 +10,20 @@
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {
 
 void add_arm_equations(FeModel& model, int end, int node, const FeSource& at) {
-  const Vec3 arm = model.positions[end] - model.positions[node];
-  for (int k = 0; k < 3; ++k) {
-    LinearEquation move, turn;
-    move.source = turn.source = at;
-    turn.terms = {{end, 3 + k, 1.0}, {node, 3 + k, -1.0}};
-    move.terms = {{end, k, 1.0}, {node, k, -1.0}};
-    const Vec3 lever = arm.cross(Vec3::Unit(k));  // e_k . (theta x d) = theta . (d x e_k)
-    for (int i = 0; i < 3; ++i)
-      if (lever(i) != 0.0) move.terms.push_back({node, 3 + i, -lever(i)});
-    model.equations.push_back(std::move(move));
-    model.equations.push_back(std::move(turn));
+  const Mat6 rigid = rigid_motion_at(model.positions[end] - model.positions[node]);
+  for (const int row : {0, 3, 1, 4, 2, 5}) {
+    LinearEquation equation;
+    equation.source = at;
+    equation.terms = {{end, row, 1.0}};
+    for (int k = 0; k < 6; ++k)
+      if (rigid(row, k) != 0.0) equation.terms.push_back({node, k, -rigid(row, k)});
+    model.equations.push_back(std::move(equation));
   }
 }
 
@@ -72,7 +70,7 @@ std::vector<BeamOnNodes> RigidArms::beams(const FeModel& model) const {
     const BeamSection& section = model.sections[e.section];
     beam.holds = section.Iy > 0.0 && section.Iz > 0.0;
     for (int k = 0; k < element_nodes(e.type); ++k) {
-      beam.nodes[static_cast<std::size_t>(k)] = at[e.nodes[k]];
+      beam.nodes[k] = at[e.nodes[k]];
       beam.beside |= at[e.nodes[k]] != e.nodes[k];
     }
     out.push_back(beam);

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/decks/nodes_of_element.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/shell_layers.hpp"
 
@@ -17,17 +16,13 @@ namespace {
 /// resists the turn about the normal of the others.
 constexpr double smooth = 0.93969262;  // 20 degrees
 
-std::span<const int> nodes_of(const Element& e) {
-  return {e.nodes.data(), static_cast<std::size_t>(element_nodes(e.type))};
-}
-
 bool has_node(const Element& e, int node) {
-  const std::span<const int> nodes = nodes_of(e);
+  const std::span<const int> nodes = nodes_of_element(e);
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
 Vec3 normal_of(const FeModel& model, int shell) {
-  const std::span<const int> nodes = nodes_of(model.elements[shell]);
+  const std::span<const int> nodes = nodes_of_element(model.elements[shell]);
   std::array<Vec3, 8> p;
   for (std::size_t k = 0; k < nodes.size(); ++k) p[k] = model.positions[nodes[k]];
   return shell_normal({p.data(), nodes.size()});
@@ -55,7 +50,7 @@ class StiffenedNodes {
           if (k >= 0) state_[k] = wanted;
     for (std::size_t i = 0; i < model.elements.size(); ++i) {
       if (!is_shell(model.elements[i].type)) continue;
-      for (const int k : nodes_of(model.elements[i]))
+      for (const int k : nodes_of_element(model.elements[i]))
         if (state_[k] == wanted) shells_[k].push_back(static_cast<int>(i));
     }
     for (const BeamOnNodes& beam : beams) look_at(beam);
@@ -104,7 +99,7 @@ void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> be
     ++count;
     for (const int shell : nodes.shells(k)) {
       Element& e = model.elements[shell];
-      const std::span<const int> of_shell = nodes_of(e);
+      const std::span<const int> of_shell = nodes_of_element(e);
       for (std::size_t a = 0; a < of_shell.size(); ++a)
         if (of_shell[a] == k) e.own_drilling |= 1u << a;
     }

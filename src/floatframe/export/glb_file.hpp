@@ -1,14 +1,11 @@
 #pragma once
 // The binary container of glTF 2.0 (Khronos): one JSON object and one buffer, whose arrays the JSON
 // names as accessors. Little-endian.
-#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "floatframe/math/types.hpp"
 
 namespace floatframe {
 

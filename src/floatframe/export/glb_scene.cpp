@@ -1,5 +1,3 @@
-#include "floatframe/export/glb_scene.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
+#include "floatframe/export/export_file.hpp"
 #include "floatframe/export/glb_file.hpp"
 #include "floatframe/export/morph_targets.hpp"
 #include "floatframe/report/scene_mesh.hpp"
@@ -220,7 +219,7 @@ class GlbScene : public ExportFile {
   void write_body(std::size_t i) {
     const Track& track = tracks_[i];
     const Mesh& mesh = meshes_[track.mesh];
-    const Body& body = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
+    const Body& body = bodies_.body(i);
     std::vector<float> places, turns, weights;
     for (const Vec3& p : track.places)
       for (const double x : Vec3(p - origin_)) places.push_back(static_cast<float>(x));

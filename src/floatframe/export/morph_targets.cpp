@@ -1,17 +1,11 @@
 #include "floatframe/export/morph_targets.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+
+#include "floatframe/history/history_content.hpp"
 
 namespace floatframe {
 namespace {
-
-std::string name_of_mode(const FlexibleBody& body, int mode) {
-  const auto k = static_cast<std::size_t>(mode);
-  return k < body.mode_names.size() ? body.mode_names[k] : fmt::format("mode {}", mode + 1);
-}
 
 double largest_move(const VecX& field) {
   double out = 0.0;
@@ -43,17 +37,19 @@ std::vector<MorphTarget> morph_targets(const BodyPicture& picture, const Flexibl
     keep_direction(target, -1.0);
   };
   const int modes = body.modes();
+  const std::vector<std::string> names = names_of_modes(body);
   for (int a = 0; a < modes; ++a)
-    keep({a, -1, 1.0, 1.0, name_of_mode(body, a), picture.modes.col(a)});
+    keep({a, -1, 1.0, 1.0, names[static_cast<std::size_t>(a)], picture.modes.col(a)});
   if (picture.bent.empty()) return out;
   for (int a = 0; a < modes; ++a)
     for (int b = 0; b <= a; ++b) {
-      MorphTarget target{a,
-                         b,
-                         1.0,
-                         1.0,
-                         name_of_mode(body, a) + " x " + name_of_mode(body, b),
-                         VecX::Zero(picture.modes.rows())};
+      MorphTarget target{
+          a,
+          b,
+          1.0,
+          1.0,
+          names[static_cast<std::size_t>(a)] + " x " + names[static_cast<std::size_t>(b)],
+          VecX::Zero(picture.modes.rows())};
       for (const BodyPicture::Bent& bent : picture.bent)
         for (int j = 0; j < 3; ++j)
           target.field[3 * bent.point + j] =

@@ -5,7 +5,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/export/body_motion.hpp"
-#include "floatframe/export/body_tables.hpp"
+#include "floatframe/export/export_file.hpp"
 
 namespace floatframe {
 namespace {
@@ -14,8 +14,8 @@ class MotionTable : public ExportFile {
  public:
   MotionTable(const ExportBodies& bodies, std::string path)
       : bodies_(bodies), path_(std::move(path)) {
-    for (const int b : bodies_.bodies) {
-      const Body& body = bodies_.model->bodies[static_cast<std::size_t>(b)];
+    for (std::size_t i = 0; i < bodies_.bodies.size(); ++i) {
+      const Body& body = bodies_.body(i);
       Lines lines{csv_field(body.name), named_nodes(*body.data), {}, {}};
       for (const int n : lines.named)
         lines.names.push_back(csv_field(body.data->nodes[static_cast<std::size_t>(n)].name));
@@ -28,7 +28,7 @@ class MotionTable : public ExportFile {
     ++instants_;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       Lines& l = lines_[i];
-      const Body& body = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
+      const Body& body = bodies_.body(i);
       const BodyInstant m = body_motion(view, bodies_.bodies[i]);
       row(view.time(), l.body, "", {m.p, m.v, m.R, m.w, Vec3::Zero()}, l.turns[0]);
       for (std::size_t k = 0; k < l.named.size(); ++k)

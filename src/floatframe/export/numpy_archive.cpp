@@ -2,10 +2,11 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/export/body_tables.hpp"
+#include "floatframe/export/export_file.hpp"
+#include "floatframe/export/hot_spots.hpp"
+#include "floatframe/export/npz_file.hpp"
 #include "floatframe/export/stress_field.hpp"
-#include "floatframe/formats/body_file/npy.hpp"
-#include "floatframe/formats/body_file/zip_store.hpp"
+#include "floatframe/history/history_content.hpp"
 
 namespace floatframe {
 namespace {
@@ -65,17 +66,14 @@ class NumpyArchive : public ExportFile {
 
   std::string finish() override {
     const std::size_t instants = time_.size();
-    member("time", npy_bytes({{instants}, std::move(time_)}));
+    file_.add("time", {instants}, std::move(time_));
     std::vector<std::string> names;
     for (std::size_t i = 0; i < tracks_.size(); ++i) names.push_back(body(i).name);
-    member("bodies", npy_texts(names));
+    file_.add("bodies", names);
     for (std::size_t i = 0; i < tracks_.size(); ++i) body_members(i, instants);
-    std::vector<ZipMember> members;
-    for (const auto& [name, content] : members_) members.push_back({name, content});
-    const std::string bytes = zip_archive(members);
-    write_file(path_, bytes);
+    write_file(path_, file_.bytes());
     return fmt::format("{}: {} instants, {} bodies, {} arrays", path_, instants, tracks_.size(),
-                       members.size());
+                       file_.size());
   }
 
  private:
@@ -88,14 +86,9 @@ class NumpyArchive : public ExportFile {
     StressField field;
   };
 
-  const Body& body(std::size_t i) const {
-    return bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
-  }
+  const Body& body(std::size_t i) const { return bodies_.body(i); }
   static void keep(std::vector<double>& out, const Eigen::Ref<const VecX>& x) {
     out.insert(out.end(), x.data(), x.data() + x.size());
-  }
-  void member(const std::string& name, std::string content) {
-    members_.emplace_back(name + ".npy", std::move(content));
   }
   void body_members(std::size_t i, std::size_t instants) {
     Track& t = tracks_[i];
@@ -103,7 +96,7 @@ class NumpyArchive : public ExportFile {
     const auto add_array = [&](const char* name, std::vector<std::size_t> shape,
                                std::vector<double>& values) {
       shape.insert(shape.begin(), instants);
-      member(at + name, npy_bytes({std::move(shape), std::move(values)}));
+      file_.add(at + name, std::move(shape), std::move(values));
     };
     add_array("position", {3}, t.position);
     add_array("rotation", {4}, t.rotation);
@@ -113,10 +106,7 @@ class NumpyArchive : public ExportFile {
     add_array("angular_acceleration", {3}, t.angular_acceleration);
     const auto nm = static_cast<std::size_t>(body(i).modes());
     if (nm > 0) {
-      std::vector<std::string> modes = body(i).data->mode_names;
-      for (std::size_t k = modes.size(); k < nm; ++k)
-        modes.push_back(fmt::format("mode {}", k + 1));
-      member(at + "modes", npy_texts(modes));
+      file_.add(at + "modes", names_of_modes(*body(i).data));
       add_array("amplitudes", {nm}, t.amplitudes);
       add_array("amplitude_rates", {nm}, t.rates);
       add_array("amplitude_accelerations", {nm}, t.amplitude_accelerations);
@@ -126,7 +116,7 @@ class NumpyArchive : public ExportFile {
     std::vector<std::string> names;
     for (const int n : t.named)
       names.push_back(body(i).data->nodes[static_cast<std::size_t>(n)].name);
-    member(at + "nodes", npy_texts(names));
+    file_.add(at + "nodes", names);
     add_array("node_positions", {t.named.size(), 3}, t.node_positions);
     add_array("node_displacements", {t.named.size(), 3}, t.node_displacements);
     add_array("node_deformations", {t.named.size(), 3}, t.node_deformations);
@@ -137,30 +127,29 @@ class NumpyArchive : public ExportFile {
     Track& t = tracks_[i];
     const std::string at = body(i).name + "/stress";
     const std::vector<StressPlace>& places = t.field.stress().places;
-    member(at, npy_bytes({{instants, places.size(), 6}, std::move(t.stress)}));
+    file_.add(at, {instants, places.size(), 6}, std::move(t.stress));
     std::vector<double> positions;
     std::vector<std::int32_t> nodes, numbers, doubtful;
     std::vector<std::string> layers;
     for (const StressPlace& place : places) {
-      constexpr const char* words[] = {"solid", "top", "bottom", "section"};
       positions.insert(positions.end(), place.p.begin(), place.p.end());
       nodes.push_back(place.node);
       numbers.push_back(place.number);
       doubtful.push_back(place.doubtful ? 1 : 0);
-      layers.emplace_back(words[static_cast<std::size_t>(place.layer)]);
+      layers.emplace_back(layer_name(place.layer));
     }
-    member(at + "_positions", npy_bytes({{places.size(), 3}, std::move(positions)}));
-    member(at + "_nodes", npy_bytes({{places.size()}, std::move(nodes)}));
-    member(at + "_numbers", npy_bytes({{places.size()}, std::move(numbers)}));
-    member(at + "_doubtful", npy_bytes({{places.size()}, std::move(doubtful)}));
-    member(at + "_layers", npy_texts(layers));
+    file_.add(at + "_positions", {places.size(), 3}, std::move(positions));
+    file_.add(at + "_nodes", {places.size()}, std::move(nodes));
+    file_.add(at + "_numbers", {places.size()}, std::move(numbers));
+    file_.add(at + "_doubtful", {places.size()}, std::move(doubtful));
+    file_.add(at + "_layers", layers);
   }
 
   ExportBodies bodies_;
   std::string path_;
   std::vector<Track> tracks_;
   std::vector<double> time_;
-  std::vector<std::pair<std::string, std::string>> members_;
+  NpzFile file_;
 };
 
 }  // namespace

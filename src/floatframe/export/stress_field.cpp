@@ -1,10 +1,10 @@
 #include "floatframe/export/stress_field.hpp"
 
-#include <limits>
 #include <map>
 #include <set>
 
 #include "floatframe/model/gauge.hpp"
+#include "floatframe/report/scene_stress.hpp"
 
 namespace floatframe {
 namespace {
@@ -70,16 +70,9 @@ void StressField::add_places(const BodyPicture& picture) {
   for (std::size_t v = 0; v < picture.bar_ends.size(); ++v) {
     const auto found = sections.find({picture.bar_ends[v].bar, picture.bar_ends[v].end});
     if (found == sections.end()) continue;
-    double least = std::numeric_limits<double>::infinity();
-    int nearest_place = -1;
-    for (int k = found->second.first; k < found->second.second; ++k) {
-      const Vec3& p = stress_->places[static_cast<std::size_t>(k)].p;
-      const double away = (p - picture.points.col(static_cast<Eigen::Index>(v))).squaredNorm();
-      if (away >= least) continue;
-      least = away;
-      nearest_place = k;
-    }
-    if (nearest_place >= 0) of_point[v].push_back(nearest_place);
+    const int nearest = nearest_place(*stress_, found->second.first, found->second.second,
+                                      picture.points.col(static_cast<Eigen::Index>(v)));
+    if (nearest >= 0) of_point[v].push_back(nearest);
   }
   first_.push_back(0);
   for (const std::vector<int>& some : of_point) {

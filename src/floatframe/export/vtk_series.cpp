@@ -1,5 +1,3 @@
-#include "floatframe/export/vtk_series.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "floatframe/core/atomic_file.hpp"
+#include "floatframe/export/export_file.hpp"
 #include "floatframe/export/stress_field.hpp"
 #include "floatframe/formats/vtk/vtk_file.hpp"
 
@@ -39,8 +38,7 @@ class VtkSeries : public ExportFile {
     }
     bool stressed = false;
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-      const Body& body = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
-      fields_.emplace_back(pictures_[i], *body.data);
+      fields_.emplace_back(pictures_[i], *bodies_.body(i).data);
       stressed = stressed || fields_.back().known();
     }
     std::vector<std::string> body_names;
@@ -128,7 +126,7 @@ class VtkSeries : public ExportFile {
 
   void place(std::size_t i, const BodyInstant& m, std::size_t first) {
     const BodyPicture& picture = pictures_[i];
-    const Pose& design = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])].X_WB;
+    const Pose& design = bodies_.body(i).X_WB;
     move_picture(picture, m, moved_);
     auto& displacement = std::get<std::vector<double>>(grid_.point_data[0].values);
     auto& deformation = std::get<std::vector<float>>(grid_.point_data[1].values);

@@ -95,16 +95,6 @@ void add_shape(const BodyShape& shape, Eigen::Index nm, const std::string& at, A
   });
 }
 
-std::vector<double> frequencies(const FlexibleBody& body) {
-  const MatX M = modal_mass(body.invariants);
-  std::vector<double> out;
-  for (Eigen::Index k = 0; k < M.rows(); ++k) {
-    const double f = std::sqrt(body.K(k, k) / M(k, k)) / (2.0 * std::numbers::pi);
-    out.push_back(std::isfinite(f) ? f : -1.0);
-  }
-  return out;
-}
-
 void add_bodies(const Model& model, const StateLayout& layout, HistoryContent& content) {
   HistoryHeader& h = content.header;
   ArrayList arrays(content);
@@ -115,10 +105,9 @@ void add_bodies(const Model& model, const StateLayout& layout, HistoryContent& c
     HistoryBody b;
     b.name = model.bodies[i].name;
     b.mass = data.invariants.m;
-    b.modes = data.mode_names;
-    for (int k = static_cast<int>(b.modes.size()); k < data.modes(); ++k)
-      b.modes.push_back(fmt::format("mode {}", k + 1));
-    b.frequencies = frequencies(data);
+    b.modes = names_of_modes(data);
+    for (const double f : own_frequencies(data))
+      b.frequencies.push_back(std::isfinite(f) ? f : -1.0);
     b.pose = columns.pose;
     b.amplitudes = columns.amplitudes;
     b.rates = columns.rates;
@@ -143,6 +132,21 @@ void add_bodies(const Model& model, const StateLayout& layout, HistoryContent& c
 }
 
 }  // namespace
+
+std::vector<std::string> names_of_modes(const FlexibleBody& body) {
+  std::vector<std::string> out = body.mode_names;
+  for (int k = static_cast<int>(out.size()); k < body.modes(); ++k)
+    out.push_back(fmt::format("mode {}", k + 1));
+  return out;
+}
+
+std::vector<double> own_frequencies(const FlexibleBody& body) {
+  const MatX M = modal_mass(body.invariants);
+  std::vector<double> out;
+  for (Eigen::Index k = 0; k < M.rows(); ++k)
+    out.push_back(std::sqrt(body.K(k, k) / M(k, k)) / (2.0 * std::numbers::pi));
+  return out;
+}
 
 HistoryContent history_content(const Model& model, const SimulationDescription& options,
                                const StateLayout& layout, HistoryOrigin origin) {

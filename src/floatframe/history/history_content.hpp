@@ -9,4 +9,9 @@ namespace floatframe {
 HistoryContent history_content(const Model& model, const SimulationDescription& options,
                                const StateLayout& layout, HistoryOrigin origin);
 
+/// The name of each mode: of its own, or "mode 3".
+std::vector<std::string> names_of_modes(const FlexibleBody& body);
+/// Of each mode alone, with the body frame held [Hz]; not finite without mass.
+std::vector<double> own_frequencies(const FlexibleBody& body);
+
 }  // namespace floatframe

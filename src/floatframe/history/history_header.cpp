@@ -18,28 +18,99 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t most_coordinates = 10'000'000;
 
-Json origin_json(const HistoryOrigin& o) {
-  Json files = Json::object();
-  for (const auto& [file, hash] : o.files) files[file] = hash;
-  return {{"file", o.model_file},
-          {"file_from_here", o.from_here},
-          {"settings", o.settings},
-          {"files", std::move(files)},
-          {"text", o.text}};
-}
+// The fields of a header, each once: `f` writes them, or reads them.
 
-Json body_json(const HistoryBody& b) {
-  return {{"name", b.name},   {"mass", b.mass},
-          {"modes", b.modes}, {"frequencies_Hz", b.frequencies},
-          {"pose", b.pose},   {"amplitudes", b.amplitudes},
-          {"rates", b.rates}, {"shape", b.shape}};
-}
+constexpr auto origin_fields = [](auto& f, auto& o) {
+  f("file", o.model_file);
+  f("file_from_here", o.from_here);
+  f("settings", o.settings);
+  f("files", o.files);
+  f("text", o.text);
+};
+constexpr auto group_fields = [](auto& f, auto& g) {
+  f("name", g.name);
+  f("first", g.first);
+  f("count", g.count);
+};
+constexpr auto shape_fields = [](auto& f, auto& s) {
+  f("nodes", s.nodes);
+  f.optional("color", s.color);
+};
+constexpr auto array_fields = [](auto& f, auto& a) {
+  f("name", a.name);
+  f("type", a.type);
+  f("shape", a.shape);
+};
+constexpr auto body_fields = [](auto& f, auto& b) {
+  f("name", b.name);
+  f("mass", b.mass);
+  f("modes", b.modes);
+  f("frequencies_Hz", b.frequencies);
+  f("pose", b.pose);
+  f("amplitudes", b.amplitudes);
+  f("rates", b.rates);
+  f("shape", b.shape);
+};
+constexpr auto health_fields = [](auto& f, auto& column) {
+  f("name", column.name);
+  f("unit", column.unit);
+  f("group", column.group);
+  if (f.optional("body", column.body)) f("size_m", column.size);
+};
+constexpr auto header_fields = [](auto& f, auto& h) {
+  f("floatframe", h.origin.program);
+  f("library", h.origin.library);
+  f("model", h.model);
+  f("model_hash", h.model_hash);
+  f.object("origin", h.origin, origin_fields);
+  f("coordinates", h.coordinates);
+  f("inertia", h.inertia);
+  f("step_s", h.step);
+  f("duration_s", h.duration);
+  f("output_interval_s", h.output_interval);
+  f("configurations", h.configurations, 0);
+  f("velocities", h.velocities, 0);
+  f.coordinates("q", h.q, h.configurations);
+  f.coordinates("v", h.v, h.velocities);
+  f("v_of", h.owners);
+  f.objects("groups", h.groups, group_fields);
+  f.objects("shapes", h.shapes, shape_fields);
+  f.objects("arrays", h.arrays, array_fields);
+  f.objects("bodies", h.bodies, body_fields);
+  // Files of runs that were not watched may do without the key.
+  if (f.has("health")) f.objects("health", h.health, health_fields);
+};
 
-Json health_column_json(const HistoryHealth& column) {
-  Json json{{"name", column.name}, {"unit", column.unit}, {"group", column.group}};
-  if (!column.body.empty()) json.update({{"body", column.body}, {"size_m", column.size}});
-  return json;
-}
+struct HeaderWriter {
+  Json json = Json::object();
+
+  bool has(const char*) const { return true; }
+  template <class T>
+  void operator()(const char* key, const T& value, int = 0) {
+    json[key] = value;
+  }
+  bool optional(const char* key, const std::string& text) {
+    if (!text.empty()) json[key] = text;
+    return !text.empty();
+  }
+  void coordinates(const char* key, const std::vector<int>& list, int) { json[key] = list; }
+  template <class T, class Walk>
+  void object(const char* key, const T& value, Walk walk) {
+    HeaderWriter inner;
+    walk(inner, value);
+    json[key] = std::move(inner.json);
+  }
+  template <class T, class Walk>
+  void objects(const char* key, const std::vector<T>& list, Walk walk) {
+    Json all = Json::array();
+    for (const T& value : list) {
+      HeaderWriter inner;
+      walk(inner, value);
+      all.push_back(std::move(inner.json));
+    }
+    json[key] = std::move(all);
+  }
+};
 
 /// Values of a JSON object by key, each of the type that is asked for.
 class HeaderReader {
@@ -61,12 +132,63 @@ class HeaderReader {
   T get(const char* key) const {
     return as<T>(value(key), path_ + key);
   }
-  template <class T>
-  std::vector<T> list(const char* key) const {
-    std::vector<T> out;
-    for (const Json& item : items(key)) out.push_back(as<T>(item, path_ + key));
-    return out;
+
+  void operator()(const char* key, std::string& text) const { text = get<std::string>(key); }
+  void operator()(const char* key, double& number) const { number = get<double>(key); }
+  /// A whole number; -1 stands for none.
+  void operator()(const char* key, int& number, int low = -1) const {
+    number = whole(value(key), path_ + key, low, most_coordinates);
   }
+  void operator()(const char* key, std::size_t& number) const {
+    number = static_cast<std::size_t>(whole(value(key), path_ + key, 0, most_coordinates));
+  }
+  template <class T>
+  void operator()(const char* key, std::vector<T>& list) const {
+    for (const Json& item : items(key)) list.push_back(as<T>(item, path_ + key));
+  }
+  void operator()(const char* key, std::vector<std::uint64_t>& list) const {
+    for (const Json& n : items(key))
+      list.push_back(static_cast<std::uint64_t>(whole(n, path_ + key, 0, 2'000'000'000)));
+  }
+  void operator()(const char* key, std::map<std::string, std::string>& texts) const {
+    if (!value(key).is_object()) refuse(ErrorCode::wrong_value, path_ + key, "not an object");
+    for (const auto& [name, text] : value(key).items()) {
+      if (!text.is_string()) refuse(ErrorCode::wrong_value, path_ + key, "expected texts");
+      texts[name] = text.get<std::string>();
+    }
+  }
+  bool optional(const char* key, std::string& text) const {
+    if (has(key)) text = get<std::string>(key);
+    return has(key);
+  }
+  /// Ascending, from 0 to below `limit`.
+  void coordinates(const char* key, std::vector<int>& list, int limit) const {
+    for (const Json& item : items(key))
+      list.push_back(
+          whole(item, key, list.empty() ? 0 : list.back() + 1, static_cast<std::uint64_t>(limit)));
+    if (!list.empty() && list.back() >= limit)
+      refuse(ErrorCode::out_of_range, key,
+             fmt::format("found {}, expected a coordinate below {}", list.back(), limit));
+  }
+  template <class T, class Walk>
+  void object(const char* key, T& place, Walk walk) const {
+    const HeaderReader inner(value(key), path_ + key + '.');
+    walk(inner, place);
+  }
+  template <class T, class Walk>
+  void objects(const char* key, std::vector<T>& list, Walk walk) const {
+    for (const Json& item : items(key)) {
+      const HeaderReader inner(item, path_ + key + '.');
+      walk(inner, list.emplace_back());
+    }
+  }
+  [[noreturn]] static void refuse(ErrorCode code, const std::string& path,
+                                  const std::string& what) {
+    throw InputError(code,
+                     fmt::format("the header is not one of a result file: {}: {}", path, what));
+  }
+
+ private:
   const Json& items(const char* key) const {
     const Json& list = value(key);
     if (!list.is_array())
@@ -74,14 +196,7 @@ class HeaderReader {
              "found " + json_excerpt(list) + ", expected a list");
     return list;
   }
-  HeaderReader object(const char* key) const { return HeaderReader(value(key), path_ + key + '.'); }
-  HeaderReader element(const char* key, const Json& item) const {
-    return HeaderReader(item, path_ + key + '.');
-  }
-  /// A whole number from `low` to `high`.
-  int whole(const char* key, int low, std::uint64_t high) const {
-    return whole(value(key), path_ + key, low, high);
-  }
+  /// From `low` to `high`.
   static int whole(const Json& x, const std::string& path, int low, std::uint64_t high) {
     const auto holds = [&] {
       if (x.is_number_unsigned() && x.get<std::uint64_t>() > high) return false;
@@ -93,13 +208,6 @@ class HeaderReader {
                          high));
     return static_cast<int>(x.get<std::int64_t>());
   }
-  [[noreturn]] static void refuse(ErrorCode code, const std::string& path,
-                                  const std::string& what) {
-    throw InputError(code,
-                     fmt::format("the header is not one of a result file: {}: {}", path, what));
-  }
-
- private:
   template <class T>
   static T as(const Json& x, const std::string& path) {
     if constexpr (std::is_same_v<T, std::string>) {
@@ -122,29 +230,12 @@ void require_word(const std::string& found, const char* key, std::span<const cha
                          "found '" + excerpt(found) + "', expected " + alternatives(words));
 }
 
-/// Ascending, from 0 to below `limit`.
-std::vector<int> coordinate_list(const HeaderReader& in, const char* key, int limit) {
-  std::vector<int> out;
-  for (const Json& item : in.items(key))
-    out.push_back(HeaderReader::whole(item, key, out.empty() ? 0 : out.back() + 1,
-                                      static_cast<std::uint64_t>(limit)));
-  if (!out.empty() && out.back() >= limit)
-    HeaderReader::refuse(
-        ErrorCode::out_of_range, key,
-        fmt::format("found {}, expected a coordinate below {}", out.back(), limit));
-  return out;
-}
-
-void read_groups(const HeaderReader& in, HistoryHeader& h) {
-  for (const Json& item : in.items("groups")) {
-    const HeaderReader g = in.element("groups", item);
-    h.groups.push_back({g.get<std::string>("name"),
-                        static_cast<std::size_t>(g.whole("first", 0, most_coordinates)),
-                        static_cast<std::size_t>(g.whole("count", 0, most_coordinates))});
-    if (h.groups.back().first != h.columns)
+void check_groups(HistoryHeader& h) {
+  for (const HistoryGroup& g : h.groups) {
+    if (g.first != h.columns)
       HeaderReader::refuse(ErrorCode::contradiction, "groups",
                            "columns that do not follow each other");
-    h.columns += h.groups.back().count;
+    h.columns += g.count;
     if (h.columns > most_coordinates)
       HeaderReader::refuse(ErrorCode::wrong_count, "groups", "there are too many columns");
   }
@@ -164,7 +255,18 @@ void read_groups(const HeaderReader& in, HistoryHeader& h) {
   expect("accelerations", h.v.size(), false);
 }
 
-void read_bodies(const HeaderReader& in, HistoryHeader& h) {
+void check_arrays(const HistoryHeader& h) {
+  for (const HistoryArray& array : h.arrays) {
+    if (array.type != "f32" && array.type != "f64" && array.type != "u32")
+      HeaderReader::refuse(ErrorCode::wrong_value, "arrays.type",
+                           "found '" + excerpt(array.type) + "', expected f32, f64 or u32");
+    const bool nothing = std::find(array.shape.begin(), array.shape.end(), 0u) != array.shape.end();
+    if (array.shape.size() > 4 || (array_bytes(array) == 0 && !nothing))
+      HeaderReader::refuse(ErrorCode::too_large, "arrays.shape", "it is too large");
+  }
+}
+
+void check_bodies(const HistoryHeader& h) {
   const auto inside = [&](const char* what, const char* group, int first, std::size_t count) {
     const HistoryGroup* g = h.find(group);
     if (first < 0) return;
@@ -173,17 +275,7 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
       HeaderReader::refuse(ErrorCode::out_of_range, "bodies",
                            fmt::format("'{}' are columns outside of '{}'", what, group));
   };
-  for (const Json& item : in.items("bodies")) {
-    const HeaderReader b = in.element("bodies", item);
-    HistoryBody body;
-    body.name = b.get<std::string>("name");
-    body.mass = b.get<double>("mass");
-    body.modes = b.list<std::string>("modes");
-    body.frequencies = b.list<double>("frequencies_Hz");
-    body.pose = b.whole("pose", -1, most_coordinates);
-    body.amplitudes = b.whole("amplitudes", -1, most_coordinates);
-    body.rates = b.whole("rates", -1, most_coordinates);
-    body.shape = b.whole("shape", -1, most_coordinates);
+  for (const HistoryBody& body : h.bodies) {
     if (body.frequencies.size() != body.modes.size())
       HeaderReader::refuse(ErrorCode::wrong_count, "bodies.frequencies_Hz",
                            "not one for each mode");
@@ -192,55 +284,15 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
     inside("pose", "poses", body.pose, 7);
     inside("amplitudes", "q", body.amplitudes, body.modes.size());
     inside("rates", "v", body.rates, body.modes.size());
-    h.bodies.push_back(std::move(body));
   }
 }
 
-HistoryHealth health_column(const HeaderReader& in, const Json& item) {
-  const HeaderReader c = in.element("health", item);
-  HistoryHealth column{
-      c.get<std::string>("name"), c.get<std::string>("unit"), c.get<std::string>("group"), {}, 0.0};
-  if (c.has("body")) {
-    column.body = c.get<std::string>("body");
-    column.size = c.get<double>("size_m");
-  }
-  return column;
-}
-
-/// Files of runs that were not watched may do without the key.
-void read_health(const HeaderReader& in, HistoryHeader& h) {
-  if (in.has("health"))
-    for (const Json& item : in.items("health")) h.health.push_back(health_column(in, item));
+void check_health(const HistoryHeader& h) {
   const HistoryGroup* g = h.find(health_group);
   if ((g ? g->count : 0) != h.health.size())
     HeaderReader::refuse(
         ErrorCode::wrong_count, "health",
         fmt::format("found {} columns, expected {}", h.health.size(), g ? g->count : 0));
-}
-
-void read_arrays(const HeaderReader& in, HistoryHeader& h) {
-  for (const Json& item : in.items("shapes")) {
-    const HeaderReader shape = in.element("shapes", item);
-    h.shapes.push_back({shape.list<std::string>("nodes")});
-    if (item.contains("color")) h.shapes.back().color = shape.get<std::string>("color");
-  }
-  for (const Json& item : in.items("arrays")) {
-    const HeaderReader a = in.element("arrays", item);
-    HistoryArray array{a.get<std::string>("name"), a.get<std::string>("type"), {}};
-    if (array.type != "f32" && array.type != "f64" && array.type != "u32")
-      HeaderReader::refuse(ErrorCode::wrong_value, "arrays.type",
-                           "found '" + excerpt(array.type) + "', expected f32, f64 or u32");
-    for (const Json& n : a.items("shape"))
-      array.shape.push_back(
-          static_cast<std::uint64_t>(HeaderReader::whole(n, "arrays.shape", 0, 2'000'000'000)));
-    if (array.shape.size() > 4 || (array_bytes(array) == 0 && [&] {
-          for (const std::uint64_t n : array.shape)
-            if (n == 0) return false;
-          return true;
-        }()))
-      HeaderReader::refuse(ErrorCode::too_large, "arrays.shape", "it is too large");
-    h.arrays.push_back(std::move(array));
-  }
 }
 
 }  // namespace
@@ -261,40 +313,11 @@ std::uint64_t array_bytes(const HistoryArray& array) noexcept {
 }
 
 std::string header_json(const HistoryHeader& h) {
-  Json j;
-  j["format"] = "floatframe states";
-  j["units"] = "SI (m, kg, s, rad)";
-  j["floatframe"] = h.origin.program;
-  j["library"] = h.origin.library;
-  j["model"] = h.model;
-  j["model_hash"] = h.model_hash;
-  j["origin"] = origin_json(h.origin);
-  j["coordinates"] = h.coordinates;
-  j["inertia"] = h.inertia;
-  j["step_s"] = h.step;
-  j["duration_s"] = h.duration;
-  j["output_interval_s"] = h.output_interval;
-  j["configurations"] = h.configurations;
-  j["velocities"] = h.velocities;
-  j["q"] = h.q;
-  j["v"] = h.v;
-  j["v_of"] = h.owners;
-  j["groups"] = Json::array();
-  for (const HistoryGroup& g : h.groups)
-    j["groups"].push_back({{"name", g.name}, {"first", g.first}, {"count", g.count}});
-  j["shapes"] = Json::array();
-  for (const HistoryShape& s : h.shapes) {
-    j["shapes"].push_back({{"nodes", s.nodes}});
-    if (!s.color.empty()) j["shapes"].back()["color"] = s.color;
-  }
-  j["arrays"] = Json::array();
-  for (const HistoryArray& a : h.arrays)
-    j["arrays"].push_back({{"name", a.name}, {"type", a.type}, {"shape", a.shape}});
-  j["bodies"] = Json::array();
-  for (const HistoryBody& b : h.bodies) j["bodies"].push_back(body_json(b));
-  j["health"] = Json::array();
-  for (const HistoryHealth& column : h.health) j["health"].push_back(health_column_json(column));
-  return j.dump(1, ' ', false, Json::error_handler_t::replace);
+  HeaderWriter out;
+  out("format", "floatframe states");
+  out("units", "SI (m, kg, s, rad)");
+  header_fields(out, h);
+  return out.json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
 HistoryHeader header_from_json(std::string_view text) {
@@ -306,40 +329,15 @@ HistoryHeader header_from_json(std::string_view text) {
   if (in.get<std::string>("format") != "floatframe states")
     HeaderReader::refuse(ErrorCode::wrong_value, "format", "expected 'floatframe states'");
   HistoryHeader h;
-  h.origin.program = in.get<std::string>("floatframe");
-  h.origin.library = in.get<std::string>("library");
-  h.model = in.get<std::string>("model");
-  h.model_hash = in.get<std::string>("model_hash");
-  const HeaderReader origin = in.object("origin");
-  h.origin.model_file = origin.get<std::string>("file");
-  h.origin.from_here = origin.get<std::string>("file_from_here");
-  h.origin.settings = origin.list<std::string>("settings");
-  h.origin.text = origin.get<std::string>("text");
-  if (!origin.value("files").is_object())
-    HeaderReader::refuse(ErrorCode::wrong_value, "origin.files", "not an object");
-  for (const auto& [file, hash] : origin.value("files").items()) {
-    if (!hash.is_string())
-      HeaderReader::refuse(ErrorCode::wrong_value, "origin.files", "expected texts");
-    h.origin.files[file] = hash.get<std::string>();
-  }
-  h.coordinates = in.get<std::string>("coordinates");
-  h.inertia = in.get<std::string>("inertia");
+  header_fields(in, h);
   require_word(h.coordinates, "coordinates", rules::coordinates);
   require_word(h.inertia, "inertia", rules::inertia_methods);
-  h.step = in.get<double>("step_s");
-  h.duration = in.get<double>("duration_s");
-  h.output_interval = in.get<double>("output_interval_s");
-  h.configurations = in.whole("configurations", 0, most_coordinates);
-  h.velocities = in.whole("velocities", 0, most_coordinates);
-  h.q = coordinate_list(in, "q", h.configurations);
-  h.v = coordinate_list(in, "v", h.velocities);
-  h.owners = in.list<std::string>("v_of");
   if (h.owners.size() != h.v.size())
     HeaderReader::refuse(ErrorCode::wrong_count, "v_of", "not one for each velocity");
-  read_groups(in, h);
-  read_arrays(in, h);
-  read_bodies(in, h);
-  read_health(in, h);
+  check_groups(h);
+  check_arrays(h);
+  check_bodies(h);
+  check_health(h);
   return h;
 }
 

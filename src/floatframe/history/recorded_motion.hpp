@@ -4,7 +4,6 @@
 // there what it was in the run, to the bit. Where the file holds no accelerations they are solved
 // for (simulation/reaction_solver.hpp), and differ from those of the run within its tolerance.
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "floatframe/history/state_history.hpp"

@@ -1,8 +1,10 @@
 #include "floatframe/history/states_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/core/build_info.hpp"
 #include "floatframe/history/history_blocks.hpp"
 
 namespace floatframe {
@@ -11,6 +13,19 @@ namespace {
 constexpr std::size_t longest_message = 10'000;
 
 }  // namespace
+
+HistoryOrigin history_origin(const std::string& model_file, const std::string& folder) {
+  HistoryOrigin o;
+  o.program = version();
+  o.library = build_description();
+  o.model_file = model_file;
+  if (model_file.empty()) return o;
+  std::error_code ignored;
+  o.from_here = std::filesystem::weakly_canonical(model_file, ignored)
+                    .lexically_relative(std::filesystem::weakly_canonical(folder, ignored))
+                    .string();
+  return o;
+}
 
 StatesFile::StatesFile(const std::string& path, const HistoryContent& content, bool continuable)
     : columns_(content.header.columns), file_(path, continuable) {

@@ -1,7 +1,6 @@
 #pragma once
 // The result file of a run while it grows (history_blocks.hpp has its layout). What ends the
 // program leaves all rows that were appended; a disk that is full leaves whole blocks.
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +15,9 @@ struct HistoryContent {
   HistoryHeader header;
   std::vector<std::string> arrays;  ///< bytes of each that the header lists
 };
+
+/// Of this program, for a model file and the folder of the result: both may be moved together.
+HistoryOrigin history_origin(const std::string& model_file, const std::string& folder);
 
 class StatesFile {
  public:

@@ -1,23 +1,18 @@
 #include "floatframe/model_file/load_instances.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <set>
 
 #include "floatframe/core/content_hash.hpp"
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model_file/instance_parameters.hpp"
+#include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr int most_instances = 1000;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string s;
-  for (const std::string& w : words) s += (s.empty() ? "" : ", ") + w;
-  return s;
-}
 
 class Loader {
  public:
@@ -93,8 +88,7 @@ class Loader {
     for (auto& [name, value] : list->named("a map of names")) {
       auto section = value.section();
       if (!section) continue;
-      if (const auto when = section->get("when"))
-        if (!when->boolean().value_or(true)) continue;
+      if (!section->boolean("when", true)) continue;
       const auto file_value = section->require("file");
       std::vector<GivenParameter> given;
       if (const auto p = section->get("parameters"))
@@ -120,14 +114,10 @@ class Loader {
               "found more than " + std::to_string(most_instances) + " subsystems, expected fewer");
         continue;
       }
-      const std::string full = (std::filesystem::path(self.document->file).parent_path() / *file)
-                                   .lexically_normal()
-                                   .string();
+      const std::string full = beside(self, *file);
       std::error_code ignored;
       const std::string canonical = std::filesystem::weakly_canonical(full, ignored).string();
-      bool recursive = false;
-      for (const std::string& s : stack) recursive = recursive || s == canonical;
-      if (recursive) {
+      if (std::find(stack.begin(), stack.end(), canonical) != stack.end()) {
         file_value->error(ErrorCode::cycle, "'" + full + "' includes itself");
         continue;
       }
@@ -202,17 +192,18 @@ class Loader {
       if (!exists && off)
         value.error(ErrorCode::not_found, "'" + *target + "' is switched off by its 'when'");
       else if (!exists)
-        value.error(ErrorCode::not_found,
-                    "unknown name '" + *target + "'" + errors_.suggestion(*target, known));
+        value.not_known("unknown name '" + *target + "'", *target, known);
       child.external.emplace(name, exists ? *target : "");
     }
-    std::vector<std::string> missing;
-    for (const std::string& name : order)
-      if (!given.count(name)) missing.push_back(name);
-    for (const std::string& name : missing) child.external.emplace(name, "");
+    std::string missing;
+    for (const std::string& name : order) {
+      if (given.contains(name)) continue;
+      missing += (missing.empty() ? "" : ", ") + name;
+      child.external.emplace(name, "");
+    }
     if (!missing.empty())
-      section.error(ErrorCode::incomplete, "'" + child.document->file + "' needs " +
-                                               joined(missing) + ", expected it in 'connect'");
+      section.error(ErrorCode::incomplete, "'" + child.document->file + "' needs " + missing +
+                                               ", expected it in 'connect'");
   }
 
   ModelFiles& files_;

@@ -110,9 +110,7 @@ std::optional<Vec3> ModelInstance::read_point(const YamlValue& value) const {
   if (!name) return std::nullopt;
   const auto p = point(*name);
   if (!p) {
-    value.error(ErrorCode::not_found,
-                "unknown point '" + *name + "'" +
-                    context.errors->suggestion(*name, [&] { return known_points(); }));
+    value.not_known("unknown point '" + *name + "'", *name, [&] { return known_points(); });
     return std::nullopt;
   }
   if (!p->allFinite()) return std::nullopt;  // a point that is wrong itself

@@ -50,6 +50,8 @@ struct ModelInstance {
   std::optional<std::string> reference(EntityKind kind, const YamlValue& value) const;
   /// The same of a body, not the ground, whose name is the key of `entry`.
   std::optional<std::string> moving_body(const std::string& name, const YamlValue& entry) const;
+  /// A point of the world in coordinates of this file: P is its own inverse.
+  Vec3 local(const Vec3& p) const { return world.P * (p - world.t); }
   /// A full name as it would be written in this file.
   std::string written(const std::string& full) const;
   /// All names that could be written in this file for a kind.

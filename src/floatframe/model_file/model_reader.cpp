@@ -11,7 +11,6 @@
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/load_instances.hpp"
 #include "floatframe/model_file/read_parts.hpp"
-#include "floatframe/model_file/resolved_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -26,14 +25,12 @@ constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};
 /// snap: false, or {angle: 3e-3, distance: 1e-3}
 void read_snap(const YamlValue& value, SnapDescription& snap) {
   if (!value.is_map()) {
-    if (const auto on = value.boolean()) snap.on = *on;
+    snap.on = value.boolean().value_or(snap.on);
     return;
   }
   auto s = value.section();
-  if (const auto v = s->get("angle"))
-    if (const auto x = v->number(rules::snap_angle)) snap.angle = *x;
-  if (const auto v = s->get("distance"))
-    if (const auto x = v->number(rules::snap_distance)) snap.distance = *x;
+  snap.angle = s->number("angle", rules::snap_angle, snap.angle);
+  snap.distance = s->number("distance", rules::snap_distance, snap.distance);
   s->finish();
 }
 
@@ -72,8 +69,7 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
       else
         model.description.name = *name;
     }
-  if (const auto v = root.get("gravity"))
-    if (const auto g = v->vector("m/s2")) model.description.gravity = *g;
+  root.vector("gravity", "m/s2", model.description.gravity);
   if (const auto v = root.get("snap")) read_snap(*v, model.description.snap);
   if (!root.has("bodies") && self.children.empty() && !root.has("subsystems"))
     root.error(ErrorCode::missing, "missing key 'bodies'");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/description.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/parameter_override.hpp"
@@ -41,5 +42,13 @@ ModelDescription read_model(const std::string& path,
 /// The names of the parameters of a model file, without reading what they are for: few, if it
 /// cannot be read.
 std::vector<std::string> model_parameters(const std::string& path);
+
+/// The numbers of the section `simulation`: a key of the file, or an option by that name.
+struct SimulationNumber {
+  const char* name;
+  double SimulationDescription::*at;
+  NumberRule rule;
+};
+const std::vector<SimulationNumber>& simulation_numbers();
 
 }  // namespace floatframe

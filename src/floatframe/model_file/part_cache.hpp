@@ -4,7 +4,6 @@
 // (with a line that says so) or belongs to something else is replaced.
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "floatframe/parts/part_job.hpp"

@@ -14,6 +14,7 @@ struct BarGeometry {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   int elements = 1;
   bool valid = false;
+  std::size_t start = 0, inner = 0, end = 0;  ///< nodes: the first, the first inner one, the last
 };
 
 class BarReader {
@@ -38,26 +39,22 @@ class BarReader {
     auto s = value.section("a map with round, tube, rectangle, or area, Iy, Iz, J");
     if (!s) return absent;
     SectionDescription result = absent;
-    int forms = 0;
-    if (const auto v = s->get("round")) {
-      ++forms;
+    if (const auto v = s->get("round"))
       result = SolidRound{v->number(rules::section_length).value_or(1.0)};
-    }
     if (const auto v = s->get("tube")) {
-      ++forms;
       const auto d = v->numbers(2, 2, rules::section_length, "outer and inner diameter [D, d] [m]");
       const auto complaint = d ? sentences::tube((*d)[0], (*d)[1]) : std::nullopt;
       v->complain(ErrorCode::out_of_range, complaint);
       if (d && !complaint) result = HollowRound{(*d)[0], (*d)[1]};
     }
     if (const auto v = s->get("rectangle")) {
-      ++forms;
       const auto d = v->numbers(2, 2, rules::section_length, "width and height [w, h] [m]");
       if (d) result = Rectangle{(*d)[0], (*d)[1]};
     }
-    const bool explicit_form = s->has("area") || s->has("Iy") || s->has("Iz") || s->has("J");
+    constexpr const char* constants[] = {"area", "Iy", "Iz", "J"};
+    const auto is_there = [&](const char* key) { return s->has(key); };
+    const bool explicit_form = std::any_of(std::begin(constants), std::end(constants), is_there);
     if (explicit_form) {
-      ++forms;
       SectionConstants c;
       c.A = s->required_number("area", rules::section_area, 1.0);
       c.Iy = s->required_number("Iy", rules::section_moment, 1.0);
@@ -65,9 +62,10 @@ class BarReader {
       c.J = s->required_number("J", rules::section_moment, 1.0);
       result = c;
     } else {
-      for (const char* k : {"area", "Iy", "Iz", "J"}) s->get(k);
+      for (const char* key : constants) s->get(key);
     }
     s->finish();
+    const int forms = s->has("round") + s->has("tube") + s->has("rectangle") + explicit_form;
     if (forms != 1)
       s->error(ErrorCode::wrong_count,
                "found " + std::to_string(forms) +
@@ -81,9 +79,8 @@ class BarReader {
     if (!name) return std::nullopt;
     const auto p = self_.points.find(*name);
     if (p == self_.points.end()) {
-      const auto known = [&] { return keys_of(self_.points); };
-      value.error(ErrorCode::not_found,
-                  "unknown point '" + *name + "'" + self_.context.errors->suggestion(*name, known));
+      value.not_known("unknown point '" + *name + "'", *name,
+                      [&] { return keys_of(self_.points); });
       return std::nullopt;
     }
     if (!p->second.allFinite()) return std::nullopt;
@@ -108,7 +105,6 @@ class BarReader {
     BarGeometry g;
     b.name = name;
     b.origin = s->origin();
-    std::size_t start = 0;
     bool good = true;
     const auto elements = s->require("elements");
     b.elements = elements ? elements->integer(rules::elements).value_or(1) : 1;
@@ -119,15 +115,15 @@ class BarReader {
     }
     const auto from = s->require("from");
     if (from && from->is_map()) {
-      good = branch(*from, b, g, start);
+      good = branch(*from, b, g);
     } else {
       const auto p = from ? point_name(*from) : std::nullopt;
       good = p.has_value();
       if (p) {
         b.from = *p;
         g.from = f().points.at(*p);
-        start = node_at(*p, g.from);
-        graph(start);
+        g.start = node_at(*p, g.from);
+        graph(g.start);
       }
     }
     const auto to = s->require("to");
@@ -154,20 +150,17 @@ class BarReader {
     g.elements = b.elements;
     g.valid = good;
     if (good) {
-      const std::size_t before = out_.nodes.size();
+      g.inner = out_.nodes.size();
       for (int k = 1; k < b.elements; ++k) {
         out_.nodes.push_back(g.from + (g.to - g.from) * k / b.elements);
         graph(out_.nodes.size() - 1);
       }
-      const std::size_t end = node_at(b.to, g.to);
-      graph(end);
-      inner_[name] = before;
-      starts_[name] = start;
-      ends_[name] = end;
-      unite(start, end);
-      for (int k = 1; k < b.elements; ++k) unite(start, before + k - 1);
+      g.end = node_at(b.to, g.to);
+      graph(g.end);
+      unite(g.start, g.end);
+      for (int k = 1; k < b.elements; ++k) unite(g.start, g.inner + k - 1);
       if (f().bars.empty()) out_.first_point = g.from;
-      links_.emplace_back(start, value);
+      links_.emplace_back(g.start, value);
     } else {
       valid_ = false;
     }
@@ -176,7 +169,7 @@ class BarReader {
   }
 
   /// from: {bar: name, at: fraction}
-  bool branch(const YamlValue& value, BarDescription& b, BarGeometry& g, std::size_t& start) {
+  bool branch(const YamlValue& value, BarDescription& b, BarGeometry& g) {
     auto s = value.section();
     const auto bar_value = s->require("bar");
     const auto at_value = s->require("at");
@@ -209,7 +202,7 @@ class BarReader {
     b.from_fraction = at;
     g.from = other.from + (other.to - other.from) * (nearest / other.elements);
     const int k = static_cast<int>(nearest);
-    start = k == 0 ? starts_[*name] : k == other.elements ? ends_[*name] : inner_[*name] + k - 1;
+    g.start = k == 0 ? other.start : k == other.elements ? other.end : other.inner + k - 1;
     return true;
   }
 
@@ -243,8 +236,6 @@ class BarReader {
   FlexibleRead& out_;
   bool valid_ = true;
   std::map<std::string, BarGeometry> geometry_;
-  // First inner node, start node and end node of a bar.
-  std::map<std::string, std::size_t> inner_, starts_, ends_;
   std::vector<std::size_t> parent_;
   std::vector<std::pair<std::size_t, YamlValue>> links_;  // start node of each bar
 };

@@ -288,6 +288,13 @@ std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInst
   return out;
 }
 
+void judge(const YamlSection& section, const Origin& origin,
+           const std::function<void(const validation::Entity&)>& check) {
+  ErrorList found;
+  check({found, origin, section.path()});
+  for (ErrorEntry& e : found.take()) section.value().context().errors->add(std::move(e));
+}
+
 void read_bodies(const ModelInstance& self, ReadModel& model) {
   for (auto& [name, section] : active_entities(self, EntityKind::body))
     read_body(self, name, section, model);

@@ -51,22 +51,12 @@ ModalDamping read_damping(const YamlValue& value) {
   if (!value.is_map()) return value.number(rules::damping_ratio).value_or(0.0);
   ModalDamping out;
   auto s = value.section();
-  int ways = 0;
   const std::size_t before = value.context().errors->size();
-  if (const auto v = s->get("fraction")) {
-    ++ways;
+  if (const auto v = s->get("fraction"))
     out.fractions = {v->number(rules::damping_ratio).value_or(0.0)};
-  }
-  if (const auto v = s->get("fractions")) {
-    ++ways;
-    out.fractions = damping_fractions(*v);
-  }
-  if (const auto v = s->get("bands")) {
-    ++ways;
-    out.bands = damping_bands(*v);
-  }
+  if (const auto v = s->get("fractions")) out.fractions = damping_fractions(*v);
+  if (const auto v = s->get("bands")) out.bands = damping_bands(*v);
   if (const auto v = s->get("rayleigh")) {
-    ++ways;
     const auto factors =
         v->numbers(2, 2, non_negative_number(""), "Rayleigh's factors [alpha, beta] [1/s, s]");
     if (factors) {
@@ -74,12 +64,11 @@ ModalDamping read_damping(const YamlValue& value) {
       out.beta = (*factors)[1];
     }
   }
-  if (const auto v = s->get("reference"))
-    if (const auto k = v->word({"frame", "free", "mounted"}))
-      out.reference = static_cast<DampingReference>(*k);
-  if (const auto v = s->get("frequency"))
-    out.interface_frequency = v->number(rules::mode_frequency).value_or(0.0);
+  constexpr const char* references[] = {"frame", "free", "mounted"};
+  s->word("reference", references, out.reference);
+  out.interface_frequency = s->number("frequency", rules::mode_frequency, 0.0);
   s->finish();
+  const int ways = s->has("fraction") + s->has("fractions") + s->has("bands") + s->has("rayleigh");
   if (ways != 1)
     value.error(ErrorCode::exclusive,
                 "found " + std::to_string(ways) +

@@ -1,9 +1,6 @@
 // The group of a flexible body made of bars: material, masses, reference, modes; with the checks
 // that need the geometry.
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -14,8 +11,6 @@
 
 namespace floatframe {
 namespace {
-
-const std::vector<std::string> dof_names(std::begin(node_dof_words), std::end(node_dof_words));
 
 class FlexibleReader {
  public:
@@ -45,15 +40,18 @@ class FlexibleReader {
     m->finish();
   }
 
-  /// A node of this body by the name of its point.
+  /// A node of this body by the name of its point, at the key `point`.
+  std::optional<std::string> node_name(YamlSection& s) {
+    const auto point = s.require("point");
+    return point ? node_name(*point) : std::nullopt;
+  }
   std::optional<std::string> node_name(const YamlValue& value) {
     const auto name = value.text("the name of an end point of a bar");
     if (!name) return std::nullopt;
     if (out_.named_nodes.count(*name)) return name;
     if (!out_.valid) return std::nullopt;
-    const auto known = [&] { return keys_of(out_.named_nodes); };
-    value.error(ErrorCode::not_found,
-                sentences::no_end_point(*name) + value.context().errors->suggestion(*name, known));
+    value.not_known(sentences::no_end_point(*name), *name,
+                    [&] { return keys_of(out_.named_nodes); });
     return std::nullopt;
   }
 
@@ -65,8 +63,7 @@ class FlexibleReader {
       if (!s) continue;
       NodeMass m;
       m.origin = s->origin();
-      const auto point = s->require("point");
-      const auto name = point ? node_name(*point) : std::nullopt;
+      const auto name = node_name(*s);
       m.mass = s->required_number("mass", rules::mass, 0.0);
       s->finish();
       if (!name) continue;
@@ -87,22 +84,8 @@ class FlexibleReader {
       if (item.is_map()) {
         auto s = item.section();
         d.origin = s->origin();
-        const auto point = s->require("point");
-        name = point ? node_name(*point) : std::nullopt;
-        if (const auto v = s->require("dofs")) {
-          if (v->is_list()) {
-            for (const YamlValue& w : v->list())
-              if (const auto k = w.word(dof_names)) bits.push_back(static_cast<unsigned>(*k));
-            if (v->node().items.empty())
-              v->error(ErrorCode::missing,
-                       "found an empty list, expected directions such as [x, y, z]");
-          } else if (const auto t = v->text("all or a list of x, y, z, rx, ry, rz")) {
-            if (*t == "all")
-              bits = {0, 1, 2, 3, 4, 5};
-            else
-              v->unexpected("all or a list of x, y, z, rx, ry, rz");
-          }
-        }
+        name = node_name(*s);
+        if (const auto v = s->require("dofs")) bits = read_dofs(*v);
         s->finish();
       } else {
         d.origin.mark = item.mark();
@@ -122,8 +105,7 @@ class FlexibleReader {
   }
 
   void modes() {
-    if (const auto v = section_.get("mass_model"))
-      if (const auto w = v->word(rules::mass_models)) f().mass_model = static_cast<MassModel>(*w);
+    section_.word("mass_model", rules::mass_models, f().mass_model);
     f().orthonormalise = section_.boolean("orthonormal", false);
     f().section_inertia = section_.boolean("section_inertia", false);
     if (const auto v = section_.get("section_inertia"))
@@ -252,6 +234,23 @@ class FlexibleReader {
 };
 
 }  // namespace
+
+std::vector<unsigned> read_dofs(const YamlValue& value) {
+  constexpr const char* what = "all or a list of x, y, z, rx, ry, rz";
+  std::vector<unsigned> out;
+  if (value.is_list()) {
+    for (const YamlValue& item : value.list())
+      if (const auto k = item.word(node_dof_words)) out.push_back(static_cast<unsigned>(*k));
+    if (value.node().items.empty())
+      value.error(ErrorCode::missing, "found an empty list, expected directions such as [x, y, z]");
+  } else if (const auto t = value.text(what)) {
+    if (*t == "all")
+      out = {0, 1, 2, 3, 4, 5};
+    else
+      value.unexpected(what);
+  }
+  return out;
+}
 
 FlexibleRead read_flexible(const ModelInstance& self, YamlSection section) {
   return FlexibleReader(self, section).read();

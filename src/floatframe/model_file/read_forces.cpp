@@ -1,5 +1,4 @@
 // Force elements and roads.
-#include <cmath>
 #include <limits>
 
 #include "floatframe/model/force_kind.hpp"
@@ -12,42 +11,6 @@
 
 namespace floatframe {
 namespace {
-
-/// body and at (or node) written among the keys of the force itself.
-std::optional<AttachmentDescription> own_place(const ModelInstance& self, const ReadModel& model,
-                                               YamlSection& s) {
-  AttachmentDescription a;
-  a.origin = s.origin();
-  const auto body_value = s.require("body");
-  const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
-  const auto at = s.get("at");
-  const auto node = s.get("node");
-  if (at && node) node->error(ErrorCode::exclusive, "found with 'at', expected one of the two");
-  const auto point = at ? self.read_point(*at) : std::nullopt;
-  if (!body || (at && !point)) return std::nullopt;
-  a.body = *body;
-  if (*body == ground_name) {
-    body_value->error(ErrorCode::wrong_value, sentences::ground_is_no_body());
-    return std::nullopt;
-  }
-  const auto it = model.bodies.find(*body);
-  if (it == model.bodies.end()) return std::nullopt;
-  const Placement& w = self.world;
-  if (node) {
-    const auto name = node->text("the name of a node");
-    if (!name || !check_named_node(self, model, *body, *name, *node)) return std::nullopt;
-    a.node = *name;
-    a.point = w.P * (it->second.nodes[it->second.named_nodes.at(*name)] - w.t);
-    return a;
-  }
-  if (!point) {
-    a.point = *frame_origin(self, model, *body);
-    return a;
-  }
-  a.point = *point;
-  if (!check_node(self, model, *body, a.point, *at)) return std::nullopt;
-  return a;
-}
 
 /// The keys of one force element, as the table of its type says.
 class ForceReader {
@@ -108,70 +71,48 @@ class ForceReader {
     return std::nullopt;
   }
 
-  std::optional<ForceValue> named(EntityKind kind, const YamlValue& value) const {
-    const auto name = self_.reference(kind, value);
-    return name ? std::optional(ForceValue(*name)) : std::nullopt;
-  }
-
   std::optional<ForceValue> direction(const YamlValue& value, bool as_given) const {
     const auto v = read_direction(value);
     if (!v) return std::nullopt;
     return ForceValue(as_given ? *v : Vec3(v->stableNormalized()));
   }
 
-  /// A list of rows, 6 x 6 or 2 x 2.
-  std::optional<ForceValue> matrix(const YamlValue& value) const {
-    constexpr const char* what = "6 rows of 6 numbers, or 2 rows of 2";
-    if (!value.is_list()) {
-      value.unexpected(what);
-      return std::nullopt;
-    }
-    const auto rows = value.list(what);
-    const std::size_t n = rows.size() == 2 ? 2 : 6;
-    if (rows.size() != n) {
-      value.error(ErrorCode::wrong_count, sentences::force_matrix_rows(rows.size()));
-      return std::nullopt;
-    }
-    MatX M(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  /// The rows of a matrix, of so many numbers each.
+  static std::optional<ForceValue> rows_of(const std::vector<YamlValue>& rows,
+                                           std::size_t columns) {
+    const std::string what = std::to_string(columns) + " numbers";
+    MatX M(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
     bool good = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto row = rows[i].numbers(n, n, any_number(""), n == 2 ? "2 numbers" : "6 numbers");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto row = rows[i].numbers(columns, columns, any_number(""), what.c_str());
       if (row) M.row(static_cast<Eigen::Index>(i)) = VecX::Map(row->data(), M.cols()).transpose();
       good = good && row;
     }
     return good ? std::optional(ForceValue(std::move(M))) : std::nullopt;
   }
 
-  /// A list of rows of nine numbers.
+  /// 6 x 6 or 2 x 2
+  static std::optional<ForceValue> matrix(const YamlValue& value) {
+    const auto rows = value.list("6 rows of 6 numbers, or 2 rows of 2");
+    if (!value.is_list()) return std::nullopt;
+    if (rows.size() == 2 || rows.size() == 6) return rows_of(rows, rows.size());
+    value.error(ErrorCode::wrong_count, sentences::force_matrix_rows(rows.size()));
+    return std::nullopt;
+  }
+
   static std::optional<ForceValue> speed_table(const YamlValue& value) {
-    constexpr const char* what = "rows of 9 numbers: a speed, four stiffnesses, four dampings";
-    if (!value.is_list()) {
-      value.unexpected(what);
-      return std::nullopt;
-    }
-    const auto rows = value.list(what);
-    MatX table(static_cast<Eigen::Index>(rows.size()), 9);
-    bool good = true;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto row = rows[i].numbers(9, 9, any_number(""), "9 numbers");
-      if (row) table.row(static_cast<Eigen::Index>(i)) = VecX::Map(row->data(), 9).transpose();
-      good = good && row;
-    }
-    return good ? std::optional(ForceValue(std::move(table))) : std::nullopt;
+    const auto rows = value.list("rows of 9 numbers: a speed, four stiffnesses, four dampings");
+    return value.is_list() ? rows_of(rows, 9) : std::nullopt;
   }
 
   std::optional<ForceValue> place_of(const YamlValue& value) const {
-    const auto section = value.section("a place {body, at}");
-    const auto at = section ? read_attachment(self_, model_, *section) : std::nullopt;
-    return at ? std::optional(ForceValue(*at)) : std::nullopt;
+    auto section = value.section("a place {body, at}");
+    return section ? read_attachment(self_, model_, *section) : std::nullopt;
   }
 
   std::optional<ForceValue> read(const ForceKey& key) {
     using K = ForceKeyKind;
-    if (key.kind == K::own_place) {
-      const auto at = own_place(self_, model_, s_);
-      return at ? std::optional(ForceValue(*at)) : std::nullopt;
-    }
+    if (key.kind == K::own_place) return read_attachment(self_, model_, s_, AttachedBy::own_keys);
     const auto value = key.required ? s_.require(key.name) : s_.get(key.name);
     if (!value) return std::nullopt;
     const ForceAxisUnits u = units(key);
@@ -180,24 +121,20 @@ class ForceReader {
       case K::place:
         return place_of(*value);
       case K::joint:
-        return named(EntityKind::joint, *value);
+        return self_.reference(EntityKind::joint, *value);
       case K::road:
-        return named(EntityKind::road, *value);
+        return self_.reference(EntityKind::road, *value);
       case K::direction:
       case K::vector:
         return direction(*value, key.kind == K::vector);
-      case K::number: {
-        const auto x = value->number(key.rule);
-        return x ? std::optional(ForceValue(*x)) : std::nullopt;
-      }
+      case K::number:
+        return value->number(key.rule);
       case K::word: {
         const auto k = value->word(key.words);
         return k ? std::optional(ForceValue(static_cast<int>(*k))) : std::nullopt;
       }
-      case K::flag: {
-        const auto yes = value->boolean();
-        return yes ? std::optional(ForceValue(*yes)) : std::nullopt;
-      }
+      case K::flag:
+        return value->boolean();
       case K::spring:
         return read_law(*value, free_value(key), {u.displacement, u.force, u.stiffness});
       case K::damper:

@@ -2,8 +2,6 @@
 // it.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/formats/geometry/geometry_file.hpp"
 #include "floatframe/model_file/read_parts.hpp"
@@ -33,7 +31,7 @@ std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
   const auto file = s->require("file");
   const double scale = s->number("scale", positive_number(""), 1.0);
   Pose X_BG;
-  if (const auto v = s->get("position")) X_BG.p = v->vector("m").value_or(Vec3::Zero());
+  s->vector("position", "m", X_BG.p);
   if (const auto v = s->get("orientation")) X_BG.R = read_orientation(*v);
   auto shape = std::make_shared<BodyShape>();
   if (const auto v = s->get("color")) shape->color = read_color(*v);

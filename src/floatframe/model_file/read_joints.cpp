@@ -1,8 +1,6 @@
 // Joints and rods, and the places on bodies that they and the forces use.
 #include <algorithm>
-#include <span>
 
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -23,16 +21,40 @@ std::vector<double> start_values(YamlSection& s, const char* key, JointType type
   return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>(n, 0.0));
 }
 
-/// A node named for one side of a joint; its design point in coordinates of this file.
+/// Error at `value` if the body has no node of that name.
+bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                      const std::string& node, const YamlValue& value) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end()) {
+    if (body == ground_name) value.error(ErrorCode::incomplete, sentences::node_on_ground());
+    return false;
+  }
+  if (!it->second.valid) return false;
+  if (!it->second.flexible && it->second.named_nodes.empty()) {
+    value.error(ErrorCode::incomplete, sentences::node_on_rigid_body(self.written(body)));
+    return false;
+  }
+  if (it->second.named_nodes.count(node)) return true;
+  value.not_known(sentences::no_node_named(self.written(body), it->second.flexible, node), node,
+                  [&] { return keys_of(it->second.named_nodes); });
+  return false;
+}
+
+/// A node of a side's body by its name; its design point in coordinates of this file.
+std::optional<Vec3> read_node(const ModelInstance& self, const ReadModel& model,
+                              const YamlValue& value, AttachmentDescription& side) {
+  const auto name = value.text("the name of a node");
+  if (!name || !check_named_node(self, model, side.body, *name, value)) return std::nullopt;
+  side.node = *name;
+  const KnownBody& body = model.bodies.at(side.body);
+  return self.local(body.nodes[body.named_nodes.at(*name)]);
+}
+
+/// The node that a key names for one side of a joint, likewise.
 std::optional<Vec3> joint_node(const ModelInstance& self, const ReadModel& model, YamlSection& s,
                                const char* key, AttachmentDescription& side) {
   const auto v = s.get(key);
-  const auto name = v ? v->text("the name of a node") : std::nullopt;
-  if (!name || !check_named_node(self, model, side.body, *name, *v)) return std::nullopt;
-  side.node = *name;
-  const KnownBody& body = model.bodies.at(side.body);
-  const Placement& w = self.world;
-  return w.P * (body.nodes[body.named_nodes.at(*name)] - w.t);
+  return v ? read_node(self, model, *v, side) : std::nullopt;
 }
 
 /// Which bodies the joint connects; nothing for one that is not known.
@@ -158,8 +180,7 @@ std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& mod
                                  const std::string& body) {
   const auto it = model.bodies.find(body);
   if (it == model.bodies.end()) return std::nullopt;
-  const Placement& w = self.world;  // P is its own inverse
-  return Vec3(w.P * (it->second.origin - w.t));
+  return self.local(it->second.origin);
 }
 
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
@@ -171,70 +192,43 @@ bool check_node(const ModelInstance& self, const ReadModel& model, const std::st
   const auto nearer = [&](const Vec3& a, const Vec3& b) { return (a - p).norm() < (b - p).norm(); };
   const auto nearest = std::min_element(nodes.begin(), nodes.end(), nearer);
   if (nearest != nodes.end() && (*nearest - p).norm() <= rules::node_tolerance) return true;
-  const Placement& w = self.world;
-  const Vec3 there = nearest != nodes.end() ? Vec3(w.P * (*nearest - w.t)) : Vec3::Zero().eval();
+  const Vec3 there = nearest != nodes.end() ? self.local(*nearest) : Vec3::Zero().eval();
   value.error(
       ErrorCode::not_found,
       sentences::no_node_at(point, self.written(body), nearest != nodes.end() ? &there : nullptr));
   return false;
 }
 
-bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
-                      const std::string& node, const YamlValue& value) {
-  const auto it = model.bodies.find(body);
-  if (it == model.bodies.end()) {
-    if (body == ground_name) value.error(ErrorCode::incomplete, sentences::node_on_ground());
-    return false;
-  }
-  if (!it->second.valid) return false;
-  if (!it->second.flexible && it->second.named_nodes.empty()) {
-    value.error(ErrorCode::incomplete, sentences::node_on_rigid_body(self.written(body)));
-    return false;
-  }
-  if (it->second.named_nodes.count(node)) return true;
-  const auto known = [&] { return keys_of(it->second.named_nodes); };
-  value.error(ErrorCode::not_found,
-              sentences::no_node_named(self.written(body), it->second.flexible, node) +
-                  self.context.errors->suggestion(node, known));
-  return false;
-}
-
 std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
-                                                     const ReadModel& model, YamlSection s) {
+                                                     const ReadModel& model, YamlSection& s,
+                                                     AttachedBy by) {
+  const bool own = by == AttachedBy::own_keys;
   AttachmentDescription a;
   a.origin = s.origin();
   const auto body_value = s.require("body");
   const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
-  const auto at = s.get("at");
-  const auto node = s.get("node");
-  s.finish();
+  const auto at = s.get("at"), node = s.get("node");
+  if (!own) s.finish();
   if (at && node) {
     node->error(ErrorCode::exclusive, "found with 'at', expected one of the two");
-    return std::nullopt;
+    if (!own) return std::nullopt;
   }
   const auto point = at ? self.read_point(*at) : std::nullopt;
   if (!body || (at && !point)) return std::nullopt;
   a.body = *body;
-  if (node) {
-    const auto name = node->text("the name of a node");
-    if (!name || !check_named_node(self, model, *body, *name, *node)) return std::nullopt;
-    a.node = *name;
-    const auto it = model.bodies.find(*body);
-    const Placement& w = self.world;
-    a.point = w.P * (it->second.nodes[it->second.named_nodes.at(*name)] - w.t);
-    return a;
-  }
-  if (point) {
-    a.point = *point;
-    if (!check_node(self, model, *body, *point, *at)) return std::nullopt;
-    return a;
-  }
-  const auto origin = frame_origin(self, model, *body);
-  if (!origin) {
-    s.error(ErrorCode::missing, "missing key 'at'");  // the ground has no frame origin of its own
+  if (own && *body == ground_name) {
+    body_value->error(ErrorCode::wrong_value, sentences::ground_is_no_body());
     return std::nullopt;
   }
-  a.point = *origin;
+  if (own && !model.bodies.contains(*body)) return std::nullopt;
+  const auto place = node    ? read_node(self, model, *node, a)
+                     : point ? point
+                             : frame_origin(self, model, *body);
+  if (!place && !node)
+    s.error(ErrorCode::missing, "missing key 'at'");  // the ground has no frame origin of its own
+  if (!place || (point && !node && !check_node(self, model, *body, *point, *at)))
+    return std::nullopt;
+  a.point = *place;
   return a;
 }
 

@@ -74,9 +74,8 @@ std::string table_point_error(const std::vector<TablePoint>& before, double x, T
 PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Interpolation usual,
                                TableOf of, const char* x_unit) {
   Interpolation interpolation = usual;
-  if (const auto i = section.get("interpolation"))
-    if (const auto w = i->word({"linear", "cubic"}))
-      interpolation = *w == 0 ? Interpolation::linear : Interpolation::cubic;
+  constexpr const char* words[] = {"linear", "cubic"};
+  section.word("interpolation", words, interpolation);
   const TableRows table = read_table_rows(value, any_number(""), "a point [x, f]");
   bool good = table.good;
   if (value.is_list() && value.node().items.size() < 2) {

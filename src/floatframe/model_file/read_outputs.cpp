@@ -1,5 +1,4 @@
 // Result columns.
-#include <algorithm>
 #include <iterator>
 #include <span>
 
@@ -16,83 +15,68 @@ class OutputReader {
  public:
   OutputReader(const ModelInstance& self, ReadModel& model) : self_(self), model_(model) {}
 
+  void read_all(const YamlValue& outputs) {
+    for (const auto& [name, value] : outputs.named("a map of column names to quantities", true))
+      read(name, value);
+  }
+
+ private:
   void read(const std::string& name, const YamlValue& value) {
     if (const auto complaint = sentences::column_name(name)) {
       value.entity_error(ErrorCode::wrong_value, *complaint);
       return;
     }
     auto s = value.section("a quantity, for example {position: body, axis: z}");
-    if (!s) return;
-    if (const auto when = s->get("when"))
-      if (!when->boolean().value_or(true)) return;
+    if (!s || !s->boolean("when", true)) return;
     OutputDescription o;
     int found = 0;
     for (const OutputType type : output_types)
       if (s->get(output_type_name(type))) ++found, o.type = type;
     if (found != 1) return not_one_quantity(*s, found);
-    const OutputKind& kind = output_kind(o.type);
     o.origin = s->origin();
-    const YamlValue what = *s->get(output_type_name(o.type));
-    switch (kind.of) {
-      case OutputOf::point:
-        if (const auto at = point(what)) {
-          o.at = *at;
-          components(name, *s, o);
-        } else if (kind.components.key) {
-          s->get(kind.components.key);
-        }
-        break;
-      case OutputOf::two_points:
-        two_points(name, *s, what, o);
-        break;
-      case OutputOf::body:
-        if (const auto body = moving_body(what)) {
-          o.at.body = *body;
-          components(name, *s, o);
-        } else if (kind.components.key) {
-          s->get(kind.components.key);
-        }
-        break;
-      case OutputOf::joint:
-        joint(name, *s, what, o);
-        break;
-      case OutputOf::mode:
-        mode(name, *s, what, o);
-        break;
-      case OutputOf::force:
-        if (const auto f = self_.reference(EntityKind::force, what)) {
-          o.entity = *f;
-          const auto type = model_.force_types.find(*f);
-          if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
-            what.error(
-                ErrorCode::wrong_value,
-                sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
-          components(name, *s, o);
-        }
-        break;
-      case OutputOf::gauge:
-        gauge(name, *s, what, o);
-        break;
-      case OutputOf::reaction:
-        reaction(name, *s, what, o);
-        break;
-      case OutputOf::rod:
-        if (const auto rod = self_.reference(EntityKind::rod, what)) {
-          o.entity = *rod;
-          add(name, o);
-        }
-        break;
-      case OutputOf::motion:
-        if (const auto joint = self_.reference(EntityKind::joint, what)) {
-          o.entity = *joint;
-          add(name, o);
-        }
-        break;
-    }
+    const OutputKind& kind = output_kind(o.type);
+    if (quantity(kind, *s, *s->get(output_type_name(o.type)), o))
+      components(name, *s, o);
+    else if (kind.components.key)
+      s->get(kind.components.key);
     s->finish();
   }
 
- private:
+  /// What was read, into its place; false if nothing was.
+  template <class Read, class Place>
+  static bool put(std::optional<Read> read, Place& place) {
+    if (read) place = std::move(*read);
+    return read.has_value();
+  }
+
+  /// What the output is of; false after an error.
+  bool quantity(const OutputKind& kind, YamlSection& s, const YamlValue& what,
+                OutputDescription& o) {
+    switch (kind.of) {
+      case OutputOf::point:
+        return put(point(what), o.at);
+      case OutputOf::two_points:
+        return two_points(what, o);
+      case OutputOf::body:
+        return put(moving_body(what), o.at.body);
+      case OutputOf::joint:
+        return joint(s, what, o);
+      case OutputOf::mode:
+        return mode(s, what, o);
+      case OutputOf::force:
+        return force(kind, what, o);
+      case OutputOf::gauge:
+        return gauge(s, what, o);
+      case OutputOf::reaction:
+        return reaction(s, what, o);
+      case OutputOf::rod:
+        return put(self_.reference(EntityKind::rod, what), o.entity);
+      case OutputOf::motion:
+        return put(self_.reference(EntityKind::joint, what), o.entity);
+    }
+    return false;
+  }
+
   void add(const std::string& name, OutputDescription o) {
     o.name = self_.prefix + name;
     place(o, self_.world);
@@ -170,86 +154,71 @@ class OutputReader {
     return at;
   }
 
-  void two_points(const std::string& name, YamlSection& s, const YamlValue& what,
-                  OutputDescription& o) {
+  bool two_points(const YamlValue& what, OutputDescription& o) {
     auto ends = what.section("two places, for example {from: body, to: body}");
-    if (ends) {
-      const auto from = ends->require("from"), to = ends->require("to");
-      ends->finish();
-      const auto a = from ? point(*from) : std::nullopt, b = to ? point(*to) : std::nullopt;
-      if (a && b) {
-        o.at = *a;
-        o.to = *b;
-        components(name, s, o);
-        return;
-      }
-    }
-    if (const char* key = output_kind(o.type).components.key) s.get(key);
+    if (!ends) return false;
+    const auto from = ends->require("from"), to = ends->require("to");
+    ends->finish();
+    const bool first = from && put(point(*from), o.at);
+    return to && put(point(*to), o.to) && first;
   }
 
-  void joint(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    const auto j = self_.reference(EntityKind::joint, what);
+  bool force(const OutputKind& kind, const YamlValue& what, OutputDescription& o) {
+    if (!put(self_.reference(EntityKind::force, what), o.entity)) return false;
+    const auto type = model_.force_types.find(o.entity);
+    if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
+      what.error(ErrorCode::wrong_value,
+                 sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
+    return true;
+  }
+
+  bool joint(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const bool known = put(self_.reference(EntityKind::joint, what), o.entity);
     const auto coordinate = s.get("coordinate");
-    if (!j) return;
-    o.entity = *j;
-    const auto it = model_.joints.find(*j);
-    if (it == model_.joints.end()) return;
+    const auto it = model_.joints.find(o.entity);
+    if (!known || it == model_.joints.end()) return false;
     const int n = joint_velocities(it->second);
     if (n == 0) {
       what.error(ErrorCode::wrong_value, sentences::weld_does_not_move());
-      return;
-    }
-    if (coordinate) {
+    } else if (coordinate) {
       const auto k = coordinate->integer(1, n, "the number of a coordinate");
-      if (!k) return;
-      o.component = *k - 1;
+      if (k) o.component = *k - 1;
+      return k.has_value();
     } else if (n > 1) {
       s.error(ErrorCode::missing, "missing key 'coordinate'");
-      return;
     }
-    add(name, o);
+    return n == 1;
   }
 
   /// A joint by its name, a rod as {rod: name}; `about` a point, `in` some axes.
-  void reaction(const std::string& name, YamlSection& s, const YamlValue& what,
-                OutputDescription& o) {
-    std::optional<std::string> entity;
+  bool reaction(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    bool good = false;
     if (what.is_map()) {
       o.rod = true;
       if (auto rod = what.section("a joint, or {rod: name}")) {
-        if (const auto value = rod->require("rod"))
-          entity = self_.reference(EntityKind::rod, *value);
+        const auto value = rod->require("rod");
+        good = value && put(self_.reference(EntityKind::rod, *value), o.entity);
         rod->finish();
       }
     } else {
-      entity = self_.reference(EntityKind::joint, what);
+      good = put(self_.reference(EntityKind::joint, what), o.entity);
     }
-    bool good = entity.has_value();
-    if (good) o.entity = *entity;
     if (const auto about = s.get("about")) {
       o.about = true;
-      const auto at = point(*about);
-      good = at && good;
-      if (at) o.at = *at;
+      good = put(point(*about), o.at) && good;
       if (o.type != OutputType::joint_torque) {
         about->error(ErrorCode::incomplete, sentences::force_without_point());
         good = false;
       }
     }
-    if (const auto in = s.get("in")) good = axes(*in, o) && good;
-    if (good)
-      components(name, s, o);
-    else
-      s.get(output_kind(o.type).components.key);
+    const auto in = s.get("in");
+    return (!in || axes(*in, o)) && good;
   }
 
   bool axes(const YamlValue& in, OutputDescription& o) {
     if (in.is_map()) {
-      const auto to = point(in);
-      if (!to) return false;
       o.in = OutputAxes::place;
-      o.to = *to;
-      return true;
+      return put(point(in), o.to);
     }
     const auto word = in.word(std::span(rules::reaction_axes).first(index_of(OutputAxes::place)));
     if (!word) return false;
@@ -261,21 +230,13 @@ class OutputReader {
 
   /// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and
   /// `along` where there are several places.
-  void gauge(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    const auto direction = o.type == OutputType::strain ? s.require("direction") : std::nullopt;
+  bool gauge(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const bool strain = o.type == OutputType::strain;
+    const auto direction = strain ? s.require("direction") : std::nullopt;
     const auto loads = s.get("inertia_loads");
     bool good = place_of_gauge(what, o);
-    good = direction_of(direction, o.gauge.direction) && good;
-    if (o.type == OutputType::strain && !direction) good = false;
-    if (loads) {
-      const auto yes = loads->boolean();
-      good = yes && good;
-      o.gauge.inertia_loads = yes.value_or(true);
-    }
-    if (good)
-      components(name, s, o);
-    else if (const char* key = output_kind(o.type).components.key)
-      s.get(key);
+    good = direction_of(direction, o.gauge.direction) && good && (direction || !strain);
+    return (!loads || put(loads->boolean(), o.gauge.inertia_loads)) && good;
   }
 
   bool place_of_gauge(const YamlValue& what, OutputDescription& o) {
@@ -286,70 +247,52 @@ class OutputReader {
                toward = place->get("toward"), along = place->get("along"),
                material = place->get("material");
     place->finish();
-    const auto name = body ? moving_body(*body) : std::nullopt;
-    bool good = name.has_value();
-    if (name) o.at.body = *name;
+    bool good = body && put(moving_body(*body), o.at.body);
     if (node.has_value() == at.has_value()) {
       place->error(
           node ? ErrorCode::exclusive : ErrorCode::missing,
           node ? "found 'node' and 'at', expected one of the two" : "missing key 'node' or 'at'");
       good = false;
-    } else if (at) {
-      const auto point = self_.read_point(*at);
-      good = point && good;
-      if (point) o.at.point = *point;
     } else {
-      good = node_of_gauge(*node, o) && good;
+      good = (at ? put(self_.read_point(*at), o.at.point) : node_of_gauge(*node, o)) && good;
     }
     if (layer) {
       const auto word = layer->word(rules::shell_layers);
       good = word && good;
       if (word) o.gauge.layer = static_cast<GaugeDescription::Layer>(*word + 1);
     }
-    if (material) {
-      const auto word = material->text("the name of a material");
-      good = word && good;
-      o.gauge.material = word.value_or("");
-    }
+    if (material) good = put(material->text("the name of a material"), o.gauge.material) && good;
     good = direction_of(along, o.gauge.along) && good;
     return direction_of(toward, o.gauge.toward) && good;
   }
 
   static bool direction_of(const std::optional<YamlValue>& value, Vec3& out) {
-    const auto d = value ? read_direction(*value) : std::nullopt;
-    if (d) out = *d;
-    return d || !value;
+    return !value || put(read_direction(*value), out);
   }
 
   /// A whole number is that of a node in the finite-element file.
   static bool node_of_gauge(const YamlValue& value, OutputDescription& o) {
-    if (value.looks_like_number()) {
-      const auto number = value.integer(1, 2147483647, "the number of a node");
-      if (number) o.gauge.node = *number;
-      return number.has_value();
-    }
-    const auto name = value.text("the number or the name of a node");
-    if (name) o.at.node = *name;
-    return name.has_value();
+    if (value.looks_like_number())
+      return put(value.integer(1, 2147483647, "the number of a node"), o.gauge.node);
+    return put(value.text("the number or the name of a node"), o.at.node);
   }
 
-  void mode(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
+  bool mode(YamlSection& s, const YamlValue& what, OutputDescription& o) {
     const auto body = moving_body(what);
     const auto number = s.require("mode");
-    if (!body || !number) return;
+    if (!body || !number) return false;
     o.at.body = *body;
     const auto it = model_.bodies.find(*body);
-    if (it == model_.bodies.end() || !it->second.valid) return;
+    if (it == model_.bodies.end() || !it->second.valid) return false;
     if (!it->second.flexible) {
       what.error(ErrorCode::wrong_value,
                  sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
-      return;
+      return false;
     }
     const auto k =
         number->integer(1, it->second.modes < 0 ? 10000 : it->second.modes, "the number of a mode");
-    if (!k) return;
-    o.component = *k - 1;
-    add(name, o);
+    if (k) o.component = *k - 1;
+    return k.has_value();
   }
 
   const ModelInstance& self_;
@@ -363,9 +306,7 @@ void read_outputs(const ModelInstance& self, ReadModel& model) {
   YamlSection root = *self.root;
   const auto value = root.get("outputs");
   if (!value) return;
-  OutputReader reader(self, model);
-  for (const auto& [name, v] : value->named("a map of column names to quantities", true))
-    reader.read(name, v);
+  OutputReader(self, model).read_all(*value);
 }
 
 void read_added_outputs(const ModelInstance& root, ReadModel& model) {
@@ -374,9 +315,7 @@ void read_added_outputs(const ModelInstance& root, ReadModel& model) {
     if (document.root.line == 0) continue;  // nothing was understood, and that has been said
     const ReadContext context{&document.file, &root.scope, root.context.errors};
     const YamlValue value(context, document.root, "outputs");
-    OutputReader reader(root, model);
-    for (const auto& [name, v] : value.named("a map of column names to quantities", true))
-      reader.read(name, v);
+    OutputReader(root, model).read_all(value);
   }
 }
 

@@ -1,8 +1,8 @@
 // A group with a finite-element file: the options of `floatframe reduce` as keys. Lengths and the
 // material are in the units of that file.
+#include <algorithm>
 #include <set>
 
-#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/parts/node_ways.hpp"
@@ -12,7 +12,6 @@
 namespace floatframe {
 namespace {
 
-const std::vector<std::string> dof_words(std::begin(node_dof_words), std::end(node_dof_words));
 using Special = PartOption::Special;
 
 class JobReader {
@@ -217,42 +216,36 @@ class JobReader {
     return false;
   }
 
+  /// What interfaces and markers have in common.
+  template <class Place>
+  std::optional<YamlSection> begin(const std::string& name, const YamlValue& value,
+                                   const char* what, Place& place) {
+    auto s = value.section(what);
+    if (!s || !name_is_new(name, value)) return std::nullopt;
+    place.name = name;
+    choice(*s, place.choice);
+    if (const auto v = s->get("at")) place.at = v->vector("");
+    return s;
+  }
+
   void interface(const std::string& name, const YamlValue& value) {
-    auto s = value.section("an interface with set, node, nearest, plane, cylinder or sphere");
-    if (!s || !name_is_new(name, value)) return;
     InterfaceDescription i;
-    i.name = name;
-    choice(*s, i.choice);
-    if (const auto v = s->get("at")) i.at = v->vector("");
-    if (const auto v = s->get("type"))
-      if (const auto k = v->word(tie_words)) i.kind = static_cast<Spider::Kind>(*k);
-    if (const auto v = s->get("dofs")) i.mask = dofs(*v);
+    auto s =
+        begin(name, value, "an interface with set, node, nearest, plane, cylinder or sphere", i);
+    if (!s) return;
+    s->word("type", tie_words, i.kind);
+    if (const auto v = s->get("dofs")) {
+      i.mask = 0;
+      for (const unsigned k : read_dofs(*v)) i.mask |= 1u << k;
+    }
     s->finish();
     o().interfaces.push_back(std::move(i));
   }
 
-  static unsigned dofs(const YamlValue& value) {
-    if (value.is_list()) {
-      unsigned mask = 0;
-      for (const YamlValue& item : value.list())
-        if (const auto k = item.word(dof_words)) mask |= 1u << *k;
-      if (value.node().items.empty())
-        value.error(ErrorCode::missing,
-                    "found an empty list, expected directions such as [x, y, z]");
-      return mask;
-    }
-    const auto t = value.text("all or a list of x, y, z, rx, ry, rz");
-    if (t && *t != "all") value.unexpected("all or a list of x, y, z, rx, ry, rz");
-    return 63u;
-  }
-
   void marker(const std::string& name, const YamlValue& value) {
-    auto s = value.section("a marker with set, node, nearest, plane, cylinder or sphere");
-    if (!s || !name_is_new(name, value)) return;
     MarkerDescription m;
-    m.name = name;
-    choice(*s, m.choice);
-    if (const auto v = s->get("at")) m.at = v->vector("");
+    auto s = begin(name, value, "a marker with set, node, nearest, plane, cylinder or sphere", m);
+    if (!s) return;
     m.residual = s->boolean("residual", false);
     s->finish();
     o().markers.push_back(std::move(m));
@@ -270,11 +263,8 @@ class JobReader {
       o().reference = {BodyReference::Kind::node, *name};
       std::vector<std::string> known;
       for (const InterfaceDescription& i : o().interfaces) known.push_back(i.name);
-      for (const std::string& k : known)
-        if (k == *name) return;
-      node->error(ErrorCode::not_found,
-                  "unknown interface '" + *name + "'" +
-                      self_.context.errors->suggestion(*name, [&] { return known; }));
+      if (std::find(known.begin(), known.end(), *name) != known.end()) return;
+      node->not_known("unknown interface '" + *name + "'", *name, [&] { return known; });
     } else if (const auto w = v->word(reference_words)) {
       o().reference.kind = static_cast<BodyReference::Kind>(*w);
     }

@@ -65,6 +65,8 @@ struct FlexibleRead {
 };
 /// A group of bars.
 FlexibleRead read_flexible(const ModelInstance& self, YamlSection section);
+/// Directions of a node: all, or a list of x, y, z, rx, ry, rz; from 0, in the order of the file.
+std::vector<unsigned> read_dofs(const YamlValue& value);
 /// The key `damping` of bars and parts.
 ModalDamping read_damping(const YamlValue& value);
 /// The key `bars` of such a group: bars, points, nodes.
@@ -105,10 +107,15 @@ void judge(const YamlSection& section, const Origin& origin,
 /// normalised).
 std::optional<Vec3> read_direction(const YamlValue& value);
 
+enum class AttachedBy {
+  map,      ///< of its own, which is read to its end
+  own_keys  ///< among those of the entity, which has a body that moves
+};
 /// {body: name, at: point} or {body: name, node: name}; without either it is the origin of the body
 /// frame. Points of flexible bodies are checked to be nodes. Coordinates of this file.
 std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
-                                                     const ReadModel& model, YamlSection section);
+                                                     const ReadModel& model, YamlSection& section,
+                                                     AttachedBy by = AttachedBy::map);
 /// Origin of the frame of a body in coordinates of this file; nullopt for the ground. On a flexible
 /// body it need not be a node: a marker there belongs to the frame itself.
 std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
@@ -116,9 +123,6 @@ std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& mod
 /// Error at `value` if a flexible body has no node at `point` (coordinates of this file).
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
                 const Vec3& point, const YamlValue& value);
-/// Error at `value` if the body has no node of that name.
-bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
-                      const std::string& node, const YamlValue& value);
 
 /// A law f(x): a number k: k (x - free); {linear: {stiffness, free, preload}}; {polynomial: [c0,
 /// c1, ...], about: x0}; {piecewise: [...]}; {table: [...], interpolation: ...}. `free` is the

@@ -1,6 +1,7 @@
-// The `simulation` group: how the model is run.
+// How a model starts and is run: `simulation`, `initial`, and the `inputs` that come from outside.
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/state_json.hpp"
 
@@ -84,7 +85,46 @@ void read_record(const ModelInstance& self, const YamlValue& value, RecordDescri
   options->finish();
 }
 
+void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValue& value,
+                     const char* key, std::map<std::string, VecX>& out) {
+  for (const auto& [name, v] : value.named("a map of bodies to lists of modal amplitudes", true)) {
+    const auto body = self.moving_body(name, v);
+    if (!body) continue;
+    const auto it = model.bodies.find(*body);
+    if (it == model.bodies.end() || !it->second.valid) continue;
+    if (!it->second.flexible) {
+      v.entity_error(ErrorCode::wrong_value,
+                     sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      continue;
+    }
+    const int n = it->second.modes;
+    const std::size_t most = n < 0 ? 10000 : n;
+    const std::string what = "a list of " + std::to_string(n) + " amplitudes, one per mode";
+    const auto a = v.numbers(n < 0 ? 1 : most, most, any_number(""),
+                             n < 0 ? "a list of amplitudes" : what.c_str());
+    if (!a) continue;
+    out[*body] = Eigen::Map<const VecX>(a->data(), static_cast<Eigen::Index>(a->size()));
+    // With normal modes below a frequency their number is known only when the body is reduced.
+    model.description.bodies[it->second.index].origin.keys[key] = v.mark();
+  }
+}
+
 }  // namespace
+
+const std::vector<SimulationNumber>& simulation_numbers() {
+  using S = SimulationDescription;
+  static const std::vector<SimulationNumber> numbers{
+      {"step", &S::step, rules::step},
+      {"duration", &S::duration, rules::duration},
+      {"output_interval", &S::output_interval, rules::output_interval},
+      {"spectral_radius", &S::spectral_radius, rules::spectral_radius},
+      {"tolerance", &S::tolerance, rules::tolerance},
+      {"min_step", &S::min_step, rules::min_step},
+      {"penalty", &S::penalty, rules::penalty},
+      {"position_tolerance", &S::position_tolerance, rules::position_tolerance},
+      {"velocity_tolerance", &S::velocity_tolerance, rules::velocity_tolerance}};
+  return numbers;
+}
 
 void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (!self.root) return;
@@ -96,35 +136,55 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
   YamlSection& s = *section;
   SimulationDescription& d = model.description.simulation;
   d.origin = s.origin();
-  if (const auto v = s.get("coordinates"))
-    if (const auto w = v->word(rules::coordinates)) d.coordinates = static_cast<Coordinates>(*w);
-  if (const auto v = s.get("inertia"))
-    if (const auto w = v->word(rules::inertia_methods)) d.inertia = static_cast<InertiaMethod>(*w);
+  s.word("coordinates", rules::coordinates, d.coordinates);
+  s.word("inertia", rules::inertia_methods, d.inertia);
   if (s.has("geometric_stiffening"))
     d.geometric_stiffening = s.boolean("geometric_stiffening", false);
   if (const auto v = s.get("start")) read_start(self, *v, d);
-  if (const auto v = s.get("velocity"))
-    if (const auto x = v->vector("m/s")) d.velocity = *x;
-  d.step = s.number("step", rules::step, d.step);
-  d.duration = s.number("duration", rules::duration, d.duration);
-  d.output_interval = s.number("output_interval", rules::output_interval, d.output_interval);
-  d.spectral_radius = s.number("spectral_radius", rules::spectral_radius, d.spectral_radius);
-  d.tolerance = s.number("tolerance", rules::tolerance, d.tolerance);
+  s.vector("velocity", "m/s", d.velocity);
+  for (const SimulationNumber& n : simulation_numbers())
+    d.*n.at = s.number(n.name, n.rule, d.*n.at);
   if (const auto v = s.get("max_iterations"))
     d.max_iterations = v->integer(rules::max_iterations).value_or(d.max_iterations);
-  d.min_step = s.number("min_step", rules::min_step, d.min_step);
-  d.penalty = s.number("penalty", rules::penalty, d.penalty);
-  d.position_tolerance =
-      s.number("position_tolerance", rules::position_tolerance, d.position_tolerance);
-  d.velocity_tolerance =
-      s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
   d.locate_edges = s.boolean("locate_edges", d.locate_edges);
-  if (const auto v = s.get("input"))
-    if (const auto w = v->word(rules::input_uses)) d.input = static_cast<InputUse>(*w);
+  s.word("input", rules::input_uses, d.input);
   if (const auto v = s.get("record")) read_record(self, *v, d.record);
   s.finish();
   if (d.start == Start::state && !d.state) return;  // the file could not be read
   judge(s, d.origin, [&](const validation::Entity& group) { validate(d, group.errors); });
+}
+
+void read_initial(const ModelInstance& self, ReadModel& model) {
+  if (!self.root) return;
+  YamlSection root = *self.root;
+  const auto value = root.get("initial");
+  if (!value) return;
+  auto s = value->section("a map with amplitudes and amplitude_rates");
+  if (!s) return;
+  if (const auto v = s->get("amplitudes"))
+    read_amplitudes(self, model, *v, "initial.amplitudes", model.description.amplitudes);
+  if (const auto v = s->get("amplitude_rates"))
+    read_amplitudes(self, model, *v, "initial.amplitude_rates", model.description.amplitude_rates);
+  s->finish();
+}
+
+void read_inputs(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, s] : active_entities(self, EntityKind::input)) {
+    InputDescription i;
+    i.name = self.prefix + name;
+    i.origin = s.origin();
+    if (const auto v = s.get("unit")) i.unit = v->text("a unit, for example N").value_or("");
+    const char* unit = i.unit.c_str();
+    i.initial = s.number("initial", any_number(unit), 0.0);
+    if (const auto v = s.get("min")) i.low = v->number(any_number(unit));
+    if (const auto v = s.get("max")) i.high = v->number(any_number(unit));
+    i.clamp = s.boolean("clamp", false);
+    s.finish();
+    const std::size_t before = self.context.errors->size();
+    judge(s, i.origin, [&](const validation::Entity& entity) { validation::input(i, entity); });
+    if (self.context.errors->size() > before) continue;
+    model.description.inputs.push_back(std::move(i));
+  }
 }
 
 }  // namespace floatframe

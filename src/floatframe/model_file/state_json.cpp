@@ -1,6 +1,5 @@
 #include "floatframe/model_file/state_json.hpp"
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

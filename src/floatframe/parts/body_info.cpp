@@ -1,8 +1,5 @@
-#include "floatframe/parts/body_info.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +9,7 @@
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/parts/json_vector.hpp"
+#include "floatframe/parts/file_info.hpp"
 
 namespace floatframe {
 namespace {

@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/parts/part_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -21,10 +21,9 @@ namespace {
 }
 
 double damping_number(const std::string& text, const std::string& whole) {
-  char* end = nullptr;
-  const double x = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(x)) fail_damping(whole);
-  return x;
+  const auto x = finite_number(text);
+  if (!x) fail_damping(whole);
+  return *x;
 }
 
 /// "100=0.01"
@@ -34,16 +33,6 @@ DampingBand damping_band(const std::string& text, const std::string& whole) {
   if (equal != std::string::npos) band.below = damping_number(text.substr(0, equal), whole);
   band.fraction = damping_number(equal == std::string::npos ? text : text.substr(equal + 1), whole);
   return band;
-}
-
-std::vector<std::string> comma_pieces(const std::string& text) {
-  std::vector<std::string> out{""};
-  for (const char c : text)
-    if (c == ',')
-      out.emplace_back();
-    else
-      out.back() += c;
-  return out;
 }
 
 }  // namespace
@@ -73,7 +62,7 @@ ModalDamping damping_argument(const std::string& text) {
   const bool rayleigh = text.starts_with("rayleigh:"), bands = text.starts_with("bands:");
   const std::string rest = rayleigh || bands ? text.substr(text.find(':') + 1) : text;
   std::vector<std::string> values;
-  for (const std::string& piece : comma_pieces(rest)) {
+  for (const std::string& piece : pieces_of(rest, ',')) {
     if (piece.starts_with("reference=")) {
       const std::string name = piece.substr(10);
       bool known = false;

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
@@ -14,8 +15,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/vector_text.hpp"
-#include "floatframe/parts/beam_arms.hpp"
-#include "floatframe/parts/json_vector.hpp"
+#include "floatframe/parts/file_info.hpp"
 #include "floatframe/parts/part_text.hpp"
 
 namespace floatframe {
@@ -132,6 +132,13 @@ void sets(const FeModel& model, FeFacts& out) {
   }
 }
 
+/// Of a model with nodes.
+std::pair<Vec3, Vec3> bounding_box(const FeModel& model) {
+  Vec3 low = model.positions.front(), high = low;
+  for (const Vec3& p : model.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return {low, high};
+}
+
 std::string material_name(const FeModel& model, std::size_t k) {
   return k < model.material_names.size() ? model.material_names[k] : fmt::format("{}", k + 1);
 }
@@ -172,8 +179,7 @@ std::string proposal_text(const ReduceProposal& p) {
 std::vector<std::string> likely_units(const FeModel& model) {
   std::vector<std::string> out;
   if (model.materials.empty() || model.positions.empty()) return out;
-  Vec3 low = model.positions.front(), high = low;
-  for (const Vec3& p : model.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const auto [low, high] = bounding_box(model);
   for (const std::string& name : unit_system_names()) {
     const auto units = find_unit_system(name);
     if (!units || name == "si") continue;  // another name of m-kg-s
@@ -209,13 +215,7 @@ FeFacts fe_facts(const PartJob& job, const FeModel& model) {
     out.matrix_rows = static_cast<int>(model.matrices->dofs.size());
     out.matrix_damping = model.matrices->C.nonZeros() > 0;
   }
-  if (!model.positions.empty()) {
-    out.low = out.high = model.positions.front();
-    for (const Vec3& p : model.positions) {
-      out.low = out.low.cwiseMin(p);
-      out.high = out.high.cwiseMax(p);
-    }
-  }
+  if (!model.positions.empty()) std::tie(out.low, out.high) = bounding_box(model);
   measure(model, out);
   sets(model, out);
   const std::vector<char> arms = beam_arms(model);
@@ -314,15 +314,12 @@ std::string fe_info_json(const PartJob& job, const FeModel& model) {
   for (const auto& [type, count] : f.elements) elements[type] = count;
   for (std::size_t k = 0; k < model.materials.size(); ++k) {
     const Material& m = model.materials[k];
-    materials.push_back(
-        {{"name", material_name(model, k)},
-         {"young", m.young},
-         {"poisson", m.poisson},
-         {"density",
-          model.without_density.contains(static_cast<int>(k)) ? Json(nullptr) : Json(m.density)},
-         {"mass", model.without_density.contains(static_cast<int>(k))
-                      ? Json(nullptr)
-                      : Json(f.material_masses[k])}});
+    const bool known = !model.without_density.contains(static_cast<int>(k));
+    materials.push_back({{"name", material_name(model, k)},
+                         {"young", m.young},
+                         {"poisson", m.poisson},
+                         {"density", known ? Json(m.density) : Json()},
+                         {"mass", known ? Json(f.material_masses[k]) : Json()}});
   }
   for (const FeFacts::Set& s : f.sets)
     all_sets.push_back({{"name", s.name}, {"of", s.kind}, {"size", s.size}, {"nodes", s.nodes}});

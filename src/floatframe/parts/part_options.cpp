@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
-
 #include "floatframe/parts/damping_text.hpp"
 #include "floatframe/parts/part_text.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
@@ -16,36 +13,29 @@ using O = PartOption;
 using Special = O::Special;
 using Texts = std::vector<std::string>;
 
-/// An enumerator in a member of the job's options.
-template <auto member>
-O::Word enumerator(std::vector<const char*> words, std::optional<int> unwritten = {}) {
-  return {std::move(words), 0,
-          [](const PartJob& job) { return static_cast<int>(job.options.*member); },
+/// An enumerator in a member of the job's options, or of how it is read.
+template <auto group, auto member>
+O::Word enumerator(std::vector<const char*> words, std::optional<int> unwritten = {},
+                   int first = 0) {
+  return {std::move(words), first,
+          [](const PartJob& job) { return static_cast<int>(job.*group.*member); },
           [](PartJob& job, int k) {
-            auto& value = job.options.*member;
+            auto& value = job.*group.*member;
             value = static_cast<std::remove_reference_t<decltype(value)>>(k);
           },
           unwritten};
 }
 
-O::Word dialect() {
-  return {{word(DeckDialect::abaqus), word(DeckDialect::calculix)},
-          static_cast<int>(DeckDialect::abaqus),
-          [](const PartJob& job) { return static_cast<int>(job.read.dialect); },
-          [](PartJob& job, int k) { job.read.dialect = static_cast<DeckDialect>(k); },
-          static_cast<int>(DeckDialect::by_content)};
-}
-
-/// An enumerator in a member of what is read; the first one is not shown.
+/// One of how the file is read; the first is not shown.
 template <auto member>
 O::Word reading_word(std::vector<const char*> words) {
-  return {std::move(words), 0,
-          [](const PartJob& job) { return static_cast<int>(job.read.*member); },
-          [](PartJob& job, int k) {
-            auto& value = job.read.*member;
-            value = static_cast<std::remove_reference_t<decltype(value)>>(k);
-          },
-          0};
+  return enumerator<&PartJob::read, member>(std::move(words), 0);
+}
+
+O::Word dialect() {
+  return enumerator<&PartJob::read, &FeReadOptions::dialect>(
+      {word(DeckDialect::abaqus), word(DeckDialect::calculix)},
+      static_cast<int>(DeckDialect::by_content), static_cast<int>(DeckDialect::abaqus));
 }
 
 /// "ignore", "tied", "tied:DISTANCE"
@@ -62,15 +52,13 @@ Special contact() {
       [](PartJob& job, const std::string& text) {
         job.read.contact = text == "ignore" ? DeckContact::ignore : DeckContact::tied;
         if (text == "ignore" || text == "tied") return;
-        char* end = nullptr;
-        const double distance = text.starts_with("tied:") && text.size() > 5
-                                    ? std::strtod(text.c_str() + 5, &end)
-                                    : 0.0;
-        if (end == nullptr || *end != '\0' || !(distance > 0.0) || !std::isfinite(distance))
+        const auto distance =
+            text.starts_with("tied:") ? finite_number(text.substr(5)) : std::nullopt;
+        if (!distance || !(*distance > 0.0))
           throw InputError(
               ErrorCode::wrong_value,
               fmt::format("--contact: found '{}', expected ignore, tied or tied:DISTANCE", text));
-        job.read.contact_distance = distance;
+        job.read.contact_distance = *distance;
       }};
 }
 
@@ -80,12 +68,11 @@ Special temperature() {
             return job.read.temperature ? Texts{fmt::format("{}", *job.read.temperature)} : Texts();
           },
           [](PartJob& job, const std::string& text) {
-            char* end = nullptr;
-            const double T = std::strtod(text.c_str(), &end);
-            if (text.empty() || *end != '\0' || !std::isfinite(T))
+            const auto T = finite_number(text);
+            if (!T)
               throw InputError(ErrorCode::out_of_range,
                                fmt::format("--temperature: found '{}', expected a number", text));
-            job.read.temperature = T;
+            job.read.temperature = *T;
           }};
 }
 
@@ -248,7 +235,7 @@ std::vector<PartOption> list() {
       {"markers", "marker", "NAME=...",
        "Where loads act (residual) or outputs are taken; repeatable", markers()},
       {"method", "method", "WORD", "craig_bampton (default), free_free or craig_chang",
-       enumerator<&P::method>({"craig_bampton", "free_free", "craig_chang"})},
+       enumerator<&PartJob::options, &P::method>({"craig_bampton", "free_free", "craig_chang"})},
       {"modes", "modes", "N", "Number of normal modes; default 20 if nothing selects them",
        O::Count{modes, &P::modes, most_normal_modes}},
       {"fmax", "fmax", "HZ", "All normal modes below this frequency [Hz]",
@@ -259,14 +246,14 @@ std::vector<PartOption> list() {
       {"reference", "reference", "WORD",
        "Body frame: mean_axis (default), buckens or node:NAME of an interface", reference()},
       {"integration", "integration", "WORD", "exact (default), or ccx: as CalculiX",
-       enumerator<&P::integration>({"exact", "ccx"})},
+       enumerator<&PartJob::options, &P::integration>({"exact", "ccx"})},
       {"damping", "damping", "LAW",
        "Modal damping: a fraction of critical, a list of them, bands:usual, bands:HZ=FRACTION,..., "
        "rayleigh:ALPHA,BETA; behind it ,reference=free or mounted; default 0",
        damping()},
       // The solvers differ in rounding, and one that is asked for is to be used.
       {"solver", "solver", "WORD", "auto (default), mumps or eigen",
-       enumerator<&P::solver>({"auto", "mumps", "eigen"}, automatic)},
+       enumerator<&PartJob::options, &P::solver>({"auto", "mumps", "eigen"}, automatic)},
       {"free_check", "no-free-check", "",
        "No free modes of the full model in the report (saves a factorisation)",
        O::Switch{&P::check_free_modes, false, true}},

@@ -19,16 +19,6 @@ constexpr const char* ways_text =
     "set:NAME, node:NUMBER, nearest:x,y,z, plane:x,y,z,normal=..., "
     "cylinder:x,y,z,axis=...,radius=... or sphere:x,y,z,radius=...";
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> out{""};
-  for (const char c : text)
-    if (c == at)
-      out.emplace_back();
-    else
-      out.back() += c;
-  return out;
-}
-
 /// One occurrence of --interface or --marker, taken apart.
 class PlaceArgument {
  public:
@@ -42,7 +32,7 @@ class PlaceArgument {
                                    option_, text, ways_text));
     name = text.substr(0, equal);
     way_ = text.substr(equal + 1, colon - equal - 1);
-    for (const std::string& piece : split(text.substr(colon + 1), ',')) {
+    for (const std::string& piece : pieces_of(text.substr(colon + 1), ',')) {
       const std::size_t at = piece.find('=');
       if (pairs_.empty())
         pairs_.emplace_back(way_, piece);
@@ -77,15 +67,14 @@ class PlaceArgument {
     return *value;
   }
   double number(const std::string& key, const std::string& text, bool positive) const {
-    char* end = nullptr;
-    const double x = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(x) || (positive && !(x > 0.0)))
+    const auto x = finite_number(text);
+    if (!x || (positive && !(*x > 0.0)))
       fail(ErrorCode::out_of_range, fmt::format("{}: found '{}', expected a {}number", key, text,
                                                 positive ? "positive " : ""));
-    return x;
+    return *x;
   }
   Vec3 vector(const std::string& key, const std::string& text) const {
-    const auto pieces = split(text, ',');
+    const auto pieces = pieces_of(text, ',');
     if (pieces.size() != 3)
       fail(ErrorCode::wrong_count,
            fmt::format("{}: found '{}', expected three numbers x,y,z", key, text));
@@ -218,10 +207,26 @@ std::string place_text(const NodeChoice& c, const std::optional<Vec3>& at) {
 
 }  // namespace
 
+std::vector<std::string> pieces_of(const std::string& text, char at) {
+  std::vector<std::string> out{""};
+  for (const char c : text)
+    if (c == at)
+      out.emplace_back();
+    else
+      out.back() += c;
+  return out;
+}
+
+std::optional<double> finite_number(const std::string& text) {
+  char* end = nullptr;
+  const double x = std::strtod(text.c_str(), &end);
+  return text.empty() || *end != '\0' || !std::isfinite(x) ? std::nullopt : std::optional(x);
+}
+
 std::optional<unsigned> dofs_of(const std::string& text) {
   if (text == "all") return 63u;
   unsigned mask = 0;
-  for (std::string piece : split(text, '+')) {
+  for (std::string piece : pieces_of(text, '+')) {
     const unsigned shift = !piece.empty() && piece[0] == 'r' ? 3u : 0u;
     if (shift > 0) piece.erase(0, 1);
     if (piece.empty()) return std::nullopt;
@@ -286,15 +291,12 @@ MarkerDescription marker_argument(const std::string& text) {
 }
 
 Material material_argument(const std::string& text) {
-  const auto pieces = split(text, ',');
-  double x[3] = {};
-  bool good = pieces.size() == 3;
-  for (std::size_t k = 0; good && k < 3; ++k) {
-    char* end = nullptr;
-    x[k] = std::strtod(pieces[k].c_str(), &end);
-    good = !pieces[k].empty() && *end == '\0' && std::isfinite(x[k]);
-  }
-  if (!good || !(x[0] > 0.0) || !(x[1] > -1.0) || !(x[1] < 0.5) || !(x[2] > 0.0))
+  const auto pieces = pieces_of(text, ',');
+  std::vector<double> x;
+  for (const std::string& piece : pieces)
+    if (const auto number = finite_number(piece)) x.push_back(*number);
+  if (pieces.size() != 3 || x.size() != 3 || !(x[0] > 0.0) || !(x[1] > -1.0) || !(x[1] < 0.5) ||
+      !(x[2] > 0.0))
     throw InputError(ErrorCode::wrong_value,
                      fmt::format("--material: found '{}', expected young,poisson,density in the "
                                  "units of the file, such as 210000,0.3,7.85e-9",
@@ -308,11 +310,9 @@ namespace {
 std::optional<std::pair<std::string, double>> named_number(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   const bool named = equals != std::string::npos;
-  const std::string number = named ? text.substr(equals + 1) : text;
-  char* end = nullptr;
-  const double value = std::strtod(number.c_str(), &end);
-  if (number.empty() || *end != '\0' || !std::isfinite(value) || equals == 0) return {};
-  return std::pair{named ? text.substr(0, equals) : "", value};
+  const auto value = finite_number(named ? text.substr(equals + 1) : text);
+  if (!value || equals == 0) return {};
+  return std::pair{named ? text.substr(0, equals) : "", *value};
 }
 
 }  // namespace

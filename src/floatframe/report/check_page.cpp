@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/build_info.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/output_list.hpp"
 #include "floatframe/report/page_json.hpp"
 #include "floatframe/report/scene_json.hpp"
@@ -15,9 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string body_at(const Model& model, int marker) {
-  if (marker < 0) return "";
-  const int body = model.markers[marker].body;
-  return body < 0 ? ground_name : model.bodies[body].name;
+  return marker < 0 ? "" : body_name(model, marker);
 }
 
 /// Each joint with its bodies and the direction of its axis in the design configuration.
@@ -49,10 +48,13 @@ Json force_table(const Model& model) {
 
 }  // namespace
 
-std::string page_is_missing(const std::string& option) {
-  return option +
-         ": this program was built without the page, expected one that was built where there is "
-         "Node 18 or later with npm, or from a release archive, which holds the page";
+void require_page(const std::string& option) {
+  if (!page_template().empty()) return;
+  throw InputError(
+      ErrorCode::unavailable,
+      option +
+          ": this program was built without the page, expected one that was built where there is "
+          "Node 18 or later with npm, or from a release archive, which holds the page");
 }
 
 std::string check_page(const Model& model, const CheckedStart& start) {
@@ -68,20 +70,13 @@ std::string check_page(const Model& model, const CheckedStart& start) {
   Json tables = tables_json(start.tables);
   tables.push_back(joint_table(model));
   tables.push_back(force_table(model));
-  const Json page{{"schema", 1},
-                  {"kind", "check"},
-                  {"title", model.name},
-                  {"program", "Floatframe " + build_description()},
-                  {"status",
-                   {{"state", start.failure.empty() ? "completed" : "failed"},
-                    {"sentences", sentences},
-                    {"warnings", Json::array()}}},
-                  {"facts", facts_json(start.facts)},
-                  {"tables", tables},
-                  {"curves", nullptr},
-                  {"trust", nullptr},
-                  {"speed", nullptr},
-                  {"scene", scene_json(model, scene_frames(model, start.state), buffer)}};
+  Json page = empty_page("check", model.name, build_description(),
+                         {{"state", start.failure.empty() ? "completed" : "failed"},
+                          {"sentences", sentences},
+                          {"warnings", Json::array()}});
+  page["facts"] = facts_json(start.facts);
+  page["tables"] = std::move(tables);
+  page["scene"] = scene_json(model, scene_frames(model, start.state), buffer);
   return page_html(page_template(), page, buffer);
 }
 

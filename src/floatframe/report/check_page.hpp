@@ -22,7 +22,7 @@ struct CheckedStart {
 /// Needs a program that was built with the viewer.
 std::string check_page(const Model& model, const CheckedStart& start);
 
-/// Why there is no page, in a sentence, of a program that was built without the viewer.
-std::string page_is_missing(const std::string& option);
+/// Throws InputError, which names the option, if the program was built without the viewer.
+void require_page(const std::string& option);
 
 }  // namespace floatframe

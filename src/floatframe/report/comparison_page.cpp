@@ -1,10 +1,10 @@
-#include "floatframe/report/comparison_page.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
+
+#include "floatframe/report/comparison_report.hpp"
+#include "floatframe/report/page_json.hpp"
 
 namespace floatframe {
 namespace {
@@ -46,38 +46,26 @@ std::string comparison_page(const ComparedResults& r, const PageCurves& a, const
     channels.push_back(both_curves(r, *d, of_a.at(d->name), of_b.at(d->name)));
   Json sentences = Json::array({comparison_verdict(r) + "."});
   for (const std::string& note : comparison_notes(r)) sentences.push_back(note);
-  Json warnings = Json::array();
-  for (const std::string& s : disagreements(r)) warnings.push_back(s);
-  const char* state = !r.tolerance ? "compared" : warnings.empty() ? "agree" : "differ";
+  const char* state = !r.tolerance ? "compared" : disagreements(r).empty() ? "agree" : "differ";
   const ResultsComparison& c = r.comparison;
   const auto span = [](double start, double end) {
     return fmt::format("{:g} to {:g} s", start, end);
   };
-  Json rows = Json::array();
-  const auto row = [&](const char* name, const std::string& value) {
-    rows.push_back(Json::array({name, value}));
-  };
-  row("A", r.file_a);
-  row("B", r.file_b);
-  row("A goes from", span(c.start_a, c.end_a));
-  row("B goes from", span(c.start_b, c.end_b));
-  row("channels", std::to_string(c.channels.size()));
-  row("instants", std::to_string(c.instants));
-  const Json page{{"schema", 1},
-                  {"kind", "compare"},
-                  {"title", "Comparison"},
-                  {"program", "Floatframe " + software},
-                  {"status", {{"state", state}, {"sentences", sentences}, {"warnings", warnings}}},
-                  {"facts", Json::array({{{"heading", "Compared"}, {"rows", std::move(rows)}}})},
-                  {"tables", Json::array()},
-                  {"curves",
-                   {{"time", first["time"]},
+  FactTable facts{"Compared",
+                  {{"A", r.file_a},
+                   {"B", r.file_b},
+                   {"A goes from", span(c.start_a, c.end_a)},
+                   {"B goes from", span(c.start_b, c.end_b)},
+                   {"channels", std::to_string(c.channels.size())},
+                   {"instants", std::to_string(c.instants)}}};
+  Json page =
+      empty_page("compare", "Comparison", software,
+                 {{"state", state}, {"sentences", sentences}, {"warnings", disagreements(r)}});
+  page["facts"] = facts_json({std::move(facts)});
+  page["curves"] = {{"time", first["time"]},
                     {"other_time", second["time"]},
                     {"names", {"A: " + r.file_a, "B: " + r.file_b}},
-                    {"channels", std::move(channels)}}},
-                  {"trust", nullptr},
-                  {"speed", nullptr},
-                  {"scene", nullptr}};
+                    {"channels", std::move(channels)}};
   return page_html(page_template(), page, buffer);
 }
 

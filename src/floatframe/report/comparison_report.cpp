@@ -1,10 +1,8 @@
 #include "floatframe/report/comparison_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -12,19 +10,12 @@
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
+#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {
 
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 5;
-  std::string text = fmt::format(
-      "{}",
-      fmt::join(names.begin(),
-                names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most)), ", "));
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
-  return text;
-}
+std::string listed(const std::vector<std::string>& names) { return names_text(names, 5); }
 
 }  // namespace
 

@@ -1,9 +1,11 @@
 #pragma once
-// A comparison of two results for the terminal and for other programs.
+// A comparison of two results for the terminal, for other programs, and as a page for the viewer
+// (viewer/README.md).
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "floatframe/report/page_curves.hpp"
 #include "floatframe/report/results_comparison.hpp"
 
 namespace floatframe {
@@ -30,5 +32,10 @@ std::vector<std::string> comparison_notes(const ComparedResults& results);
 
 std::string comparison_text(const ComparedResults& results);
 std::string comparison_json(const ComparedResults& results);
+/// The curves of both over each other, a plot for each channel that was compared, the largest
+/// difference for its size first. `a` and `b`: curves of the two files. Needs a template of the
+/// viewer.
+std::string comparison_page(const ComparedResults& results, const PageCurves& a,
+                            const PageCurves& b, const std::string& software);
 
 }  // namespace floatframe

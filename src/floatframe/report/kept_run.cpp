@@ -8,17 +8,10 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/history/history_content.hpp"
-#include "floatframe/history/state_history.hpp"
 #include "floatframe/history/states_file.hpp"
-#include "floatframe/report/page_curves.hpp"
-#include "floatframe/report/page_trust.hpp"
 #include "floatframe/report/page_writer.hpp"
 #include "floatframe/report/results_csv.hpp"
-#include "floatframe/report/run_facts.hpp"
 #include "floatframe/report/run_page.hpp"
-#include "floatframe/report/scene_frames.hpp"
-#include "floatframe/report/scene_json.hpp"
-#include "floatframe/report/scene_loads.hpp"
 #include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/state_layout.hpp"
 
@@ -49,24 +42,13 @@ KeptRun run_and_keep(const Model& model, const SimulationDescription& options,
 
 namespace {
 
-/// The model file as one finds it from the folder of the results.
-std::string from_folder(const std::string& model_file, const std::string& folder) {
-  if (model_file.empty()) return "";
-  std::error_code ignored;
-  return std::filesystem::weakly_canonical(model_file, ignored)
-      .lexically_relative(std::filesystem::weakly_canonical(folder, ignored))
-      .string();
-}
-
 void write_kept_states(const std::string& folder, const std::string& path, const Model& model,
                        const KeptRun& run) {
-  HistoryOrigin origin;
-  origin.program = version();
-  origin.library = build_description();
-  origin.model_file = run.model_file;
+  const bool known = !run.source.files.empty();
+  HistoryOrigin origin = history_origin(run.model_file, folder);
+  if (!known) origin.from_here.clear();
   origin.settings = run.settings;
-  if (!run.source.files.empty()) {
-    origin.from_here = from_folder(run.model_file, folder);
+  if (known) {
     origin.files = run.source.relative;
     origin.text = run.source.text;
   }
@@ -88,13 +70,7 @@ std::string kept_page(const Model& model, const KeptRun& run, const RunSummary& 
   report.processor = processor_name();
   PageBuffer buffer;
   auto page = run_page(report, page_curves(report.result.table), buffer);
-  if (run.states) {
-    const StateHistory states(states_path);
-    SceneFrames frames = scene_frames(model, states);
-    add_load_coefficients(model, states, run.options, frames);
-    page["scene"] = scene_json(model, frames, buffer);
-    add_trust_curves(states, page["trust"], buffer);
-  }
+  if (run.states) add_states(page, model, states_path, &run.options, buffer);
   return page_html(page_template(), page, buffer);
 }
 

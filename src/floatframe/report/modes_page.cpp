@@ -65,19 +65,12 @@ std::string modes_page(const Model& model, const LinearSystem& system,
   PageBuffer buffer;
   Json scene = scene_json(model, scene_frames(model, page.state), buffer);
   scene["vibrations"] = scene_vibrations(system, motions, buffer);
-  const Json json{
-      {"schema", 1},
-      {"kind", "modes"},
-      {"title", model.name},
-      {"program", "Floatframe " + build_description()},
-      {"status",
-       {{"state", "completed"}, {"sentences", page.sentences}, {"warnings", page.warnings}}},
-      {"facts", facts_json(page.facts)},
-      {"tables", tables_json(page.tables)},
-      {"curves", nullptr},
-      {"trust", nullptr},
-      {"speed", nullptr},
-      {"scene", scene}};
+  Json json = empty_page(
+      "modes", model.name, build_description(),
+      {{"state", "completed"}, {"sentences", page.sentences}, {"warnings", page.warnings}});
+  json["facts"] = facts_json(page.facts);
+  json["tables"] = tables_json(page.tables);
+  json["scene"] = std::move(scene);
   return page_html(page_template(), json, buffer);
 }
 

@@ -1,8 +1,5 @@
 #include "floatframe/report/page_curves.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -87,11 +84,7 @@ class Collector {
   std::vector<Extreme> low_, high_;
 };
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  double range() const noexcept { return high > low ? high - low : 0.0; }
-  double size() const noexcept { return std::max(std::abs(low), std::abs(high)); }
-};
+}  // namespace
 
 Extent extent_of(const std::vector<double>& values) {
   Extent e;
@@ -102,8 +95,6 @@ Extent extent_of(const std::vector<double>& values) {
   }
   return e;
 }
-
-}  // namespace
 
 PageCurves page_curves(const std::vector<Column>& columns, std::size_t rows,
                        std::size_t most_numbers,
@@ -139,18 +130,16 @@ Json curves_json(const PageCurves& curves, const std::vector<ChannelSubject>& su
   for (std::size_t c = 0; c < curves.values.size(); ++c) {
     extents.push_back(extent_of(curves.values[c]));
     double& size = largest[curves.columns[c + 1].unit];
-    if (std::isfinite(extents.back().low)) size = std::max(size, extents.back().size());
+    size = std::max(size, extents.back().size());
   }
   Json channels = Json::array();
   std::vector<float> shifted;
   for (std::size_t c = 0; c < curves.values.size(); ++c) {
     const Column& column = curves.columns[c + 1];
     const Extent& e = extents[c];
-    const bool known = std::isfinite(e.low);
-    const double offset = known ? 0.5 * (e.low + e.high) : 0.0;
+    const double offset = e.known() ? 0.5 * (e.low + e.high) : 0.0;
     shifted.clear();
     for (const double v : curves.values[c]) shifted.push_back(static_cast<float>(v - offset));
-    const double size = known ? e.size() : 0.0;
     channels.push_back(
         {{"name", column.name},
          {"label", column.name},
@@ -160,8 +149,8 @@ Json curves_json(const PageCurves& curves, const std::vector<ChannelSubject>& su
          {"kind", c < subjects.size() ? Json(subjects[c].kind) : Json()},
          {"data", buffer.add(std::span<const float>(shifted), {shifted.size()})},
          {"offset", offset},
-         {"constant", known && e.range() <= 1e-9 * size},
-         {"noise", known && size > 0.0 && size <= rounding * largest[column.unit]}});
+         {"constant", e.constant()},
+         {"noise", e.size() > 0.0 && e.size() <= rounding * largest[column.unit]}});
   }
   return {{"time", buffer.add(std::span<const double>(curves.time), {curves.time.size()})},
           {"rows", curves.rows},

@@ -2,8 +2,11 @@
 // The curves of a page: all rows of all columns at common instants, or if those are too many the
 // smallest and the largest value of each column in equal stretches of rows, so that peaks survive.
 // Takes memory for what is shown, not for the rows.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -28,6 +31,19 @@ struct PageCurves {
   std::vector<std::vector<double>> values;  ///< of every column but the time, at these instants
   bool thinned() const noexcept { return time.size() < rows; }
 };
+
+/// From the smallest to the largest finite value.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  bool known() const noexcept { return low <= high; }
+  double range() const noexcept { return high > low ? high - low : 0.0; }
+  /// 0: there is none.
+  double size() const noexcept {
+    return known() ? std::max(std::abs(low), std::abs(high)) : 0.0;
+  }
+  bool constant() const noexcept { return known() && range() <= 1e-9 * size(); }
+};
+Extent extent_of(const std::vector<double>& values);
 
 /// Numbers in all that a page shows.
 inline constexpr std::size_t most_numbers_of_curves = 1'000'000;

@@ -6,6 +6,16 @@ namespace floatframe {
 
 using Json = nlohmann::ordered_json;
 
+Json empty_page(const char* kind, const std::string& title, const std::string& software,
+                Json status, const std::string& subtitle) {
+  Json page{{"schema", 1}, {"kind", kind}, {"title", title}, {"program", "Floatframe " + software}};
+  if (!subtitle.empty()) page["subtitle"] = subtitle;
+  page["status"] = std::move(status);
+  page["facts"] = page["tables"] = Json::array();
+  for (const char* key : {"curves", "trust", "speed", "scene"}) page[key] = nullptr;
+  return page;
+}
+
 Json facts_json(const std::vector<FactTable>& facts) {
   Json out = Json::array();
   for (const FactTable& table : facts) {

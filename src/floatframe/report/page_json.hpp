@@ -1,10 +1,16 @@
 #pragma once
-// Lists of names and values, and tables, as pages of the viewer take them.
+// What all pages of the viewer have (viewer/README.md): their head, lists of names and values,
+// tables.
 #include <nlohmann/json_fwd.hpp>
 
 #include "floatframe/report/run_report.hpp"
 
 namespace floatframe {
+
+/// A page of a kind with its head and its status; nothing else yet. Pages of runs have a subtitle.
+nlohmann::ordered_json empty_page(const char* kind, const std::string& title,
+                                  const std::string& software, nlohmann::ordered_json status,
+                                  const std::string& subtitle = "");
 
 nlohmann::ordered_json facts_json(const std::vector<FactTable>& facts);
 nlohmann::ordered_json tables_json(const std::vector<PageTable>& tables);

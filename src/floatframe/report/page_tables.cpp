@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/body/body_shape.hpp"
-#include "floatframe/body/modal_mass.hpp"
+#include "floatframe/history/history_content.hpp"
 #include "floatframe/model/joint_list.hpp"
-#include "floatframe/model/output_list.hpp"
+#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -43,11 +42,6 @@ const char* mass_text(const FlexibleBody& data) {
   return "exact integrals of beams";
 }
 
-std::string body_name(const Model& model, int marker) {
-  const int body = marker < 0 ? -1 : model.markers[marker].body;
-  return body < 0 ? ground_name : model.bodies[body].name;
-}
-
 std::string short_number(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string();
 }
@@ -60,29 +54,21 @@ std::string direction_text(const Vec3& d) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", rounded(d[0]), rounded(d[1]), rounded(d[2]));
 }
 
-/// "a, b, c and 7 more"
-std::string names_text(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 3;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(most, names.size()); ++k)
-    text += (k == 0 ? "" : ", ") + names[k];
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
-  return text;
-}
-
 void add_modes(const Body& body, PageTable& table) {
   const FlexibleBody& data = *body.data;
-  const MatX M = modal_mass(data.invariants);
-  for (int k = 0; k < data.modes(); ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const double omega = std::sqrt(data.K(k, k) / M(k, k));
+  const std::vector<double> own = own_frequencies(data);
+  for (std::size_t k = 0; k < own.size(); ++k)
     table.rows.push_back({body.name, std::to_string(k + 1),
-                          i < data.mode_names.size() ? data.mode_names[i] : "",
-                          short_number(omega / (2.0 * std::numbers::pi), "{:.4g}")});
-  }
+                          k < data.mode_names.size() ? data.mode_names[k] : "",
+                          short_number(own[k], "{:.4g}")});
 }
 
 }  // namespace
+
+std::string body_name(const Model& model, int marker) {
+  const int body = marker < 0 ? -1 : model.markers[marker].body;
+  return body < 0 ? ground_name : model.bodies[body].name;
+}
 
 std::vector<PageTable> body_tables(const Model& model) {
   PageTable bodies{
@@ -114,9 +100,9 @@ PageTable bending_table(const Model& model) {
     const std::string& body = model.bodies[b.body].name;
     const std::string stiffness = short_number(b.stiffness[0], "{:.5g}");
     if (b.alike())
-      table.rows.push_back({body, names_text(b.bars), "any", stiffness, "", ""});
+      table.rows.push_back({body, names_text(b.bars, 3), "any", stiffness, "", ""});
     else
-      table.rows.push_back({body, names_text(b.bars), direction_text(b.direction[0]), stiffness,
+      table.rows.push_back({body, names_text(b.bars, 3), direction_text(b.direction[0]), stiffness,
                             direction_text(b.direction[1]),
                             short_number(b.stiffness[1], "{:.5g}")});
   }

@@ -16,6 +16,9 @@ struct PageTable {
   std::string note{};  ///< may be empty
 };
 
+/// Of a marker; the ground where there is none.
+std::string body_name(const Model& model, int marker);
+
 /// Bodies, and modes if there are any.
 std::vector<PageTable> body_tables(const Model& model);
 /// How bars bend: E I along both axes of their sections, with their directions in space. No rows:

@@ -86,16 +86,8 @@ std::vector<TrustCurve> trust_curves(const HistoryHeader& header, const std::vec
 
 Json channel_json(const TrustCurve& c, const std::vector<double>& values, double noise,
                   PageBuffer& buffer) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  std::vector<float> numbers;
-  for (const double v : values) {
-    numbers.push_back(static_cast<float>(v));
-    if (!std::isfinite(v)) continue;
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  const bool known = low <= high;
-  const double size = known ? std::max(std::abs(low), std::abs(high)) : 0.0;
+  const Extent e = extent_of(values);
+  const std::vector<float> numbers(values.begin(), values.end());
   return {{"name", c.name},
           {"label", c.label},
           {"unit", c.unit},
@@ -104,17 +96,15 @@ Json channel_json(const TrustCurve& c, const std::vector<double>& values, double
           {"data", buffer.add(std::span<const float>(numbers), {numbers.size()})},
           {"offset", 0.0},
           {"limit", c.limit > 0.0 ? Json(c.limit) : Json()},
-          {"constant", known && high - low <= 1e-9 * size},
-          {"noise", size > 0.0 && size <= noise}};
+          {"constant", e.constant()},
+          {"noise", e.size() > 0.0 && e.size() <= noise}};
 }
 
 /// Terms of the balance below a part of the largest that rounding and tolerances leave.
 double energy_noise(const std::vector<TrustCurve>& curves, const PageCurves& values) {
   double most = 0.0;
   for (std::size_t k = 0; k < curves.size(); ++k)
-    if (curves[k].group == "energy")
-      for (const double v : values.values[k])
-        if (std::isfinite(v)) most = std::max(most, std::abs(v));
+    if (curves[k].group == "energy") most = std::max(most, extent_of(values.values[k]).size());
   return 1e-9 * most;
 }
 

@@ -9,6 +9,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -169,13 +170,9 @@ void require_channels(const ResultsReader& r, const std::vector<std::string>& na
 
 /// "'x', 'y' and 3 more"
 std::string some_names(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 4;
-  if (names.empty()) return "none";
-  const std::size_t shown = std::min(most, names.size());
-  std::string text;
-  for (std::size_t k = 0; k < shown; ++k) text += (k > 0 ? ", '" : "'") + names[k] + "'";
-  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back("'" + name + "'");
+  return names.empty() ? "none" : names_text(quoted, 4);
 }
 
 InputError nothing_in_common(const ResultsReader& a, const ResultsReader& b,

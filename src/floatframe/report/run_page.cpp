@@ -6,9 +6,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/plural.hpp"
+#include "floatframe/history/state_history.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/system_state.hpp"
 #include "floatframe/report/html_text.hpp"
 #include "floatframe/report/page_json.hpp"
+#include "floatframe/report/page_trust.hpp"
+#include "floatframe/report/scene_json.hpp"
+#include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
 namespace {
@@ -142,6 +149,15 @@ std::string subject_of(const Model& model, const Output& o) {
   return {};
 }
 
+std::string start_fact(const SimulationDescription& s) {
+  if (s.start == Start::given) return "as given";
+  const std::string from =
+      s.start == Start::equilibrium
+          ? std::string("static equilibrium")
+          : fmt::format("state at {:g} s from {}", s.state->time, s.state->file);
+  return from + (s.offset.empty() ? "" : ", with offsets");
+}
+
 }  // namespace
 
 std::vector<ChannelSubject> channel_subjects(const Model& model) {
@@ -151,29 +167,71 @@ std::vector<ChannelSubject> channel_subjects(const Model& model) {
   return out;
 }
 
+void add_states(Json& page, const Model& model, const std::string& states_file,
+                const SimulationDescription* options, PageBuffer& buffer) {
+  const StateHistory states(states_file);
+  SceneFrames frames = scene_frames(model, states);
+  if (options) add_load_coefficients(model, states, *options, frames);
+  page["scene"] = scene_json(model, frames, buffer);
+  add_trust_curves(states, page["trust"], buffer);
+}
+
 Json run_page(const Report& report, const PageCurves& curves, PageBuffer& buffer) {
   const RunSummary& s = report.result.summary;
   const bool began = !report.result.table.columns.empty();
-  Json warnings = Json::array();
-  for (const RangeWarning& w : s.warnings) warnings.push_back(w.sentence);
-  return {{"schema", 1},
-          {"kind", "run"},
-          {"title", s.model},
-          {"program", "Floatframe " + report.software},
-          {"subtitle", fmt::format("{} coordinates, inertia terms by {}, step {:g} s",
-                                   s.coordinates, s.inertia, s.step)},
-          {"status",
-           {{"state", s.strict ? "failed" : s.status},
-            {"sentences", ending(report)},
-            {"warnings", warnings}}},
-          {"facts", facts_json(report.facts)},
-          {"tables", page_tables(report)},
-          {"curves", curves_json(curves, report.subjects, buffer)},
-          {"trust", {{"channels", Json::array()}, {"rows", began ? trust_rows(s) : Json::array()}}},
-          {"speed",
-           {{"rows", began ? speed_rows(report) : Json::array()},
-            {"step_times", step_times_json(s.step_times)}}},
-          {"scene", nullptr}};
+  Json page = empty_page("run", s.model, report.software,
+                         {{"state", s.strict ? "failed" : s.status},
+                          {"sentences", ending(report)},
+                          {"warnings", sentences(s.warnings)}},
+                         fmt::format("{} coordinates, inertia terms by {}, step {:g} s",
+                                     s.coordinates, s.inertia, s.step));
+  page["facts"] = facts_json(report.facts);
+  page["tables"] = page_tables(report);
+  page["curves"] = curves_json(curves, report.subjects, buffer);
+  page["trust"] = {{"channels", Json::array()}, {"rows", began ? trust_rows(s) : Json::array()}};
+  page["speed"] = {{"rows", began ? speed_rows(report) : Json::array()},
+                   {"step_times", step_times_json(s.step_times)}};
+  return page;
+}
+
+void describe_model(const Model& model, Report& report) {
+  FactTable facts{"Model", {}};
+  report.tables = body_tables(model);
+  try {
+    const ModelCounts c = check(model);
+    const auto coordinates = [](const CoordinateCounts& k) {
+      return fmt::format("{} rigid + {} elastic = {}, {}", k.rigid, k.elastic, k.total,
+                         plural(k.constraints, "constraint"));
+    };
+    facts.rows = {{"bodies", fmt::format("{}, {} flexible", c.bodies, c.flexible_bodies)},
+                  {"joints", fmt::format("{}, {} cut", c.joints, c.cut_joints)},
+                  {"relative coordinates", coordinates(c.relative)},
+                  {"absolute coordinates", coordinates(c.absolute)},
+                  {"degrees of freedom", std::to_string(c.degrees_of_freedom)}};
+    for (PageTable& t : coordinate_tables(model, c)) report.tables.push_back(std::move(t));
+  } catch (const RunError& error) {
+    facts.rows = {{"coordinates", fmt::format("not counted: {}", error.what())}};
+  }
+  report.facts.push_back(std::move(facts));
+}
+
+FactTable setting_facts(const std::string& model_file, const std::vector<std::string>& settings,
+                        const SimulationDescription& s) {
+  FactTable facts{"Settings",
+                  {{"model file", model_file.empty() ? "none" : model_file},
+                   {"coordinates", rules::coordinates[index_of(s.coordinates)]},
+                   {"inertia terms", rules::inertia_methods[index_of(s.inertia)]},
+                   {"step", fmt::format("{:g} s", s.step)},
+                   {"duration asked", fmt::format("{:g} s", s.duration)},
+                   {"start", start_fact(s)},
+                   {"spectral radius at infinity", fmt::format("{:g}", s.spectral_radius)},
+                   {"Newton tolerance", fmt::format("{:g}", s.tolerance)},
+                   {"Newton iterations at most", std::to_string(s.max_iterations)}}};
+  if (s.locate_edges) facts.rows.push_back({"edges", "located within the steps"});
+  for (const std::string& setting : settings) {
+    facts.rows.push_back({"parameter set", setting});
+  }
+  return facts;
 }
 
 }  // namespace floatframe

@@ -13,6 +13,16 @@ namespace floatframe {
 /// What the columns of results show, in the order of the outputs.
 std::vector<ChannelSubject> channel_subjects(const Model& model);
 
+/// Into the page of a run what its states show: the scene, and curves of trust. Throws InputError.
+void add_states(nlohmann::ordered_json& page, const Model& model, const std::string& states_file,
+                const SimulationDescription* options, PageBuffer& buffer);
+
+/// Adds the facts and the tables of the model.
+void describe_model(const Model& model, Report& report);
+/// `settings` of parameters: "name=value".
+FactTable setting_facts(const std::string& model_file, const std::vector<std::string>& settings,
+                        const SimulationDescription& simulation);
+
 nlohmann::ordered_json run_page(const Report& report, const PageCurves& curves, PageBuffer& buffer);
 
 }  // namespace floatframe

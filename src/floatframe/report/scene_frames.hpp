@@ -1,5 +1,5 @@
 #pragma once
-// Where the bodies of a scene are: at instants of a run, or in one state.
+// Where the bodies of a scene are, at instants of a run or in one state, and what loads them there.
 #include <vector>
 
 #include "floatframe/model/model.hpp"
@@ -17,7 +17,8 @@ struct SceneFrames {
   std::vector<char> known;         ///< bodies that were recorded; others stay where they begin
   std::vector<std::size_t> instants;  ///< of the states that the frames are
   bool whole = true;                  ///< false: more instants were recorded than there are frames
-  /// What the stress of bodies has beside their amplitudes (scene_loads.hpp): frames x columns.
+  /// What the stress of bodies has beside their amplitudes (add_load_coefficients): frames x
+  /// columns.
   std::vector<double> loads;
   std::vector<int> first_load;  ///< column of each body; -1: none. Empty: of no body
 
@@ -39,5 +40,13 @@ inline constexpr std::size_t most_frames = 20'000;
 SceneFrames scene_frames(const Model& model, const StateHistory& history);
 /// One frame.
 SceneFrames scene_frames(const Model& model, const SystemState& state);
+
+/// What a body's own inertia and weight add to its stress: the 12 load coefficients of
+/// body_stress.hpp at each frame, from the accelerations of the run, of the bodies that know what
+/// these loads do. Those of the modes' accelerations are left to gauges and `floatframe stress`.
+/// `options`: those of the run. Without a state to start from, as of a model that cannot start,
+/// nothing is added.
+void add_load_coefficients(const Model& model, const StateHistory& history,
+                           const SimulationDescription& options, SceneFrames& frames);
 
 }  // namespace floatframe

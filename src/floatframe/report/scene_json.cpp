@@ -6,17 +6,16 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "floatframe/body/alike.hpp"
-#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/body/surface_points.hpp"
+#include "floatframe/history/history_content.hpp"
 #include "floatframe/model/road.hpp"
 #include "floatframe/report/scene_mesh.hpp"
-#include "floatframe/report/scene_stress_json.hpp"
+#include "floatframe/report/scene_stress.hpp"
 
 namespace floatframe {
 namespace {
@@ -229,19 +228,13 @@ class SceneWriter {
   }
 
   static Json modes(const FlexibleBody& data, std::size_t first) {
-    const MatX M = modal_mass(data.invariants);
-    Json frequencies = Json::array(), names = Json::array();
-    for (int k = 0; k < data.modes(); ++k) {
-      const double f = std::sqrt(data.K(k, k) / M(k, k)) / (2.0 * std::numbers::pi);
+    Json frequencies = Json::array();
+    for (const double f : own_frequencies(data))
       frequencies.push_back(std::isfinite(f) ? Json(f) : Json());
-      const auto i = static_cast<std::size_t>(k);
-      names.push_back(i < data.mode_names.size() ? data.mode_names[i]
-                                                 : fmt::format("mode {}", k + 1));
-    }
     return {{"first", first},
             {"count", data.modes()},
             {"frequencies", std::move(frequencies)},
-            {"names", std::move(names)}};
+            {"names", names_of_modes(data)}};
   }
 
   struct Shape {

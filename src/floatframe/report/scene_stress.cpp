@@ -30,14 +30,9 @@ std::vector<std::vector<int>> places_at(const BodyStress& stress, const SurfaceM
     const std::size_t section = 2 * static_cast<std::size_t>(mesh.bar_ends[v].bar) +
                                 static_cast<std::size_t>(mesh.bar_ends[v].end);
     if (section + 1 >= stress.first_place.size()) continue;
-    double least = std::numeric_limits<double>::infinity();
-    int nearest = -1;
-    for (int k = stress.first_place[section]; k < stress.first_place[section + 1]; ++k) {
-      const double away =
-          (stress.places[k].p - mesh.positions.col(static_cast<Eigen::Index>(v))).squaredNorm();
-      if (away < least) nearest = k;
-      least = std::min(least, away);
-    }
+    const int nearest =
+        nearest_place(stress, stress.first_place[section], stress.first_place[section + 1],
+                      mesh.positions.col(static_cast<Eigen::Index>(v)));
     if (nearest >= 0) out[v].push_back(nearest);
   }
   return out;
@@ -51,7 +46,45 @@ double load_of(const BodyStress& stress, const VecX& unit, int place) {
   return sum;
 }
 
+/// More than a hundredth of the largest stress at some vertex.
+bool loads_matter(const std::vector<float>& without, const std::vector<float>& with) {
+  float most = 0.0F, apart = 0.0F;
+  for (std::size_t v = 0; v < with.size(); ++v) {
+    most = std::max(most, with[v]);
+    apart = std::max(apart, std::abs(with[v] - without[v]));
+  }
+  return apart > 0.01F * most;
+}
+
+/// The components of each place by column, in units of `factor`; 0 where there is no place.
+std::vector<float> scaled(const MatX& columns, const std::vector<int>& places, double& factor) {
+  // Halves go from 6e-5 to 6e4: the largest stays well below.
+  const double largest = columns.cwiseAbs().maxCoeff();
+  factor = largest > 0.0 ? largest / 1e4 : 1.0;
+  std::vector<float> out;
+  out.reserve(6 * places.size() * static_cast<std::size_t>(columns.cols()));
+  for (const int place : places)
+    for (Eigen::Index k = 0; k < columns.cols(); ++k)
+      for (Eigen::Index c = 0; c < 6; ++c)
+        out.push_back(place < 0
+                          ? 0.0F
+                          : static_cast<float>(
+                                columns(6 * static_cast<Eigen::Index>(place) + c, k) / factor));
+  return out;
+}
+
 }  // namespace
+
+int nearest_place(const BodyStress& stress, int first, int end, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  int nearest = -1;
+  for (int k = first; k < end; ++k) {
+    const double away = (stress.places[k].p - p).squaredNorm();
+    if (away < least) nearest = k;
+    least = std::min(least, away);
+  }
+  return nearest;
+}
 
 SceneStress scene_stress(const FlexibleBody& body) {
   SceneStress out;
@@ -81,34 +114,13 @@ SceneStress scene_stress(const FlexibleBody& body) {
     out.places.push_back(shown);
   }
   if (known == 0) return {};
-  // Halves go from 6e-5 to 6e4: the largest stays well below.
-  const double largest = stress.modes.cwiseAbs().maxCoeff();
-  out.factor = largest > 0.0 ? largest / 1e4 : 1.0;
-  out.modes.assign(6 * vertices * nm, 0.0F);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    if (out.places[v] < 0) continue;
-    const Eigen::Index row = 6 * static_cast<Eigen::Index>(out.places[v]);
-    for (std::size_t m = 0; m < nm; ++m)
-      for (std::size_t c = 0; c < 6; ++c)
-        out.modes[6 * (v * nm + m) + c] = static_cast<float>(
-            stress.modes(row + static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m)) /
-            out.factor);
-  }
+  out.modes = scaled(stress.modes, out.places, out.factor);
   return out;
 }
 
 SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress) {
   SceneLoads out;
-  const auto loads = body.stress->loads.leftCols<body_load_cases>();
-  const double largest = loads.cwiseAbs().maxCoeff();
-  out.factor = largest > 0.0 ? largest / 1e4 : 1.0;
-  for (const int place : stress.places)
-    for (Eigen::Index k = 0; k < body_load_cases; ++k)
-      for (Eigen::Index c = 0; c < 6; ++c)
-        out.loads.push_back(
-            place < 0 ? 0.0F
-                      : static_cast<float>(loads(6 * static_cast<Eigen::Index>(place) + c, k) /
-                                           out.factor));
+  out.loads = scaled(body.stress->loads.leftCols<body_load_cases>(), stress.places, out.factor);
   return out;
 }
 
@@ -146,6 +158,61 @@ VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stre
         }
   }
   return out;
+}
+
+SceneStressWriter::Shape SceneStressWriter::shape(const FlexibleBody& data) {
+  Shape out;
+  out.stress = scene_stress(data);
+  if (out.stress.empty()) return out;
+  out.json = {
+      {"factor", out.stress.factor},
+      {"several", out.stress.several},
+      {"modes", buffer_.add_half(out.stress.modes, {out.stress.places.size(),
+                                                    static_cast<std::size_t>(data.modes()), 6})},
+      {"doubtful", buffer_.add(std::span<const std::uint32_t>(out.stress.doubtful),
+                               {out.stress.doubtful.size()})}};
+  return out;
+}
+
+SceneStressWriter::Json SceneStressWriter::of(const FlexibleBody& data, Shape& shape,
+                                              std::size_t first, std::size_t body) {
+  Json out = shape.json;
+  if (out.is_null() || frames_.time.size() < 2 || !data.stress) return out;
+  std::size_t columns = 0;
+  for (const Body& b : model_.bodies) columns += static_cast<std::size_t>(b.modes());
+  VertexEnvelope envelope = vertex_envelope(data, shape.stress, frames_, first, columns, -1);
+  const int first_load = frames_.first_load.empty() ? -1 : frames_.first_load[body];
+  if (first_load >= 0) {
+    VertexEnvelope all = vertex_envelope(data, shape.stress, frames_, first, columns, first_load);
+    if (loads_matter(envelope.largest, all.largest)) {
+      envelope = std::move(all);
+      add_loads(data, shape);
+      out["loads"] = shape.loads;
+      out["first_load"] = columns + columns_.size();
+      for (int k = 0; k < body_load_cases; ++k)
+        columns_.push_back(
+            {static_cast<std::size_t>(first_load + k), shape.loads_factor / shape.stress.factor});
+    }
+  }
+  out["envelope"] =
+      buffer_.add(std::span<const float>(envelope.largest), {envelope.largest.size()});
+  out["all_instants"] = frames_.whole;
+  out["when"] = buffer_.add(std::span<const float>(envelope.when), {envelope.when.size()});
+  return out;
+}
+
+void SceneStressWriter::append_loads(std::size_t frame, std::vector<float>& row) const {
+  for (const LoadColumn& c : columns_)
+    row.push_back(
+        static_cast<float>(c.scale * frames_.loads[frame * frames_.load_columns() + c.column]));
+}
+
+void SceneStressWriter::add_loads(const FlexibleBody& data, Shape& shape) {
+  if (!shape.loads.is_null()) return;
+  const SceneLoads loads = scene_loads(data, shape.stress);
+  shape.loads_factor = loads.factor;
+  shape.loads = buffer_.add_half(
+      loads.loads, {shape.stress.places.size(), static_cast<std::size_t>(body_load_cases), 6});
 }
 
 }  // namespace floatframe

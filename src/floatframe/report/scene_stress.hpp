@@ -2,10 +2,14 @@
 // Stress of what a page draws: of each vertex the stress of one place per modal amplitude, and the
 // largest von Mises stress over the frames. A vertex at which several places meet - sides of a
 // shell, materials - shows the one that its modes load most; its largest is that of all. Where the
-// frames have load coefficients (scene_loads.hpp) and these matter, their stress is a part of it.
-#include <nlohmann/json_fwd.hpp>
+// frames have load coefficients (add_load_coefficients) and these matter, their stress is a part of
+// it. The writer puts it into the JSON of the page, with its numbers in the buffer
+// (viewer/README.md).
+#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/model/model.hpp"
 #include "floatframe/report/page_writer.hpp"
 #include "floatframe/report/scene_frames.hpp"
 
@@ -27,6 +31,9 @@ struct SceneStress {
 };
 SceneStress scene_stress(const FlexibleBody& body);
 
+/// Of the places from `first` to before `end` that next to p; -1: there is none.
+int nearest_place(const BodyStress& stress, int first, int end, const Vec3& p);
+
 /// Stress per vertex and load coefficient, and what one unit of it is [Pa].
 struct SceneLoads {
   double factor = 1.0;
@@ -43,5 +50,38 @@ struct VertexEnvelope {
 VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
                                const SceneFrames& frames, std::size_t first, std::size_t columns,
                                int first_load);
+
+class SceneStressWriter {
+ public:
+  using Json = nlohmann::ordered_json;
+  SceneStressWriter(const Model& model, const SceneFrames& frames, PageBuffer& buffer)
+      : model_(model), frames_(frames), buffer_(buffer) {}
+
+  /// What bodies that look alike share.
+  struct Shape {
+    SceneStress stress;
+    Json json;   ///< without the envelope, which is of one body
+    Json loads;  ///< once a body needs them
+    double loads_factor = 1.0;
+  };
+  Shape shape(const FlexibleBody& data);
+  /// `first`: column of the amplitudes of the body.
+  Json of(const FlexibleBody& data, Shape& shape, std::size_t first, std::size_t body);
+
+  /// What stands behind the amplitudes of a frame: the load coefficients that are shown.
+  void append_loads(std::size_t frame, std::vector<float>& row) const;
+
+ private:
+  void add_loads(const FlexibleBody& data, Shape& shape);
+
+  struct LoadColumn {
+    std::size_t column;  ///< of SceneFrames::loads
+    double scale;        ///< so that it counts as an amplitude does
+  };
+  const Model& model_;
+  const SceneFrames& frames_;
+  PageBuffer& buffer_;
+  std::vector<LoadColumn> columns_;
+};
 
 }  // namespace floatframe

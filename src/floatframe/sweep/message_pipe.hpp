@@ -1,7 +1,6 @@
 #pragma once
 // Texts between two processes over a stream socket: a letter that says what it is, the length, the
 // bytes.
-#include <cstddef>
 #include <string>
 #include <string_view>
 

@@ -2,7 +2,6 @@
 // Built models kept by a worker of a study: runs whose values do not change the model itself use
 // one, and bodies that they do not change are not reduced again. A model never changes once built;
 // each run has a state and a workspace of its own.
-#include <cstdint>
 #include <functional>
 #include <list>
 #include <memory>

@@ -1,6 +1,5 @@
 #include "floatframe/sweep/process_pool.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/wait.h>

@@ -4,33 +4,11 @@
 
 #include <cmath>
 
-#include "floatframe/model/rules.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/yaml/yaml_value.hpp"
 
 namespace floatframe {
 namespace {
-
-using S = SimulationDescription;
-
-struct NumberOption {
-  const char* name;
-  double S::*field;
-  NumberRule rule;
-};
-
-const std::vector<NumberOption>& number_options() {
-  static const std::vector<NumberOption> options{
-      {"step", &S::step, rules::step},
-      {"duration", &S::duration, rules::duration},
-      {"output_interval", &S::output_interval, rules::output_interval},
-      {"spectral_radius", &S::spectral_radius, rules::spectral_radius},
-      {"tolerance", &S::tolerance, rules::tolerance},
-      {"min_step", &S::min_step, rules::min_step},
-      {"penalty", &S::penalty, rules::penalty},
-      {"position_tolerance", &S::position_tolerance, rules::position_tolerance},
-      {"velocity_tolerance", &S::velocity_tolerance, rules::velocity_tolerance}};
-  return options;
-}
 
 std::string found(const std::string& value, const std::string& expected) {
   return fmt::format("found '{}', expected {}", value, expected);
@@ -50,7 +28,7 @@ const std::vector<std::string>& simulation_option_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> n{"coordinates",    "inertia",      "start",
                                "max_iterations", "locate_edges", "input"};
-    for (const NumberOption& o : number_options()) n.emplace_back(o.name);
+    for (const SimulationNumber& o : simulation_numbers()) n.emplace_back(o.name);
     return n;
   }();
   return names;
@@ -76,10 +54,10 @@ std::string set_simulation_option(SimulationDescription& s, const std::string& n
     s.max_iterations = static_cast<int>(scalar.number);
     return "";
   }
-  for (const NumberOption& o : number_options())
+  for (const SimulationNumber& o : simulation_numbers())
     if (name == o.name) {
       if (!is_number || !o.rule.holds(scalar.number)) return found(value, o.rule.expectation());
-      s.*o.field = scalar.number;
+      s.*o.at = scalar.number;
       s.given_by("", o.name);
       return "";
     }

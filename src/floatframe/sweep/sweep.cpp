@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <optional>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -15,7 +14,6 @@
 #include "floatframe/sweep/sweep_check.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
-#include "floatframe/sweep/sweep_messages.hpp"
 #include "floatframe/sweep/sweep_ranks.hpp"
 #include "floatframe/sweep/sweep_workers.hpp"
 

@@ -1,9 +1,7 @@
 #pragma once
 // One run of a study before it is run: the model file read with the run's values.
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"

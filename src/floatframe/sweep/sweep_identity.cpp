@@ -1,7 +1,11 @@
 #include "floatframe/sweep/sweep_identity.hpp"
 
+#include <tuple>
+
+#include "floatframe/core/build_info.hpp"
 #include "floatframe/core/content_hash.hpp"
-#include "floatframe/sweep/program_identity.hpp"
+#include "floatframe/core/library_path.hpp"
+#include "floatframe/core/regular_file.hpp"
 
 namespace floatframe {
 namespace {
@@ -39,6 +43,15 @@ SweepIdentity identity_of(const SweepOptions& o) {
                         o.keep_results ? "yes" : "no");
   identity.emplace_back("warnings count as errors in one, in the other not",
                         o.strict ? "yes" : "no");
+  return identity;
+}
+
+std::string program_identity() {
+  static const std::string identity = [] {
+    std::string content;
+    std::ignore = read_regular_file(library_path(), largest_file_read, content);
+    return build_description() + ", " + content_hash(content);
+  }();
   return identity;
 }
 

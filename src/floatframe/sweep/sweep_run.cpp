@@ -12,12 +12,12 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/history/history_content.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
-#include "floatframe/sweep/sweep_states.hpp"
 
 namespace floatframe {
 namespace {
@@ -60,6 +60,35 @@ class RunFolder {
   std::optional<FolderLock> lock_;
 };
 
+/// The states of a run, where its model file asks for them (`record: states`). As its rows they are
+/// held until the run has ended.
+class SweepStates {
+ public:
+  /// `options` gives them here, if the run is asked to record; what is handed over must outlive the
+  /// run.
+  void take_from(RunOptions& options, const Model& model, const SimulationDescription& simulation,
+                 const HistoryOrigin& origin) {
+    if (simulation.record.states != RecordDescription::States::states) return;
+    options.states = [&](const StateLayout& layout, std::span<const double> numbers) {
+      if (!content_) content_ = history_content(model, simulation, layout, origin);
+      numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+    };
+  }
+
+  /// In place of what is there. Throws OutputError.
+  void write(const std::filesystem::path& file, const RunSummary& summary) const {
+    if (!content_) return remove_file(file.string());
+    StatesFile out(file.string(), *content_, false);
+    out.append(numbers_);
+    out.finish(summary.status == "completed" || summary.strict ? "completed" : summary.status,
+               summary.message);
+  }
+
+ private:
+  std::optional<HistoryContent> content_;
+  std::vector<double> numbers_;
+};
+
 void keep_files(const std::filesystem::path& folder, const RunResult& result,
                 const SweepStates& states) {
   const RunFolder held(folder.string());
@@ -84,15 +113,7 @@ std::vector<std::string> settings_of(const SweepOptions& options, std::size_t ru
 
 /// What the states of a run say they were made from.
 HistoryOrigin origin_of(const SweepOptions& options, std::size_t run, const PreparedRun& prepared) {
-  HistoryOrigin o;
-  o.program = version();
-  o.library = build_description();
-  o.model_file = options.model;
-  std::error_code ignored;
-  o.from_here =
-      std::filesystem::weakly_canonical(options.model, ignored)
-          .lexically_relative(std::filesystem::weakly_canonical(folder_of(options, run), ignored))
-          .string();
+  HistoryOrigin o = history_origin(options.model, folder_of(options, run).string());
   for (const std::string& setting : settings_of(options, run))
     if (!setting.starts_with("simulation.")) o.settings.push_back(setting);  // in the header
   if (prepared.files) o.files = relative_to_model(options.model, *prepared.files);

@@ -1,7 +1,6 @@
 #pragma once
 // One run of a study from its number to its line in the journal; in one thread.
 #include <atomic>
-#include <exception>
 #include <map>
 #include <memory>
 #include <string>

@@ -113,36 +113,26 @@ class Parser {
     }
     return a;
   }
-  Operand sum() {
-    Operand v = product();
+  /// Operands of one level with operators between them, from left to right.
+  template <class Compute>
+  Operand chain(const char* first, const char* second, Operand (Parser::*next)(), Compute compute) {
+    Operand v = (this->*next)();
     for (;;) {
-      if (symbol("+")) {
-        const double a = number(v, "+"), b = number(product(), "+");
-        v = result([&] { return a + b; });
-      } else if (symbol("-")) {
-        const double a = number(v, "-"), b = number(product(), "-");
-        v = result([&] { return a - b; });
-      } else {
-        return v;
-      }
+      const char* op = symbol(first) ? first : symbol(second) ? second : nullptr;
+      if (op == nullptr) return v;
+      const double a = number(v, op), b = number((this->*next)(), op);
+      v = result([&] { return compute(op == first, a, b); });
     }
   }
+  Operand sum() {
+    return chain("+", "-", &Parser::product,
+                 [](bool plus, double a, double b) { return plus ? a + b : a - b; });
+  }
   Operand product() {
-    Operand v = sign();
-    for (;;) {
-      if (symbol("*")) {
-        const double a = number(v, "*"), b = number(sign(), "*");
-        v = result([&] { return a * b; });
-      } else if (symbol("/")) {
-        const double a = number(v, "/"), b = number(sign(), "/");
-        v = result([&] {
-          if (b == 0.0) throw ExpressionError("division by zero");
-          return a / b;
-        });
-      } else {
-        return v;
-      }
-    }
+    return chain("*", "/", &Parser::sign, [](bool times, double a, double b) {
+      if (!times && b == 0.0) throw ExpressionError("division by zero");
+      return times ? a * b : a / b;
+    });
   }
   Operand sign() {
     const Deeper deeper(depth_);

@@ -55,7 +55,7 @@ struct PlainScalar {
   Kind kind = Kind::text;
   bool boolean = false;
   double number = 0.0;
-  std::string complaint;  ///< why a bad_number or a bad_boolean is refused
+  std::string complaint = {};  ///< why a bad_number or a bad_boolean is refused
 };
 PlainScalar classify_plain_scalar(std::string_view text);
 

@@ -8,8 +8,6 @@
 #include "floatframe/yaml/expression.hpp"
 
 namespace floatframe {
-namespace {}  // namespace
-
 std::string value_text(const ParameterValue& value) {
   if (const bool* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
   if (const double* x = std::get_if<double>(&value)) return number_text(*x);
@@ -22,16 +20,13 @@ const char* type_name(const ParameterValue& value) {
 }
 
 PlainScalar classify_plain_scalar(std::string_view text) {
-  PlainScalar s;
-  if (text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL") {
-    s.kind = PlainScalar::Kind::null;
-    return s;
-  }
-  if (text == "true" || text == "false") {
-    s.kind = PlainScalar::Kind::boolean;
-    s.boolean = text == "true";
-    return s;
-  }
+  using Kind = PlainScalar::Kind;
+  const auto bad = [](Kind kind, const char* complaint) {
+    return PlainScalar{kind, false, 0.0, complaint};
+  };
+  if (text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL")
+    return {Kind::null};
+  if (text == "true" || text == "false") return {Kind::boolean, text == "true"};
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -39,20 +34,15 @@ PlainScalar classify_plain_scalar(std::string_view text) {
   for (const char* word : {"true", "yes", "on", "false", "no", "off"}) {
     if (lower != word) continue;
     const bool truth = lower == "true" || lower == "yes" || lower == "on";
-    s.kind = PlainScalar::Kind::bad_boolean;
-    s.complaint = truth ? "write true" : "write false";
-    return s;
+    return bad(Kind::bad_boolean, truth ? "write true" : "write false");
   }
   std::string_view body = lower;
   if (body[0] == '+' || body[0] == '-') body.remove_prefix(1);
-  if (body == ".inf" || body == ".nan" || body == "inf" || body == "nan" || body == "infinity") {
-    s.kind = PlainScalar::Kind::bad_number;
-    s.complaint = "numbers must be finite";
-    return s;
-  }
+  if (body == ".inf" || body == ".nan" || body == "inf" || body == "nan" || body == "infinity")
+    return bad(Kind::bad_number, "numbers must be finite");
   if (body.empty() ||
       !(is_digit(body[0]) || (body[0] == '.' && body.size() > 1 && is_digit(body[1]))))
-    return s;
+    return {Kind::text};
   // digits [. digits] [e [+-] digits]
   std::size_t k = 0;
   const auto digits = [&] {
@@ -72,29 +62,19 @@ PlainScalar classify_plain_scalar(std::string_view text) {
   if (!well_formed || k != body.size()) {
     const bool other_base =
         body.size() > 2 && body[0] == '0' && (body[1] == 'x' || body[1] == 'o' || body[1] == 'b');
-    if (other_base || body.find('_') != std::string_view::npos) {
-      s.kind = PlainScalar::Kind::bad_number;
-      s.complaint = "write a decimal number";
-    }
-    return s;
+    return other_base || body.find('_') != std::string_view::npos
+               ? bad(Kind::bad_number, "write a decimal number")
+               : PlainScalar{Kind::text};
   }
-  if (whole > 1 && body[0] == '0') {
-    s.kind = PlainScalar::Kind::bad_number;
-    s.complaint = "a number must not start with 0";
-    return s;
-  }
-  const auto r = std::from_chars(body.data(), body.data() + body.size(), s.number);
+  if (whole > 1 && body[0] == '0') return bad(Kind::bad_number, "a number must not start with 0");
+  double number = 0.0;
+  const auto r = std::from_chars(body.data(), body.data() + body.size(), number);
   const bool tiny =
       r.ec == std::errc::result_out_of_range && body.find("e-") != std::string_view::npos;
-  if (tiny) s.number = 0.0;
-  if (!tiny && (r.ec != std::errc() || !std::isfinite(s.number))) {
-    s.kind = PlainScalar::Kind::bad_number;
-    s.complaint = "numbers must be finite";
-    return s;
-  }
-  if (lower[0] == '-') s.number = -s.number;
-  s.kind = PlainScalar::Kind::number;
-  return s;
+  if (tiny) number = 0.0;
+  if (!tiny && (r.ec != std::errc() || !std::isfinite(number)))
+    return bad(Kind::bad_number, "numbers must be finite");
+  return {Kind::number, false, lower[0] == '-' ? -number : number};
 }
 
 }  // namespace floatframe

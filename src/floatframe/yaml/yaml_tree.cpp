@@ -77,30 +77,22 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     refuse(mark, "", anchor);
-    count(mark);
-    YamlNode n;
-    place(n, mark);
-    scalar(std::move(n));
+    value(node_at(mark), false);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     error(ErrorCode::wrong_value, mark, "aliases (*name) are not allowed, use parameters");
-    count(mark);
-    YamlNode n;
-    place(n, mark);
-    scalar(std::move(n));
+    value(node_at(mark), false);
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse(mark, tag, anchor);
-    count(mark);
-    YamlNode n;
-    place(n, mark);
+    YamlNode n = node_at(mark);
     n.kind = YamlNode::Kind::scalar;
     n.text = revealed(value);
     n.quoted = tag == "!";
     n.refused = !check_characters(mark, n.text);
     last_ = n.quoted ? mark : YAML::Mark::null_mark();
-    scalar(std::move(n));
+    this->value(std::move(n), false);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
@@ -129,16 +121,18 @@ class TreeBuilder final : public YAML::EventHandler {
   void error(ErrorCode code, const YAML::Mark& mark, std::string message) {
     errors_.add(code, {file_, mark.line + 1, mark.column + 1}, std::move(message));
   }
-  void place(YamlNode& n, const YAML::Mark& mark) {
+  /// The next value of the file.
+  YamlNode node_at(const YAML::Mark& mark) {
+    if (++values_ > limits::file_values) {
+      error(ErrorCode::too_large, mark,
+            "found more than " + std::to_string(limits::file_values) +
+                " values in one file, expected fewer (tables may stand in CSV files)");
+      throw GaveUp{};
+    }
+    YamlNode n;
     n.line = mark.line + 1;
     n.column = mark.column + 1;
-  }
-  void count(const YAML::Mark& mark) {
-    if (++values_ <= limits::file_values) return;
-    error(ErrorCode::too_large, mark,
-          "found more than " + std::to_string(limits::file_values) +
-              " values in one file, expected fewer (tables may stand in CSV files)");
-    throw GaveUp{};
+    return n;
   }
   bool check_characters(const YAML::Mark& mark, std::string& text) {
     if (text.size() > longest_text) {
@@ -167,22 +161,19 @@ class TreeBuilder final : public YAML::EventHandler {
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
             YamlNode::Kind kind) {
     refuse(mark, tag, anchor);
-    count(mark);
+    YamlNode n = node_at(mark);
+    n.kind = kind;
     if (stack_.size() >= static_cast<std::size_t>(deepest_nesting)) {
       error(ErrorCode::too_large, mark, too_deep());
       throw GaveUp{};
     }
-    Level level;
-    level.node.kind = kind;
-    place(level.node, mark);
-    stack_.push_back(std::move(level));
+    stack_.emplace_back().node = std::move(n);
   }
   void close() {
     YamlNode n = std::move(stack_.back().node);
     stack_.pop_back();
     value(std::move(n), true);
   }
-  void scalar(YamlNode n) { value(std::move(n), false); }
 
   void value(YamlNode n, bool compound) {
     if (stack_.empty()) {
@@ -208,23 +199,17 @@ class TreeBuilder final : public YAML::EventHandler {
     top.has_key = true;
     top.skip = false;
     top.entry = YamlEntry{n.text, n.line, n.column, {}};
-    const SourceMark mark{file_, n.line, n.column};
-    if (compound || n.kind != YamlNode::Kind::scalar) {
-      errors_.add(ErrorCode::wrong_value, mark, "a key must be a name");
+    const auto skip = [&](ErrorCode code, const std::string& sentence) {
+      errors_.add(code, {file_, n.line, n.column}, sentence);
       top.skip = true;
-    } else if (n.text == "<<" && !n.quoted) {
-      errors_.add(ErrorCode::wrong_value, mark,
-                  "merge keys (<<) are not allowed, use parameters or subsystems");
-      top.skip = true;
-    } else {
-      const auto [it, fresh] = top.keys.emplace(n.text, n.line);
-      if (!fresh) {
-        errors_.add(
-            ErrorCode::duplicate, mark,
-            "duplicate key '" + n.text + "', first used in line " + std::to_string(it->second));
-        top.skip = true;
-      }
-    }
+    };
+    if (compound || n.kind != YamlNode::Kind::scalar)
+      skip(ErrorCode::wrong_value, "a key must be a name");
+    else if (n.text == "<<" && !n.quoted)
+      skip(ErrorCode::wrong_value, "merge keys (<<) are not allowed, use parameters or subsystems");
+    else if (const auto [it, fresh] = top.keys.emplace(n.text, n.line); !fresh)
+      skip(ErrorCode::duplicate,
+           "duplicate key '" + n.text + "', first used in line " + std::to_string(it->second));
   }
 
   const std::string& file_;
@@ -345,34 +330,26 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
   return document;
 }
 
-namespace {
-
-template <class AnyErrors>
-bool read_text(const std::string& file, std::string& text, AnyErrors& errors,
-               const SourceMark& where, const std::string& subject) {
-  const auto fail = [&](ErrorCode code, const std::string& why) {
-    if (where.file.empty())
-      errors.add(code, {file, 0, 0}, why);
-    else
-      errors.add(code, where, subject + ": '" + file + "': " + why);
-    return false;
-  };
-  const std::string why = read_regular_file(file, largest_file, text);
-  if (!why.empty()) return fail(ErrorCode::unreadable, why);
-  note_file_read(file, content_hash(text));
-  return true;
-}
-
-}  // namespace
-
 bool read_text_file(const std::string& file, std::string& text, ErrorList& errors,
                     const SourceMark& where, const std::string& subject) {
-  return read_text(file, text, errors, where, subject);
+  const std::string why = read_regular_file(file, largest_file, text);
+  if (why.empty()) {
+    note_file_read(file, content_hash(text));
+    return true;
+  }
+  if (where.file.empty())
+    errors.add(ErrorCode::unreadable, {file, 0, 0}, why);
+  else
+    errors.add(ErrorCode::unreadable, where, subject + ": '" + file + "': " + why);
+  return false;
 }
 
 bool read_text_file(const std::string& file, std::string& text, ReadErrors& errors,
                     const SourceMark& where, const std::string& subject) {
-  return read_text(file, text, errors, where, subject);
+  ErrorList found;
+  const bool good = read_text_file(file, text, found, where, subject);
+  for (ErrorEntry& entry : found.take()) errors.add(std::move(entry));
+  return good;
 }
 
 void note_file_read(const std::string& file, const std::string& hash) {

@@ -1,7 +1,6 @@
 #include "floatframe/yaml/yaml_value.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/suggest.hpp"
@@ -32,146 +31,98 @@ bool has_expression(const YamlNode& n) {
 
 }  // namespace
 
-YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) const {
-  Scalar s;
-  if (node_->refused) return s;
+std::optional<YamlValue::Scalar> YamlValue::scalar(const std::string& expected, bool quiet) const {
+  if (node_->refused) return std::nullopt;
   const auto complain = [&](ErrorCode code, const std::string& sentence) {
     if (!quiet) error(code, sentence);
+    return std::nullopt;
   };
-  switch (node_->kind) {
-    case YamlNode::Kind::null:
-      s.kind = Scalar::Kind::null;
-      return s;
-    case YamlNode::Kind::sequence:
-    case YamlNode::Kind::map:
-      complain(ErrorCode::wrong_value, "found " + found() + ", expected " + expected);
-      return s;
-    case YamlNode::Kind::scalar:
-      break;
-  }
+  if (node_->kind == YamlNode::Kind::null) return Scalar();
+  if (!is_scalar())
+    return complain(ErrorCode::wrong_value, "found " + found() + ", expected " + expected);
   if (has_expression(*node_)) {
     try {
-      const ParameterValue v = substitute_parameters(node_->text, *context_->scope, false);
-      s.kind = v.index() == 0   ? Scalar::Kind::boolean
-               : v.index() == 1 ? Scalar::Kind::number
-                                : Scalar::Kind::text;
-      if (const bool* b = std::get_if<bool>(&v)) s.boolean = *b;
-      if (const double* x = std::get_if<double>(&v)) s.number = *x;
-      if (const std::string* t = std::get_if<std::string>(&v)) s.text = *t;
+      return std::visit([](const auto& value) { return Scalar(value); },
+                        substitute_parameters(node_->text, *context_->scope, false));
     } catch (const ExpressionError&) {
-      if (quiet) return s;
-      try {  // once more for the sentence
-        substitute_parameters(node_->text, *context_->scope, context_->errors->suggest());
-      } catch (const ExpressionError& error) {
-        complain(ErrorCode::wrong_value, "in " + shortened(node_->text) + ": " + error.what());
-      }
+      if (quiet) return std::nullopt;
     }
-    return s;
+    try {  // once more for the sentence
+      substitute_parameters(node_->text, *context_->scope, context_->errors->suggest());
+    } catch (const ExpressionError& error) {
+      complain(ErrorCode::wrong_value, "in " + shortened(node_->text) + ": " + error.what());
+    }
+    return std::nullopt;
   }
-  s.text = node_->text;
-  if (node_->quoted) {
-    s.kind = Scalar::Kind::text;
-    return s;
-  }
+  if (node_->quoted) return node_->text;
   const PlainScalar p = classify_plain_scalar(node_->text);
+  const std::string why = "found " + node_->text + ", expected " + expected + " (" + p.complaint;
   switch (p.kind) {
     case PlainScalar::Kind::null:
-      s.kind = Scalar::Kind::null;
-      break;
+      return Scalar();
     case PlainScalar::Kind::boolean:
-      s.kind = Scalar::Kind::boolean;
-      s.boolean = p.boolean;
-      break;
+      return p.boolean;
     case PlainScalar::Kind::number:
-      s.kind = Scalar::Kind::number;
-      s.number = p.number;
-      break;
+      return p.number;
     case PlainScalar::Kind::text:
-      s.kind = Scalar::Kind::text;
-      break;
+      return node_->text;
     case PlainScalar::Kind::bad_number:
-      complain(ErrorCode::not_a_number,
-               "found " + node_->text + ", expected " + expected + " (" + p.complaint + ")");
-      break;
+      return complain(ErrorCode::not_a_number, why + ")");
     case PlainScalar::Kind::bad_boolean:
-      complain(ErrorCode::wrong_value, "found " + node_->text + ", expected " + expected + " (" +
-                                           p.complaint + ", or put a text in quotes)");
-      break;
+      return complain(ErrorCode::wrong_value, why + ", or put a text in quotes)");
   }
-  return s;
+  return std::nullopt;
 }
 
 std::string YamlValue::found() const {
-  switch (node_->kind) {
-    case YamlNode::Kind::null:
-      return "nothing";
-    case YamlNode::Kind::sequence:
-      return "a list of " + std::to_string(node_->items.size());
-    case YamlNode::Kind::map:
-      return "a map";
-    case YamlNode::Kind::scalar:
-      break;
-  }
+  if (is_list()) return "a list of " + std::to_string(node_->items.size());
+  if (is_map()) return "a map";
+  if (!is_scalar()) return "nothing";
+  const std::string written = shortened(node_->text);
   if (has_expression(*node_)) {
-    const Scalar s = scalar("", true);
-    switch (s.kind) {
-      case Scalar::Kind::boolean:
-        return shortened(node_->text) + " = " + (s.boolean ? "true" : "false");
-      case Scalar::Kind::number:
-        return shortened(node_->text) + " = " + number_text(s.number);
-      case Scalar::Kind::text:
-        return shortened(node_->text) + " = " + short_in_quotes(s.text);
-      default:
-        return shortened(node_->text);
-    }
+    const auto s = scalar("", true);
+    if (!s) return written;
+    if (const bool* truth = std::get_if<bool>(&*s)) return written + " = " + value_text(*truth);
+    if (const double* x = std::get_if<double>(&*s)) return written + " = " + value_text(*x);
+    const std::string* text = std::get_if<std::string>(&*s);
+    return text ? written + " = " + short_in_quotes(*text) : written;
   }
   if (node_->quoted) return short_in_quotes(node_->text);
-  const PlainScalar p = classify_plain_scalar(node_->text);
-  if (p.kind == PlainScalar::Kind::null) return "nothing";
-  if (p.kind == PlainScalar::Kind::text) return short_in_quotes(node_->text);
-  return shortened(node_->text);
+  const PlainScalar::Kind kind = classify_plain_scalar(node_->text).kind;
+  if (kind == PlainScalar::Kind::null) return "nothing";
+  return kind == PlainScalar::Kind::text ? short_in_quotes(node_->text) : written;
 }
 
-std::optional<double> YamlValue::number(const NumberRule& rule) const {
-  const Scalar s = scalar(rule.expectation());
-  if (s.kind == Scalar::Kind::bad) return std::nullopt;
-  if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
-    unexpected(rule.expectation(),
-               s.kind == Scalar::Kind::number ? ErrorCode::out_of_range : ErrorCode::not_a_number);
-    return std::nullopt;
-  }
-  return s.number;
+template <class Rule>
+std::optional<double> YamlValue::number_by(const Rule& rule) const {
+  const auto s = scalar(rule.expectation());
+  if (!s) return std::nullopt;
+  const double* x = std::get_if<double>(&*s);
+  if (x && rule.holds(*x)) return *x;
+  unexpected(rule.expectation(), x ? ErrorCode::out_of_range : ErrorCode::not_a_number);
+  return std::nullopt;
 }
+
+std::optional<double> YamlValue::number(const NumberRule& rule) const { return number_by(rule); }
 
 std::optional<int> YamlValue::integer(const WholeNumberRule& rule) const {
-  const Scalar s = scalar(rule.expectation());
-  if (s.kind == Scalar::Kind::bad) return std::nullopt;
-  if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
-    unexpected(rule.expectation(),
-               s.kind == Scalar::Kind::number ? ErrorCode::out_of_range : ErrorCode::not_a_number);
-    return std::nullopt;
-  }
-  return static_cast<int>(s.number);
+  const auto x = number_by(rule);
+  return x ? std::optional(static_cast<int>(*x)) : std::nullopt;
 }
 
 std::optional<bool> YamlValue::boolean() const {
-  const Scalar s = scalar("true or false");
-  if (s.kind == Scalar::Kind::bad) return std::nullopt;
-  if (s.kind != Scalar::Kind::boolean) {
-    unexpected("true or false");
-    return std::nullopt;
-  }
-  return s.boolean;
+  const auto s = scalar("true or false");
+  const bool* truth = s ? std::get_if<bool>(&*s) : nullptr;
+  if (s && !truth) unexpected("true or false");
+  return truth ? std::optional(*truth) : std::nullopt;
 }
 
 std::optional<std::string> YamlValue::text(const char* what) const {
-  const Scalar s = scalar(what);
-  if (s.kind == Scalar::Kind::bad) return std::nullopt;
-  if (s.kind != Scalar::Kind::text || s.text.empty()) {
-    unexpected(what);
-    return std::nullopt;
-  }
-  return s.text;
+  const auto s = scalar(what);
+  const std::string* text = s ? std::get_if<std::string>(&*s) : nullptr;
+  if (text && !text->empty()) return *text;
+  if (s) unexpected(what);
+  return std::nullopt;
 }
 
 std::optional<std::size_t> YamlValue::word(std::span<const char* const> words) const {
@@ -186,20 +137,13 @@ std::optional<std::size_t> YamlValue::word(std::span<const char* const> words) c
 }
 
 std::optional<ParameterValue> YamlValue::parameter() const {
-  const Scalar s = scalar("a number, a text, true or false");
-  switch (s.kind) {
-    case Scalar::Kind::boolean:
-      return s.boolean;
-    case Scalar::Kind::number:
-      return s.number;
-    case Scalar::Kind::text:
-      return s.text;
-    case Scalar::Kind::null:
-      unexpected("a number, a text, true or false");
-      break;
-    case Scalar::Kind::bad:
-      break;
-  }
+  const char* what = "a number, a text, true or false";
+  const auto s = scalar(what);
+  if (!s) return std::nullopt;
+  if (const bool* truth = std::get_if<bool>(&*s)) return *truth;
+  if (const double* x = std::get_if<double>(&*s)) return *x;
+  if (const std::string* text = std::get_if<std::string>(&*s)) return *text;
+  unexpected(what);
   return std::nullopt;
 }
 
@@ -258,32 +202,29 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what
   }
   const std::string prefix = path_.empty() ? "" : path_ + ".";
   for (const YamlEntry& e : node_->entries) {
-    if (e.key.size() > limits::name_length) {
-      context_->errors->add(ErrorCode::too_large, {*context_->file, e.line, e.column},
-                            prefix + shortened(e.key) + ": found a name of " +
-                                std::to_string(e.key.size()) + " characters, expected at most " +
-                                std::to_string(limits::name_length));
-      continue;
-    }
-    if (free_names && e.key.find("${") != std::string::npos) {
-      context_->errors->add(ErrorCode::wrong_value, {*context_->file, e.line, e.column},
-                            path_ + ": found the name " + short_in_quotes(e.key) +
-                                ", but expressions stand for values, not in names");
-      continue;
-    }
-    if (!free_names && !is_identifier(e.key, true)) {
-      context_->errors->add(ErrorCode::wrong_value, {*context_->file, e.line, e.column},
-                            path_ + ": found the name '" + shortened(e.key) +
-                                "', expected letters, digits, _ and -, with a letter first");
-      continue;
-    }
-    out.emplace_back(e.key, YamlValue(*context_, e, prefix + e.key));
+    const auto refuse = [&](ErrorCode code, const std::string& sentence) {
+      context_->errors->add(code, {*context_->file, e.line, e.column}, sentence);
+    };
+    const std::string found_name = path_ + ": found the name " + short_in_quotes(e.key);
+    if (e.key.size() > limits::name_length)
+      refuse(ErrorCode::too_large,
+             prefix + shortened(e.key) + ": found a name of " + std::to_string(e.key.size()) +
+                 " characters, expected at most " + std::to_string(limits::name_length));
+    else if (free_names && e.key.find("${") != std::string::npos)
+      refuse(ErrorCode::wrong_value,
+             found_name + ", but expressions stand for values, not in names");
+    else if (!free_names && !is_identifier(e.key, true))
+      refuse(ErrorCode::wrong_value,
+             found_name + ", expected letters, digits, _ and -, with a letter first");
+    else
+      out.emplace_back(e.key, YamlValue(*context_, e, prefix + e.key));
   }
   return out;
 }
 
 bool YamlValue::looks_like_number() const {
-  return node_->kind == YamlNode::Kind::scalar && scalar("", true).kind == Scalar::Kind::number;
+  const auto s = is_scalar() ? scalar("", true) : std::nullopt;
+  return s && std::holds_alternative<double>(*s);
 }
 
 // -----------------------------------------------------------------------------------------------
@@ -362,6 +303,10 @@ double YamlSection::number(const char* key, const NumberRule& rule, double absen
 double YamlSection::required_number(const char* key, const NumberRule& rule, double when_wrong) {
   const auto v = require(key);
   return v ? v->number(rule).value_or(when_wrong) : when_wrong;
+}
+
+void YamlSection::vector(const char* key, const char* unit, Vec3& place) {
+  if (const auto v = get(key)) place = v->vector(unit).value_or(place);
 }
 
 bool YamlSection::boolean(const char* key, bool absent) {

@@ -6,11 +6,11 @@
 // expressions.
 #include <algorithm>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "floatframe/core/number_rule.hpp"
@@ -65,6 +65,11 @@ class YamlValue {
   void complain(ErrorCode code, const std::optional<std::string>& complaint) const {
     if (complaint) error(code, *complaint);
   }
+  /// Error about a name that is not one of `known()`, with the one that is meant perhaps.
+  template <class Known>
+  void not_known(const std::string& sentence, const std::string& name, const Known& known) const {
+    error(ErrorCode::not_found, sentence + context_->errors->suggestion(name, known));
+  }
   /// "found ..., expected `what`".
   void unexpected(const std::string& what, ErrorCode code = ErrorCode::wrong_value) const {
     error(code, "found " + found() + ", expected " + what);
@@ -106,14 +111,11 @@ class YamlValue {
   bool looks_like_number() const;
 
  private:
-  struct Scalar {
-    enum class Kind { bad, null, boolean, number, text } kind = Kind::bad;
-    bool boolean = false;
-    double number = 0.0;
-    std::string text;
-  };
-  /// The substituted scalar; `quiet` adds no errors.
-  Scalar scalar(const std::string& expected, bool quiet = false) const;
+  using Scalar = std::variant<std::monostate, bool, double, std::string>;
+  /// The substituted scalar; none after an error, which `quiet` does not add.
+  std::optional<Scalar> scalar(const std::string& expected, bool quiet = false) const;
+  template <class Rule>
+  std::optional<double> number_by(const Rule& rule) const;
 
   const ReadContext* context_;
   const YamlNode* node_;
@@ -156,6 +158,14 @@ class YamlSection {
   double number(const char* key, const NumberRule& rule, double absent);
   double required_number(const char* key, const NumberRule& rule, double when_wrong);
   bool boolean(const char* key, bool absent);
+  /// Into `place`, which stays as it is if the key is absent or its value is wrong.
+  void vector(const char* key, const char* unit, Vec3& place);
+  /// An enumerator by its word, in the order of the enumeration; likewise.
+  template <class Enum>
+  void word(const char* key, std::span<const char* const> words, Enum& place) {
+    if (const auto v = get(key))
+      if (const auto k = v->word(words)) place = static_cast<Enum>(*k);
+  }
 
  private:
   const YamlEntry* find(const char* key) const;

@@ -1,24 +1,152 @@
 // Parts and instances of an Abaqus deck. Each instance has the numbers and names of its part, the
-// assembly has its own; from there things of an instance are INSTANCE.NAME and INSTANCE.12.
-#include <fmt/format.h>
-
+// assembly has its own; from there things of an instance are INSTANCE.NAME and INSTANCE.12. What
+// stands in the scope of a part stands once more in that of a further instance, and of a part
+// without instances not at all.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
+#include <set>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
-
 namespace {
 
 /// A name without an instance is looked for in all of them.
 constexpr std::size_t most_instances = 2000;
 
-void open_block(const AbaqusKeyword& keyword, AbaqusContent& content) {
-  content.open.push_back({keyword.name, abaqus_name(keyword.value("NAME")), keyword.at});
+/// References of a thing into another scope.
+class ScopeChange {
+ public:
+  ScopeChange(AbaqusScope from, AbaqusScope to) : from_(from), to_(to) {}
+
+  void operator()(AbaqusScope& scope) const {
+    if (scope == from_) scope = to_;
+  }
+  void operator()(AbaqusReference& r) const { (*this)(r.scope); }
+  void operator()(AbaqusThing& thing) const { (*this)(thing.where); }
+  void operator()(AbaqusOrientation& o) const { (*this)(o.scope); }
+  void operator()(AbaqusSet& set) const { each(set.items); }
+  void operator()(AbaqusSurface& surface) const { each(surface.items); }
+  void operator()(AbaqusEquation& e) const { each(e.terms); }
+  void operator()(AbaqusTie& t) const {
+    (*this)(t.where);
+    (*this)(t.master);
+  }
+  void operator()(AbaqusTransform& t) const {
+    (*this)(t.scope);
+    (*this)(t.where);
+  }
+  void operator()(AbaqusSpider& s) const {
+    (*this)(s.where);
+    if (s.surface) (*this)(*s.surface);
+    if (s.rotation) (*this)(*s.rotation);
+    each(s.nodes);
+    each(s.elements);
+  }
+
+ private:
+  template <class List>
+  void each(List& list) const {
+    for (auto& item : list) (*this)(item);
+  }
+
+  AbaqusScope from_, to_;
+};
+
+AbaqusScope scope_of(const AbaqusThing& thing) { return thing.where.scope; }
+AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
+AbaqusScope scope_of(const AbaqusEquation& e) { return e.terms.front().where.scope; }
+
+/// Calls `use` with each list of things that belong to a scope and its place in AbaqusSizes.
+template <typename Content, typename Use>
+void each_list(Content& c, Use use) {
+  const auto all = [&](auto&... lists) {
+    std::size_t place = 2;
+    (use(lists, place++), ...);
+  };
+  all(c.sections, c.masses, c.spiders, c.equations, c.supports, c.ties, c.springs, c.transforms,
+      c.thicknesses, c.nonstructural, c.pre_tensions);
+}
+
+std::size_t weight(const AbaqusSet& set) { return set.items.size(); }
+std::size_t weight(const AbaqusSurface& s) { return s.items.size(); }
+std::size_t weight(const AbaqusOrientation&) { return 1; }
+std::size_t weight(const AbaqusEquation& e) { return e.terms.size(); }
+std::size_t weight(const AbaqusSpider& s) { return 1 + s.nodes.size() + s.elements.size(); }
+std::size_t weight(const AbaqusSection& s) { return 1 + s.plies.size(); }
+std::size_t weight(const AbaqusThing&) { return 1; }
+
+template <class T>
+void copy_numbered(AbaqusNumbered<T>& all, std::size_t begin, std::size_t end, AbaqusScope to) {
+  for (std::size_t k = begin; k < end; ++k) {
+    T copy = all[k];  // the numbers of an element's nodes are the same
+    copy.scope = to;
+    all.add(copy);
+  }
+}
+
+/// The names of a scope once more in another one; the keys begin with it.
+template <typename Map>
+void copy_names(Map& map, AbaqusScope from, AbaqusScope to, TextSource& source) {
+  const ScopeChange change(from, to);
+  std::vector<std::pair<typename Map::key_type, typename Map::mapped_type>> copies;
+  for (auto it = map.lower_bound({from, {}}); it != map.end() && it->first.first == from; ++it) {
+    source.make(static_cast<std::int64_t>(weight(it->second)));
+    copies.emplace_back(typename Map::key_type{to, it->first.second}, it->second);
+  }
+  for (auto& [key, value] : copies) {
+    change(value);
+    map.emplace(key, std::move(value));
+  }
+}
+
+AbaqusSizes abaqus_sizes(const AbaqusContent& c) {
+  AbaqusSizes sizes{c.nodes.size(), c.elements.size()};
+  each_list(c, [&](const auto& list, std::size_t place) { sizes[place] = list.size(); });
+  return sizes;
+}
+
+/// What a part has once more, for an instance of it. Throws if instances make too much.
+void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
+                      TextSource& source) {
+  const ScopeChange change(part.scope, to);
+  source.make(static_cast<std::int64_t>(part.end[0] - part.begin[0] + part.end[1] - part.begin[1]));
+  copy_numbered(c.nodes, part.begin[0], part.end[0], to);
+  copy_numbered(c.elements, part.begin[1], part.end[1], to);
+  copy_names(c.node_sets, part.scope, to, source);
+  copy_names(c.element_sets, part.scope, to, source);
+  copy_names(c.surfaces, part.scope, to, source);
+  copy_names(c.orientations, part.scope, to, source);
+  each_list(c, [&](auto& list, std::size_t place) {
+    for (std::size_t k = part.begin[place]; k < part.end[place]; ++k) {
+      if (scope_of(list[k]) != part.scope) continue;
+      auto copy = list[k];
+      source.make(static_cast<std::int64_t>(weight(copy)));
+      change(copy);
+      list.push_back(std::move(copy));
+    }
+  });
+}
+
+void remove_abaqus_scopes(AbaqusContent& c, const std::set<AbaqusScope>& scopes) {
+  const auto gone = [&](AbaqusScope scope) { return scopes.contains(scope); };
+  c.nodes.remove_if([&](const AbaqusNode& n) { return gone(n.scope); });
+  c.elements.remove_if([&](const AbaqusElement& e) { return gone(e.scope); });
+  const auto named = [&](const auto& entry) { return gone(entry.first.first); };
+  std::erase_if(c.node_sets, named);
+  std::erase_if(c.element_sets, named);
+  std::erase_if(c.surfaces, named);
+  std::erase_if(c.orientations, named);
+  each_list(c, [&](auto& list, std::size_t) {
+    std::erase_if(list, [&](const auto& thing) { return gone(scope_of(thing)); });
+  });
+}
+
+void open_block(AbaqusCard& card) {
+  card.content.open.push_back({card.name, card.word("NAME"), card.at});
 }
 
 void close_last(AbaqusContent& content, TextSource& source, const std::string& where) {
@@ -29,48 +157,63 @@ void close_last(AbaqusContent& content, TextSource& source, const std::string& w
 }
 
 /// Those inside of it that are still open have no end; an error if it has not begun.
-void close_block(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  const std::string begin = keyword.name.substr(3);  // "ENDPART"
-  const bool begun = std::any_of(content.open.begin(), content.open.end(),
-                                 [&](const AbaqusOpenBlock& b) { return b.keyword == begin; });
-  if (!begun)
-    return lines.error(ErrorCode::incomplete, keyword, "ends no *{}, expected one before it",
-                       begin);
-  while (content.open.back().keyword != begin)
-    close_last(content, lines.source(), "before " + keyword.shown);
-  content.open.pop_back();
+void close_block(AbaqusCard& card) {
+  std::vector<AbaqusOpenBlock>& open = card.content.open;
+  const std::string begin = card.name.substr(3);  // "ENDPART"
+  if (std::none_of(open.begin(), open.end(),
+                   [&](const AbaqusOpenBlock& b) { return b.keyword == begin; }))
+    return card.error(ErrorCode::incomplete, "ends no *{}, expected one before it", begin);
+  while (open.back().keyword != begin)
+    close_last(card.content, card.source, "before " + card.shown);
+  open.pop_back();
+}
+
+void enter_scope(AbaqusContent& content, AbaqusScope scope) {
+  content.scope = scope;
+  content.system.reset();
 }
 
 AbaqusScope new_scope(AbaqusContent& content) { return static_cast<AbaqusScope>(content.scopes++); }
 
-void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
-  std::vector<std::string_view> fields;
-  const auto vector = [&](std::size_t first, std::string_view what) {
-    Vec3 v;
-    for (std::size_t k = 0; k < 3; ++k) {
-      v[static_cast<Eigen::Index>(k)] = lines.real_or(fields, first + k, 0.0, what);
-    }
-    return v;
-  };
-  if (lines.next_fields(fields)) place.t = vector(0, "translation of the instance");
-  if (!lines.next_fields(fields)) return;
-  if (fields.size() < 7 || fields[6].empty())
-    return lines.source().error(ErrorCode::wrong_count,
-                                "the rotation of the instance has {} numbers, expected seven: two "
-                                "points of the axis and the angle",
-                                std::min<std::size_t>(fields.size(), 6));
-  place.a = vector(0, "axis of the instance's rotation");
-  const Vec3 axis = vector(3, "axis of the instance's rotation") - place.a;
-  const double degrees = lines.real_or(fields, 6, 0.0, "angle of the instance's rotation");
-  if (lines.misread()) return;
-  if (!(axis.stableNorm() > 0.0) || !std::isfinite(axis.stableNorm())) {
-    lines.source().error(ErrorCode::geometry,
-                         "the two points of the axis of the instance's rotation are one");
-    return;
-  }
+void read_placement(AbaqusCard& card, AbaqusPlacement& place) {
+  if (card.next()) place.t = card.vector(0, "translation of the instance");
+  if (!card.next()) return;
+  if (card.field(6).empty())
+    return card.error_in_line(ErrorCode::wrong_count,
+                              "the rotation of the instance has {} numbers, expected seven: two "
+                              "points of the axis and the angle",
+                              std::min<std::size_t>(card.fields.size(), 6));
+  constexpr const char* axis_name = "axis of the instance's rotation";
+  place.a = card.vector(0, axis_name);
+  const Vec3 axis = card.vector(3, axis_name) - place.a;
+  const double degrees = card.real_or(6, 0.0, "angle of the instance's rotation");
+  if (card.misread()) return;
+  if (!(axis.stableNorm() > 0.0) || !std::isfinite(axis.stableNorm()))
+    return card.error_in_line(ErrorCode::geometry,
+                              "the two points of the axis of the instance's rotation are one");
   place.R = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis.stableNormalized())
                 .toRotationMatrix();
-  lines.skip_data();
+}
+
+/// The part of an instance; throws where there can be no such instance.
+AbaqusPart& part_of_instance(AbaqusCard& card, const std::string& name, const std::string& part) {
+  AbaqusContent& content = card.content;
+  const auto it = content.parts.find(part);
+  if (it == content.parts.end())
+    card.source.stop(ErrorCode::not_found, card.at,
+                     "*INSTANCE {} is of the part {}, which does not exist{}", shown(name),
+                     shown(part), did_you_mean(part, keys_of(content.parts)));
+  if (content.scope_of_instance.contains(name))
+    card.source.stop(ErrorCode::duplicate, card.at, "*INSTANCE {} is there already", shown(name));
+  if (content.instances.size() == most_instances)
+    card.source.stop(ErrorCode::too_large, card.at, "the deck has more than {} instances",
+                     most_instances);
+  if (it->second.used && it->second.grown && it->second.is_meshed())
+    card.source.stop(ErrorCode::unsupported, card.at,
+                     "*INSTANCE {} is a second one of the part {}, whose first one has nodes or "
+                     "elements of its own; give each a part",
+                     shown(name), shown(part));
+  return it->second;
 }
 
 }  // namespace
@@ -79,107 +222,63 @@ void close_abaqus_blocks(AbaqusContent& content, TextSource& source, const std::
   while (!content.open.empty()) close_last(content, source, where);
 }
 
-void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  close_abaqus_blocks(content, lines.source(), "before the next *PART");
-  open_block(keyword, content);
-  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
-  content.system.reset();
+void read_abaqus_part(AbaqusCard& card) {
+  AbaqusContent& content = card.content;
+  close_abaqus_blocks(content, card.source, "before the next *PART");
+  open_block(card);
+  const std::string name = abaqus_name(card.required("NAME"));
   AbaqusPart part;
-  part.at = keyword.at;
+  part.at = card.at;
   part.scope = content.parts.empty() ? AbaqusScope::part : new_scope(content);
   part.begin = part.end = abaqus_sizes(content);
   content.part = name.empty() ? "?" : name;
   const auto [it, fresh] = content.parts.emplace(content.part, part);
-  if (!fresh) {
-    const SourceMark first = lines.source().mark(it->second.at);
-    lines.source().stop(ErrorCode::duplicate, keyword.at, "*PART {} is there already ({}:{})",
-                        shown(name), first.file, first.line);
-  }
-  content.scope = part.scope;
-  lines.skip_data();
+  if (!fresh)
+    card.source.stop(ErrorCode::duplicate, card.at, "*PART {} is there already ({})", shown(name),
+                     card.place(it->second.at));
+  enter_scope(content, part.scope);
 }
 
-void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  close_block(lines, keyword, content);
-  if (const auto it = content.parts.find(content.part); it != content.parts.end()) {
-    it->second.end = abaqus_sizes(content);
-  }
-  content.scope = AbaqusScope::assembly;
-  content.system.reset();
-  lines.skip_data();
+void read_abaqus_assembly(AbaqusCard& card) {
+  close_abaqus_blocks(card.content, card.source, "before *ASSEMBLY");
+  open_block(card);
+  enter_scope(card.content, AbaqusScope::assembly);
 }
 
-void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  close_abaqus_blocks(content, lines.source(), "before *ASSEMBLY");
-  open_block(keyword, content);
-  content.scope = AbaqusScope::assembly;
-  content.system.reset();
-  lines.skip_data();
-}
-
-void read_abaqus_end_assembly(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                              AbaqusContent& content) {
-  close_block(lines, keyword, content);
-  content.scope = AbaqusScope::assembly;
-  content.system.reset();
-  lines.skip_data();
-}
-
-void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  lines.allow_only(keyword, {"NAME", "PART"});
+void read_abaqus_instance(AbaqusCard& card) {
+  AbaqusContent& content = card.content;
   while (!content.open.empty() && content.open.back().keyword != "ASSEMBLY")
-    close_last(content, lines.source(), "before the next *INSTANCE");
-  open_block(keyword, content);
-  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
-  const std::string part = abaqus_name(lines.required(keyword, "PART"));
-  const auto it = content.parts.find(part);
-  if (it == content.parts.end()) {
-    std::vector<std::string> known;
-    for (const auto& [k, p] : content.parts) known.push_back(k);
-    lines.source().stop(ErrorCode::not_found, keyword.at,
-                        "*INSTANCE {} is of the part {}, which does not exist{}", shown(name),
-                        shown(part), did_you_mean(part, known));
-  }
-  if (content.scope_of_instance.contains(name))
-    lines.source().stop(ErrorCode::duplicate, keyword.at, "*INSTANCE {} is there already",
-                        shown(name));
-  AbaqusPart& of = it->second;
-  const bool meshed = of.end[0] > of.begin[0] || of.end[1] > of.begin[1];
-  if (content.instances.size() == most_instances)
-    lines.source().stop(ErrorCode::too_large, keyword.at, "the deck has more than {} instances",
-                        most_instances);
-  if (of.used && of.grown && meshed)
-    lines.source().stop(ErrorCode::unsupported, keyword.at,
-                        "*INSTANCE {} is a second one of the part {}, whose first one has nodes or "
-                        "elements of its own; give each a part",
-                        shown(name), shown(part));
-  const AbaqusScope scope = of.used ? new_scope(content) : of.scope;
-  if (of.used && meshed) copy_abaqus_part(content, of, scope, lines.source());
-  of.used = true;
+    close_last(content, card.source, "before the next *INSTANCE");
+  open_block(card);
+  const std::string name = abaqus_name(card.required("NAME"));
   AbaqusInstance instance;
   instance.name = name.empty() ? "?" : name;
-  instance.part = part;
-  read_placement(lines, instance.place);
+  instance.part = abaqus_name(card.required("PART"));
+  AbaqusPart& part = part_of_instance(card, name, instance.part);
+  const AbaqusScope scope = part.used ? new_scope(content) : part.scope;
+  if (part.used && part.is_meshed()) copy_abaqus_part(content, part, scope, card.source);
+  part.used = true;
+  read_placement(card, instance.place);
   instance.begin = abaqus_sizes(content);
   content.scope_of_instance.emplace(instance.name, scope);
   content.instances.emplace(scope, std::move(instance));
   content.scope = scope;
 }
 
-void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                              AbaqusContent& content) {
-  close_block(lines, keyword, content);
-  if (const auto it = content.instances.find(content.scope); it != content.instances.end()) {
+/// *END PART, *END INSTANCE, *END ASSEMBLY.
+void read_abaqus_end(AbaqusCard& card) {
+  AbaqusContent& content = card.content;
+  close_block(card);
+  if (const auto it = content.parts.find(content.part);
+      card.name == "ENDPART" && it != content.parts.end())
+    it->second.end = abaqus_sizes(content);
+  if (const auto it = content.instances.find(content.scope);
+      card.name == "ENDINSTANCE" && it != content.instances.end()) {
     AbaqusPart& part = content.parts.at(it->second.part);
     part.grown = part.grown || it->second.begin[0] < content.nodes.size() ||
                  it->second.begin[1] < content.elements.size();
   }
-  content.scope = AbaqusScope::assembly;
-  content.system.reset();
-  lines.skip_data();
+  enter_scope(content, AbaqusScope::assembly);
 }
 
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
@@ -191,8 +290,8 @@ void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
   std::set<AbaqusScope> unused;
   for (const auto& [name, part] : content.parts) {
     if (part.used) continue;
-    const SourceMark mark = source.mark(part.at);
-    content.note(mark, fmt::format("part {} has no instance and is left out", shown(name)));
+    content.note(source.mark(part.at),
+                 fmt::format("part {} has no instance and is left out", shown(name)));
     unused.insert(part.scope);
   }
   if (!unused.empty()) remove_abaqus_scopes(content, unused);

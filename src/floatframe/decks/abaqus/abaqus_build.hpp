@@ -1,13 +1,30 @@
 #pragma once
 // From the content of an Abaqus deck to the model.
+#include <fmt/format.h>
+
 #include <functional>
 
 #include "floatframe/decks/abaqus/abaqus_resolve.hpp"
 #include "floatframe/decks/rigid_arms.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {
+
+/// "element 7 (C3D4)"
+std::string abaqus_label(const AbaqusElement& element);
+
+/// A further entry of a list for a key, like the one at `from` but for a change; its index, which
+/// `copies` keeps.
+template <class T, class Key, class Change>
+int changed_copy(std::vector<T>& list, int from, std::map<Key, int>& copies, const Key& key,
+                 Change change) {
+  const auto [it, fresh] = copies.try_emplace(key, static_cast<int>(list.size()));
+  if (fresh) {
+    list.push_back(list[from]);
+    change(list.back());
+  }
+  return it->second;
+}
 
 /// What both halves of the building use.
 struct AbaqusBuild {
@@ -31,28 +48,41 @@ struct AbaqusBuild {
         nodes(c, s, AbaqusResolver::Of::nodes),
         elements(c, s, AbaqusResolver::Of::elements),
         clues(c.clues) {}
+  /// Index of the node k of an element; -1 and an error if it is not there.
+  int node_of(const AbaqusElement& element, int k);
   /// Nodes of elements of the deck, each once.
-  std::vector<int> nodes_of_elements(const std::vector<int>& list);
-  void note(const FeSource& at, const std::string& text);
-
- private:
-  std::vector<int> list_of_node_;  // the last list of nodes_of_elements that got it
-  int node_list_ = 0;
+  std::vector<int> nodes_of_elements(const std::vector<int>& list) const;
+  template <class... Values>
+  void note(const FeSource& at, fmt::format_string<Values...> text, Values&&... values) {
+    model.notes.push_back(place(at) + ": " + fmt::format(text, std::forward<Values>(values)...));
+  }
+  /// An error of a section or an element, which stands before the text.
+  template <class... Values>
+  void error(const AbaqusSection& section, ErrorCode code, fmt::format_string<Values...> text,
+             Values&&... values) {
+    source.error(code, section.where.at,
+                 section.shown + fmt::format(text, std::forward<Values>(values)...));
+  }
+  template <class... Values>
+  void error(const AbaqusElement& e, ErrorCode code, fmt::format_string<Values...> text,
+             Values&&... values) {
+    source.error(code, e.at, abaqus_label(e) + fmt::format(text, std::forward<Values>(values)...));
+  }
+  /// "deck.inp:12"
+  std::string place(const FeSource& at) const { return abaqus_place(source, at); }
+  /// Whose deck it is: as the user says, else as the clues show; by_content: nothing shows it.
+  DeckDialect dialect() const;
 };
 
 /// What the elements of a section have in the model.
 struct AbaqusProperties {
-  int material = -1, section = 0;
-  Vec3 reference = Vec3::UnitZ();
-  int orientation = -1;
+  Element like;              ///< material, section, reference and orientation
   bool directional = false;  ///< shells: not isotropic in the plane
 };
 
 // abaqus_build_sections.cpp
 /// Elements that have no section: masses, springs, ...
 bool is_abaqus_point(AbaqusType::Family family) noexcept;
-/// "element 7 (C3D4)"
-std::string abaqus_label(const AbaqusElement& element);
 /// Of each element of the deck the index of the section whose set names it; -1: none.
 std::vector<int> sections_of_elements(AbaqusBuild& build,
                                       const std::vector<AbaqusSection>& sections);
@@ -69,8 +99,6 @@ ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& secti
 /// An error if thickness, offset or mass over area are too large.
 void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const ShellSection& shell,
                         int material);
-void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
-                           const Material& material);
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e);
@@ -84,7 +112,7 @@ void report_abaqus_directions(AbaqusBuild& build);
 /// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre beside the
 /// centroid.
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section);
-// abaqus_nodal_thickness.cpp
+// abaqus_sections.cpp
 /// Sections of shells with the thickness of their nodes.
 class AbaqusNodalThickness {
  public:
@@ -94,8 +122,6 @@ class AbaqusNodalThickness {
   void notes();
 
  private:
-  void missing(const AbaqusSection& section, const Element& e, int node);
-
   AbaqusBuild& b_;
   std::vector<double> at_node_;
   std::map<std::pair<int, double>, int> sections_;  // of a section and a thickness
@@ -107,7 +133,7 @@ class AbaqusNodalThickness {
 };
 // abaqus_build_mesh.cpp
 void build_abaqus_nodes(AbaqusBuild& build);
-void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
+void build_abaqus_elements(AbaqusBuild& build);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
 // abaqus_home.cpp
@@ -123,13 +149,15 @@ void build_abaqus_nonstructural_mass(AbaqusBuild& build);
 void build_abaqus_springs(AbaqusBuild& build);
 // abaqus_ties.cpp
 void build_abaqus_ties(AbaqusBuild& build);
-// abaqus_transforms.cpp
+// abaqus_coordinates.cpp
 /// Of the nodes that *TRANSFORM turns: columns are the axes of their degrees of freedom.
 std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build);
 // abaqus_build_constraints.cpp
 /// The surface of a name and its name in the model; null and an error if there is none.
 const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
                                          std::string& shown_name);
+/// Of a surface of nodes.
+std::vector<int> abaqus_surface_nodes(AbaqusBuild& build, const AbaqusSurface& surface);
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
 
 }  // namespace floatframe

@@ -3,53 +3,60 @@
 // t x n_1. CalculiX has OFFSET1 and OFFSET2 in thicknesses along these: the centroid lies at
 //   -OFFSET1 t_1 n_1 - OFFSET2 t_2 n_2
 // of the node, as its expanded elements show.
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
 
 /// Direction 1 towards the further node of the element.
 void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& e) {
-  const AbaqusContent& c = build.content;
-  const int id = c.element_nodes[deck.first + static_cast<std::size_t>(deck.type->nodes)];
-  const auto it = c.node_of_label.find(AbaqusContent::label(deck.scope, id));
-  if (it == c.node_of_label.end()) {
-    build.source.error(ErrorCode::not_found, deck.at, "{}: node {} does not exist",
-                       abaqus_label(deck), id);
-    return;
-  }
+  const int further = build.node_of(deck, deck.type->nodes);
+  if (further < 0) return;
   const FeModel& m = build.model;
-  e.reference = m.positions[static_cast<std::size_t>(it->second)] - m.positions[e.nodes[0]];
+  e.reference = m.positions[further] - m.positions[e.nodes[0]];
   const Vec3 along = m.positions[e.nodes[deck.type->nodes - 1]] - m.positions[e.nodes[0]];
   if (!(along.cross(e.reference).norm() > 1e-9 * along.norm() * e.reference.norm()))
-    build.source.error(ErrorCode::geometry, deck.at,
-                       "{}: node {}, which gives its direction 1, lies on its axis",
-                       abaqus_label(deck), id);
+    build.error(deck, ErrorCode::geometry,
+                ": node {}, which gives its direction 1, lies on its axis",
+                build.content.element_nodes[deck.first + deck.type->nodes]);
 }
 
 /// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
 void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) {
-  const DeckDialect dialect = build.content.dialect;
-  if (!section.offset_at || dialect == DeckDialect::abaqus) return;
-  const DialectClues& clues = build.clues;
-  if (dialect == DeckDialect::calculix) {
+  const DeckDialect given = build.content.options.dialect;
+  if (!section.offset_at || given == DeckDialect::abaqus) return;
+  const std::optional<DialectClues::Clue>& clue = build.clues.calculix;
+  if (given == DeckDialect::calculix)
     build.source.error(ErrorCode::unsupported, *section.offset_at,
                        "*BEAM SECTION OFFSET is a line that only Abaqus has: CalculiX has OFFSET1 "
                        "and OFFSET2 of *BEAM SECTION");
-  } else if (clues.calculix) {
-    const SourceMark mark = build.source.mark(clues.calculix->at);
+  else if (clue)
     build.source.error(
         ErrorCode::unsupported, *section.offset_at,
-        "*BEAM SECTION OFFSET is a line that only Abaqus has, but the deck has {} ({}:{}), which "
-        "only CalculiX has; if it is one of Abaqus give --dialect abaqus",
-        clues.calculix->what, mark.file, mark.line);
-  }
+        "*BEAM SECTION OFFSET is a line that only Abaqus has, but the deck has {} ({}), which only "
+        "CalculiX has; if it is one of Abaqus give --dialect abaqus",
+        clue->what, build.place(clue->at));
+}
+
+/// OFFSET1 and OFFSET2 in a deck of Abaqus.
+void check_calculix_offset(AbaqusBuild& build, const AbaqusSection& section) {
+  const DeckDialect given = build.content.options.dialect;
+  if (!section.calculix_offset || given == DeckDialect::calculix) return;
+  const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
+  if (given == DeckDialect::abaqus)
+    build.error(section, ErrorCode::unsupported,
+                " has OFFSET1 or OFFSET2, which only CalculiX has: Abaqus has the line *BEAM "
+                "SECTION OFFSET");
+  else if (clue)
+    build.error(section, ErrorCode::unsupported,
+                " has OFFSET1 or OFFSET2 as in CalculiX, but the deck has {} ({}), which only "
+                "Abaqus has; if it is one of CalculiX give --dialect calculix",
+                clue->what, build.place(clue->at));
 }
 
 }  // namespace
@@ -59,11 +66,10 @@ void report_abaqus_directions(AbaqusBuild& build) {
     const auto& [first, count] = elements;
     const std::string others =
         count == 1 ? std::string() : fmt::format(" and {}", plural(count - 1, "other element"));
-    build.source.error(ErrorCode::geometry, section->at,
-                       "{}: its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; "
-                       "expected a direction across it in the second line",
-                       section->shown, section->n1(0) + 0.0, section->n1(1) + 0.0,
-                       section->n1(2) + 0.0, first, others);
+    build.error(*section, ErrorCode::geometry,
+                ": its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; expected a "
+                "direction across it in the second line",
+                section->n1(0) + 0.0, section->n1(1) + 0.0, section->n1(2) + 0.0, first, others);
   }
 }
 
@@ -73,58 +79,42 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
   if (deck.directed) direct_abaqus_beam(build, deck, e);
   const int nodes = element_kernel(e.type).nodes;
   std::array<Vec3, 3> arms{}, p{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(nodes); ++k)
-    p[k] = build.model.positions[e.nodes[k]];
+  for (int k = 0; k < nodes; ++k) p[k] = build.model.positions[e.nodes[k]];
   for (int k = 0; k < nodes && !deck.directed; ++k) {
     if (!is_along_axis(beam_tangent(p, nodes, k), e.reference)) continue;
     auto& [first, count] = build.along_direction[&section];
     if (++count == 1) first = abaqus_label(deck);
     return;
   }
-  if (section.arm.isZero(0.0)) return;
-  if (!std::isfinite(section.arm.squaredNorm())) return;  // an error already
+  // One that is not finite is an error already.
+  if (section.arm.isZero(0.0) || !std::isfinite(section.arm.squaredNorm())) return;
   for (int k = 0; k < nodes; ++k) {
     const Vec3 t = beam_tangent(p, nodes, k).stableNormalized();
     const Vec3 n2 = t.cross(e.reference.stableNormalized()).normalized();
     // Without length or direction it is refused by `validate`, as one at its nodes.
     if (!t.allFinite() || !n2.allFinite() || n2.isZero(0.0)) return;
-    Vec3& arm = arms[static_cast<std::size_t>(k)];
-    arm = section.arm(0) * n2.cross(t) + section.arm(1) * n2;
-    for (double& x : arm)
+    arms[k] = section.arm(0) * n2.cross(t) + section.arm(1) * n2;
+    for (double& x : arms[k])
       if (std::abs(x) < 1e-14 * section.arm.stableNorm()) x = 0.0;
   }
-  for (std::size_t k = 0; k < static_cast<std::size_t>(nodes); ++k)
+  for (int k = 0; k < nodes; ++k)
     e.nodes[k] = build.arms.end(build.model, build.source, e.nodes[k], arms[k], e.source);
 }
 
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) {
   const bool constants = section.shape == "GENERAL";
   if (!std::isfinite(section.arm.squaredNorm()))
-    return build.source.error(ErrorCode::not_finite, section.at,
-                              "{}: its centroid is at ({:g}, {:g}) of the node, expected numbers "
-                              "whose squares do not overflow",
-                              section.shown, section.arm(0) + 0.0, section.arm(1) + 0.0);
+    return build.error(section, ErrorCode::not_finite,
+                       ": its centroid is at ({:g}, {:g}) of the node, expected numbers whose "
+                       "squares do not overflow",
+                       section.arm(0) + 0.0, section.arm(1) + 0.0);
   if (constants && (section.arm - section.shear_center).norm() > 1e-9 * section.arm.norm())
-    build.source.error(ErrorCode::incomplete, section.at,
-                       "{}: its centroid is at ({:g}, {:g}) of the node and its shear centre at "
-                       "({:g}, {:g}), expected both at one place (*CENTROID, *SHEAR CENTER)",
-                       section.shown, section.arm(0), section.arm(1), section.shear_center(0),
-                       section.shear_center(1));
+    build.error(section, ErrorCode::incomplete,
+                ": its centroid is at ({:g}, {:g}) of the node and its shear centre at ({:g}, "
+                "{:g}), expected both at one place (*CENTROID, *SHEAR CENTER)",
+                section.arm(0), section.arm(1), section.shear_center(0), section.shear_center(1));
   check_abaqus_offset_line(build, section);
-  if (!section.calculix_offset || build.content.dialect == DeckDialect::calculix) return;
-  const DialectClues& clues = build.clues;
-  if (build.content.dialect == DeckDialect::abaqus) {
-    build.source.error(ErrorCode::unsupported, section.at,
-                       section.shown +
-                           " has OFFSET1 or OFFSET2, which only CalculiX has: Abaqus has the line "
-                           "*BEAM SECTION OFFSET");
-  } else if (clues.abaqus) {
-    const SourceMark mark = build.source.mark(clues.abaqus->at);
-    build.source.error(ErrorCode::unsupported, section.at,
-                       "{} has OFFSET1 or OFFSET2 as in CalculiX, but the deck has {} ({}:{}), "
-                       "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                       section.shown, clues.abaqus->what, mark.file, mark.line);
-  }
+  check_calculix_offset(build, section);
 }
 
 }  // namespace floatframe

@@ -1,8 +1,5 @@
 // Surfaces, spiders, equations and supports of an Abaqus deck in the model.
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
+#include <unordered_map>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
@@ -13,79 +10,60 @@
 namespace floatframe {
 namespace {
 
-/// Collects nodes, each once, with the sum of their weights; used again for the next spider.
+/// Collects nodes, each once, with the sum of their weights.
 class NodeList {
  public:
-  explicit NodeList(std::size_t count) : place_(count, -1) {}
-  void clear() {
-    for (const std::vector<int>* list : {&nodes, &excluded_}) {
-      for (const int node : *list) place_[node] = -1;
-    }
-    nodes.clear();
-    weights.clear();
-    excluded_.clear();
-  }
-  void exclude(int node) {
-    if (node < 0) return;
-    place_[node] = -2;
-    excluded_.push_back(node);
-  }
+  void exclude(int node) { place_[node] = -1; }
   void add(int node, double weight) {
-    int& place = place_[node];
-    if (place == -2) return;
-    if (place < 0) {
-      place = static_cast<int>(nodes.size());
+    const auto [it, fresh] = place_.try_emplace(node, static_cast<int>(nodes.size()));
+    if (it->second < 0) return;
+    if (fresh) {
       nodes.push_back(node);
       weights.push_back(0.0);
     }
-    weights[place] += weight;
+    weights[it->second] += weight;
   }
   std::vector<int> nodes;
   std::vector<double> weights;
 
  private:
-  std::vector<int> place_, excluded_;
+  std::unordered_map<int, int> place_;  // -1: excluded
 };
 
-/// The name in the model, with that of the instance where others have the same.
-std::string surface_name(const AbaqusContent& c, const AbaqusContent::Key& key) {
-  return abaqus_model_name(c, key, c.surfaces);
+/// Faces of the elements of a surface.
+std::vector<ElementFace> faces_of(AbaqusBuild& build, const AbaqusSurface& surface,
+                                  const std::string& name) {
+  std::vector<ElementFace> faces;
+  const std::size_t before = build.source.errors();
+  for (const AbaqusSurface::Item& item : surface.items) {
+    for (const int e : build.elements.resolve(item.where)) {
+      const int index = build.element_index[e];
+      const AbaqusElement& element = build.content.elements[e];
+      const std::size_t count =
+          index < 0 ? 0 : element_faces(build.model.elements[index].type).size();
+      if (static_cast<std::size_t>(item.face) >= count) {
+        build.source.error(ErrorCode::not_found, item.where.at, "surface {}: {} has no face {}",
+                           shown(name), abaqus_label(element), item.face + 1);
+        break;
+      }
+      faces.push_back({index, item.face});
+    }
+  }
+  if (faces.empty() && build.source.errors() == before)
+    build.source.error(ErrorCode::missing, surface.at, "surface {} is empty", shown(name));
+  return faces;
 }
 
 void build_surfaces(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
-  FeModel& model = build.model;
   for (const auto& [key, surface] : c.surfaces) {
-    const std::string name = surface_name(c, key);
-    if (surface.of_nodes) {
-      std::vector<int> nodes;
-      for (const AbaqusSurface::Item& item : surface.items) {
-        const std::vector<int> found = build.nodes.resolve(item.where);
-        nodes.insert(nodes.end(), found.begin(), found.end());
-      }
-      if (!surface.internal && !nodes.empty()) model.node_sets.emplace(name, std::move(nodes));
+    const std::string name = abaqus_model_name(c, key, c.surfaces);
+    if (!surface.of_nodes) {
+      build.model.surfaces[name] = faces_of(build, surface, name);
       continue;
     }
-    std::vector<ElementFace> faces;
-    const std::size_t before = build.source.errors();
-    for (const AbaqusSurface::Item& item : surface.items) {
-      for (const int e : build.elements.resolve(item.where)) {
-        const int index = build.element_index[e];
-        const AbaqusElement& element = c.elements[e];
-        const std::size_t count = index < 0 ? 0 : element_faces(model.elements[index].type).size();
-        if (static_cast<std::size_t>(item.face) >= count) {
-          build.source.error(ErrorCode::not_found, item.where.at,
-                             "surface {}: element {} ({}) has no face {}", shown(name), element.id,
-                             element.type->name, item.face + 1);
-          break;
-        }
-        faces.push_back({index, item.face});
-      }
-    }
-    if (faces.empty() && build.source.errors() == before) {
-      build.source.error(ErrorCode::missing, surface.at, "surface {} is empty", shown(name));
-    }
-    model.surfaces[name] = std::move(faces);
+    std::vector<int> nodes = abaqus_surface_nodes(build, surface);
+    if (!surface.internal && !nodes.empty()) build.model.node_sets.emplace(name, std::move(nodes));
   }
 }
 
@@ -94,9 +72,8 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   const AbaqusSurface* const surface = find_abaqus_surface(build, *spider.surface, name);
   if (surface == nullptr) return;
   if (surface->of_nodes) {
-    for (const AbaqusSurface::Item& item : surface->items) {
+    for (const AbaqusSurface::Item& item : surface->items)
       for (const int node : build.nodes.resolve(item.where)) list.add(node, item.weight);
-    }
     return;
   }
   const FeModel& model = build.model;
@@ -111,79 +88,55 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   }
 }
 
-void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, NodeList& list) {
-  const AbaqusContent& c = build.content;
-  Spider spider;
-  spider.kind = raw.kind;
-  spider.name = raw.name;
-  spider.mask = raw.mask;
-  spider.source = raw.at;
+/// The reference of a spider; -1 and an error if it is not one node.
+int reference_of(AbaqusBuild& build, const AbaqusSpider& raw) {
+  if (!raw.reference_by_element) return build.nodes.one(raw.where, "reference node");
+  const int e = build.elements.one(raw.where, "*DISTRIBUTING COUPLING");
+  if (e < 0) return -1;
+  const AbaqusElement& element = build.content.elements[e];
+  if (element.type->family == AbaqusType::Family::coupling) return build.node_of(element, 0);
+  build.source.error(ErrorCode::wrong_value, raw.where.at,
+                     "*DISTRIBUTING COUPLING names {}, expected one of type DCOUP3D",
+                     abaqus_label(element));
+  return -1;
+}
+
+void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) {
+  Spider spider = raw.made;
+  spider.source = raw.where.at;
   const std::size_t before = build.source.errors();
-  if (raw.reference_by_element) {
-    const int e = build.elements.one(raw.reference, "*DISTRIBUTING COUPLING");
-    if (e >= 0) {
-      const AbaqusElement& element = c.elements[e];
-      if (element.type->family != AbaqusType::Family::coupling) {
-        build.source.error(
-            ErrorCode::wrong_value, raw.at,
-            "*DISTRIBUTING COUPLING names element {} ({}), expected one of type DCOUP3D",
-            element.id, element.type->name);
-      } else if (const std::vector<int> node = build.nodes_of_elements({e}); node.size() == 1) {
-        spider.reference = node.front();
-      } else {
-        build.source.error(ErrorCode::not_found, element.at,
-                           "element {} ({}): node {} does not exist", element.id,
-                           element.type->name, c.element_nodes[element.first]);
-      }
-    }
-  } else {
-    spider.reference = build.nodes.one(raw.reference, "reference node");
-  }
+  spider.reference = reference_of(build, raw);
   if (raw.rotation) {
     spider.rotation_node = build.nodes.one(*raw.rotation, "rotation node");
     if (spider.rotation_node == spider.reference) spider.rotation_node = -1;
   }
-  list.clear();
+  NodeList list;
   list.exclude(spider.reference);
   list.exclude(spider.rotation_node);
   for (std::size_t k = 0; k < raw.nodes.size(); ++k) {
     const double weight = raw.weights.empty() ? 1.0 : raw.weights[k];
     for (const int node : build.nodes.resolve(raw.nodes[k])) list.add(node, weight);
   }
-  for (const AbaqusReference& elements : raw.elements) {
-    for (const int node : build.nodes_of_elements(build.elements.resolve(elements))) {
+  for (const AbaqusReference& elements : raw.elements)
+    for (const int node : build.nodes_of_elements(build.elements.resolve(elements)))
       list.add(node, 1.0);
-    }
-  }
   if (raw.surface && !only_nodes) add_surface(build, raw, list);
   if (build.source.errors() != before) return;
-  if (list.nodes.empty() && !only_nodes) {
-    build.source.error(ErrorCode::missing, raw.at,
-                       "the rigid body or coupling has no nodes beside its reference");
-    return;
-  }
+  if (list.nodes.empty() && !only_nodes)
+    return build.source.error(ErrorCode::missing, raw.where.at,
+                              "the rigid body or coupling has no nodes beside its reference");
   spider.nodes = list.nodes;
   if (spider.kind == Spider::Kind::mean) spider.weights = list.weights;
   build.model.spiders.push_back(std::move(spider));
 }
 
-/// Displacements of a rotation node are rotations of its reference.
-class DofMap {
- public:
-  explicit DofMap(const FeModel& model) {
-    for (const Spider& s : model.spiders) {
-      if (s.rotation_node >= 0) reference_.emplace(s.rotation_node, s.reference);
-    }
-  }
-  bool is_rotation(int node) const { return reference_.contains(node); }
-  Dof operator()(int node, int axis) const {
-    const auto it = reference_.find(node);
-    return it == reference_.end() ? Dof{node, axis} : Dof{it->second, axis % 3 + 3};
-  }
+/// By rotation nodes: their references, whose rotations are their displacements.
+using Rotations = std::map<int, int>;
 
- private:
-  std::map<int, int> reference_;
-};
+Dof meant_dof(const Rotations& rotations, int node, int axis) {
+  const auto it = rotations.find(node);
+  return it == rotations.end() ? Dof{node, axis} : Dof{it->second, axis % 3 + 3};
+}
 
 /// A term in body axes: of a turned node one of each axis.
 void add_term(LinearEquation& equation, const Dof& dof, double factor,
@@ -204,30 +157,27 @@ void add_term(LinearEquation& equation, const Dof& dof, double factor,
   }
 }
 
-void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap& dofs,
+void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const Rotations& rotations,
                     const std::map<int, Mat3>& axes) {
   std::vector<std::vector<int>> nodes;
   const std::size_t before = build.source.errors();
   for (const AbaqusEquation::Term& term : raw.terms) {
-    nodes.push_back(build.nodes.resolve(term.nodes));
+    nodes.push_back(build.nodes.resolve(term.where));
     if (build.source.errors() != before) return;
-    if (nodes.back().size() != 1 && nodes.back().size() != nodes.front().size()) {
-      build.source.error(ErrorCode::wrong_count, raw.at,
-                         "*EQUATION: {} has {} nodes, expected 1 or {} as in the first term",
-                         build.content.text(term.nodes, "node"), nodes.back().size(),
-                         nodes.front().size());
-      return;
-    }
+    if (nodes.back().size() != 1 && nodes.back().size() != nodes.front().size())
+      return build.source.error(ErrorCode::wrong_count, raw.at,
+                                "*EQUATION: {} has {} nodes, expected 1 or {} as in the first term",
+                                build.content.text(term.where, "node"), nodes.back().size(),
+                                nodes.front().size());
   }
   build.nodes.spend(nodes.front().size() * raw.terms.size(), raw.at);
   for (std::size_t k = 0; k < nodes.front().size(); ++k) {
     LinearEquation equation;
     equation.source = raw.at;
-    for (std::size_t t = 0; t < raw.terms.size(); ++t) {
-      const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][k];
-      const Dof dof = dofs(node, raw.terms[t].axis);
-      add_term(equation, dof, raw.terms[t].factor, axes);
-    }
+    for (std::size_t t = 0; t < raw.terms.size(); ++t)
+      add_term(equation,
+               meant_dof(rotations, nodes[t][nodes[t].size() == 1 ? 0 : k], raw.terms[t].axis),
+               raw.terms[t].factor, axes);
     build.model.equations.push_back(std::move(equation));
   }
 }
@@ -253,30 +203,32 @@ void check_turned_spiders(AbaqusBuild& build, const std::map<int, Mat3>& axes) {
 
 }  // namespace
 
+std::vector<int> abaqus_surface_nodes(AbaqusBuild& build, const AbaqusSurface& surface) {
+  std::vector<int> nodes;
+  for (const AbaqusSurface::Item& item : surface.items) {
+    const std::vector<int> found = build.nodes.resolve(item.where);
+    nodes.insert(nodes.end(), found.begin(), found.end());
+  }
+  return nodes;
+}
+
 const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
                                          std::string& shown_name) {
   const AbaqusContent& c = build.content;
-  const int name = reference.name;
-  const FeSource& at = reference.at;
-  const AbaqusNamed<AbaqusSurface> found = find_abaqus_name(c, c.surfaces, reference.scope, name);
+  const AbaqusNamed<AbaqusSurface> found =
+      find_abaqus_name(c, c.surfaces, reference.scope, reference.name);
   if (found.entry != nullptr) {
-    shown_name = surface_name(c, found.entry->first);
+    shown_name = abaqus_model_name(c, found.entry->first, c.surfaces);
     return &found.entry->second;
   }
-  if (found.several) {
+  const std::string& name = c.names[reference.name];
+  if (found.several)
     build.source.error(
-        ErrorCode::duplicate, at,
-        "surface {} is in several instances: put the name of one and a dot before it",
-        shown(c.names[name]));
-    return nullptr;
-  }
-  std::vector<std::string> known;
-  for (const auto& [key, s] : c.surfaces) {
-    if (known.size() == most_known) break;
-    known.push_back(c.names[key.second]);
-  }
-  build.source.error(ErrorCode::not_found, at, "surface {} does not exist{}", shown(c.names[name]),
-                     did_you_mean(c.names[name], known));
+        ErrorCode::duplicate, reference.at,
+        "surface {} is in several instances: put the name of one and a dot before it", shown(name));
+  else
+    build.source.error(ErrorCode::not_found, reference.at, "surface {} does not exist{}",
+                       shown(name), did_you_mean(name, abaqus_names_of(c, c.surfaces)));
   return nullptr;
 }
 
@@ -285,28 +237,27 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   if (!only_nodes) {
     build_surfaces(build);
     std::string name;
-    for (const AbaqusPreTension& p : c.pre_tensions) find_abaqus_surface(build, p.surface, name);
+    for (const AbaqusThing& p : c.pre_tensions) find_abaqus_surface(build, p.where, name);
     build.source.throw_if_any();
   }
-  NodeList list(c.nodes.size());
-  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes, list);
-  const DofMap dofs(build.model);
+  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes);
+  Rotations rotations;
+  for (const Spider& s : build.model.spiders)
+    if (s.rotation_node >= 0) rotations.emplace(s.rotation_node, s.reference);
   const std::map<int, Mat3> axes = abaqus_node_axes(build);
   // A *MPC is several equations: one error is enough.
   FeSource wrong;
   for (const AbaqusEquation& equation : c.equations) {
     if (equation.at.file == wrong.file && equation.at.line == wrong.line) continue;
     const std::size_t before = build.source.errors();
-    build_equation(build, equation, dofs, axes);
+    build_equation(build, equation, rotations, axes);
     if (build.source.errors() != before) wrong = equation.at;
   }
-  for (const AbaqusSupport& support : c.supports) {
-    for (const int node : build.nodes.resolve(support.nodes)) {
-      const bool rotation = dofs.is_rotation(node);
-      const unsigned mask = rotation ? (support.mask & 7u) << 3 : support.mask;
-      build.model.supports.push_back({dofs(node, 0).node, mask, support.at});
-    }
-  }
+  for (const AbaqusSupport& support : c.supports)
+    for (const int node : build.nodes.resolve(support.where))
+      build.model.supports.push_back(
+          {meant_dof(rotations, node, 0).node,
+           rotations.contains(node) ? (support.mask & 7u) << 3 : support.mask, support.where.at});
   check_turned_spiders(build, axes);
   if (!only_nodes && build.source.errors() == 0) build_abaqus_ties(build);
   build.arms.tie(build.model);

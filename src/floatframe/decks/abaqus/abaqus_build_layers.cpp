@@ -5,14 +5,13 @@
 // (1, 2, 3, 1), after that rotation; without an orientation global x, or global z where x is within
 // 0.1 degrees of the normal. CalculiX has the axes in space; with the third along the normal that
 // is the same.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/decks/nodes_of_element.hpp"
 #include "floatframe/decks/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -22,57 +21,48 @@ namespace {
 using Family = AbaqusType::Family;
 using Kind = AbaqusOrientation::Kind;
 
-/// What the two programs read in their own ways.
-struct DialectHabit {
-  std::string what;      ///< "SYSTEM=Z RECTANGULAR"
-  const char* calculix;  ///< what CalculiX does with it: "takes it as RECTANGULAR"
-  const char* taken;     ///< and what it is then: "taken as RECTANGULAR"
-};
-
-/// Whether it is CalculiX' way here. A note where it is not sure that the user knows.
+/// Whether something, as "SYSTEM=Z RECTANGULAR", is meant as in CalculiX, which "ignores it"; it is
+/// "ignored" then. A note where it is not sure that the user knows.
 bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
-                    const DialectHabit& d) {
+                    const std::string& what, const char* does, const char* done) {
   const DialectClues& clues = build.clues;
-  const DeckDialect given = build.content.dialect;
-  if (given == DeckDialect::abaqus) return false;
-  const std::string what = fmt::format("orientation {}: {} is ", shown(name), d.what);
-  if (given == DeckDialect::by_content && (!clues.calculix || clues.abaqus)) {
-    if (clues.by_axes || clues.calculix || !clues.abaqus)
-      build.note(o.at, what + fmt::format("taken as in Abaqus; if the deck is one of CalculiX, "
-                                          "which {}, give --dialect calculix",
-                                          d.calculix));
-    return false;
-  }
-  build.note(
-      o.at,
-      what + fmt::format("{}, as CalculiX does; if the deck is one of Abaqus give --dialect abaqus",
-                         d.taken));
-  return true;
+  const bool given = build.content.options.dialect != DeckDialect::by_content;
+  const bool calculix = build.dialect() == DeckDialect::calculix;
+  const bool known = given || (clues.abaqus && !clues.calculix && !clues.by_axes);
+  if (calculix)
+    build.note(o.at,
+               "orientation {}: {} is {}, as CalculiX does; if the deck is one of Abaqus give "
+               "--dialect abaqus",
+               shown(name), what, done);
+  else if (!known)
+    build.note(
+        o.at,
+        "orientation {}: {} is taken as in Abaqus; if the deck is one of CalculiX, which {}, "
+        "give --dialect calculix",
+        shown(name), what, does);
+  return calculix;
 }
 
 /// In the program of the deck. CalculiX ignores the Z of a system, a point c, and a turn whose
 /// axis is blank.
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                                      const std::string& name, bool shell) {
-  const char* const ignores = "ignores it";
-  const char* const ignored = "ignored";
   if (o.kind == Kind::z_rectangular &&
-      is_of_calculix(build, o, name,
-                     {"SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR", "taken as RECTANGULAR"}))
+      is_of_calculix(build, o, name, "SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR",
+                     "taken as RECTANGULAR"))
     o.kind = Kind::rectangular;
   if (o.kind != Kind::cylindrical && o.c != Vec3::Zero() &&
       is_of_calculix(build, o, name,
-                     {fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
-                      ignores, ignored}))
+                     fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
+                     "ignores it", "ignored"))
     o.c.setZero();
   // Of shells the axis alone says which one is about the normal.
   if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
       is_of_calculix(
           build, o, name,
-          {fmt::format(
-               "the additional rotation of {:g} degrees, whose axis is blank (1 in Abaqus),",
-               o.angle * 180.0 / std::numbers::pi),
-           ignores, ignored}))
+          fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 in Abaqus),",
+                      o.angle * 180.0 / std::numbers::pi),
+          "ignores it", "ignored"))
     o.axis = 0;
   if (o.points_on_a_line())
     build.source.error(ErrorCode::wrong_value, o.at, "orientation {} {}", shown(name),
@@ -107,28 +97,24 @@ Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
 
 /// Which axis of an orientation is about the normal of a shell.
 int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
-  const DialectClues& clues = build.clues;
-  const DeckDialect given = build.content.dialect;
-  const bool calculix =
-      given == DeckDialect::calculix || (given == DeckDialect::by_content && clues.calculix);
-  const bool abaqus =
-      given == DeckDialect::abaqus || (given == DeckDialect::by_content && clues.abaqus);
-  if (o.axis == 0 && abaqus && !calculix)
+  const DeckDialect dialect = build.dialect();
+  if (o.axis == 0 && dialect == DeckDialect::abaqus)
     build.source.error(ErrorCode::missing, o.at,
                        "orientation {} is used for shells and has no second line (axis and angle "
                        "of the additional rotation)",
                        shown(name));
   if (o.axis == 0) return 3;
-  if (o.axis != 3 && calculix && !abaqus)
+  if (o.axis != 3 && dialect == DeckDialect::calculix)
     build.source.error(ErrorCode::unsupported, o.at,
                        "orientation {} is used for shells and turns about axis {}; of CalculiX "
                        "decks only turns about axis 3, the normal, are read",
                        shown(name), o.axis);
-  if (o.axis != 3 && o.axis_given && !calculix && !abaqus)
-    build.note(o.at, fmt::format("orientation {} of shells turns about axis {}, which is taken "
-                                 "about the normal as in Abaqus; if the deck is one of CalculiX, "
-                                 "which turns the axes in space, give --dialect calculix",
-                                 shown(name), o.axis));
+  if (o.axis != 3 && o.axis_given && dialect == DeckDialect::by_content && !build.clues.abaqus)
+    build.note(o.at,
+               "orientation {} of shells turns about axis {}, which is taken "
+               "about the normal as in Abaqus; if the deck is one of CalculiX, "
+               "which turns the axes in space, give --dialect calculix",
+               shown(name), o.axis);
   return o.axis;
 }
 
@@ -144,31 +130,22 @@ int default_orientation(AbaqusBuild& build, const Vec3& normal) {
   return it->second;
 }
 
-std::vector<Vec3> corners_of(const AbaqusBuild& build, const Element& e) {
-  const int count = element_kernel(e.type).nodes;
-  std::vector<Vec3> out;
-  for (int k = 0; k < count; ++k) out.push_back(build.model.positions[e.nodes[k]]);
-  return out;
-}
-
 /// Index of a shell section like that of the element, with the angles of its plies.
 int with_angles(AbaqusBuild& build, int section, const std::vector<double>& angles) {
   std::vector<long> key = {section};
   for (const double angle : angles) key.push_back(std::lround(angle * 1e8));
-  std::vector<ShellSection>& shells = build.model.shells;
-  const auto [it, fresh] = build.turned_sections.try_emplace(key, static_cast<int>(shells.size()));
-  if (fresh) {
-    shells.push_back(shells[section]);
-    for (std::size_t k = 0; k < angles.size(); ++k) shells.back().plies[k].angle = angles[k];
-  }
-  return it->second;
+  return changed_copy(build.model.shells, section, build.turned_sections, key,
+                      [&](ShellSection& turned) {
+                        for (std::size_t k = 0; k < angles.size(); ++k)
+                          turned.plies[k].angle = angles[k];
+                      });
 }
 
 }  // namespace
 
 int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section) {
   const bool shell = is_abaqus_sheet(section.family);
-  const AbaqusScope scope = section.elements.scope;
+  const AbaqusScope scope = section.where.scope;
   const auto [place, fresh] = build.orientation_index.try_emplace(
       fmt::format("{}*{}*{}", name, shell ? "SHELL" : "SOLID", static_cast<int>(scope)), -1);
   if (!fresh) return place->second;
@@ -177,9 +154,8 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
     std::vector<std::string> known;
     for (const auto& [key, o] : build.content.orientations)
       if (known.size() < 100) known.push_back(key.second);
-    build.source.error(ErrorCode::not_found, section.at,
-                       "{} names the orientation {}, which does not exist{}", section.shown,
-                       shown(name), did_you_mean(name, known));
+    build.error(section, ErrorCode::not_found, " names the orientation {}, which does not exist{}",
+                shown(name), did_you_mean(name, known));
     return -1;
   }
   const AbaqusOrientation meant = in_program_of_deck(build, *found, name, shell);
@@ -219,29 +195,15 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
                         int material) {
   const std::vector<Material>& all = build.model.materials;
   const std::string huge = huge_sheet(shell, all[material].density, all);
-  if (!huge.empty())
-    build.source.error(ErrorCode::not_finite, section.at, "{}: {}", section.shown, huge);
-}
-
-void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
-                           const Material& material) {
-  if (!material.elasticity) return;
-  if (section.family == Family::beam)
-    build.source.error(ErrorCode::unsupported, section.at,
-                       "{}: material {} is not isotropic, which beams must be", section.shown,
-                       shown(section.material));
-  if (section.family == Family::solid && material.plane)
-    build.source.error(ErrorCode::unsupported, section.at,
-                       "{}: material {} is a lamina, which only shells can have", section.shown,
-                       shown(section.material));
+  if (!huge.empty()) build.error(section, ErrorCode::not_finite, ": {}", huge);
 }
 
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e) {
-  e.orientation = p.orientation;
   if (!is_abaqus_sheet(section.family) || !p.directional) return;
-  const std::vector<Vec3> corners = corners_of(build, e);
-  if (p.orientation < 0) e.orientation = default_orientation(build, shell_normal(corners));
+  std::vector<Vec3> corners;
+  for (const int node : nodes_of_element(e)) corners.push_back(build.model.positions[node]);
+  if (e.orientation < 0) e.orientation = default_orientation(build, shell_normal(corners));
   const bool own = std::any_of(section.plies.begin(), section.plies.end(),
                                [](const auto& ply) { return !ply.orientation.empty(); });
   if (!own) return;

@@ -1,6 +1,4 @@
 // Nodes, elements, masses and sets of an Abaqus deck in the model.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <unordered_set>
@@ -23,14 +21,24 @@ struct Count {
   }
 };
 
-/// Nodes or elements that get a new number, since another instance or the assembly has theirs.
+/// The numbers of nodes or elements in the model: new ones where another instance or the assembly
+/// has theirs. Numbers of one scope are different, so only several scopes can share one.
 class Renumbered {
  public:
-  Renumbered(AbaqusBuild& build, const char* what) : b_(build), what_(what) {}
-  void add(AbaqusScope scope, int old, int fresh, const FeSource& at) {
+  template <class T>
+  Renumbered(AbaqusBuild& build, const char* what, const AbaqusNumbered<T>& all)
+      : b_(build), what_(what) {
+    for (const T& thing : all) free_ = std::max<std::int64_t>(free_, thing.id);
+  }
+  /// Nothing if there is no free one.
+  std::optional<int> number(AbaqusScope scope, int old, const FeSource& at) {
+    if (b_.content.parts.empty() || taken_.insert(old).second) return old;
+    if (++free_ > std::numeric_limits<int>::max()) return std::nullopt;
+    const int fresh = static_cast<int>(free_);
     Range& r = ranges_[scope];
     if (r.count++ == 0) r = {1, old, fresh, fresh, at};
     r.last = fresh;
+    return fresh;
   }
   void note() {
     for (const auto& [scope, r] : ranges_) {
@@ -39,11 +47,12 @@ class Renumbered {
                              : instance == b_.content.instances.end()
                                  ? std::string("the part")
                                  : "instance " + shown(instance->second.name);
-      b_.note(r.at, r.count == 1
-                        ? fmt::format("{} {} of {} has the number of another one: it becomes {} {}",
-                                      what_, r.old, of, what_, r.first)
-                        : fmt::format("{} {}s of {} have numbers of others: they become {} to {}",
-                                      r.count, what_, of, r.first, r.last));
+      if (r.count == 1)
+        b_.note(r.at, "{} {} of {} has the number of another one: it becomes {} {}", what_, r.old,
+                of, what_, r.first);
+      else
+        b_.note(r.at, "{} {}s of {} have numbers of others: they become {} to {}", r.count, what_,
+                of, r.first, r.last);
     }
   }
 
@@ -55,6 +64,8 @@ class Renumbered {
   };
   AbaqusBuild& b_;
   const char* what_;
+  std::int64_t free_ = 0;
+  std::unordered_set<int> taken_;
   std::map<AbaqusScope, Range> ranges_;
 };
 
@@ -66,88 +77,74 @@ void build_masses(AbaqusBuild& build) {
     const bool rotary = element.type->family == Family::rotary;
     if (!rotary && element.type->family != Family::mass) continue;
     if (section_of[e] < 0) {
-      build.source.error(ErrorCode::missing, element.at, "{} has no {}", abaqus_label(element),
-                         rotary ? "*ROTARY INERTIA" : "*MASS");
+      build.error(element, ErrorCode::missing, " has no {}", rotary ? "*ROTARY INERTIA" : "*MASS");
       continue;
     }
     const AbaqusSection& section = c.masses[section_of[e]];
-    const auto node =
-        c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
-    if (node == c.node_of_label.end()) {
-      build.source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
-                         abaqus_label(element), c.element_nodes[element.first]);
-      continue;
-    }
+    const int node = build.node_of(element, 0);
+    if (node < 0) continue;
     if (const std::string huge = huge_mass(section.mass, section.J); !huge.empty())
-      build.source.error(ErrorCode::not_finite, section.at, "{} of {}: {}", section.shown,
-                         abaqus_label(element), huge);
+      build.error(section, ErrorCode::not_finite, " of {}: {}", abaqus_label(element), huge);
     const Mat3& R = c.placement(element.scope).R;
-    build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose(),
-                                  section.at,
+    build.model.masses.push_back({node, section.mass, R * section.J * R.transpose(),
+                                  section.where.at,
                                   fmt::format("{} of {}", section.shown, abaqus_label(element))});
   }
 }
 
 }  // namespace
 
-void AbaqusBuild::note(const FeSource& at, const std::string& text) {
-  const SourceMark m = source.mark(at);
-  model.notes.push_back(fmt::format("{}:{}: {}", m.file, m.line, text));
+DeckDialect AbaqusBuild::dialect() const {
+  if (content.options.dialect != DeckDialect::by_content) return content.options.dialect;
+  if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
+  return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
 }
 
-std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
+int AbaqusBuild::node_of(const AbaqusElement& element, int k) {
+  const int node = content.node_of(element, k);
+  if (node < 0)
+    error(element, ErrorCode::not_found, ": node {} does not exist",
+          content.element_nodes[element.first + k]);
+  return node;
+}
+
+std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) const {
   std::vector<int> result;
-  list_of_node_.resize(content.nodes.size(), 0);
-  ++node_list_;
-  for (const int e : list) {
-    const AbaqusElement& element = content.elements[e];
-    for (int k = 0; k < element.type->nodes; ++k) {
-      const auto it = content.node_of_label.find(
-          AbaqusContent::label(element.scope, content.element_nodes[element.first + k]));
-      if (it == content.node_of_label.end()) continue;
-      int& last = list_of_node_[it->second];
-      if (last == node_list_) continue;
-      last = node_list_;
-      result.push_back(it->second);
-    }
-  }
+  std::unordered_set<int> known;
+  for (const int e : list)
+    for (int k = 0; k < content.elements[e].type->nodes; ++k)
+      if (const int node = content.node_of(content.elements[e], k);
+          node >= 0 && known.insert(node).second)
+        result.push_back(node);
   return result;
 }
 
 void build_abaqus_nodes(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  std::int64_t free_number = 0;
-  for (const AbaqusNode& node : c.nodes) free_number = std::max<std::int64_t>(free_number, node.id);
   const bool several = c.instances.size() > 1;
   model.positions.reserve(c.nodes.size());
   model.node_ids.reserve(c.nodes.size());
   model.node_sources.reserve(c.nodes.size());
-  std::unordered_set<int> taken;
-  Renumbered nodes(build, "node");
+  Renumbered numbers(build, "node", c.nodes);
   for (const AbaqusNode& node : c.nodes) {
     model.positions.push_back(c.placement(node.scope).at(node.p));
     if (const std::string huge = huge_place(model.positions.back()); !huge.empty())
       build.source.error(ErrorCode::not_finite, node.at, "node {}{}: {}", c.prefix(node.scope),
                          node.id, huge);
-    int id = node.id;
-    // Numbers of one scope are different, so only several scopes can share one.
-    if (!c.parts.empty() && !taken.insert(id).second) {
-      if (++free_number > std::numeric_limits<int>::max())
-        build.source.stop(ErrorCode::out_of_range, node.at,
-                          "node {}{} has the number of another node, and there is no free one",
-                          c.prefix(node.scope), id);
-      id = static_cast<int>(free_number);
-      nodes.add(node.scope, node.id, id, node.at);
-    }
-    model.node_ids.push_back(id);
+    const std::optional<int> id = numbers.number(node.scope, node.id, node.at);
+    if (!id)
+      build.source.stop(ErrorCode::out_of_range, node.at,
+                        "node {}{} has the number of another node, and there is no free one",
+                        c.prefix(node.scope), node.id);
+    model.node_ids.push_back(*id);
     model.node_sources.push_back(node.at);
     if (several)
       model.node_names.push_back(c.instances.contains(node.scope)
                                      ? fmt::format("{}{}", c.prefix(node.scope), node.id)
                                      : std::string());
   }
-  nodes.note();
+  numbers.note();
   build.source.throw_if_any();
 }
 
@@ -164,18 +161,16 @@ struct ElementCounts {
 };
 
 void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
-  if (counts.structural.number == 0) {
+  if (counts.structural.number == 0)
     build.source.error(ErrorCode::missing, {0, 0}, "the deck has no element with stiffness");
-  }
-  for (const auto& [type, count] : counts.skins) {
-    build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
-                                     "ignored; their element sets are node sets",
-                                     count.number, type->name));
-  }
-  for (const auto& [type, count] : counts.read_as) {
-    build.note(count.at, fmt::format("{} elements of type {} are read {}", count.number, type->name,
-                                     type->remark));
-  }
+  for (const auto& [type, count] : counts.skins)
+    build.note(count.at,
+               "{} elements of type {} have no section: skins of the mesh, ignored; their element "
+               "sets are node sets",
+               count.number, type->name);
+  for (const auto& [type, count] : counts.read_as)
+    build.note(count.at, "{} elements of type {} are read {}", count.number, type->name,
+               type->remark);
 }
 
 void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_only, bool given) {
@@ -187,40 +182,29 @@ void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_o
 
 void no_section(AbaqusBuild& build, const AbaqusElement& element) {
   const Family family = element.type->family;
-  build.source.error(ErrorCode::missing, element.at,
-                     "{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
-                     family == Family::solid   ? "SOLID"
-                     : family == Family::shell ? "SHELL"
-                                               : "BEAM");
+  build.error(element, ErrorCode::missing, " has no section: no *{} SECTION names a set with it",
+              family == Family::solid   ? "SOLID"
+              : family == Family::shell ? "SHELL"
+                                        : "BEAM");
 }
 
 /// Nothing if one of its nodes is not there.
 std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
                                   const AbaqusProperties& p) {
-  const AbaqusContent& c = build.content;
-  Element result;
+  Element result = p.like;
   result.type = element.type->type;
-  result.material = p.material;
-  result.section = p.section;
-  result.reference = p.reference;
   result.id = element.id;
   result.source = element.at;
   for (int k = 0; k < element.type->nodes; ++k) {
-    const int id = c.element_nodes[element.first + k];
-    const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
-    if (it == c.node_of_label.end()) {
-      build.source.error(ErrorCode::not_found, element.at, "{}: node {} does not exist",
-                         abaqus_label(element), id);
-      return std::nullopt;
-    }
-    result.nodes[k] = it->second;
+    result.nodes[k] = build.node_of(element, k);
+    if (result.nodes[k] < 0) return std::nullopt;
   }
   return result;
 }
 
 }  // namespace
 
-void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
+void build_abaqus_elements(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
   const std::size_t before = build.source.errors();
@@ -229,24 +213,20 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   look_at_abaqus_beams(build, section_of);
   const std::vector<AbaqusProperties> properties = abaqus_properties(build);
   const bool mesh_only = c.sections.empty() && c.materials.empty();
+  const std::optional<Material>& material = c.options.material;
   AbaqusProperties given;
-  if (mesh_only && options.material) {
-    model.materials.push_back(*options.material);
+  given.like.material = mesh_only && material ? 0 : -1;
+  if (mesh_only && material) {
+    model.materials.push_back(*material);
     model.material_names.emplace_back();
-    given.material = 0;
   }
   const bool has_shells =
       std::any_of(c.sections.begin(), c.sections.end(),
                   [](const AbaqusSection& s) { return s.family == Family::shell; });
   AbaqusNodalThickness thickness(build);
   ElementCounts counts;
-  Renumbered renumbered(build, "element");
-  std::unordered_set<int> taken, without_area;
-  const bool scopes = !c.parts.empty();
-  constexpr std::int64_t largest_id = std::numeric_limits<int>::max();
-  std::int64_t free_number = 0;
-  for (const AbaqusElement& element : c.elements)
-    free_number = std::max<std::int64_t>(free_number, element.id);
+  Renumbered numbers(build, "element", c.elements);
+  std::unordered_set<int> without_area;
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const AbaqusElement& element = c.elements[e];
     const AbaqusType& type = *element.type;
@@ -267,7 +247,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     if (type.family == Family::rod && !(c.sections[section].thickness > 0.0)) {
       if (without_area.insert(section).second)
         build.source.error(
-            ErrorCode::incomplete, c.sections[section].at,
+            ErrorCode::incomplete, c.sections[section].where.at,
             "*SOLID SECTION names {}, which needs the area of its section in the line below",
             abaqus_label(element));
       continue;
@@ -281,10 +261,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       move_abaqus_beam(build, c.sections[section], element, *result);
     }
     build.element_index[e] = static_cast<int>(model.elements.size());
-    if (scopes && !taken.insert(result->id).second && ++free_number <= largest_id) {
-      renumbered.add(element.scope, result->id, static_cast<int>(free_number), element.at);
-      result->id = static_cast<int>(free_number);
-    }
+    result->id = numbers.number(element.scope, result->id, element.at).value_or(result->id);
     if (c.instances.size() > 1 && c.instances.contains(element.scope))
       result->name =
           fmt::format("element {}{} ({})", c.prefix(element.scope), element.id, type.name);
@@ -293,25 +270,22 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   report_abaqus_directions(build);
   thickness.notes();
   note_elements(build, counts);
-  renumbered.note();
-  note_materials(build, counts, mesh_only, options.material.has_value());
+  numbers.note();
+  note_materials(build, counts, mesh_only, material.has_value());
   build_masses(build);
 }
 
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  const auto name_of = [&](const AbaqusContent::Key& key, const auto& sets) {
-    return abaqus_model_name(c, key, sets);
-  };
   for (const auto& [key, set] : c.node_sets) {
     const std::vector<int>& members = build.nodes.members(key);
-    if (!set.internal) model.node_sets[name_of(key, c.node_sets)] = members;
+    if (!set.internal) model.node_sets[abaqus_model_name(c, key, c.node_sets)] = members;
   }
   for (const auto& [key, set] : c.element_sets) {
     const std::vector<int>& members = build.elements.members(key);
     if (set.internal) continue;
-    const std::string name = name_of(key, c.element_sets);
+    const std::string name = abaqus_model_name(c, key, c.element_sets);
     std::vector<int> list, skins;
     for (const int e : members) {
       const int index = build.element_index[e];
@@ -327,8 +301,7 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
   }
   for (const auto* resolver : {&build.nodes, &build.elements}) {
     if (resolver->gaps() == 0) continue;
-    build.note(resolver->first_gap(),
-               fmt::format("{} numbers of GENERATE do not exist", resolver->gaps()));
+    build.note(resolver->first_gap(), "{} numbers of GENERATE do not exist", resolver->gaps());
   }
 }
 

@@ -1,7 +1,5 @@
 // Sections and materials of an Abaqus deck: which elements have which, and what they are in the
 // model. Round sections depend on whose deck it is.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -12,10 +10,9 @@
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
+namespace {
 
 using Family = AbaqusType::Family;
-
-namespace {
 
 /// Index of the section's material in the model, which gets it if it is not there yet.
 int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::string& name,
@@ -27,15 +24,13 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
   const auto it = c.materials.find(name);
   Material material;
   if (it == c.materials.end()) {
-    build.source.error(
-        ErrorCode::not_found, section.at, "{} names the material {}, which does not exist{}",
-        section.shown, shown(name),
-        c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order));
+    build.error(section, ErrorCode::not_found, " names the material {}, which does not exist{}",
+                shown(name),
+                c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order));
   } else {
     const AbaqusMaterial& m = it->second;
-    if (!m.young) {
+    if (!m.young)
       build.source.error(ErrorCode::missing, m.at, "material {} has no *ELASTIC", shown(name));
-    }
     if (!m.density) model.without_density[static_cast<int>(model.materials.size())] = {m.at};
     material = m.elasticity ? anisotropic_material(*m.elasticity, m.plane, m.density.value_or(0.0))
                             : Material{m.young.value_or(0.0), m.poisson.value_or(0.0),
@@ -48,44 +43,47 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
   return place->second;
 }
 
+void check_material(AbaqusBuild& build, const AbaqusSection& section, const Material& material) {
+  if (!material.elasticity) return;
+  if (section.family == Family::beam)
+    build.error(section, ErrorCode::unsupported,
+                ": material {} is not isotropic, which beams must be", shown(section.material));
+  if (section.family == Family::solid && material.plane)
+    build.error(section, ErrorCode::unsupported,
+                ": material {} is a lamina, which only shells can have", shown(section.material));
+}
+
 /// The section of CIRC with one number: a radius in Abaqus, a diameter in CalculiX.
 BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
   const DialectClues& clues = build.clues;
-  DeckDialect dialect = build.content.dialect;
-  if (dialect == DeckDialect::by_content &&
-      clues.abaqus.has_value() != clues.calculix.has_value()) {
-    dialect = clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
-    const DialectClues::Clue& clue = clues.abaqus ? *clues.abaqus : *clues.calculix;
-    const SourceMark mark = build.source.mark(clue.at);
-    build.note(section.at, fmt::format("{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {}:{})",
-                                       section.shown, section.round,
-                                       dialect == DeckDialect::abaqus ? "radius" : "diameter",
-                                       program_of(dialect), clue.what, mark.file, mark.line));
-  }
+  const DeckDialect dialect = build.dialect();
+  const bool abaqus = dialect == DeckDialect::abaqus;
   if (dialect == DeckDialect::by_content) {
-    build.source.error(
-        ErrorCode::out_of_range, section.at,
-        "{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and {}: give "
+    build.error(
+        section, ErrorCode::out_of_range,
+        ", SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and {}: give "
         "--dialect abaqus or --dialect calculix (in a model file 'dialect:')",
-        section.shown, section.round,
+        section.round,
         clues.abaqus ? fmt::format("the deck has things of both ({}, {})", clues.abaqus->what,
                                    clues.calculix->what)
                      : "nothing in the deck shows whose it is");
+  } else if (build.content.options.dialect == DeckDialect::by_content) {
+    const DialectClues::Clue& clue = abaqus ? *clues.abaqus : *clues.calculix;
+    build.note(section.where.at, "{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {})",
+               section.shown, section.round, abaqus ? "radius" : "diameter",
+               abaqus ? "Abaqus" : "CalculiX", clue.what, build.place(clue.at));
   }
-  return BeamSection::solid_round(section.round * (dialect == DeckDialect::abaqus ? 2.0 : 1.0));
+  return BeamSection::solid_round(section.round * (abaqus ? 2.0 : 1.0));
 }
 
 /// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
 void check_form(AbaqusBuild& build, const AbaqusSection& section) {
-  const DialectClues& clues = build.clues;
-  if (!section.calculix_form || !clues.abaqus || build.content.dialect == DeckDialect::calculix) {
-    return;
-  }
-  const SourceMark mark = build.source.mark(clues.abaqus->at);
-  build.source.error(ErrorCode::unsupported, section.at,
-                     "{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
-                     "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                     section.shown, section.shape, clues.abaqus->what, mark.file, mark.line);
+  const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
+  if (section.calculix_form && clue && build.content.options.dialect != DeckDialect::calculix)
+    build.error(section, ErrorCode::unsupported,
+                ", SECTION={} has dimensions as in CalculiX, but the deck has {} ({}), which only "
+                "Abaqus has; if it is one of CalculiX give --dialect calculix",
+                section.shape, clue->what, build.place(clue->at));
 }
 
 /// Dimensions may be finite, and what follows from them not.
@@ -93,31 +91,30 @@ void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const 
                         const Material& material) {
   const double mass = s.A * material.density;
   if (std::isfinite(mass + s.A) && std::isfinite(s.Iy + s.Iz) && std::isfinite(s.J)) return;
-  build.source.error(ErrorCode::not_finite, section.at,
-                     "{}: its area is {:g}, its moments are {:g} and {:g}, its torsion constant is "
-                     "{:g} and its mass over length {:g}, expected finite numbers",
-                     section.shown, s.A, s.Iy, s.Iz, s.J, mass);
+  build.error(section, ErrorCode::not_finite,
+              ": its area is {:g}, its moments are {:g} and {:g}, its torsion constant is {:g} and "
+              "its mass over length {:g}, expected finite numbers",
+              s.A, s.Iy, s.Iz, s.J, mass);
 }
 
 /// Axes that no *ORIENTATION gives are global ones; whether an instance turns them is not said.
 void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p) {
   const AbaqusContent& c = build.content;
-  const auto instance = c.instances.find(section.elements.scope);
+  const auto instance = c.instances.find(section.where.scope);
   if (instance == c.instances.end() || instance->second.place.R.isIdentity(1e-12)) return;
-  const Material& m = build.model.materials[p.material];
+  const Material& m = build.model.materials[p.like.material];
   const bool directional =
       is_abaqus_sheet(section.family) ? p.directional : m.elasticity.has_value();
   if (directional && section.orientation.empty())
-    build.source.error(
-        ErrorCode::contradiction, section.at,
-        "{} of the turned instance {} has a material with directions and no orientation",
-        section.shown, shown(instance->second.name));
+    build.error(section, ErrorCode::contradiction,
+                " of the turned instance {} has a material with directions and no orientation",
+                shown(instance->second.name));
 }
 
 }  // namespace
 
-bool is_abaqus_point(Family family) noexcept {
+bool is_abaqus_point(AbaqusType::Family family) noexcept {
   return family == Family::mass || family == Family::rotary || family == Family::coupling ||
          family == Family::spring || family == Family::damper || family == Family::gap;
 }
@@ -130,50 +127,35 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
                                       const std::vector<AbaqusSection>& sections) {
   const AbaqusContent& c = build.content;
   std::vector<int> section_of(c.elements.size(), -1);
-  const bool in_calculix =
-      c.dialect == DeckDialect::calculix ||
-      (c.dialect == DeckDialect::by_content && build.clues.calculix && !build.clues.abaqus);
+  const bool in_calculix = build.dialect() == DeckDialect::calculix;
   for (std::size_t s = 0; s < sections.size(); ++s) {
     const AbaqusSection& section = sections[s];
     bool reported = false, noted = false;
-    for (const int e : build.elements.resolve(section.elements)) {
+    for (const int e : build.elements.resolve(section.where)) {
       const AbaqusElement& element = c.elements[e];
-      int& at = section_of[e];
       // Sets of parts hold masses beside the elements of a section.
       const Family family = element.type->family;
       const bool fits =
           family == section.family || (family == Family::rod && section.family == Family::solid);
-      if (!fits && is_abaqus_point(family)) {
+      if (!fits && is_abaqus_point(family)) continue;
+      const int before = std::exchange(section_of[e], static_cast<int>(s));
+      if (reported || (fits && before < 0)) continue;
+      const std::string names = fmt::format("{} names {}", section.shown, abaqus_label(element));
+      if (fits && in_calculix) {
+        if (before != static_cast<int>(s) && !std::exchange(noted, true))
+          build.note(section.where.at,
+                     "{} is the second one of {}: the last one counts, as in CalculiX",
+                     section.shown, abaqus_label(element));
         continue;
       }
-      if (reported) {
-        at = static_cast<int>(s);
-        continue;
-      }
-      std::string error;
-      if (!fits) {
-        error = element.type->family == Family::skin
-                    ? fmt::format(
-                          "{} names {}; elements of this type are read as skins only, without a "
-                          "section",
-                          section.shown, abaqus_label(element))
-                    : fmt::format("{} names {}, for which it is not supported", section.shown,
-                                  abaqus_label(element));
-      } else if (at >= 0 && in_calculix) {
-        if (at != static_cast<int>(s) && !std::exchange(noted, true))
-          build.note(section.at,
-                     fmt::format("{} is the second one of {}: the last one counts, as in CalculiX",
-                                 section.shown, abaqus_label(element)));
-      } else if (at >= 0) {
-        const SourceMark first = build.source.mark(sections[at].at);
-        error = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
-                            abaqus_label(element), first.file, first.line);
-      }
-      if (!error.empty()) {
-        reported = true;
-        build.source.error(ErrorCode::wrong_value, section.at, error);
-      }
-      at = static_cast<int>(s);
+      reported = true;
+      build.source.error(
+          ErrorCode::wrong_value, section.where.at,
+          fits ? fmt::format("{}, which has one already ({})", names,
+                             build.place(sections[before].where.at))
+          : family == Family::skin
+              ? names + "; elements of this type are read as skins only, without a section"
+              : names + ", for which it is not supported");
     }
   }
   return section_of;
@@ -187,11 +169,10 @@ void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of
     const AbaqusSection& section = c.sections[section_of[e]];
     const std::string_view type = c.elements[e].type->name;
     if (section.family != Family::beam || section.shape == "RECT" || type == "B32R" ||
-        (section.shape == "CIRC" && type == "B32")) {
+        (section.shape == "CIRC" && type == "B32"))
       continue;
-    }
     clues.add(DeckDialect::abaqus, fmt::format("SECTION={} for {}", section.shape, type),
-              section.at);
+              section.where.at);
   }
 }
 
@@ -204,28 +185,28 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
     const auto material = [&](const std::string& name) {
       return material_of(build, section, name, material_index);
     };
-    p.material = material(section.material);
-    check_abaqus_material(build, section, model.materials[p.material]);
+    p.like.material = material(section.material);
+    check_material(build, section, model.materials[p.like.material]);
     if (!section.orientation.empty())
-      p.orientation = abaqus_orientation(build, section.orientation, section);
+      p.like.orientation = abaqus_orientation(build, section.orientation, section);
     if (section.family == Family::beam) {
-      p.section = static_cast<int>(model.sections.size());
+      p.like.section = static_cast<int>(model.sections.size());
       check_form(build, section);
       check_abaqus_beam_offset(build, section);
       model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
       BeamSection& beam = model.sections.back();
-      check_beam_numbers(build, section, beam, model.materials[p.material]);
+      check_beam_numbers(build, section, beam, model.materials[p.like.material]);
       beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
-      p.reference = build.content.placement(section.elements.scope).R * section.n1;
+      p.like.reference = build.content.placement(section.where.scope).R * section.n1;
     } else if (section.family == Family::solid && section.thickness > 0.0) {  // of rods
-      p.section = static_cast<int>(model.sections.size());
+      p.like.section = static_cast<int>(model.sections.size());
       model.sections.push_back({section.thickness, 0.0, 0.0, 0.0});
-      check_beam_numbers(build, section, model.sections.back(), model.materials[p.material]);
+      check_beam_numbers(build, section, model.sections.back(), model.materials[p.like.material]);
     } else if (is_abaqus_sheet(section.family)) {
-      p.section = static_cast<int>(model.shells.size());
+      p.like.section = static_cast<int>(model.shells.size());
       const ShellSection shell = abaqus_shell_section(build, section, material);
-      if (!section.nodal_thickness) check_abaqus_sheet(build, section, shell, p.material);
-      p.directional = !is_plain(shell, model.materials[p.material]);
+      if (!section.nodal_thickness) check_abaqus_sheet(build, section, shell, p.like.material);
+      p.directional = !is_plain(shell, model.materials[p.like.material]);
       model.shells.push_back(shell);
     }
     check_turned_instance(build, section, p);

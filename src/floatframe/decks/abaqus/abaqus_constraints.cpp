@@ -1,5 +1,8 @@
-// Rigid bodies, couplings, equations and supports of Abaqus decks.
-#include <fmt/format.h>
+// Rigid bodies, couplings, equations and supports of Abaqus decks; and multi-point constraints that
+// are linear in small displacements: BEAM (a rigid bar between two nodes), PIN (equal
+// displacements) and TIE of nodes at one place. The first node or set of *MPC depends on the second
+// one. Source: Abaqus Keywords Guide.
+#include <algorithm>
 
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -8,235 +11,221 @@ namespace floatframe {
 namespace {
 
 constexpr int most_terms = 100000;
-
-unsigned bits(int first, int last) noexcept {
-  unsigned mask = 0;
-  for (int k = first; k <= last; ++k) mask |= 1u << (k - 1);
-  return mask;
-}
-
-std::string_view reference_node(AbaqusLines& lines, const AbaqusKeyword& keyword) {
-  return lines.required(keyword, "REF NODE");
-}
+constexpr unsigned all_directions = 63u, all_translations = 7u;
 
 /// COUPLING=STRUCTURAL: the mean is one of rotations too, where nodes have them.
-void check_rotations_of_nodes(AbaqusLines& lines, const AbaqusKeyword& kind,
-                              AbaqusContent& content) {
-  const std::string_view found = kind.value("COUPLING");
-  if (found.empty() || same_word(found, "CONTINUUM")) return;
-  if (!same_word(found, "STRUCTURAL"))
-    return lines.error(ErrorCode::wrong_value, kind,
-                       "has COUPLING={}, expected CONTINUUM or STRUCTURAL", shown(found));
-  content.note(
-      lines.source().mark(kind.at),
-      "*DISTRIBUTING, COUPLING=STRUCTURAL is taken as CONTINUUM: the reference follows the "
-      "displacements of its nodes, rotations of nodes of shells and beams do not count");
+void check_rotations_of_nodes(AbaqusCard& kind) {
+  if (kind.is_one_of("COUPLING", "CONTINUUM STRUCTURAL",
+                     "has COUPLING={}, expected CONTINUUM or STRUCTURAL") &&
+      same_word(kind.value("COUPLING"), "STRUCTURAL"))
+    kind.note(
+        "*DISTRIBUTING, COUPLING=STRUCTURAL is taken as CONTINUUM: the reference follows the "
+        "displacements of its nodes, rotations of nodes of shells and beams do not count");
+}
+
+/// *KINEMATIC or *DISTRIBUTING behind *COUPLING.
+void read_kind_of_coupling(AbaqusCard& kind, AbaqusSpider& spider) {
+  unsigned mask = 0;
+  while (kind.next()) mask |= kind.dofs(0, kind.shown);
+  if (mask == 0) mask = all_directions;
+  if (kind.name == "KINEMATIC") {
+    kind.allow_only("");
+    spider.made.mask = mask;
+    return;
+  }
+  kind.allow_only("WEIGHTINGMETHOD COUPLING");
+  spider.made.kind = Spider::Kind::mean;
+  kind.is_one_of("WEIGHTINGMETHOD", "UNIFORM", "has the weighting {}, expected UNIFORM");
+  check_rotations_of_nodes(kind);
+  if (mask != all_directions)
+    kind.note(
+        "*DISTRIBUTING names some degrees of freedom; the reference follows its nodes in all six");
+}
+
+/// The terms of an equation, `count` in all; false where nothing behind them can be read.
+bool read_terms(AbaqusCard& card, std::size_t count, AbaqusEquation& equation) {
+  while (equation.terms.size() < count) {
+    if (!card.next()) {
+      card.source.error(ErrorCode::wrong_count, equation.at, "*EQUATION has {} terms, expected {}",
+                        equation.terms.size(), count);
+      return false;
+    }
+    if (card.fields.size() % 3 != 0) {
+      card.error_in_line(ErrorCode::wrong_value,
+                         "*EQUATION: a line of terms is node, degree of freedom, factor, ...");
+      return false;
+    }
+    for (std::size_t k = 0; k < card.fields.size(); k += 3) {
+      AbaqusEquation::Term term{{card.reference(k)}};
+      const std::optional<int> dof = parse_integer(card.field(k + 1));
+      if (!dof || *dof < 1 || *dof > 6)
+        card.error_in_line(ErrorCode::out_of_range,
+                           "*EQUATION: the degree of freedom is {}, expected 1 to 6",
+                           shown(card.field(k + 1)));
+      term.axis = dof.value_or(1) - 1;
+      term.factor = card.real(k + 2, "factor");
+      equation.terms.push_back(term);
+    }
+  }
+  return true;
+}
+
+void add_mpc_bar(AbaqusContent& content, const AbaqusReference& node,
+                 const AbaqusReference& reference) {
+  // Bars that end at one node are one spider.
+  for (AbaqusSpider& s : content.spiders) {
+    const bool same = s.where.name == reference.name && s.where.first == reference.first &&
+                      s.where.scope == reference.scope;
+    if (same && s.made.name.starts_with("MPC ")) return s.nodes.push_back(node);
+  }
+  AbaqusSpider spider;
+  spider.where = reference;
+  spider.made.name = "MPC " + content.text(reference, "node");
+  spider.nodes = {node};
+  content.spiders.push_back(std::move(spider));
+}
+
+/// Two nodes that stand before the line and are at one place.
+bool are_at_one_place(const AbaqusContent& content, const AbaqusReference& first,
+                      const AbaqusReference& second) {
+  std::vector<Vec3> places;
+  for (const AbaqusReference* const r : {&first, &second}) {
+    const int node =
+        r->name < 0 && r->first == r->last ? content.nodes.find(r->scope, r->first) : -1;
+    if (node < 0) return false;
+    places.push_back(content.placement(r->scope).at(content.nodes[node].p));
+  }
+  return places[0] == places[1];
+}
+
+void read_mpc_line(AbaqusCard& card) {
+  AbaqusContent& content = card.content;
+  const std::string type = upper_case(card.field(0));
+  if (!is_abaqus_word("BEAM PIN TIE", type))
+    return card.error_in_line(ErrorCode::unsupported,
+                              "*MPC: the type {} is not supported, expected BEAM, PIN or TIE; use "
+                              "*RIGID BODY, *COUPLING or *EQUATION",
+                              shown(card.field(0)));
+  if (card.fields.size() != 3)
+    return card.error_in_line(ErrorCode::wrong_count, "*MPC: {} has {} nodes or sets, expected 2",
+                              type, card.fields.size() - 1);
+  const AbaqusReference node = card.reference(1), reference = card.reference(2);
+  if (type == "PIN") {
+    for (int axis = 0; axis < 3; ++axis)
+      content.equations.push_back({{{{node}, axis, 1.0}, {{reference}, axis, -1.0}}, node.at});
+  } else if (type == "TIE" && !are_at_one_place(content, node, reference)) {
+    card.error_in_line(ErrorCode::unsupported,
+                       "*MPC: TIE is read of two nodes at one place that stand before this line; "
+                       "use PIN, or BEAM for a rigid bar");
+  } else {
+    add_mpc_bar(content, node, reference);
+  }
+}
+
+/// The spider of a keyword with REF NODE; nothing without that.
+void add_spider(AbaqusCard& card, AbaqusSpider& spider) {
+  if (card.value("REFNODE").empty()) return;
+  spider.where = card.reference_of("REFNODE");
+  if (card.has("ROTNODE")) spider.rotation = card.reference_of("ROTNODE");
+  if (card.has("SURFACE")) spider.surface = card.named("SURFACE");
+  card.content.spiders.push_back(std::move(spider));
 }
 
 }  // namespace
 
-unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fields,
-                     std::size_t index, std::string_view what) {
-  const std::string_view field = index < fields.size() ? fields[index] : std::string_view{};
-  const std::optional<int> first = parse_integer(field);
-  std::optional<int> last = first;
-  if (index + 1 < fields.size() && !fields[index + 1].empty()) {
-    last = parse_integer(fields[index + 1]);
+void read_abaqus_rigid_body(AbaqusCard& card) {
+  AbaqusSpider spider;
+  card.required("REF NODE");
+  if (!card.value("POSITION").empty() && !same_word(card.value("POSITION"), "INPUT"))
+    card.error(ErrorCode::unsupported,
+               "moves its reference to the centre of mass (POSITION), which is not supported");
+  for (const char* parameter : {"NSET", "TIENSET", "PINNSET", "ELSET"}) {
+    if (!card.has(parameter)) continue;
+    (parameter == std::string_view("ELSET") ? spider.elements : spider.nodes)
+        .push_back(card.named(parameter));
+    spider.made.name = card.word(parameter);
   }
-  if (!first || !last || *first < 1 || *last > 6 || *last < *first) {
-    lines.source().error(
-        ErrorCode::missing, "{}: the degrees of freedom are {}{}{}, expected numbers from 1 to 6",
-        what, field.empty() ? "missing" : shown(field), last != first ? " to " : "",
-        last != first ? shown(fields[index + 1]) : "");
-    return 0;
-  }
-  return bits(*first, *last);
+  // Pinned nodes follow in translation only: for nodes without rotations there is no difference.
+  if (card.has("PINNSET")) spider.made.mask = all_translations;
+  if (card.has("PINNSET") && spider.nodes.size() != 1)
+    card.error(ErrorCode::unsupported, "has PIN NSET beside another set, which is not supported");
+  if (spider.nodes.empty() && spider.elements.empty())
+    card.error(ErrorCode::incomplete, "needs the parameter NSET or ELSET");
+  add_spider(card, spider);
 }
 
-void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                            AbaqusContent& content) {
-  lines.allow_only(keyword,
-                   {"NSET", "ELSET", "REFNODE", "ROTNODE", "TIENSET", "PINNSET", "POSITION"});
+void read_abaqus_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.at = keyword.at;
-  const std::string_view reference = reference_node(lines, keyword);
-  if (!keyword.value("POSITION").empty() && !same_word(keyword.value("POSITION"), "INPUT")) {
-    lines.error(ErrorCode::unsupported, keyword,
-                "moves its reference to the centre of mass (POSITION), which is not supported");
-  }
-  for (const char* parameter : {"NSET", "TIENSET", "PINNSET"}) {
-    if (keyword.has(parameter)) {
-      spider.nodes.push_back(content.named(keyword.value(parameter), keyword.at));
-      spider.name = abaqus_name(keyword.value(parameter));
-    }
-  }
-  if (keyword.has("PINNSET")) {
-    // Pinned nodes follow in translation only: for nodes without rotations there is no difference.
-    if (spider.nodes.size() == 1) {
-      spider.mask = bits(1, 3);
-    } else {
-      lines.error(ErrorCode::unsupported, keyword,
-                  "has PIN NSET beside another set, which is not supported");
-    }
-  }
-  if (keyword.has("ELSET")) {
-    spider.elements.push_back(content.named(keyword.value("ELSET"), keyword.at));
-    spider.name = abaqus_name(keyword.value("ELSET"));
-  }
-  if (spider.nodes.empty() && spider.elements.empty()) {
-    lines.error(ErrorCode::incomplete, keyword, "needs the parameter NSET or ELSET");
-  }
-  lines.skip_data();
-  if (reference.empty()) return;
-  spider.reference = content.reference(reference, keyword.at);
-  if (keyword.has("ROTNODE")) {
-    spider.rotation = content.reference(keyword.value("ROTNODE"), keyword.at);
-  }
-  content.spiders.push_back(std::move(spider));
-}
-
-void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  lines.allow_only(keyword, {"CONSTRAINTNAME", "REFNODE", "SURFACE"});
-  AbaqusSpider spider;
-  spider.at = keyword.at;
-  spider.name = abaqus_name(keyword.value("CONSTRAINTNAME"));
-  const std::string_view reference = reference_node(lines, keyword);
-  const std::string_view surface = lines.required(keyword, "SURFACE");
-  lines.skip_data();
-  AbaqusKeyword kind;
-  std::string_view line;
-  if (!lines.next_keyword(kind) || (kind.name != "KINEMATIC" && kind.name != "DISTRIBUTING")) {
-    lines.error(ErrorCode::incomplete, keyword, "is not followed by *KINEMATIC or *DISTRIBUTING");
-    if (!kind.name.empty()) lines.source().stop(ErrorCode::missing, kind.at, "reading ends here");
+  spider.made.name = card.word("CONSTRAINTNAME");
+  card.required("REF NODE");
+  const bool of_surface = !card.required("SURFACE").empty();
+  AbaqusKeyword following;
+  if (!card.lines.next_keyword(following) ||
+      !is_abaqus_word("KINEMATIC DISTRIBUTING", following.name)) {
+    card.error(ErrorCode::incomplete, "is not followed by *KINEMATIC or *DISTRIBUTING");
+    if (!following.name.empty())
+      card.source.stop(ErrorCode::missing, following.at, "reading ends here");
     return;
   }
-  unsigned mask = 0;
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) mask |= abaqus_dofs(lines, fields, 0, kind.shown);
-  if (mask == 0) mask = 63u;
-  if (kind.name == "KINEMATIC") {
-    lines.allow_only(kind, {});
-    spider.mask = mask;
-  } else {
-    lines.allow_only(kind, {"WEIGHTINGMETHOD", "COUPLING"});
-    spider.kind = Spider::Kind::mean;
-    const std::string_view method = kind.value("WEIGHTINGMETHOD");
-    if (!method.empty() && !same_word(method, "UNIFORM")) {
-      lines.error(ErrorCode::wrong_value, kind, "has the weighting {}, expected UNIFORM",
-                  shown(method));
-    }
-    check_rotations_of_nodes(lines, kind, content);
-    if (mask != 63u) {
-      const SourceMark mark = lines.source().mark(kind.at);
-      content.notes.push_back(
-          fmt::format("{}:{}: *DISTRIBUTING names some degrees of freedom; the reference follows "
-                      "its nodes in all six",
-                      mark.file, mark.line));
-    }
-  }
-  if (reference.empty() || surface.empty()) return;
-  spider.reference = content.reference(reference, keyword.at);
-  spider.surface = content.named(surface, keyword.at);
-  content.spiders.push_back(std::move(spider));
+  AbaqusCard kind(following, card.lines, card.content);
+  read_kind_of_coupling(kind, spider);
+  if (of_surface) add_spider(card, spider);
 }
 
-void read_abaqus_kinematic_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                    AbaqusContent& content) {
-  lines.allow_only(keyword, {"REFNODE"});
+void read_abaqus_kinematic_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.at = keyword.at;
-  const std::string_view reference = reference_node(lines, keyword);
-  std::vector<std::string_view> fields;
+  card.required("REF NODE");
   unsigned mask = 0;
-  while (lines.next_fields(fields)) {
-    spider.nodes.push_back(content.reference(fields[0], lines.source().here()));
-    const unsigned dofs = fields.size() > 1 ? abaqus_dofs(lines, fields, 1, keyword.shown) : 63u;
-    if (mask != 0 && dofs != mask) {
-      lines.source().error(ErrorCode::unsupported,
-                           "*KINEMATIC COUPLING has other degrees of freedom than in the line "
-                           "before, which is not supported");
-    }
+  while (card.next()) {
+    spider.nodes.push_back(card.reference(0));
+    const unsigned dofs = card.fields.size() > 1 ? card.dofs(1, card.shown) : all_directions;
+    if (mask != 0 && dofs != mask)
+      card.error_in_line(ErrorCode::unsupported,
+                         "*KINEMATIC COUPLING has other degrees of freedom than in the line "
+                         "before, which is not supported");
     mask = dofs;
   }
-  if (spider.nodes.empty()) return lines.error(ErrorCode::missing, keyword, "has no nodes");
-  if (reference.empty()) return;
-  spider.mask = mask;
-  spider.reference = content.reference(reference, keyword.at);
-  content.spiders.push_back(std::move(spider));
+  if (spider.nodes.empty()) return card.error(ErrorCode::missing, "has no nodes");
+  spider.made.mask = mask;
+  add_spider(card, spider);
 }
 
-void read_abaqus_distributing_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                       AbaqusContent& content) {
-  lines.allow_only(keyword, {"ELSET"});
+void read_abaqus_distributing_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.kind = Spider::Kind::mean;
-  spider.at = keyword.at;
-  const std::string_view elements = lines.required(keyword, "ELSET");
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) {
-    spider.nodes.push_back(content.reference(fields[0], lines.source().here()));
-    const bool given = fields.size() > 1 && !fields[1].empty();
-    spider.weights.push_back(given ? positive_real(lines, fields[1], "the weight of a node") : 1.0);
+  spider.made.kind = Spider::Kind::mean;
+  const bool named = !card.required("ELSET").empty();
+  while (card.next()) {
+    spider.nodes.push_back(card.reference(0));
+    spider.weights.push_back(card.field(1).empty() ? 1.0
+                                                   : card.positive(1, "the weight of a node"));
   }
-  if (spider.nodes.empty()) return lines.error(ErrorCode::missing, keyword, "has no nodes");
-  if (elements.empty()) return;
-  spider.reference = content.named(elements, keyword.at);
+  if (spider.nodes.empty()) return card.error(ErrorCode::missing, "has no nodes");
+  if (!named) return;
+  spider.where = card.named("ELSET");
   spider.reference_by_element = true;
-  content.spiders.push_back(std::move(spider));
+  card.content.spiders.push_back(std::move(spider));
 }
 
-void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  lines.allow_only(keyword, {"INPUT"});
-  lines.take_input(keyword);
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) {
+void read_abaqus_equation(AbaqusCard& card) {
+  card.take_input();
+  while (card.next()) {
     AbaqusEquation equation;
-    equation.at = lines.source().here();
-    const std::size_t before = lines.source().errors();
-    const std::optional<int> count = parse_integer(fields[0]);
-    if (!count || *count < 1 || *count > most_terms || fields.size() != 1) {
-      lines.source().error(ErrorCode::not_a_number, "*EQUATION: {} is no number of terms",
-                           shown(fields[0]));
-      return lines.skip_data();
-    }
-    while (equation.terms.size() < static_cast<std::size_t>(*count)) {
-      if (!lines.next_fields(fields)) {
-        lines.source().error(ErrorCode::wrong_count, equation.at,
-                             "*EQUATION has {} terms, expected {}", equation.terms.size(), *count);
-        return;
-      }
-      if (fields.size() % 3 != 0) {
-        lines.source().error(ErrorCode::wrong_value,
-                             "*EQUATION: a line of terms is node, degree of freedom, factor, ...");
-        return lines.skip_data();
-      }
-      for (std::size_t k = 0; k + 2 < fields.size(); k += 3) {
-        AbaqusEquation::Term term;
-        term.nodes = content.reference(fields[k], lines.source().here());
-        const std::optional<int> dof = parse_integer(fields[k + 1]);
-        if (!dof || *dof < 1 || *dof > 6) {
-          lines.source().error(ErrorCode::out_of_range,
-                               "*EQUATION: the degree of freedom is {}, expected 1 to 6",
-                               shown(fields[k + 1]));
-        }
-        term.axis = dof.value_or(1) - 1;
-        term.factor = lines.real(fields[k + 2], "factor");
-        equation.terms.push_back(term);
-      }
-    }
-    if (lines.source().errors() != before) continue;
-    if (equation.terms.front().factor == 0.0) {
-      lines.source().error(ErrorCode::out_of_range, equation.at,
-                           "*EQUATION: the factor of the first term is zero");
-    }
-    content.equations.push_back(std::move(equation));
+    equation.at = card.here();
+    const std::size_t before = card.source.errors();
+    const std::optional<int> count = parse_integer(card.field(0));
+    if (!count || *count < 1 || *count > most_terms || card.fields.size() != 1)
+      return card.error_in_line(ErrorCode::not_a_number, "*EQUATION: {} is no number of terms",
+                                shown(card.field(0)));
+    if (!read_terms(card, static_cast<std::size_t>(*count), equation)) return;
+    if (card.source.errors() != before) continue;
+    if (equation.terms.front().factor == 0.0)
+      card.source.error(ErrorCode::out_of_range, equation.at,
+                        "*EQUATION: the factor of the first term is zero");
+    card.content.equations.push_back(std::move(equation));
   }
 }
 
-void read_abaqus_boundary(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
+void read_abaqus_boundary(AbaqusCard& card) {
   struct Named {
     const char* name;
     unsigned mask;
@@ -244,19 +233,20 @@ void read_abaqus_boundary(AbaqusLines& lines, const AbaqusKeyword& keyword,
   constexpr std::array words{Named{"ENCASTRE", 63u}, Named{"PINNED", 7u}, Named{"XSYMM", 49u},
                              Named{"YSYMM", 42u},    Named{"ZSYMM", 28u}, Named{"XASYMM", 14u},
                              Named{"YASYMM", 21u},   Named{"ZASYMM", 35u}};
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) {
-    AbaqusSupport support;
-    support.at = lines.source().here();
-    support.nodes = content.reference(fields[0], support.at);
-    for (const Named& word : words) {
-      if (fields.size() > 1 && same_word(fields[1], word.name)) support.mask = word.mask;
-    }
-    // Degree of freedom 11 is the temperature.
-    if (support.mask == 0 && fields.size() > 1 && fields[1] == "11") continue;
-    if (support.mask == 0) support.mask = abaqus_dofs(lines, fields, 1, keyword.shown);
-    if (support.mask != 0) content.supports.push_back(support);
+  while (card.next()) {
+    AbaqusSupport support{{card.reference(0)}};
+    if (card.field(1) == "11") continue;  // the temperature
+    const auto word = std::find_if(words.begin(), words.end(), [&](const Named& w) {
+      return same_word(card.field(1), w.name);
+    });
+    support.mask = word == words.end() ? card.dofs(1, card.shown) : word->mask;
+    if (support.mask != 0) card.content.supports.push_back(support);
   }
+}
+
+void read_abaqus_mpc(AbaqusCard& card) {
+  card.take_input();
+  while (card.next()) read_mpc_line(card);
 }
 
 }  // namespace floatframe

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -16,6 +15,8 @@
 #include "floatframe/decks/abaqus/abaqus_lines.hpp"
 #include "floatframe/decks/temperature_table.hpp"
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/fe/surface_ties.hpp"
+#include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {
 
@@ -35,7 +36,7 @@ struct AbaqusType {
     damper,    ///< DASHPOTA, ...: ignored
     gap        ///< GAPUNI: *GAP says what becomes of it
   };
-  const char* name;
+  std::string name;
   Family family;
   int nodes;
   ElementType type = ElementType::beam2;  ///< of solids, shells and beams
@@ -48,7 +49,7 @@ constexpr bool is_abaqus_sheet(AbaqusType::Family family) noexcept {
 }
 
 /// Null if the type is not known.
-const AbaqusType* find_abaqus_type(std::string_view name) noexcept;
+const AbaqusType* find_abaqus_type(std::string_view name);
 /// For messages.
 std::vector<std::string> abaqus_type_names();
 
@@ -80,15 +81,60 @@ struct AbaqusReference {
   FeSource at;
 };
 
+/// Scope and number in one.
+inline std::int64_t scoped_number(AbaqusScope scope, int id) noexcept {
+  return static_cast<std::int64_t>(scope) << 32 | static_cast<std::int64_t>(id);
+}
+
+/// Nodes or elements in the order of the deck, found by their scope and number.
+template <class T>
+class AbaqusNumbered {
+ public:
+  /// Index by `scoped_number`.
+  const std::unordered_map<std::int64_t, int>& index() const noexcept { return index_; }
+  /// -1 if there is none.
+  int find(AbaqusScope scope, int id) const {
+    const auto it = index_.find(scoped_number(scope, id));
+    return it == index_.end() ? -1 : it->second;
+  }
+  /// Adds it and returns -1, or the index of the one that has its number already.
+  int add(const T& thing) {
+    const auto [it, fresh] =
+        index_.emplace(scoped_number(thing.scope, thing.id), static_cast<int>(list_.size()));
+    if (!fresh) return it->second;
+    list_.push_back(thing);
+    return -1;
+  }
+  template <class Condition>
+  void remove_if(Condition condition) {
+    const std::vector<T> all = std::exchange(list_, {});
+    index_.clear();
+    for (const T& thing : all)
+      if (!condition(thing)) add(thing);
+  }
+  std::size_t size() const noexcept { return list_.size(); }
+  const T& operator[](std::size_t k) const { return list_[k]; }
+  auto begin() const { return list_.begin(); }
+  auto end() const { return list_.end(); }
+
+ private:
+  std::vector<T> list_;
+  std::unordered_map<std::int64_t, int> index_;
+};
+
 struct AbaqusSet {
   std::vector<AbaqusReference> items;
   bool internal = false;  ///< made by Abaqus/CAE for itself
   FeSource at;
 };
 
+/// What the deck says of nodes, elements or a surface, where it names them: `where.at`.
+struct AbaqusThing {
+  AbaqusReference where;
+};
+
 struct AbaqusSurface {
-  struct Item {
-    AbaqusReference where;
+  struct Item : AbaqusThing {
     int face = -1;        ///< from 0; -1 for nodes
     double weight = 1.0;  ///< of nodes
   };
@@ -120,10 +166,9 @@ struct AbaqusOrientation {
   const char* wrong_points() const noexcept;
 };
 
-struct AbaqusSection {
+struct AbaqusSection : AbaqusThing {
   AbaqusType::Family family = AbaqusType::Family::solid;
   std::string shown;  ///< for messages: "*SOLID SECTION"
-  AbaqusReference elements;
   std::string material;
   std::string orientation;  ///< name; empty: none
   double thickness = 0.0;
@@ -138,9 +183,8 @@ struct AbaqusSection {
   std::vector<Ply> plies;  ///< of *SHELL SECTION, COMPOSITE from the bottom
   bool symmetric = false;  ///< `plies` are the lower half
   BeamSection beam;
-  std::string shape;  ///< of beams: "CIRC"
-  double round =
-      0.0;  ///< of CIRC with one number: that number, whose meaning depends on the dialect
+  std::string shape;           ///< of beams: "CIRC"
+  double round = 0.0;          ///< of CIRC with one number: it depends on the dialect what it is
   bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
   Vec3 n1 = -Vec3::UnitZ();
   Eigen::Vector2d arm = {0.0, 0.0};   ///< of beams: the centroid from the node, in directions 1, 2
@@ -149,39 +193,26 @@ struct AbaqusSection {
   Eigen::Vector2d shear_center = {0.0, 0.0};  ///< of beams of given constants, from the node
   double mass = 0.0;                          ///< of *MASS
   Mat3 J = Mat3::Zero();
-  FeSource at;
 };
 
-/// *INITIAL CONDITIONS, TYPE=TEMPERATURE
-struct AbaqusInitialTemperature {
-  AbaqusReference nodes;
+/// *INITIAL CONDITIONS, TYPE=TEMPERATURE and *NODAL THICKNESS
+struct AbaqusNodalValue : AbaqusThing {
   double value = 0.0;
-  bool gradient = false;  ///< of shells and beams: it differs across the section
+  bool gradient = false;  ///< of temperatures: it differs across the section of shells and beams
 };
 
-/// *NODAL THICKNESS
-struct AbaqusThickness {
-  AbaqusReference nodes;
-  double value = 0.0;
-  FeSource at;
-};
-
-struct AbaqusSpider {
-  Spider::Kind kind = Spider::Kind::rigid;
-  std::string name;
-  AbaqusReference reference;
+/// `where` is its reference.
+struct AbaqusSpider : AbaqusThing {
+  Spider made;                              ///< with its kind, name and mask
   std::optional<AbaqusReference> rotation;  ///< ROT NODE
   std::vector<AbaqusReference> nodes, elements;
   std::vector<double> weights;             ///< one an entry of `nodes`; empty: 1
   std::optional<AbaqusReference> surface;  ///< its name
-  unsigned mask = 63u;
-  bool reference_by_element = false;  ///< `reference` is the element set of a DCOUP3D
-  FeSource at;
+  bool reference_by_element = false;       ///< `where` is the element set of a DCOUP3D
 };
 
 struct AbaqusEquation {
-  struct Term {
-    AbaqusReference nodes;
+  struct Term : AbaqusThing {
     int axis = 0;
     double factor = 0.0;
   };
@@ -189,36 +220,29 @@ struct AbaqusEquation {
   FeSource at;
 };
 
-struct AbaqusSupport {
-  AbaqusReference nodes;
+struct AbaqusSupport : AbaqusThing {
   unsigned mask = 0;
-  FeSource at;
 };
 
 /// *SPRING
-struct AbaqusSpring {
-  AbaqusReference elements;
+struct AbaqusSpring : AbaqusThing {
   std::vector<std::vector<double>> lines;  ///< data, without blank lines
   std::string orientation;                 ///< name; empty: none
   bool nonlinear = false;
-  FeSource at;
 };
 
-/// *TIE, or a contact pair that is joined.
-struct AbaqusTie {
-  AbaqusReference slave, master;  ///< names of surfaces
-  double distance = 0.0;          ///< 0: in proportion to the faces
-  bool adjust = true, rotations = true, contact = false;
-  FeSource at;
+/// *TIE, or a contact pair that is joined; `where` is its slave surface.
+struct AbaqusTie : AbaqusThing {
+  AbaqusReference master;
+  SurfaceTie made;  ///< how they are tied
+  bool contact = false;
 };
 
 /// Turned directions of degrees of freedom.
-struct AbaqusTransform {
-  AbaqusReference nodes;
+struct AbaqusTransform : AbaqusThing {
   AbaqusScope scope = AbaqusScope::part;  ///< in which its points are
   bool cylindrical = false;
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
-  FeSource at;
 };
 
 /// Where an instance is: x = R (p + t - a) + a.
@@ -235,25 +259,17 @@ struct AbaqusCoordinates {
 };
 
 /// *NONSTRUCTURAL MASS
-struct AbaqusNonstructuralMass {
+struct AbaqusNonstructuralMass : AbaqusThing {
   enum class Units { total, volume, area, length };
-  AbaqusReference elements;
   Units units = Units::total;
   bool by_volume = false;  ///< of a total: in proportion to the volume, not the mass
   double value = 0.0;
-  FeSource at;
 };
 
-/// *PRE-TENSION SECTION of a surface, which must be there.
-struct AbaqusPreTension {
-  AbaqusReference surface;
-};
-
-struct AbaqusContent;
+class AbaqusCard;
 /// Constants of a material for which the deck says a temperature later, or not at all.
 struct AbaqusPendingConstants {
-  using Use = void (*)(AbaqusLines&, const AbaqusKeyword&, AbaqusMaterial&,
-                       const std::vector<double>&);
+  using Use = void (*)(AbaqusCard&, AbaqusMaterial&, const std::vector<double>&);
   AbaqusKeyword keyword;
   std::string material;
   std::vector<TemperatureRow> rows;
@@ -269,6 +285,7 @@ struct AbaqusPart {
   bool used = false;           ///< by an instance
   bool grown = false;          ///< by a mesh inside its first instance
   FeSource at;
+  bool is_meshed() const noexcept { return end[0] > begin[0] || end[1] > begin[1]; }
 };
 
 struct AbaqusInstance {
@@ -287,9 +304,8 @@ struct AbaqusOpenBlock {
 struct AbaqusContent {
   using Key = std::pair<AbaqusScope, int>;  ///< scope, index in `names`
 
-  std::vector<AbaqusNode> nodes;
-  std::unordered_map<std::int64_t, int> node_of_label, element_of_label;  ///< by `label`
-  std::vector<AbaqusElement> elements;
+  AbaqusNumbered<AbaqusNode> nodes;
+  AbaqusNumbered<AbaqusElement> elements;
   std::vector<int> element_nodes;
   std::vector<std::string> names;
   std::unordered_map<std::string, int> name_of_text;
@@ -305,17 +321,13 @@ struct AbaqusContent {
   std::vector<AbaqusTie> ties;
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusTransform> transforms;
-  std::vector<AbaqusThickness> thicknesses;
+  std::vector<AbaqusNodalValue> thicknesses, initial_temperatures;
   std::vector<AbaqusNonstructuralMass> nonstructural;
-  std::vector<AbaqusPreTension> pre_tensions;
-  std::vector<AbaqusInitialTemperature> initial_temperatures;
+  std::vector<AbaqusThing> pre_tensions;  ///< *PRE-TENSION SECTION of surfaces
   std::vector<AbaqusPendingConstants> pending;
   std::vector<std::string> notes;
   void note(const SourceMark& mark, const std::string& text);
-  DeckContact contact = DeckContact::refuse;  ///< as the user says
-  double contact_distance = 0.0;
-  DeckDialect dialect = DeckDialect::by_content;  ///< as the user says
-  std::optional<double> temperature;              ///< as the user says
+  FeReadOptions options;  ///< of the temperature also what the deck says
   DialectClues clues;
   /// Only nodes, sets and spiders are wanted: matrices hold what the rest would change.
   bool only_nodes = false;
@@ -331,10 +343,11 @@ struct AbaqusContent {
   int scopes = 2;        ///< how many there are
   std::string material;  ///< the last *MATERIAL
 
-  static std::int64_t label(AbaqusScope scope, int id) noexcept {
-    return static_cast<std::int64_t>(scope) << 32 | static_cast<std::int64_t>(id);
-  }
   int intern(std::string name);
+  /// Index of a node of an element (k from 0); -1 if it is not there.
+  int node_of(const AbaqusElement& element, std::size_t k) const {
+    return nodes.find(element.scope, element_nodes[element.first + k]);
+  }
   /// Of the scope: that of its instance, or as it stands.
   const AbaqusPlacement& placement(AbaqusScope scope) const;
   /// "BOLT-2." if there are several instances and the scope is one of them, else empty.
@@ -348,5 +361,8 @@ struct AbaqusContent {
   /// "node 12" or "node set 'BALL'" with `what` = "node".
   std::string text(const AbaqusReference& reference, std::string_view what) const;
 };
+
+/// "deck.inp:12"
+std::string abaqus_place(const TextSource& source, const FeSource& at);
 
 }  // namespace floatframe

@@ -25,12 +25,9 @@ struct DialectClues {
   /// Looks at a keyword, in a step or before it, and at its parameters.
   void look_at(const AbaqusKeyword& keyword);
   /// Looks at a type of elements.
-  void look_at_type(const char* type, const FeSource& at);
+  void look_at_type(const std::string& type, const FeSource& at);
   /// All of the deck has been looked at.
   void settle();
 };
-
-/// "Abaqus", "CalculiX"
-const char* program_of(DeckDialect dialect) noexcept;
 
 }  // namespace floatframe

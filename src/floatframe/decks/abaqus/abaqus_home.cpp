@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <type_traits>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {
@@ -15,14 +15,6 @@ namespace {
 
 /// The default of its slenderness compensation.
 constexpr double slenderness_of_abaqus = 0.25;
-
-/// Of Abaqus, CalculiX, or nothing shows which.
-DeckDialect dialect_of(const AbaqusBuild& build) {
-  const DialectClues& clues = build.clues;
-  if (build.content.dialect != DeckDialect::by_content) return build.content.dialect;
-  if (clues.abaqus.has_value() == clues.calculix.has_value()) return DeckDialect::by_content;
-  return clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
-}
 
 /// B31, and the shells that are not for thin ones only.
 bool shears(const AbaqusType& type) noexcept {
@@ -32,41 +24,21 @@ bool shears(const AbaqusType& type) noexcept {
   return name.starts_with("B31");
 }
 
-/// The copy of a section without shear.
-template <class Section>
-int without_shear(std::vector<Section>& sections, int section, std::map<int, int>& copies) {
-  const auto [it, fresh] = copies.emplace(section, static_cast<int>(sections.size()));
-  if (fresh) {
-    Section copy = sections[section];
-    if constexpr (std::is_same_v<Section, ShellSection>) {
-      copy.shear = 0.0;
-    } else {
-      copy.shear_y = copy.shear_z = copy.slenderness = 0.0;
-    }
-    sections.push_back(copy);
-  }
-  return it->second;
-}
-
 }  // namespace
 
 double abaqus_shear_factor(std::string_view shape) noexcept {
-  struct Factor {
-    std::string_view shape;
-    double factor;
-  };
-  constexpr std::array factors{Factor{"RECT", 0.85}, Factor{"CIRC", 0.89}, Factor{"PIPE", 0.53},
-                               Factor{"BOX", 0.44}, Factor{"I", 0.44}};
-  const auto it = std::find_if(factors.begin(), factors.end(),
-                               [&](const Factor& f) { return f.shape == shape; });
-  return it == factors.end() ? 1.0 : it->factor;
+  constexpr std::array<std::pair<std::string_view, double>, 5> factors{
+      {{"RECT", 0.85}, {"CIRC", 0.89}, {"PIPE", 0.53}, {"BOX", 0.44}, {"I", 0.44}}};
+  const auto it =
+      std::find_if(factors.begin(), factors.end(), [&](const auto& f) { return f.first == shape; });
+  return it == factors.end() ? 1.0 : it->second;
 }
 
 void as_in_home_program(AbaqusBuild& build) {
   FeModel& model = build.model;
   const AbaqusContent& c = build.content;
   if (c.sections.empty() || build.source.errors() > 0) return;
-  const bool of_abaqus = dialect_of(build) == DeckDialect::abaqus;
+  const bool of_abaqus = build.dialect() == DeckDialect::abaqus;
   if (of_abaqus)
     for (BeamSection& s : model.sections)
       if (s.has_shear()) s.slenderness = slenderness_of_abaqus;
@@ -80,15 +52,18 @@ void as_in_home_program(AbaqusBuild& build) {
     if (of_abaqus && !quadratic(element.type) && !cubic) element.mass_form = MassForm::lumped;
     if (shears(type)) continue;
     if (is_beam(element.type) && model.sections[element.section].has_shear())
-      element.section = without_shear(model.sections, element.section, beams);
+      element.section =
+          changed_copy(model.sections, element.section, beams, element.section,
+                       [](BeamSection& s) { s.shear_y = s.shear_z = s.slenderness = 0.0; });
     if (is_shell(element.type) && model.shells[element.section].shear > 0.0)
-      element.section = without_shear(model.shells, element.section, shells);
+      element.section = changed_copy(model.shells, element.section, shells, element.section,
+                                     [](ShellSection& s) { s.shear = 0.0; });
   }
 }
 
 void note_mass_of_unclear_dialect(AbaqusBuild& build) {
   const std::vector<Element>& elements = build.model.elements;
-  if (build.content.sections.empty() || dialect_of(build) != DeckDialect::by_content ||
+  if (build.content.sections.empty() || build.dialect() != DeckDialect::by_content ||
       std::all_of(elements.begin(), elements.end(),
                   [](const Element& e) { return quadratic(e.type); }))
     return;

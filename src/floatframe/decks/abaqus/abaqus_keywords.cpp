@@ -8,8 +8,6 @@
 namespace floatframe {
 namespace {
 
-using Use = AbaqusKeywordRule::Use;
-
 struct Refused {
   const char* advice;
   std::initializer_list<const char*> names;
@@ -117,73 +115,27 @@ const std::initializer_list<const char*> definitions = {
     "BRITTLE SHEAR", "BRITTLE FAILURE", "CRUSHABLE FOAM", "CRUSHABLE FOAM HARDENING",
     "POROUS METAL PLASTICITY", "POROUS FAILURE CRITERIA", "VOID NUCLEATION", "ACOUSTIC MEDIUM"};
 
-/// What describes the part itself and stands before the first step. *MODEL CHANGE and
-/// *CHANGE SOLID SECTION belong into a step and change it.
-const std::initializer_list<const char*> of_the_part = {"NODE",
-                                                        "NGEN",
-                                                        "SYSTEM",
-                                                        "NFILL",
-                                                        "NCOPY",
-                                                        "ELGEN",
-                                                        "ELCOPY",
-                                                        "ELEMENT",
-                                                        "MATERIAL",
-                                                        "ELASTIC",
-                                                        "DENSITY",
-                                                        "SOLID SECTION",
-                                                        "SHELL SECTION",
-                                                        "SHELL GENERAL SECTION",
-                                                        "MEMBRANE SECTION",
-                                                        "BEAM SECTION",
-                                                        "BEAM GENERAL SECTION",
-                                                        "NODAL THICKNESS",
-                                                        "MASS",
-                                                        "NONSTRUCTURAL MASS",
-                                                        "ROTARY INERTIA",
-                                                        "RIGID BODY",
-                                                        "COUPLING",
-                                                        "KINEMATIC COUPLING",
-                                                        "DISTRIBUTING COUPLING",
-                                                        "EQUATION",
-                                                        "PART",
-                                                        "INSTANCE",
-                                                        "ASSEMBLY",
-                                                        "TIE",
-                                                        "MPC",
-                                                        "SPRING",
-                                                        "CHANGE SOLID SECTION",
-                                                        "MATRIX INPUT",
-                                                        "MATRIX ASSEMBLE"};
-
-std::unordered_map<std::string, AbaqusKeywordRule> rules() {
-  std::unordered_map<std::string, AbaqusKeywordRule> map;
-  for (const Refused& group : refused) {
-    for (const char* name : group.names) map[abaqus_name(name)] = {Use::refused, group.advice};
-  }
-  for (const auto& list : {of_steps, definitions}) {
-    for (const char* name : list)
-      map.try_emplace(abaqus_name(name), AbaqusKeywordRule{Use::harmless});
-  }
-  return map;
-}
-
 }  // namespace
 
-AbaqusKeywordRule abaqus_keyword_rule(const std::string& name) {
-  static const std::unordered_map<std::string, AbaqusKeywordRule> map = rules();
-  const auto it = map.find(name);
-  if (it != map.end()) return it->second;
-  if (name.starts_with("CONNECTOR")) return map.at("CONNECTORSECTION");
-  return {};
+const char* advice_for_abaqus(const std::string& name) {
+  static const auto map = [] {
+    std::unordered_map<std::string, const char*> advice;
+    for (const Refused& group : refused)
+      for (const char* n : group.names) advice[abaqus_name(n)] = group.advice;
+    return advice;
+  }();
+  const auto it = map.find(name.starts_with("CONNECTOR") ? "CONNECTORSECTION" : name);
+  return it == map.end() ? nullptr : it->second;
 }
 
-bool changes_part_in_step(const std::string& name) {
-  static const std::unordered_set<std::string> names = [] {
-    std::unordered_set<std::string> set;
-    for (const char* n : of_the_part) set.insert(abaqus_name(n));
-    return set;
+bool is_harmless_in_abaqus(const std::string& name) {
+  static const auto set = [] {
+    std::unordered_set<std::string> names;
+    for (const auto& list : {of_steps, definitions})
+      for (const char* n : list) names.insert(abaqus_name(n));
+    return names;
   }();
-  return names.contains(name);
+  return set.contains(name);
 }
 
 }  // namespace floatframe

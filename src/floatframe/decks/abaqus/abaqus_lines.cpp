@@ -1,7 +1,5 @@
 #include "floatframe/decks/abaqus/abaqus_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "floatframe/formats/text/text_fields.hpp"
@@ -17,9 +15,8 @@ bool is_comment(std::string_view line) noexcept { return line.starts_with("**");
 
 std::string without_blanks(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : text)
     if (c != ' ' && c != '\t') result += c;
-  }
   return upper_case(result);
 }
 
@@ -46,18 +43,22 @@ bool AbaqusKeyword::has(std::string_view parameter) const noexcept {
 }
 
 std::string_view AbaqusKeyword::value(std::string_view parameter) const noexcept {
-  for (const Parameter& p : parameters) {
+  for (const Parameter& p : parameters)
     if (p.name == parameter) return p.value;
-  }
   return {};
 }
 
 std::string abaqus_name(std::string_view text) {
   text = trimmed(text);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
     return std::string(text.substr(1, text.size() - 2));
-  }
   return without_blanks(text);
+}
+
+bool is_abaqus_word(std::string_view words, std::string_view word) noexcept {
+  for (std::string_view w = next_word(words); !w.empty(); w = next_word(words))
+    if (w == word) return true;
+  return false;
 }
 
 bool AbaqusLines::next_line(std::string_view& line) {
@@ -69,9 +70,8 @@ bool AbaqusLines::next_line(std::string_view& line) {
     if (without_blanks(name.substr(0, name.find(','))) != "INCLUDE") return true;
     AbaqusKeyword keyword;
     parse_keyword(line, keyword);
-    if (keyword.value("INPUT").empty()) {
+    if (keyword.value("INPUT").empty())
       source_.stop(ErrorCode::incomplete, keyword.at, "*INCLUDE needs the parameter INPUT");
-    }
     source_.include(keyword.value("INPUT"), keyword.at);
   }
   return false;
@@ -120,7 +120,6 @@ bool AbaqusLines::next_keyword(AbaqusKeyword& keyword) {
   while (next_line(line)) {
     if (line.front() != '*') continue;
     parse_keyword(line, keyword);
-    errors_before_ = source_.errors();
     return true;
   }
   return false;
@@ -131,84 +130,6 @@ bool AbaqusLines::next_data(std::string_view& line) {
   if (line.front() != '*') return true;
   source_.put_back();
   return false;
-}
-
-bool AbaqusLines::next_fields(std::vector<std::string_view>& fields) {
-  std::string_view line;
-  if (!next_data(line)) return false;
-  errors_before_ = source_.errors();
-  split_commas(line, fields);
-  if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
-  return true;
-}
-
-void AbaqusLines::skip_data() {
-  std::string_view line;
-  while (next_data(line)) {
-  }
-}
-
-void AbaqusLines::error(ErrorCode code, const AbaqusKeyword& keyword, std::string_view text) {
-  source_.error(code, keyword.at, "{} {}", keyword.shown, text);
-}
-
-std::string_view AbaqusLines::required(const AbaqusKeyword& keyword, std::string_view parameter) {
-  const std::string_view value = keyword.value(without_blanks(parameter));
-  if (value.empty())
-    error(ErrorCode::incomplete, keyword, fmt::format("needs the parameter {}", parameter));
-  if (std::count_if(keyword.parameters.begin(), keyword.parameters.end(),
-                    [&](const auto& p) { return p.name == without_blanks(parameter); }) > 1)
-    error(ErrorCode::duplicate, keyword, fmt::format("has the parameter {} twice", parameter));
-  return value;
-}
-
-void AbaqusLines::allow_only(const AbaqusKeyword& keyword,
-                             std::initializer_list<std::string_view> known) {
-  for (const AbaqusKeyword::Parameter& p : keyword.parameters) {
-    if (std::find(known.begin(), known.end(), p.name) == known.end()) {
-      error(ErrorCode::unsupported, keyword,
-            fmt::format("has the parameter {}, which is not supported", shown(p.name)));
-    }
-  }
-}
-
-void AbaqusLines::take_input(const AbaqusKeyword& keyword) {
-  const std::string_view file = keyword.value("INPUT");
-  if (!file.empty()) source_.include(file, keyword.at);
-}
-
-void AbaqusLines::no_more(const AbaqusKeyword& keyword, const std::vector<std::string_view>& fields,
-                          std::size_t count) {
-  for (std::size_t k = count; k < fields.size(); ++k) {
-    if (fields[k].empty()) continue;
-    source_.error(ErrorCode::wrong_count, "{} has the entry {} behind {}, expected no more",
-                  keyword.shown, shown(fields[k]),
-                  count == 1 ? "its number" : fmt::format("its {} numbers", count));
-    break;
-  }
-  std::string_view more;
-  if (!next_data(more)) return;
-  source_.error(ErrorCode::unsupported,
-                keyword.shown + " has a second line, which is not supported");
-  skip_data();
-}
-
-double AbaqusLines::real(std::string_view field, std::string_view what) {
-  const std::optional<double> value = parse_real(field);
-  if (!value) source_.error(ErrorCode::not_a_number, "{}: {}", what, not_a_real(field));
-  return value.value_or(0.0);
-}
-
-double AbaqusLines::real_or(const std::vector<std::string_view>& fields, std::size_t index,
-                            double otherwise, std::string_view what) {
-  if (index >= fields.size() || fields[index].empty()) return otherwise;
-  return real(fields[index], what);
-}
-
-int AbaqusLines::integer(std::string_view field, std::string_view what) {
-  const std::optional<int> value = parse_integer(field);
-  if (!value) source_.error(ErrorCode::not_a_number, "{}: {}", what, not_an_integer(field));
-  return value.value_or(0);
 }
 
 }  // namespace floatframe

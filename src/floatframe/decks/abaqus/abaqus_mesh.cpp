@@ -1,6 +1,4 @@
 // Nodes, elements, sets and surfaces of Abaqus decks.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
@@ -19,6 +17,11 @@ int AbaqusContent::intern(std::string name) {
 
 void AbaqusContent::note(const SourceMark& mark, const std::string& text) {
   notes.push_back(fmt::format("{}:{}: {}", mark.file, mark.line, text));
+}
+
+std::string abaqus_place(const TextSource& source, const FeSource& at) {
+  const SourceMark mark = source.mark(at);
+  return fmt::format("{}:{}", mark.file, mark.line);
 }
 
 AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource& at) {
@@ -83,317 +86,273 @@ const AbaqusOrientation* AbaqusContent::orientation(AbaqusScope seen_from,
 
 namespace {
 
-AbaqusReference number(int id, AbaqusScope scope, const FeSource& at) {
-  return {id, id, 1, -1, scope, at};
-}
-
-/// The set that a parameter names, for elements and nodes that are put into it as they are read.
-AbaqusSet* set_of_parameter(std::map<AbaqusContent::Key, AbaqusSet>& sets,
-                            const AbaqusKeyword& keyword, std::string_view parameter,
-                            AbaqusContent& content) {
-  const std::string_view name = keyword.value(parameter);
-  if (name.empty()) return nullptr;
-  AbaqusSet& set = sets[{content.scope, content.intern(abaqus_name(name))}];
-  if (set.at.line == 0) set.at = keyword.at;
-  return &set;
-}
+/// How many lines have more fields than are read, and where the first stands.
+struct FurtherFields {
+  long count = 0;
+  FeSource first;
+  void cut(std::vector<std::string_view>& fields, std::size_t most, const FeSource& at) {
+    if (count++ == 0) first = at;
+    fields.resize(most);
+  }
+};
 
 /// Fields of an element: id, nodes. A line that ends with a comma, or that has fifteen nodes and
 /// more, goes on in the next one. False at the end of the data.
-bool element_fields(AbaqusLines& lines, std::size_t count, std::vector<std::string_view>& fields,
-                    FeSource& at) {
+bool next_element(AbaqusCard& card, std::size_t count, FeSource& at) {
+  std::vector<std::string_view>& fields = card.fields;
   std::string_view line;
-  if (!lines.next_data(line)) return false;
-  at = lines.source().here();
+  if (!card.lines.next_data(line)) return false;
+  at = card.here();
   split_commas(line, fields);
   std::vector<std::string_view> more;
   for (;;) {
     const bool comma = fields.size() > 1 && fields.back().empty();
     if (comma) fields.pop_back();
-    if (fields.size() >= count || (!comma && fields.size() < 16) || !lines.next_data(line)) {
+    if (fields.size() >= count || (!comma && fields.size() < 16) || !card.lines.next_data(line))
       return true;
-    }
     split_commas(line, more);
     fields.insert(fields.end(), more.begin(), more.end());
   }
 }
 
-void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
-              bool of_nodes) {
-  const std::string_view parameter = of_nodes ? "NSET" : "ELSET";
-  lines.allow_only(keyword,
-                   {parameter, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET", "INPUT"});
-  const std::string_view name = lines.required(keyword, parameter);
-  if (name.empty()) return lines.skip_data();
-  AbaqusSet& set =
-      (of_nodes ? content.node_sets
-                : content.element_sets)[{content.scope, content.intern(abaqus_name(name))}];
-  if (set.at.line == 0) set.at = keyword.at;
-  set.internal = keyword.has("INTERNAL");
-  if (of_nodes && keyword.has("ELSET")) {
-    lines.error(ErrorCode::unsupported, keyword,
-                "has the parameter 'ELSET', which is not supported; an element set can be used "
-                "wherever its nodes are wanted");
+/// The range of a line of GENERATE; nothing and an error if it is none.
+std::optional<AbaqusReference> generated_range(AbaqusCard& card, AbaqusScope scope) {
+  if (card.fields.size() < 2 || card.fields.size() > 3) {
+    card.error_in_line(ErrorCode::wrong_count,
+                       "a line of GENERATE has {} numbers, expected first, last and increment",
+                       card.fields.size());
+    return std::nullopt;
   }
-  AbaqusScope scope = content.scope;
-  if (const std::string_view instance = keyword.value("INSTANCE"); !instance.empty()) {
-    const auto it = content.scope_of_instance.find(abaqus_name(instance));
-    if (it == content.scope_of_instance.end()) {
-      lines.error(ErrorCode::not_found, keyword, "names the instance {}, which does not exist",
-                  shown(instance));
-    } else {
-      scope = it->second;
-    }
+  const int first = card.integer(card.field(0), "first number"),
+            last = card.integer(card.field(1), "last number"),
+            step = card.fields.size() == 3 ? card.integer(card.field(2), "increment") : 1;
+  if (card.misread()) return std::nullopt;
+  if (first >= 1 && last >= first && step >= 1)
+    return AbaqusReference{first, last, step, -1, scope, card.here()};
+  card.error_in_line(ErrorCode::out_of_range, "GENERATE from {} to {} by {} gives no numbers",
+                     first, last, step);
+  return std::nullopt;
+}
+
+/// Whether a field may be a name: "1.5", "-3" and "0" are none.
+bool may_be_name(std::string_view field) {
+  const char first = upper_case(field.substr(0, 1)).front();
+  return first == '"' || first == '_' || (first >= 'A' && first <= 'Z') ||
+         !parse_real(field).has_value();
+}
+
+/// Of the parameter INSTANCE; an error if it does not exist.
+AbaqusScope scope_of_set(AbaqusCard& card) {
+  const AbaqusContent& content = card.content;
+  if (card.value("INSTANCE").empty()) return content.scope;
+  const auto it = content.scope_of_instance.find(card.word("INSTANCE"));
+  if (it != content.scope_of_instance.end()) return it->second;
+  card.error(ErrorCode::not_found, "names the instance {}, which does not exist",
+             shown(card.value("INSTANCE")));
+  return content.scope;
+}
+
+/// The coordinates of a line of *NODE, in body axes.
+Vec3 coordinates_of(AbaqusCard& card, int id, bool cylindrical) {
+  Vec3 p = Vec3::Zero();
+  for (std::size_t k = 1; k < card.fields.size(); ++k) {
+    if (card.field(k).empty()) continue;
+    const std::optional<double> value = parse_real(card.field(k));
+    if (value)
+      p(static_cast<Eigen::Index>(k) - 1) = *value;
+    else
+      card.error_in_line(ErrorCode::not_a_number, "coordinate {} of node {}: {}", k, id,
+                         not_a_real(card.field(k)));
   }
-  const std::string_view what = of_nodes ? "node number" : "element number";
-  lines.take_input(keyword);
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) {
-    const FeSource at = lines.source().here();
-    if (keyword.has("GENERATE")) {
-      if (fields.size() < 2 || fields.size() > 3) {
-        lines.source().error(
-            ErrorCode::wrong_count,
-            "a line of GENERATE has {} numbers, expected first, last and increment", fields.size());
-        continue;
-      }
-      AbaqusReference range;
-      range.first = lines.integer(fields[0], "first number");
-      range.last = lines.integer(fields[1], "last number");
-      range.step = fields.size() == 3 ? lines.integer(fields[2], "increment") : 1;
-      range.scope = scope;
-      range.at = at;
-      if (lines.misread()) continue;
-      if (range.first < 1 || range.last < range.first || range.step < 1) {
-        lines.source().error(ErrorCode::out_of_range,
-                             "GENERATE from {} to {} by {} gives no numbers", range.first,
-                             range.last, range.step);
-        continue;
-      }
-      set.items.push_back(range);
-      continue;
-    }
-    for (const std::string_view field : fields) {
-      if (field.empty()) continue;
-      AbaqusReference item = content.reference(field, at);
-      if (scope != content.scope) item.scope = scope;
-      const bool letter = field.front() == '"' || field.front() == '_' ||
-                          (field.front() >= 'A' && field.front() <= 'Z') ||
-                          (field.front() >= 'a' && field.front() <= 'z');
-      // "1.5", "-3" and "0" are no names.
-      if (item.name >= 0 && !letter && parse_real(field).has_value()) {
-        lines.source().error(ErrorCode::not_a_number, "{}: {}", what, not_an_integer(field));
-        continue;
-      }
-      set.items.push_back(item);
-    }
+  if (cylindrical) {
+    const double angle = p.y() * std::numbers::pi / 180.0, r = p.x();
+    p.head<2>() << r * std::cos(angle), r * std::sin(angle);
   }
+  const std::optional<AbaqusCoordinates>& system = card.content.system;
+  return system ? Vec3(system->axes * p + system->origin) : p;
+}
+
+/// The element of the fields, with its nodes; nothing and an error if they are not those of one.
+std::optional<AbaqusElement> element_of_fields(AbaqusCard& card, const AbaqusType& type,
+                                               const FeSource& at, FurtherFields& further) {
+  AbaqusContent& content = card.content;
+  const std::size_t count = static_cast<std::size_t>(type.nodes) + 1;
+  const std::optional<int> id = parse_label(card.field(0));
+  const auto wrong = [&](ErrorCode code, const std::string& text) {
+    card.source.error(code, at, text);
+    return std::nullopt;
+  };
+  if (!id)
+    return wrong(ErrorCode::not_a_number, "element number: " + not_an_integer(card.field(0)));
+  const bool directed = type.family == AbaqusType::Family::beam && card.fields.size() == count + 1;
+  if (directed && content.options.dialect == DeckDialect::calculix)
+    return wrong(ErrorCode::unsupported,
+                 fmt::format("element {} ({}) has a node for its orientation, which CalculiX does "
+                             "not know: give the direction in *BEAM SECTION",
+                             *id, type.name));
+  if (directed)
+    content.clues.add(DeckDialect::abaqus,
+                      fmt::format("a node for the orientation of element {}", *id), at);
+  if (card.fields.size() > count && type.family == AbaqusType::Family::solid)
+    further.cut(card.fields, count, at);
+  if (card.fields.size() != count + directed)
+    return wrong(ErrorCode::wrong_count,
+                 fmt::format("element {} ({}) has {} nodes, expected {}", *id, type.name,
+                             card.fields.size() - 1, type.nodes));
+  const AbaqusElement element{*id, content.scope, &type, content.element_nodes.size(), directed,
+                              at};
+  for (std::size_t k = 1; k < card.fields.size(); ++k) {
+    const std::optional<int> node = parse_label(card.field(k));
+    content.element_nodes.push_back(node.value_or(0));
+    if (node) continue;
+    wrong(ErrorCode::not_a_number,
+          fmt::format("node {} of element {}: {}", k, *id, not_an_integer(card.field(k))));
+    break;
+  }
+  return element;
+}
+
+/// From 0; -1 if it is none.
+int face_of(std::string_view word) {
+  if (same_word(word, "SPOS")) return 0;
+  if (same_word(word, "SNEG")) return 1;
+  const bool numbered =
+      word.size() == 2 && (word[0] == 'S' || word[0] == 's') && word[1] >= '1' && word[1] <= '6';
+  return numbered ? word[1] - '1' : -1;
+}
+
+/// The surface, empty if it is new; null if what follows does not count.
+AbaqusSurface* begin_surface(AbaqusCard& card, bool of_nodes) {
+  const std::string_view name = card.value("NAME");
+  AbaqusContent& content = card.content;
+  AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
+  const bool again = surface.at.line != 0;
+  if (again && content.options.dialect == DeckDialect::abaqus) {
+    card.error(ErrorCode::duplicate, "names the surface {} a second time", shown(name));
+    return nullptr;
+  }
+  if (again) {
+    // CalculiX adds to the first one, or keeps nodes and faces of one name beside each other.
+    const bool both = surface.of_nodes != of_nodes;
+    card.note("*SURFACE has {} again ({}): {}", shown(name), card.place(surface.at),
+              both ? "of nodes and of faces those of faces count"
+                   : "what it names is added, as in CalculiX");
+    if (both && of_nodes) return nullptr;
+    if (both) surface = {};
+  }
+  if (surface.at.line == 0) surface.at = card.at;
+  surface.of_nodes = of_nodes;
+  surface.internal = card.has("INTERNAL");
+  return &surface;
 }
 
 }  // namespace
 
-void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  lines.allow_only(keyword, {"NSET", "SYSTEM", "INPUT"});
-  const bool round = same_word(keyword.value("SYSTEM"), "C");
-  if (keyword.has("SYSTEM") && !round && !same_word(keyword.value("SYSTEM"), "R"))
-    lines.error(ErrorCode::wrong_value, keyword,
-                "has SYSTEM={}, expected R (rectangular) or C (cylindrical)",
-                shown(keyword.value("SYSTEM")));
-  AbaqusSet* const set = set_of_parameter(content.node_sets, keyword, "NSET", content);
-  lines.take_input(keyword);
-  std::vector<std::string_view> fields;
-  long further = 0;
-  FeSource first_further;
-  while (lines.next_fields(fields)) {
-    const FeSource at = lines.source().here();
-    const std::optional<int> id = parse_label(fields[0]);
+void read_abaqus_nodes(AbaqusCard& card) {
+  const bool cylindrical = same_word(card.value("SYSTEM"), "C");
+  if (card.has("SYSTEM") && !cylindrical && !same_word(card.value("SYSTEM"), "R"))
+    card.error(ErrorCode::wrong_value, "has SYSTEM={}, expected R (rectangular) or C (cylindrical)",
+               shown(card.value("SYSTEM")));
+  AbaqusContent& content = card.content;
+  AbaqusSet* const set = card.set(content.node_sets, "NSET");
+  card.take_input();
+  FurtherFields further;
+  while (card.next()) {
+    const FeSource at = card.here();
+    const std::optional<int> id = parse_label(card.field(0));
     if (!id) {
-      lines.source().error(ErrorCode::not_a_number, "node number: " + not_an_integer(fields[0]));
+      card.error_in_line(ErrorCode::not_a_number, "node number: {}", not_an_integer(card.field(0)));
       continue;
     }
     // Direction cosines of shells and beams in Abaqus; CalculiX looks at nothing there.
-    if (fields.size() > 4) {
-      if (further++ == 0) first_further = at;
-      fields.resize(4);
-    }
-    AbaqusNode node{*id, content.scope, Vec3::Zero(), at};
-    for (std::size_t k = 1; k < fields.size(); ++k) {
-      if (fields[k].empty()) continue;
-      const std::optional<double> value = parse_real(fields[k]);
-      if (!value) {
-        lines.source().error(ErrorCode::not_a_number, "coordinate {} of node {}: {}", k, *id,
-                             not_a_real(fields[k]));
-        continue;
-      }
-      node.p[static_cast<Eigen::Index>(k) - 1] = *value;
-    }
-    if (round) {
-      const double angle = node.p.y() * std::numbers::pi / 180.0, r = node.p.x();
-      node.p.head<2>() << r * std::cos(angle), r * std::sin(angle);
-    }
-    if (content.system) node.p = content.system->axes * node.p + content.system->origin;
-    const auto [it, added] = content.node_of_label.emplace(AbaqusContent::label(content.scope, *id),
-                                                           static_cast<int>(content.nodes.size()));
-    if (!added) {
-      const SourceMark first = lines.source().mark(content.nodes[it->second].at);
-      lines.source().error(ErrorCode::duplicate, "node {} is there already ({}:{})", *id,
-                           first.file, first.line);
-      continue;
-    }
-    content.nodes.push_back(node);
-    if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
+    if (card.fields.size() > 4) further.cut(card.fields, 4, at);
+    const AbaqusNode node{*id, content.scope, coordinates_of(card, *id, cylindrical), at};
+    if (add_to_abaqus(card, content.nodes, node, "node") && set != nullptr)
+      set->items.push_back({*id, *id, 1, -1, content.scope, at});
   }
-  if (further > 0) {
-    content.note(lines.source().mark(first_further),
+  if (further.count > 0)
+    content.note(card.source.mark(further.first),
                  fmt::format("what stands behind the coordinates of {} is ignored",
-                             plural(further, "node")));
-  }
+                             plural(further.count, "node")));
 }
 
-void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  lines.allow_only(keyword, {"TYPE", "ELSET", "INPUT"});
-  const std::string_view type_name = lines.required(keyword, "TYPE");
-  if (type_name.empty()) return lines.skip_data();
+void read_abaqus_elements(AbaqusCard& card) {
+  AbaqusContent& content = card.content;
+  const std::string_view type_name = card.required("TYPE");
+  if (type_name.empty()) return;
   const AbaqusType* const type = find_abaqus_type(type_name);
-  if (type == nullptr) {
-    const bool connector = abaqus_name(type_name).starts_with("CONN");
-    lines.error(ErrorCode::unsupported, keyword, "has the type {}, which is not supported{}",
-                shown(type_name),
-                connector ? ": cut the deck there, each body is a part of its own, and the joint "
+  if (type == nullptr)
+    return card.error(ErrorCode::unsupported, "has the type {}, which is not supported{}",
+                      shown(type_name),
+                      abaqus_name(type_name).starts_with("CONN")
+                          ? ": cut the deck there, each body is a part of its own, and the joint "
                             "is one of the model"
                           : did_you_mean(type_name, abaqus_type_names()));
-    return lines.skip_data();
-  }
-  content.clues.look_at_type(type->name, keyword.at);
-  AbaqusSet* const set = set_of_parameter(content.element_sets, keyword, "ELSET", content);
-  lines.take_input(keyword);
-  std::vector<std::string_view> fields;
-  const std::size_t count = type->nodes + 1;
-  long further = 0;
-  FeSource first_further;
+  content.clues.look_at_type(type->name, card.at);
+  AbaqusSet* const set = card.set(content.element_sets, "ELSET");
+  card.take_input();
+  FurtherFields further;
   FeSource at;
-  while (element_fields(lines, count, fields, at)) {
-    const std::optional<int> id = parse_label(fields[0]);
-    if (!id) {
-      lines.source().error(ErrorCode::not_a_number, at,
-                           "element number: " + not_an_integer(fields[0]));
-      continue;
-    }
-    const bool directed = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
-    if (directed && content.dialect == DeckDialect::calculix) {
-      lines.source().error(ErrorCode::unsupported, at,
-                           "element {} ({}) has a node for its orientation, which CalculiX does "
-                           "not know: give the direction in *BEAM SECTION",
-                           *id, type->name);
-      continue;
-    }
-    if (directed)
-      content.clues.add(DeckDialect::abaqus,
-                        fmt::format("a node for the orientation of element {}", *id), at);
-    if (fields.size() > count && type->family == AbaqusType::Family::solid) {
-      if (further++ == 0) first_further = at;
-      fields.resize(count);
-    }
-    if (fields.size() != count + directed) {
-      lines.source().error(ErrorCode::wrong_count, at, "element {} ({}) has {} nodes, expected {}",
-                           *id, type->name, fields.size() - 1, type->nodes);
-      continue;
-    }
-    AbaqusElement element{*id, content.scope, type, content.element_nodes.size(), directed, at};
-    bool valid = true;
-    for (std::size_t k = 1; k < count + directed && valid; ++k) {
-      const std::optional<int> node = parse_label(fields[k]);
-      if (!node) {
-        lines.source().error(ErrorCode::not_a_number, at, "node {} of element {}: {}", k, *id,
-                             not_an_integer(fields[k]));
-      }
-      valid = node.has_value();
-      content.element_nodes.push_back(node.value_or(0));
-    }
-    const auto [it, added] = content.element_of_label.emplace(
-        AbaqusContent::label(content.scope, *id), static_cast<int>(content.elements.size()));
-    if (!added) {
-      const SourceMark first = lines.source().mark(content.elements[it->second].at);
-      lines.source().error(ErrorCode::duplicate, at, "element {} is there already ({}:{})", *id,
-                           first.file, first.line);
-      continue;
-    }
-    content.elements.push_back(element);
-    if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
+  while (next_element(card, static_cast<std::size_t>(type->nodes) + 1, at)) {
+    const auto element = element_of_fields(card, *type, at, further);
+    if (element && add_to_abaqus(card, content.elements, *element, "element") && set != nullptr)
+      set->items.push_back({element->id, element->id, 1, -1, content.scope, at});
   }
-  if (further > 0) {
+  if (further.count > 0)
     content.note(
-        lines.source().mark(first_further),
+        card.source.mark(further.first),
         fmt::format(
             "{} of type {} with more than {} nodes: the others are ignored, as CalculiX does",
-            plural(further, "element"), type->name, type->nodes));
-  }
+            plural(further.count, "element"), type->name, type->nodes));
 }
 
-void read_abaqus_node_set(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  read_set(lines, keyword, content, true);
-}
-
-void read_abaqus_element_set(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusContent& content) {
-  read_set(lines, keyword, content, false);
-}
-
-void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  lines.allow_only(keyword, {"NAME", "TYPE", "INTERNAL"});
-  const std::string_view name = lines.required(keyword, "NAME");
-  const std::string_view type = keyword.value("TYPE");
-  const bool of_nodes = same_word(type, "NODE");
-  if (!type.empty() && !of_nodes && !same_word(type, "ELEMENT")) {
-    lines.error(ErrorCode::wrong_value, keyword, "has the type {}, expected ELEMENT or NODE",
-                shown(type));
-  }
-  if (name.empty()) return lines.skip_data();
-  AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
-  if (surface.at.line != 0 && content.dialect == DeckDialect::abaqus) {
-    lines.error(ErrorCode::duplicate, keyword, "names the surface {} a second time", shown(name));
-    return lines.skip_data();
-  }
-  if (surface.at.line != 0) {
-    // CalculiX adds to the first one, or keeps nodes and faces of one name beside each other.
-    const SourceMark first = lines.source().mark(surface.at);
-    const bool both = surface.of_nodes != of_nodes;
-    content.note(
-        lines.source().mark(keyword.at),
-        fmt::format("*SURFACE has {} again ({}:{}): {}", shown(name), first.file, first.line,
-                    both ? "of nodes and of faces those of faces count"
-                         : "what it names is added, as in CalculiX"));
-    if (both && of_nodes) return lines.skip_data();
-    if (both) surface = {};
-  }
-  if (surface.at.line == 0) surface.at = keyword.at;
-  surface.of_nodes = of_nodes;
-  surface.internal = keyword.has("INTERNAL");
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) {
-    AbaqusSurface::Item item;
-    item.where = content.reference(fields[0], lines.source().here());
-    if (of_nodes) {
-      item.weight = lines.real_or(fields, 1, 1.0, "area of a node");
-    } else {
-      const std::string_view face = fields.size() > 1 ? fields[1] : std::string_view{};
-      if (same_word(face, "SPOS")) {
-        item.face = 0;
-      } else if (same_word(face, "SNEG")) {
-        item.face = 1;
-      } else if (face.size() == 2 && (face[0] == 'S' || face[0] == 's') && face[1] >= '1' &&
-                 face[1] <= '6') {
-        item.face = face[1] - '1';
-      } else {
-        lines.source().error(ErrorCode::missing,
-                             "surface {}: the face is {}, expected S1 to S6, SPOS or SNEG",
-                             shown(name), face.empty() ? "missing" : shown(face));
-        continue;
-      }
+/// *NSET, *ELSET
+void read_abaqus_set(AbaqusCard& card) {
+  AbaqusContent& content = card.content;
+  const bool of_nodes = card.name == "NSET";
+  if (card.required(card.name).empty()) return;
+  AbaqusSet& set = *card.set(of_nodes ? content.node_sets : content.element_sets, card.name);
+  set.internal = card.has("INTERNAL");
+  if (of_nodes && card.has("ELSET"))
+    card.error(ErrorCode::unsupported,
+               "has the parameter 'ELSET', which is not supported; an element set can be used "
+               "wherever its nodes are wanted");
+  const AbaqusScope scope = scope_of_set(card);
+  card.take_input();
+  while (card.next()) {
+    if (card.has("GENERATE")) {
+      if (const auto range = generated_range(card, scope)) set.items.push_back(*range);
+      continue;
     }
-    surface.items.push_back(item);
+    for (const std::string_view field : card.fields) {
+      if (field.empty()) continue;
+      AbaqusReference item = content.reference(field, card.here());
+      if (scope != content.scope) item.scope = scope;
+      if (item.name < 0 || may_be_name(field))
+        set.items.push_back(item);
+      else
+        card.error_in_line(ErrorCode::not_a_number, "{} number: {}", of_nodes ? "node" : "element",
+                           not_an_integer(field));
+    }
+  }
+}
+
+void read_abaqus_surface(AbaqusCard& card) {
+  const std::string_view name = card.required("NAME");
+  const bool of_nodes = same_word(card.value("TYPE"), "NODE");
+  card.is_one_of("TYPE", "NODE ELEMENT", "has the type {}, expected ELEMENT or NODE");
+  AbaqusSurface* const surface = name.empty() ? nullptr : begin_surface(card, of_nodes);
+  while (surface != nullptr && card.next()) {
+    AbaqusSurface::Item item{{card.reference(0)}};
+    const std::string_view face = card.field(1);
+    if (of_nodes) item.weight = card.real_or(1, 1.0, "area of a node");
+    if (!of_nodes) item.face = face_of(face);
+    if (!of_nodes && item.face < 0)
+      card.error_in_line(ErrorCode::missing,
+                         "surface {}: the face is {}, expected S1 to S6, SPOS or SNEG", shown(name),
+                         face.empty() ? "missing" : shown(face));
+    else
+      surface->items.push_back(item);
   }
 }
 

@@ -2,13 +2,12 @@
 // a total mass each element has its share in proportion to its own mass (which scales densities) or
 // to its volume (which adds the same density to all). Solids, beams and rods get it as density,
 // shells and membranes as mass over area in their middle.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -26,9 +25,8 @@ class SmearedMass {
     const std::vector<int> list = elements_of(raw);
     if (b_.source.errors() != before) return;
     if (list.empty())
-      return error(ErrorCode::missing, raw,
-                   fmt::format("names {}, which has no elements with stiffness",
-                               b_.content.text(raw.elements, "element")));
+      return error(ErrorCode::missing, raw, "names {}, which has no elements with stiffness",
+                   b_.content.text(raw.where, "element"));
     double sum = 0.0;  // of what a total mass is shared by
     if (raw.units == Units::total)
       for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
@@ -37,37 +35,34 @@ class SmearedMass {
                    "shares a mass among elements without mass: give their materials *DENSITY, or "
                    "DISTRIBUTION=VOLUME PROPORTIONAL");
     if (!std::isfinite(sum))
-      return error(
-          ErrorCode::not_finite, raw,
-          fmt::format("shares a mass among elements whose {} is {:g}, expected a finite number",
-                      raw.by_volume ? "volume" : "mass", sum));
+      return error(ErrorCode::not_finite, raw,
+                   "shares a mass among elements whose {} is {:g}, expected a finite number",
+                   raw.by_volume ? "volume" : "mass", sum);
     double mass = 0.0;
     for (const int e : list) {
       const Size& s = size(e);
-      const std::size_t k = static_cast<std::size_t>(e);
       double more = raw.units == Units::total ? raw.value / sum : raw.value;
       if (raw.units == Units::length) {
-        more /= m_.sections[static_cast<std::size_t>(m_.elements[k].section)].A;
+        more /= m_.sections[m_.elements[e].section].A;
       } else if (raw.units == Units::total && !raw.by_volume) {
         more *= s.density;
       } else if (raw.units != Units::area) {
         more *= s.measure;
       }
-      more_[k] += more;
-      mass += (s.density + more_[k]) * (s.volume / s.measure);
-      if (std::isfinite(s.density + more_[k])) continue;
-      return error(
-          ErrorCode::not_finite, raw,
-          fmt::format("gives {} a {} of {:g}, expected a finite number", label_of(e),
-                      has_shell_section(m_.elements[k].type) ? "mass over area" : "density",
-                      s.density + more_[k]));
+      more_[e] += more;
+      mass += (s.density + more_[e]) * (s.volume / s.measure);
+      if (std::isfinite(s.density + more_[e])) continue;
+      return error(ErrorCode::not_finite, raw, "gives {} a {} of {:g}, expected a finite number",
+                   label_of(e),
+                   has_shell_section(m_.elements[e].type) ? "mass over area" : "density",
+                   s.density + more_[e]);
     }
     if (!std::isfinite(mass))
       return error(ErrorCode::not_finite, raw,
-                   fmt::format("gives its {} elements a mass of {:g}, expected a finite number",
-                               list.size(), mass));
-    b_.note(raw.at, fmt::format("*NONSTRUCTURAL MASS is added to {} elements of {}", list.size(),
-                                b_.content.text(raw.elements, "element")));
+                   "gives its {} elements a mass of {:g}, expected a finite number", list.size(),
+                   mass);
+    b_.note(raw.where.at, "*NONSTRUCTURAL MASS is added to {} elements of {}", list.size(),
+            b_.content.text(raw.where, "element"));
   }
 
   /// Elements of one section get the same, so few new materials and sections are needed.
@@ -85,8 +80,11 @@ class SmearedMass {
     double density = 0.0, measure = 1.0;
   };
 
-  void error(ErrorCode code, const AbaqusNonstructuralMass& raw, const std::string& text) {
-    b_.source.error(code, raw.at, "*NONSTRUCTURAL MASS " + text);
+  template <class... Values>
+  void error(ErrorCode code, const AbaqusNonstructuralMass& raw, fmt::format_string<Values...> text,
+             Values&&... values) {
+    b_.source.error(code, raw.where.at, "*NONSTRUCTURAL MASS {}",
+                    fmt::format(text, std::forward<Values>(values)...));
   }
 
   std::string label_of(int index) const {
@@ -98,12 +96,11 @@ class SmearedMass {
   /// Indices in the model; an error if one cannot have such a mass.
   std::vector<int> elements_of(const AbaqusNonstructuralMass& raw) {
     std::vector<int> list;
-    for (const int e : b_.elements.resolve(raw.elements)) {
-      const int index = b_.element_index[static_cast<std::size_t>(e)];
-      const AbaqusElement& deck = b_.content.elements[static_cast<std::size_t>(e)];
+    for (const int e : b_.elements.resolve(raw.where)) {
+      const int index = b_.element_index[e];
+      const AbaqusElement& deck = b_.content.elements[e];
       if (index < 0 && is_abaqus_point(deck.type->family)) continue;
-      const ElementType type =
-          index < 0 ? ElementType::beam2 : m_.elements[static_cast<std::size_t>(index)].type;
+      const ElementType type = index < 0 ? ElementType::beam2 : m_.elements[index].type;
       std::string why;
       if (index < 0) {
         why = "has no section here";
@@ -111,15 +108,14 @@ class SmearedMass {
         why = "is no shell or membrane, but the mass is one over area";
       } else if (raw.units == Units::length && !is_beam(type) && !is_rod(type)) {
         why = "is no beam or rod, but the mass is one over length";
-      } else if (missing_density(m_.elements[static_cast<std::size_t>(index)])) {
+      } else if (missing_density(m_.elements[index])) {
         why = "is of a material without *DENSITY, which must stand in the deck then";
       }
       if (why.empty()) {
         list.push_back(index);
         continue;
       }
-      error(ErrorCode::wrong_value, raw,
-            fmt::format("names {}, which {}", abaqus_label(deck), why));
+      error(ErrorCode::wrong_value, raw, "names {}, which {}", abaqus_label(deck), why);
       return {};
     }
     return list;
@@ -128,16 +124,16 @@ class SmearedMass {
   bool missing_density(const Element& e) const {
     if (m_.without_density.contains(e.material)) return true;
     if (!has_shell_section(e.type)) return false;
-    for (const ShellPly& ply : m_.shells[static_cast<std::size_t>(e.section)].plies)
+    for (const ShellPly& ply : m_.shells[e.section].plies)
       if (m_.without_density.contains(ply.material)) return true;
     return false;
   }
 
   const Size& size(int index) {
-    Size& s = size_[static_cast<std::size_t>(index)];
+    Size& s = size_[index];
     if (s.known) return s;
     s.known = true;
-    const Element& e = m_.elements[static_cast<std::size_t>(index)];
+    const Element& e = m_.elements[index];
     const ElementKernel& kernel = element_kernel(e.type);
     ElementInput in = gather(m_, e);
     const bool sheet = has_shell_section(e.type);
@@ -158,21 +154,16 @@ class SmearedMass {
   }
 
   void give(Element& e, double more) {
-    const bool sheet = has_shell_section(e.type);
-    const auto [it, fresh] =
-        sheet ? sections_.try_emplace({e.section, more}, static_cast<int>(m_.shells.size()))
-              : materials_.try_emplace({e.material, more}, static_cast<int>(m_.materials.size()));
-    (sheet ? e.section : e.material) = it->second;
-    if (!fresh) return;
-    const std::size_t old = static_cast<std::size_t>(it->first.first);
-    if (sheet) {
-      m_.shells.push_back(m_.shells[old]);
-      m_.shells.back().mass += more;
-    } else {
-      m_.materials.push_back(m_.materials[old]);
-      m_.materials.back().density += more;
-      m_.material_names.push_back(m_.material_names[old] + " and nonstructural mass");
+    if (has_shell_section(e.type)) {
+      e.section = changed_copy(m_.shells, e.section, sections_, {e.section, more},
+                               [&](ShellSection& s) { s.mass += more; });
+      return;
     }
+    const int old = e.material;
+    e.material = changed_copy(m_.materials, old, materials_, {old, more}, [&](Material& material) {
+      material.density += more;
+      m_.material_names.push_back(m_.material_names[old] + " and nonstructural mass");
+    });
   }
 
   AbaqusBuild& b_;
@@ -184,43 +175,35 @@ class SmearedMass {
 
 }  // namespace
 
-void read_abaqus_nonstructural_mass(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                    AbaqusContent& content) {
-  lines.allow_only(keyword, {"ELSET", "UNITS", "DISTRIBUTION"});
+void read_abaqus_nonstructural_mass(AbaqusCard& card) {
+  constexpr std::array units{
+      std::pair{"TOTALMASS", Units::total}, std::pair{"MASSPERVOLUME", Units::volume},
+      std::pair{"MASSPERAREA", Units::area}, std::pair{"MASSPERLENGTH", Units::length}};
   AbaqusNonstructuralMass mass;
-  mass.at = keyword.at;
-  const std::size_t before = lines.source().errors();
-  const std::string_view elements = lines.required(keyword, "ELSET");
-  const std::string units = abaqus_name(lines.required(keyword, "UNITS"));
-  const std::string distribution = abaqus_name(keyword.value("DISTRIBUTION"));
-  if (units == "MASSPERVOLUME") {
-    mass.units = Units::volume;
-  } else if (units == "MASSPERAREA") {
-    mass.units = Units::area;
-  } else if (units == "MASSPERLENGTH") {
-    mass.units = Units::length;
-  } else if (units != "TOTALMASS" && lines.source().errors() == before) {
-    lines.error(
-        ErrorCode::wrong_value, keyword,
+  card.required("ELSET");
+  const std::string unit = abaqus_name(card.required("UNITS"));
+  const std::string distribution = card.word("DISTRIBUTION");
+  const auto known =
+      std::find_if(units.begin(), units.end(), [&](const auto& u) { return unit == u.first; });
+  if (known != units.end())
+    mass.units = known->second;
+  else if (!card.wrong())
+    card.error(
+        ErrorCode::wrong_value,
         "has the units {}, expected TOTAL MASS, MASS PER VOLUME, MASS PER AREA or MASS PER LENGTH",
-        shown(keyword.value("UNITS")));
-  }
+        shown(card.value("UNITS")));
   mass.by_volume = distribution == "VOLUMEPROPORTIONAL";
   if (!distribution.empty() && !mass.by_volume && distribution != "MASSPROPORTIONAL")
-    lines.error(ErrorCode::wrong_value, keyword,
-                "has the distribution {}, expected MASS PROPORTIONAL or VOLUME PROPORTIONAL",
-                shown(keyword.value("DISTRIBUTION")));
-  std::vector<std::string_view> fields;
-  if (lines.next_fields(fields)) {
-    mass.value = positive_real(lines, fields[0], "nonstructural mass");
-    lines.no_more(keyword, fields, 1);
-  } else {
-    lines.error(ErrorCode::missing, keyword, "has no data line");
+    card.error(ErrorCode::wrong_value,
+               "has the distribution {}, expected MASS PROPORTIONAL or VOLUME PROPORTIONAL",
+               shown(card.value("DISTRIBUTION")));
+  if (card.needs_line()) {
+    mass.value = card.positive(0, "nonstructural mass");
+    card.no_more(1);
   }
-  lines.skip_data();
-  if (content.only_nodes || lines.source().errors() != before) return;
-  mass.elements = content.named(elements, keyword.at);
-  content.nonstructural.push_back(mass);
+  if (card.content.only_nodes || card.wrong()) return;
+  mass.where = card.named("ELSET");
+  card.content.nonstructural.push_back(mass);
 }
 
 void build_abaqus_nonstructural_mass(AbaqusBuild& build) {

@@ -1,10 +1,7 @@
 #include "floatframe/decks/abaqus/abaqus_resolve.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -20,13 +17,18 @@ AbaqusResolver::AbaqusResolver(const AbaqusContent& content, TextSource& source,
     : content_(content),
       source_(source),
       sets_(of == Of::nodes ? content.node_sets : content.element_sets),
-      index_of_label_(of == Of::nodes ? content.node_of_label : content.element_of_label),
+      index_of_label_(of == Of::nodes ? content.nodes.index() : content.elements.index()),
       word_(of == Of::nodes ? "node" : "element"),
       list_of_(of == Of::nodes ? content.nodes.size() : content.elements.size(), 0),
       most_work_(work_of_any_deck + work_of_a_member * list_of_.size()) {
   ascending_.reserve(index_of_label_.size());
   for (const auto& [label, index] : index_of_label_) ascending_.push_back(label);
   std::sort(ascending_.begin(), ascending_.end());
+}
+
+int AbaqusResolver::find_number(const AbaqusReference& reference) const {
+  const auto it = index_of_label_.find(scoped_number(reference.scope, reference.first));
+  return it == index_of_label_.end() ? -1 : it->second;
 }
 
 const AbaqusContent::Key* AbaqusResolver::find_set(const AbaqusReference& reference) const {
@@ -41,13 +43,8 @@ void AbaqusResolver::missing(const AbaqusReference& reference) {
                          "{} is in several instances: put the name of one and a dot before it",
                          content_.text(reference, word_));
   std::string help;
-  if (reference.name >= 0 && sets_.size() <= most_known) {
-    std::vector<std::string> known;
-    for (const auto& [key, set] : sets_) {
-      known.push_back(content_.names[key.second]);
-    }
-    help = did_you_mean(content_.names[reference.name], known);
-  }
+  if (reference.name >= 0 && sets_.size() <= most_known)
+    help = did_you_mean(content_.names[reference.name], abaqus_names_of(content_, sets_));
   source_.error(ErrorCode::not_found, reference.at, "{} does not exist{}",
                 content_.text(reference, word_), help);
 }
@@ -69,8 +66,8 @@ void AbaqusResolver::add(int index, std::vector<int>& list) {
 }
 
 void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>& list) {
-  const std::int64_t first = AbaqusContent::label(item.scope, item.first),
-                     last = AbaqusContent::label(item.scope, item.last);
+  const std::int64_t first = scoped_number(item.scope, item.first),
+                     last = scoped_number(item.scope, item.last);
   auto it = std::lower_bound(ascending_.begin(), ascending_.end(), first);
   long found = 0;
   std::uint64_t looked_at = 0;
@@ -94,9 +91,8 @@ void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>&
 void AbaqusResolver::append(const AbaqusReference& item, std::vector<int>& list) {
   if (item.name < 0 && item.first != item.last) return append_range(item, list);
   if (item.name < 0) {
-    const auto it = index_of_label_.find(AbaqusContent::label(item.scope, item.first));
-    if (it == index_of_label_.end()) return missing(item);
-    return add(it->second, list);
+    const int index = find_number(item);
+    return index < 0 ? missing(item) : add(index, list);
   }
   const AbaqusContent::Key* const key = find_set(item);
   if (key == nullptr) return missing(item);
@@ -105,17 +101,12 @@ void AbaqusResolver::append(const AbaqusReference& item, std::vector<int>& list)
   for (const int index : inner) add(index, list);
 }
 
-const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key) {
-  return members(key, 0);
-}
-
 const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, int depth) {
   Members& result = members_[key];
   if (result.state == State::done) return result.list;
   const AbaqusSet& set = sets_.at(key);
-  if (depth >= deepest_set) {
+  if (depth >= deepest_set)
     source_.stop(ErrorCode::too_large, set.at, "sets are nested deeper than {}", deepest_set);
-  }
   result.state = State::busy;
   const std::size_t before = source_.errors();
   // A set that is opened again may name itself.
@@ -127,39 +118,31 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
     const AbaqusContent::Key* const inner =
         item.name < 0 || itself(item) ? nullptr : find_set(item);
     if (inner == nullptr) continue;
-    if (members_[*inner].state == State::busy) {
+    if (members_[*inner].state == State::busy)
       source_.stop(ErrorCode::cycle, item.at, "{} set {} contains itself", word_,
                    shown(content_.names[inner->second]));
-    }
     members(*inner, depth + 1);
   }
   ++list_;
   std::vector<int> list;
-  for (const AbaqusReference& item : set.items) {
+  for (const AbaqusReference& item : set.items)
     if (!itself(item)) append(item, list);
-  }
-  if (list.empty() && source_.errors() == before) {
+  if (list.empty() && source_.errors() == before)
     source_.error(ErrorCode::missing, set.at, "{} set {} is empty", word_,
                   shown(content_.names[key.second]));
-  }
   result.list = std::move(list);
   result.state = State::done;
   return result.list;
 }
 
 std::vector<int> AbaqusResolver::resolve(const AbaqusReference& reference) {
-  if (reference.name >= 0) {
-    const AbaqusContent::Key* const key = find_set(reference);
-    if (key != nullptr) {
-      const std::vector<int>& list = members(*key);
-      spend(list.size(), reference.at);
-      return list;
-    }
-    missing(reference);
-    return {};
+  if (const int index = reference.name < 0 ? find_number(reference) : -1; index >= 0)
+    return {index};
+  if (const AbaqusContent::Key* const key = reference.name < 0 ? nullptr : find_set(reference)) {
+    const std::vector<int>& list = members(*key);
+    spend(list.size(), reference.at);
+    return list;
   }
-  const auto it = index_of_label_.find(AbaqusContent::label(reference.scope, reference.first));
-  if (it != index_of_label_.end()) return {it->second};
   missing(reference);
   return {};
 }

@@ -1,9 +1,9 @@
 #pragma once
 // Numbers and names of an Abaqus deck as indices of its nodes and elements.
 #include <map>
-#include <span>
 #include <vector>
 
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_content.hpp"
 
 namespace floatframe {
@@ -36,6 +36,18 @@ AbaqusNamed<T> find_abaqus_name(const AbaqusContent& c, const std::map<AbaqusCon
   return found;
 }
 
+/// Names of sets or surfaces, to choose from.
+template <typename T>
+std::vector<std::string> abaqus_names_of(const AbaqusContent& c,
+                                         const std::map<AbaqusContent::Key, T>& map) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : map) {
+    if (names.size() == most_known) break;
+    names.push_back(c.names[key.second]);
+  }
+  return names;
+}
+
 /// The name of a set or surface in the model: with that of the instance where others have the same.
 template <typename T>
 std::string abaqus_model_name(const AbaqusContent& c, const AbaqusContent::Key& key,
@@ -61,8 +73,8 @@ class AbaqusResolver {
   std::vector<int> resolve(const AbaqusReference& reference);
   /// The one node of a reference; -1 and an error that begins with `what` if it is not one.
   int one(const AbaqusReference& reference, std::string_view what);
-  /// All members of a set.
-  const std::vector<int>& members(const AbaqusContent::Key& key);
+  /// All members of a set; `depth`: of sets that it is in.
+  const std::vector<int>& members(const AbaqusContent::Key& key, int depth = 0);
   /// Counts members that are named at a place; throws if there are too many in all.
   void spend(std::uint64_t count, const FeSource& at);
   /// Numbers of GENERATE that are not there: how many, and where the first range stands.
@@ -75,10 +87,10 @@ class AbaqusResolver {
     State state = State::open;
     std::vector<int> list;
   };
+  int find_number(const AbaqusReference& reference) const;  ///< -1 if it is not there
   const AbaqusContent::Key* find_set(const AbaqusReference& reference) const;
   void append(const AbaqusReference& item, std::vector<int>& list);
   void append_range(const AbaqusReference& item, std::vector<int>& list);
-  const std::vector<int>& members(const AbaqusContent::Key& key, int depth);
   void add(int index, std::vector<int>& list);
   void missing(const AbaqusReference& reference);
 

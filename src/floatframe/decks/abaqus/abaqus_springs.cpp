@@ -1,14 +1,11 @@
 // Springs of Abaqus and CalculiX decks: SPRINGA (along the line of its nodes), SPRING1 (a direction
 // of a node and the ground), SPRING2 (directions of two nodes). Of a table of forces the slope at
 // zero elongation counts. Dashpots and gaps have no linear stiffness.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_handlers.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -40,9 +37,9 @@ class AbaqusSpringBuilder {
   void build() {
     std::vector<int> spring_of(c_.elements.size(), -1);
     for (std::size_t s = 0; s < c_.springs.size(); ++s) {
-      for (const int e : b_.elements.resolve(c_.springs[s].elements)) {
+      for (const int e : b_.elements.resolve(c_.springs[s].where)) {
         if (c_.elements[e].type->family != Family::spring) {
-          b_.source.error(ErrorCode::wrong_value, c_.springs[s].at,
+          b_.source.error(ErrorCode::wrong_value, c_.springs[s].where.at,
                           "*SPRING names {}, which is no spring", abaqus_label(c_.elements[e]));
           break;
         }
@@ -55,40 +52,30 @@ class AbaqusSpringBuilder {
       if (family == Family::damper) ++dampers_;
       if (family != Family::spring) continue;
       if (spring_of[e] < 0) {
-        b_.source.error(ErrorCode::missing, element.at, "{} has no *SPRING", abaqus_label(element));
+        b_.error(element, ErrorCode::missing, " has no *SPRING");
       } else {
         one(element, c_.springs[spring_of[e]]);
       }
     }
     if (dampers_ > 0)
-      b_.note({0, 1}, fmt::format("{} dashpots are ignored, the part has modal damping (--damping)",
-                                  dampers_));
+      b_.note({0, 1}, "{} dashpots are ignored, the part has modal damping (--damping)", dampers_);
   }
 
  private:
-  void error(ErrorCode code, const AbaqusElement& e, const std::string& text) {
-    b_.source.error(code, e.at, "{}: {}", abaqus_label(e), text);
-  }
-
   bool nodes_of(const AbaqusElement& e, std::array<int, 2>& out) {
     out = {-1, -1};
     for (int k = 0; k < e.type->nodes; ++k) {
-      const int id = c_.element_nodes[e.first + k];
-      const auto it = c_.node_of_label.find(AbaqusContent::label(e.scope, id));
-      if (it == c_.node_of_label.end()) {
-        error(ErrorCode::not_found, e, fmt::format("node {} does not exist", id));
-        return false;
-      }
+      const int node = b_.node_of(e, k);
+      if (node < 0) return false;
       for (const Spider& s : b_.model.spiders) {
-        if (s.rotation_node != it->second) continue;
-        error(
-            ErrorCode::unsupported, e,
-            fmt::format(
-                "node {} stands for the rotations of a rigid body, where springs are not supported",
-                id));
+        if (s.rotation_node != node) continue;
+        b_.error(e, ErrorCode::unsupported,
+                 ": node {} stands for the rotations of a rigid body, where springs are not "
+                 "supported",
+                 c_.element_nodes[e.first + k]);
         return false;
       }
-      out[static_cast<std::size_t>(k)] = it->second;
+      out[k] = node;
     }
     return true;
   }
@@ -99,8 +86,7 @@ class AbaqusSpringBuilder {
     if (spring.orientation.empty()) return Mat3::Identity();
     AbaqusSection user;  // for the messages
     user.shown = "*SPRING";
-    user.at = spring.at;
-    user.elements.scope = spring.elements.scope;
+    user.where = spring.where;
     const int index = abaqus_orientation(b_, spring.orientation, user);
     return index < 0 ? Mat3(Mat3::Identity())
                      : b_.model.orientations[index].at(b_.model.positions[node]);
@@ -111,31 +97,26 @@ class AbaqusSpringBuilder {
     if (!nodes_of(e, spring.nodes)) return;
     spring.name = abaqus_label(e);
     spring.source = e.at;
-    const bool along = e.type->name == std::string_view("SPRINGA");
+    const bool along = e.type->name == "SPRINGA";
     const auto k = stiffness(e, raw, along ? 0 : 1);
     if (!k) return;
     spring.stiffness = *k;
     if (along) {
       const Vec3 d = b_.model.positions[spring.nodes[1]] - b_.model.positions[spring.nodes[0]];
-      if (!(d.norm() > 0.0)) {
-        error(ErrorCode::geometry, e,
-              "its nodes are at one place, so it has no direction; use SPRING2");
-        return;
-      }
+      if (!(d.norm() > 0.0))
+        return b_.error(e, ErrorCode::geometry,
+                        ": its nodes are at one place, so it has no direction; use SPRING2");
       spring.directions[0].head<3>() = -d.normalized();
       spring.directions[1].head<3>() = d.normalized();
     } else {
       for (int end = 0; end < e.type->nodes; ++end) {
-        const std::size_t i = static_cast<std::size_t>(end);
         const std::vector<double>& dofs = raw.lines.front();
-        const double dof = i < dofs.size() ? dofs[i] : 0.0;
-        if (!(dof >= 1.0 && dof <= 6.0) || dof != static_cast<int>(dof)) {
-          b_.source.error(
-              ErrorCode::out_of_range, raw.at,
+        const double dof = static_cast<std::size_t>(end) < dofs.size() ? dofs[end] : 0.0;
+        if (!(dof >= 1.0 && dof <= 6.0) || dof != static_cast<int>(dof))
+          return b_.source.error(
+              ErrorCode::out_of_range, raw.where.at,
               "*SPRING: direction {} of {} is {:g}, expected one of 1 to 6 in its first line",
               end + 1, e.type->name, dof);
-          return;
-        }
         const int axis = static_cast<int>(dof) - 1;
         const Vec3 t = axes_of(spring.nodes[end], raw).col(axis % 3);
         spring.directions[end].segment<3>(axis < 3 ? 0 : 3) = end == 0 ? Vec3(-t) : t;
@@ -148,14 +129,14 @@ class AbaqusSpringBuilder {
   std::optional<double> stiffness(const AbaqusElement& e, const AbaqusSpring& raw,
                                   std::size_t first) {
     if (raw.lines.size() <= first) {
-      b_.source.error(ErrorCode::incomplete, raw.at, "*SPRING: {} needs {}", abaqus_label(e),
+      b_.source.error(ErrorCode::incomplete, raw.where.at, "*SPRING: {} needs {}", abaqus_label(e),
                       first == 0 ? "a line with its stiffness"
                                  : "a line with its directions and one with its stiffness");
       return std::nullopt;
     }
     if (!raw.nonlinear) {
       if (raw.lines.size() > first + 1 && noted_.insert(&raw).second)
-        b_.note(raw.at, "*SPRING depends on temperature: its first stiffness is taken");
+        b_.note(raw.where.at, "*SPRING depends on temperature: its first stiffness is taken");
       return raw.lines[first].front();
     }
     std::vector<std::pair<double, double>> table;
@@ -164,15 +145,14 @@ class AbaqusSpringBuilder {
     const auto k = slope_at_zero(table);
     if (!k) {
       b_.source.error(
-          ErrorCode::contradiction, raw.at,
+          ErrorCode::contradiction, raw.where.at,
           "*SPRING has a table that does not show its stiffness at zero elongation: expected lines "
           "of force and elongation, with different elongations on both sides of zero");
       return std::nullopt;
     }
     if (noted_.insert(&raw).second)
-      b_.note(raw.at,
-              fmt::format("*SPRING is not linear: its stiffness at zero elongation, {:g}, is taken",
-                          *k));
+      b_.note(raw.where.at,
+              "*SPRING is not linear: its stiffness at zero elongation, {:g}, is taken", *k);
     return k;
   }
 
@@ -184,37 +164,21 @@ class AbaqusSpringBuilder {
 
 }  // namespace
 
-void read_abaqus_spring(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  lines.allow_only(keyword, {"ELSET", "ORIENTATION", "NONLINEAR"});
+void read_abaqus_spring(AbaqusCard& card) {
   AbaqusSpring spring;
-  spring.at = keyword.at;
-  spring.nonlinear = keyword.has("NONLINEAR");
-  spring.orientation = abaqus_name(keyword.value("ORIENTATION"));
-  const std::string_view elements = lines.required(keyword, "ELSET");
-  std::vector<std::string_view> fields;
-  while (lines.next_fields(fields)) {  // blank lines are none
+  spring.nonlinear = card.has("NONLINEAR");
+  spring.orientation = card.word("ORIENTATION");
+  const bool named = !card.required("ELSET").empty();
+  while (card.next()) {  // blank lines are none
     std::vector<double> numbers;
-    for (std::size_t i = 0; i < fields.size() && i < 3; ++i)
-      numbers.push_back(lines.real_or(fields, i, 0.0, "*SPRING"));
+    for (std::size_t k = 0; k < card.fields.size() && k < 3; ++k)
+      numbers.push_back(card.real_or(k, 0.0, "*SPRING"));
     spring.lines.push_back(std::move(numbers));
   }
-  if (content.only_nodes || elements.empty()) return;
-  spring.elements.name = content.intern(abaqus_name(elements));
-  spring.elements.scope = content.scope;
-  spring.elements.at = keyword.at;
+  AbaqusContent& content = card.content;
+  if (content.only_nodes || !named) return;
+  spring.where = {0, 0, 1, content.intern(card.word("ELSET")), content.scope, card.at};
   content.springs.push_back(std::move(spring));
-}
-
-void read_abaqus_gap(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  if (content.contact == DeckContact::ignore || content.only_nodes) {
-    content.note(lines.source().mark(keyword.at),
-                 keyword.shown + " is ignored, as the options say: its nodes are free");
-  } else {
-    lines.error(ErrorCode::unsupported, keyword,
-                "has no linear stiffness: --contact ignore (key `contact`) leaves its nodes free; "
-                "a gap that is closed may be a SPRINGA");
-  }
-  lines.skip_data();
 }
 
 void build_abaqus_springs(AbaqusBuild& build) { AbaqusSpringBuilder(build).build(); }

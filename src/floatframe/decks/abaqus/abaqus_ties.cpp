@@ -1,7 +1,5 @@
 // Surfaces joined by *TIE, and contact pairs, which are joined or left free as the options say
 // (fe/surface_ties.hpp).
-#include <fmt/format.h>
-
 #include <unordered_set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
@@ -14,39 +12,33 @@ namespace floatframe {
 namespace {
 
 /// Data lines "slave, master".
-void read_pairs(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
-                const AbaqusTie& pattern) {
-  std::vector<std::string_view> fields;
+void read_pairs(AbaqusCard& card, AbaqusTie tie) {
   bool any = false;
-  while (lines.next_fields(fields)) {
-    any = true;
-    if (fields.size() < 2 || fields[0].empty() || fields[1].empty()) {
-      lines.source().error(ErrorCode::missing,
-                           "{}: expected the names of two surfaces, slave and master",
-                           keyword.shown);
+  for (; card.next(); any = true) {
+    if (card.field(0).empty() || card.field(1).empty()) {
+      card.error_in_line(ErrorCode::missing,
+                         "{}: expected the names of two surfaces, slave and master", card.shown);
       continue;
     }
-    AbaqusTie tie = pattern;
-    tie.at = lines.source().here();
-    tie.slave = content.named(fields[0], tie.at);
-    tie.master = content.named(fields[1], tie.at);
-    content.ties.push_back(tie);
+    tie.where = card.content.named(card.field(0), card.here());
+    tie.master = card.content.named(card.field(1), card.here());
+    card.content.ties.push_back(tie);
   }
   if (!any)
-    lines.error(ErrorCode::missing, keyword,
-                "has no line with the names of two surfaces, slave and master");
+    card.error(ErrorCode::missing, "has no line with the names of two surfaces, slave and master");
+}
+
+/// Is contact ignored, as the options say? A note then.
+bool is_ignored(AbaqusCard& card, const char* what) {
+  if (card.content.options.contact != DeckContact::ignore) return false;
+  card.note("{} is ignored, as the options say: {}", card.shown, what);
+  return true;
 }
 
 std::vector<int> nodes_of_surface(AbaqusBuild& build, const AbaqusSurface& surface,
                                   const std::string& name) {
+  if (surface.of_nodes) return abaqus_surface_nodes(build, surface);
   std::vector<int> nodes;
-  if (surface.of_nodes) {
-    for (const AbaqusSurface::Item& item : surface.items) {
-      const std::vector<int> found = build.nodes.resolve(item.where);
-      nodes.insert(nodes.end(), found.begin(), found.end());
-    }
-    return nodes;
-  }
   std::unordered_set<int> known;
   for (const ElementFace& f : build.model.surfaces.at(name)) {
     const Element& element = build.model.elements[f.element];
@@ -60,23 +52,20 @@ std::vector<int> nodes_of_surface(AbaqusBuild& build, const AbaqusSurface& surfa
 
 void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& taken) {
   std::string slave_name, master_name;
-  const AbaqusSurface* slave = find_abaqus_surface(build, raw.slave, slave_name);
+  const AbaqusSurface* slave = find_abaqus_surface(build, raw.where, slave_name);
   const AbaqusSurface* master = find_abaqus_surface(build, raw.master, master_name);
   if (slave == nullptr || master == nullptr) return;
   const char* const word = raw.contact ? "*CONTACT PAIR" : "*TIE";
   if (master->of_nodes) {
-    build.source.error(ErrorCode::wrong_value, raw.at,
+    build.source.error(ErrorCode::wrong_value, raw.where.at,
                        "{}: the master surface {} is made of nodes, expected faces of elements",
                        word, shown(master_name));
     return;
   }
-  SurfaceTie tie;
+  SurfaceTie tie = raw.made;
   tie.nodes = nodes_of_surface(build, *slave, slave_name);
   tie.faces = build.model.surfaces.at(master_name);
-  tie.distance = raw.distance;
-  tie.adjust = raw.adjust;
-  tie.rotations = raw.rotations;
-  tie.source = raw.at;
+  tie.source = raw.where.at;
   if (build.clues.abaqus && !build.clues.calculix) tie.part_of_size = 0.05;
   const TiedNodes done = add_surface_tie(build.model, tie, taken);
   std::string text = fmt::format("{}: {} of {} nodes of {} are tied to {} (within {:.3g})", word,
@@ -87,76 +76,64 @@ void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& take
   if (!done.free.empty())
     text += fmt::format("; not tied: {}{}", build.model.node_label(done.free.front()),
                         done.free.size() > 1 ? ", ..." : "");
-  build.note(raw.at, text);
+  build.note(raw.where.at, "{}", text);
 }
 
 }  // namespace
 
-void read_abaqus_tie(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  lines.allow_only(keyword, {"NAME", "ADJUST", "POSITIONTOLERANCE", "CYCLICSYMMETRY", "TYPE",
-                             "NOROTATION", "CONSTRAINTRATIO", "NOTHICKNESS"});
-  if (keyword.has("CYCLICSYMMETRY")) {
-    const SourceMark mark = lines.source().mark(keyword.at);
-    content.notes.push_back(fmt::format(
-        "{}:{}: {}, CYCLIC SYMMETRY is ignored: the part is one sector, whose cut faces are free",
-        mark.file, mark.line, keyword.shown));
-    return lines.skip_data();
-  }
+void read_abaqus_tie(AbaqusCard& card) {
+  if (card.has("CYCLICSYMMETRY"))
+    return card.note(
+        "{}, CYCLIC SYMMETRY is ignored: the part is one sector, whose cut faces are free",
+        card.shown);
   AbaqusTie tie;
-  if (keyword.has("POSITIONTOLERANCE")) {
-    const std::string_view text = keyword.value("POSITIONTOLERANCE");
-    tie.distance = parse_real(text).value_or(0.0);
-    if (!(tie.distance > 0.0)) {
-      lines.error(ErrorCode::out_of_range, keyword,
-                  "has the position tolerance {}, expected a positive number", shown(text));
-    }
-  }
-  tie.adjust = !same_word(keyword.value("ADJUST"), "NO");
-  tie.rotations = !keyword.has("NOROTATION");
-  read_pairs(lines, keyword, content, tie);
+  const std::string_view tolerance = card.value("POSITIONTOLERANCE");
+  tie.made.distance = parse_real(tolerance).value_or(0.0);
+  if (card.has("POSITIONTOLERANCE") && !(tie.made.distance > 0.0))
+    card.error(ErrorCode::out_of_range, "has the position tolerance {}, expected a positive number",
+               shown(tolerance));
+  tie.made.adjust = !same_word(card.value("ADJUST"), "NO");
+  tie.made.rotations = !card.has("NOROTATION");
+  read_pairs(card, tie);
 }
 
 /// General contact names no pairs to tie.
-void read_abaqus_general_contact(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                 AbaqusContent& content) {
-  lines.skip_data();
-  if (content.only_nodes) return;
-  if (content.contact != DeckContact::ignore) {
-    lines.error(ErrorCode::unsupported, keyword,
-                content.contact == DeckContact::tied
-                    ? "is general contact, which names no surfaces to tie: use *TIE, or --contact "
-                      "ignore (key `contact`), which leaves all surfaces free"
-                    : "is not linear: --contact ignore (key `contact`) leaves all surfaces free");
-    return;
-  }
-  const SourceMark mark = lines.source().mark(keyword.at);
-  content.notes.push_back(
-      fmt::format("{}:{}: {} is ignored, as the options say: its surfaces are free", mark.file,
-                  mark.line, keyword.shown));
+void read_abaqus_contact(AbaqusCard& card) {
+  if (card.content.only_nodes || is_ignored(card, "its surfaces are free")) return;
+  card.error(ErrorCode::unsupported,
+             card.content.options.contact == DeckContact::tied
+                 ? "is general contact, which names no surfaces to tie: use *TIE, or --contact "
+                   "ignore (key `contact`), which leaves all surfaces free"
+                 : "is not linear: --contact ignore (key `contact`) leaves all surfaces free");
 }
 
-void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                              AbaqusContent& content) {
-  using Contact = DeckContact;
-  if (content.only_nodes) return lines.skip_data();
-  if (content.contact == Contact::refuse) {
-    lines.error(ErrorCode::unsupported, keyword,
-                "is not linear: --contact ignore (key `contact`) leaves the surfaces free, "
-                "--contact tied joins them where they touch");
-    return lines.skip_data();
-  }
-  if (content.contact == Contact::ignore) {
-    const SourceMark mark = lines.source().mark(keyword.at);
-    content.notes.push_back(
-        fmt::format("{}:{}: {} is ignored, as the options say: its surfaces are free", mark.file,
-                    mark.line, keyword.shown));
-    return lines.skip_data();
-  }
+void read_abaqus_contact_pair(AbaqusCard& card) {
+  if (card.content.only_nodes || is_ignored(card, "its surfaces are free")) return;
+  if (card.content.options.contact == DeckContact::refuse)
+    return card.error(ErrorCode::unsupported,
+                      "is not linear: --contact ignore (key `contact`) leaves the surfaces free, "
+                      "--contact tied joins them where they touch");
   AbaqusTie tie;
   tie.contact = true;
-  tie.adjust = false;
-  tie.distance = content.contact_distance;
-  read_pairs(lines, keyword, content, tie);
+  tie.made.adjust = false;
+  tie.made.distance = card.content.options.contact_distance;
+  read_pairs(card, tie);
+}
+
+void read_abaqus_gap(AbaqusCard& card) {
+  if (card.content.only_nodes)
+    return card.note("{} is ignored, as the options say: its nodes are free", card.shown);
+  if (is_ignored(card, "its nodes are free")) return;
+  card.error(ErrorCode::unsupported,
+             "has no linear stiffness: --contact ignore (key `contact`) leaves its nodes free; a "
+             "gap that is closed may be a SPRINGA");
+}
+
+/// The mesh is one piece there; its preload belongs to a step.
+void read_abaqus_pre_tension(AbaqusCard& card) {
+  card.note("{} is ignored: the bolt is whole and without its preload", card.shown);
+  if (card.has("SURFACE") && !card.content.only_nodes)
+    card.content.pre_tensions.push_back({card.named("SURFACE")});
 }
 
 void build_abaqus_ties(AbaqusBuild& build) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "floatframe/decks/abaqus/abaqus_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -13,143 +12,112 @@ constexpr const char* hybrid = "without its pressure field";
 constexpr const char* cold = "without their temperatures";
 constexpr const char* full =
     "with full integration as in CalculiX (Abaqus takes the change of volume at the centre)";
+constexpr const char* unmodified = "as C3D10, without the modified formulation";
 constexpr const char* with_shear = "as Timoshenko beams with the shear factors of Abaqus";
-
 constexpr const char* middle_shear =
     "with four points and the shear strain of their middle (Abaqus and CalculiX take one point)";
 constexpr const char* triangles =
     "as flat triangles between all their nodes, twice as fine as their corners";
 
-constexpr AbaqusType solid(const char* name, int nodes, ElementType type,
-                           const char* remark = nullptr) {
-  return {name, Family::solid, nodes, type, remark};
-}
-constexpr AbaqusType skin(const char* name, int nodes) {
-  return {name, Family::skin, nodes, ElementType::tri3, nullptr};
-}
-constexpr AbaqusType shell(const char* name, int nodes, ElementType type,
-                           const char* remark = nullptr) {
-  return {name, Family::shell, nodes, type, remark};
-}
-constexpr AbaqusType membrane(const char* name, int nodes, ElementType type,
-                              const char* remark = nullptr) {
-  return {name, Family::membrane, nodes, type, remark};
-}
-constexpr AbaqusType beam(const char* name, int nodes, ElementType type,
-                          const char* remark = nullptr) {
-  return {name, Family::beam, nodes, type, remark};
-}
-
-constexpr AbaqusType point(const char* name, Family family, int nodes) {
-  return {name, family, nodes, ElementType::beam2, nullptr};
-}
-
-constexpr std::array types_of_abaqus{
-    solid("C3D4", 4, ElementType::tet4),
-    solid("C3D4H", 4, ElementType::tet4, hybrid),
-    solid("C3D4T", 4, ElementType::tet4, cold),
-    solid("C3D10", 10, ElementType::tet10),
-    solid("C3D10H", 10, ElementType::tet10, hybrid),
-    solid("C3D10I", 10, ElementType::tet10, "as C3D10"),
-    solid("C3D10M", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
-    solid("C3D10MH", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
-    solid("C3D10MT", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
-    solid("C3D10T", 10, ElementType::tet10, cold),
-    solid("C3D5", 5, ElementType::pyramid5),
-    solid("C3D5H", 5, ElementType::pyramid5, hybrid),
-    solid("C3D6", 6, ElementType::wedge6),
-    solid("C3D6T", 6, ElementType::wedge6, cold),
-    solid("C3D15", 15, ElementType::wedge15),
-    solid("C3D8", 8, ElementType::hex8, full),
-    solid("C3D8H", 8, ElementType::hex8, hybrid),
-    solid("C3D8I", 8, ElementType::hex8i),
-    solid("C3D8T", 8, ElementType::hex8, cold),
-    solid("C3D8HT", 8, ElementType::hex8, cold),
-    solid("C3D8RT", 8, ElementType::hex8r, cold),
-    solid("C3D8R", 8, ElementType::hex8r),
-    solid("C3D20", 20, ElementType::hex20),
-    solid("C3D20H", 20, ElementType::hex20, hybrid),
-    solid("C3D20R", 20, ElementType::hex20r),
-    solid("C3D20T", 20, ElementType::hex20, cold),
-    solid("C3D20RT", 20, ElementType::hex20r, cold),
-    solid("C3D20RH", 20, ElementType::hex20r, hybrid),
-    shell("S3", 3, ElementType::tri3),
-    shell("S3R", 3, ElementType::tri3),
-    shell("S3T", 3, ElementType::tri3, cold),
-    shell("S3RT", 3, ElementType::tri3, cold),
-    shell("STRI3", 3, ElementType::tri3),
-    shell("S4", 4, ElementType::quad4),
-    shell("S4R", 4, ElementType::quad4, "as S4"),
-    shell("S4T", 4, ElementType::quad4, cold),
-    shell("S4RT", 4, ElementType::quad4, cold),
-    shell("S4R5", 4, ElementType::quad4, "as S4"),
-    shell("S6", 6, ElementType::tri6, triangles),
-    shell("STRI65", 6, ElementType::tri6, triangles),
-    shell("S8", 8, ElementType::quad8, triangles),
-    shell("S8R", 8, ElementType::quad8, triangles),
-    shell("S8R5", 8, ElementType::quad8, triangles),
-    beam("B31", 2, ElementType::beam2, with_shear),
-    beam("B31R", 2, ElementType::beam2, with_shear),
-    beam("B31H", 2, ElementType::beam2, with_shear),
-    beam("B33", 2, ElementType::beam2),
-    beam("B32", 3, ElementType::beam3),
-    beam("B32R", 3, ElementType::beam3),
-    beam("B32H", 3, ElementType::beam3),
-    skin("CPS3", 3),
-    skin("CPS4", 4),
-    skin("CPS4R", 4),
-    skin("CPS6", 6),
-    skin("CPS8", 8),
-    skin("CPS8R", 8),
-    skin("CPE3", 3),
-    skin("CPE4", 4),
-    skin("CPE4R", 4),
-    skin("CPE6", 6),
-    skin("CPE8", 8),
-    skin("CPE8R", 8),
-    skin("CAX3", 3),
-    skin("CAX4", 4),
-    skin("CAX6", 6),
-    skin("CAX8", 8),
-    membrane("M3D3", 3, ElementType::membrane3),
-    membrane("M3D4", 4, ElementType::membrane4),
-    membrane("M3D4R", 4, ElementType::membrane4s, middle_shear),
-    membrane("M3D6", 6, ElementType::membrane6),
-    membrane("M3D8", 8, ElementType::membrane8),
-    membrane("M3D8R", 8, ElementType::membrane8r),
-    skin("SFM3D3", 3),
-    skin("SFM3D4", 4),
-    skin("SFM3D6", 6),
-    skin("SFM3D4R", 4),
-    skin("SFM3D8", 8),
-    skin("R3D3", 3),
-    skin("R3D4", 4),
-    skin("RB3D2", 2),
-    AbaqusType{"T3D2", Family::rod, 2, ElementType::rod2, nullptr},
-    skin("T3D3", 3),
-    AbaqusType{"MASS", Family::mass, 1, ElementType::beam2, nullptr},
-    AbaqusType{"ROTARYI", Family::rotary, 1, ElementType::beam2, nullptr},
-    point("SPRINGA", Family::spring, 2),
-    point("SPRING1", Family::spring, 1),
-    point("SPRING2", Family::spring, 2),
-    point("DASHPOTA", Family::damper, 2),
-    point("DASHPOT1", Family::damper, 1),
-    point("DASHPOT2", Family::damper, 2),
-    point("GAPUNI", Family::gap, 2),
-    AbaqusType{"DCOUP3D", Family::coupling, 1, ElementType::beam2, nullptr},
+/// TypesAlike that are read in the same way, between blanks.
+struct TypesAlike {
+  const char* names;
+  Family family;
+  int nodes;
+  ElementType type = ElementType::beam2;
+  const char* remark = nullptr;
 };
+
+constexpr TypesAlike types_of_abaqus[] = {
+    {"C3D4", Family::solid, 4, ElementType::tet4},
+    {"C3D4H", Family::solid, 4, ElementType::tet4, hybrid},
+    {"C3D4T", Family::solid, 4, ElementType::tet4, cold},
+    {"C3D10", Family::solid, 10, ElementType::tet10},
+    {"C3D10H", Family::solid, 10, ElementType::tet10, hybrid},
+    {"C3D10I", Family::solid, 10, ElementType::tet10, "as C3D10"},
+    {"C3D10M C3D10MH C3D10MT", Family::solid, 10, ElementType::tet10, unmodified},
+    {"C3D10T", Family::solid, 10, ElementType::tet10, cold},
+    {"C3D5", Family::solid, 5, ElementType::pyramid5},
+    {"C3D5H", Family::solid, 5, ElementType::pyramid5, hybrid},
+    {"C3D6", Family::solid, 6, ElementType::wedge6},
+    {"C3D6T", Family::solid, 6, ElementType::wedge6, cold},
+    {"C3D15", Family::solid, 15, ElementType::wedge15},
+    {"C3D8", Family::solid, 8, ElementType::hex8, full},
+    {"C3D8H", Family::solid, 8, ElementType::hex8, hybrid},
+    {"C3D8I", Family::solid, 8, ElementType::hex8i},
+    {"C3D8T C3D8HT", Family::solid, 8, ElementType::hex8, cold},
+    {"C3D8RT", Family::solid, 8, ElementType::hex8r, cold},
+    {"C3D8R", Family::solid, 8, ElementType::hex8r},
+    {"C3D20", Family::solid, 20, ElementType::hex20},
+    {"C3D20H", Family::solid, 20, ElementType::hex20, hybrid},
+    {"C3D20R", Family::solid, 20, ElementType::hex20r},
+    {"C3D20T", Family::solid, 20, ElementType::hex20, cold},
+    {"C3D20RT", Family::solid, 20, ElementType::hex20r, cold},
+    {"C3D20RH", Family::solid, 20, ElementType::hex20r, hybrid},
+    {"S3 S3R", Family::shell, 3, ElementType::tri3},
+    {"S3T S3RT", Family::shell, 3, ElementType::tri3, cold},
+    {"STRI3", Family::shell, 3, ElementType::tri3},
+    {"S4", Family::shell, 4, ElementType::quad4},
+    {"S4R S4R5", Family::shell, 4, ElementType::quad4, "as S4"},
+    {"S4T S4RT", Family::shell, 4, ElementType::quad4, cold},
+    {"S6 STRI65", Family::shell, 6, ElementType::tri6, triangles},
+    {"S8 S8R S8R5", Family::shell, 8, ElementType::quad8, triangles},
+    {"B31 B31R B31H", Family::beam, 2, ElementType::beam2, with_shear},
+    {"B33", Family::beam, 2, ElementType::beam2},
+    {"B32 B32R B32H", Family::beam, 3, ElementType::beam3},
+    {"CPS3 CPE3 CAX3", Family::skin, 3},
+    {"CPS4 CPS4R CPE4 CPE4R CAX4", Family::skin, 4},
+    {"CPS6 CPE6 CAX6", Family::skin, 6},
+    {"CPS8 CPS8R CPE8 CPE8R CAX8", Family::skin, 8},
+    {"M3D3", Family::membrane, 3, ElementType::membrane3},
+    {"M3D4", Family::membrane, 4, ElementType::membrane4},
+    {"M3D4R", Family::membrane, 4, ElementType::membrane4s, middle_shear},
+    {"M3D6", Family::membrane, 6, ElementType::membrane6},
+    {"M3D8", Family::membrane, 8, ElementType::membrane8},
+    {"M3D8R", Family::membrane, 8, ElementType::membrane8r},
+    {"SFM3D3", Family::skin, 3},
+    {"SFM3D4 SFM3D4R", Family::skin, 4},
+    {"SFM3D6", Family::skin, 6},
+    {"SFM3D8", Family::skin, 8},
+    {"R3D3", Family::skin, 3},
+    {"R3D4", Family::skin, 4},
+    {"RB3D2", Family::skin, 2},
+    {"T3D2", Family::rod, 2, ElementType::rod2},
+    {"T3D3", Family::skin, 3},
+    {"MASS", Family::mass, 1},
+    {"ROTARYI", Family::rotary, 1},
+    {"SPRINGA SPRING2", Family::spring, 2},
+    {"SPRING1", Family::spring, 1},
+    {"DASHPOTA DASHPOT2", Family::damper, 2},
+    {"DASHPOT1", Family::damper, 1},
+    {"GAPUNI", Family::gap, 2},
+    {"DCOUP3D", Family::coupling, 1}};
+
+const std::vector<AbaqusType>& all_types() {
+  static const std::vector<AbaqusType> all = [] {
+    std::vector<AbaqusType> out;
+    for (const TypesAlike& t : types_of_abaqus) {
+      std::string_view rest = t.names;
+      for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest))
+        out.push_back({std::string(name), t.family, t.nodes, t.type, t.remark});
+    }
+    return out;
+  }();
+  return all;
+}
 
 }  // namespace
 
-const AbaqusType* find_abaqus_type(std::string_view name) noexcept {
-  const auto it = std::find_if(types_of_abaqus.begin(), types_of_abaqus.end(),
+const AbaqusType* find_abaqus_type(std::string_view name) {
+  const std::vector<AbaqusType>& all = all_types();
+  const auto it = std::find_if(all.begin(), all.end(),
                                [&](const AbaqusType& t) { return same_word(t.name, name); });
-  return it == types_of_abaqus.end() ? nullptr : &*it;
+  return it == all.end() ? nullptr : &*it;
 }
 
 std::vector<std::string> abaqus_type_names() {
   std::vector<std::string> names;
-  for (const AbaqusType& t : types_of_abaqus) names.emplace_back(t.name);
+  for (const AbaqusType& t : all_types()) names.push_back(t.name);
   return names;
 }
 

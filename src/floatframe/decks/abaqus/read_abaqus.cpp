@@ -1,9 +1,5 @@
 #include "floatframe/decks/abaqus/read_abaqus.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 #include <set>
 #include <unordered_map>
 
@@ -16,97 +12,109 @@
 namespace floatframe {
 namespace {
 
-void skip(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent&) { lines.skip_data(); }
+constexpr const char* beam_parameters =
+    "ELSET MATERIAL ORIENTATION SECTION OFFSET1 OFFSET2 TEMPERATURE POISSON DENSITY LUMPED ZERO";
 
-/// The mesh is one piece there; its preload belongs to a step.
-void read_abaqus_pre_tension(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusContent& content) {
-  content.note(
-      lines.source().mark(keyword.at),
-      fmt::format("{} is ignored: the bolt is whole and without its preload", keyword.shown));
-  if (keyword.has("SURFACE") && !content.only_nodes)
-    content.pre_tensions.push_back({content.named(keyword.value("SURFACE"), keyword.at)});
-  lines.skip_data();
-}
-
-struct Known {
+/// A keyword that is read, and the parameters it may have, between blanks; null: any, or the
+/// handler looks itself.
+struct AbaqusReader {
   const char* name;
-  AbaqusHandler read;
+  AbaqusHandler* read;
+  const char* parameters = nullptr;
+  bool may_be_in_step = false;  ///< it does not say that the part is another one from there on
 };
 
-constexpr std::array handlers{
-    Known{"HEADING", skip},
-    Known{"NODE", read_abaqus_nodes},
-    Known{"SYSTEM", read_abaqus_system},
-    Known{"ELEMENT", read_abaqus_elements},
-    Known{"NGEN", read_abaqus_generated_nodes},
-    Known{"NFILL", read_abaqus_filled_nodes},
-    Known{"NCOPY", read_abaqus_copied_nodes},
-    Known{"ELGEN", read_abaqus_generated_elements},
-    Known{"ELCOPY", read_abaqus_copied_elements},
-    Known{"NSET", read_abaqus_node_set},
-    Known{"ELSET", read_abaqus_element_set},
-    Known{"SURFACE", read_abaqus_surface},
-    Known{"PART", read_abaqus_part},
-    Known{"END PART", read_abaqus_end_part},
-    Known{"ASSEMBLY", read_abaqus_assembly},
-    Known{"END ASSEMBLY", read_abaqus_end_assembly},
-    Known{"INSTANCE", read_abaqus_instance},
-    Known{"END INSTANCE", read_abaqus_end_instance},
-    Known{"MATERIAL", read_abaqus_material},
-    Known{"ELASTIC", read_abaqus_elastic},
-    Known{"DENSITY", read_abaqus_density},
-    Known{"INITIAL CONDITIONS", read_abaqus_initial_conditions},
-    Known{"ORIENTATION", read_abaqus_orientation},
-    Known{"SOLID SECTION", read_abaqus_solid_section},
-    Known{"SHELL SECTION", read_abaqus_shell_section},
-    Known{"SHELL GENERAL SECTION", read_abaqus_shell_section},
-    Known{"MEMBRANE SECTION", read_abaqus_membrane_section},
-    Known{"NODAL THICKNESS", read_abaqus_nodal_thickness},
-    Known{"BEAM SECTION", read_abaqus_beam_section},
-    Known{"BEAM GENERAL SECTION", read_abaqus_beam_section},
-    Known{"BEAM SECTION OFFSET", read_abaqus_beam_section_offset},
-    Known{"CENTROID", read_abaqus_centroid},
-    Known{"SHEAR CENTER", read_abaqus_shear_center},
-    Known{"SURFACE SECTION", read_abaqus_surface_section},
-    Known{"MASS", read_abaqus_mass},
-    Known{"NONSTRUCTURAL MASS", read_abaqus_nonstructural_mass},
-    Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
-    Known{"RIGID BODY", read_abaqus_rigid_body},
-    Known{"COUPLING", read_abaqus_coupling},
-    Known{"KINEMATIC COUPLING", read_abaqus_kinematic_coupling},
-    Known{"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling},
-    Known{"EQUATION", read_abaqus_equation},
-    Known{"BOUNDARY", read_abaqus_boundary},
-    Known{"TIE", read_abaqus_tie},
-    Known{"CONTACT PAIR", read_abaqus_contact_pair},
-    Known{"CONTACT", read_abaqus_general_contact},
-    Known{"MPC", read_abaqus_mpc},
-    Known{"PRE-TENSION SECTION", read_abaqus_pre_tension},
-    Known{"SPRING", read_abaqus_spring},
-    Known{"GAP", read_abaqus_gap},
-    Known{"TRANSFORM", read_abaqus_transform},
+void skip(AbaqusCard& /*card*/) {}
+
+constexpr AbaqusReader abaqus_readers[] = {
+    {"HEADING", skip, nullptr, true},
+    {"NODE", read_abaqus_nodes, "NSET SYSTEM INPUT"},
+    {"SYSTEM", read_abaqus_system, ""},
+    {"ELEMENT", read_abaqus_elements, "TYPE ELSET INPUT"},
+    {"NGEN", read_abaqus_generated_nodes, "NSET LINE SYSTEM"},
+    {"NFILL", read_abaqus_filled_nodes, "NSET"},
+    {"NCOPY", read_abaqus_copied_nodes},
+    {"ELGEN", read_abaqus_generated_elements, "ELSET"},
+    {"ELCOPY", read_abaqus_copied_elements, "ELEMENTSHIFT OLDSET SHIFTNODES NEWSET"},
+    {"NSET", read_abaqus_set, "NSET GENERATE INSTANCE INTERNAL UNSORTED ELSET INPUT", true},
+    {"ELSET", read_abaqus_set, "ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", true},
+    {"SURFACE", read_abaqus_surface, "NAME TYPE INTERNAL", true},
+    {"PART", read_abaqus_part},
+    {"END PART", read_abaqus_end, nullptr, true},
+    {"ASSEMBLY", read_abaqus_assembly},
+    {"END ASSEMBLY", read_abaqus_end, nullptr, true},
+    {"INSTANCE", read_abaqus_instance, "NAME PART"},
+    {"END INSTANCE", read_abaqus_end, nullptr, true},
+    {"MATERIAL", read_abaqus_material},
+    {"ELASTIC", read_abaqus_elastic, "TYPE MODULI DEPENDENCIES"},
+    {"DENSITY", read_abaqus_density, "DEPENDENCIES"},
+    {"INITIAL CONDITIONS", read_abaqus_initial_conditions, nullptr, true},
+    {"ORIENTATION", read_abaqus_orientation, "NAME SYSTEM DEFINITION", true},
+    {"SOLID SECTION", read_abaqus_solid_section, "ELSET MATERIAL ORIENTATION CONTROLS"},
+    {"SHELL SECTION", read_abaqus_shell_section},
+    {"SHELL GENERAL SECTION", read_abaqus_shell_section},
+    {"MEMBRANE SECTION", read_abaqus_membrane_section,
+     "ELSET MATERIAL ORIENTATION CONTROLS OFFSET POISSON NODALTHICKNESS STACKDIRECTION"},
+    {"NODAL THICKNESS", read_abaqus_nodal_thickness, ""},
+    {"BEAM SECTION", read_abaqus_beam_section, beam_parameters},
+    {"BEAM GENERAL SECTION", read_abaqus_beam_section, beam_parameters},
+    {"BEAM SECTION OFFSET", read_abaqus_place_in_section, nullptr, true},
+    {"CENTROID", read_abaqus_place_in_section, nullptr, true},
+    {"SHEAR CENTER", read_abaqus_place_in_section, nullptr, true},
+    {"SURFACE SECTION", read_abaqus_surface_section, nullptr, true},
+    {"MASS", read_abaqus_mass, "ELSET TYPE ALPHA COMPOSITE"},
+    {"NONSTRUCTURAL MASS", read_abaqus_nonstructural_mass, "ELSET UNITS DISTRIBUTION"},
+    {"ROTARY INERTIA", read_abaqus_rotary_inertia, "ELSET ORIENTATION ALPHA COMPOSITE"},
+    {"RIGID BODY", read_abaqus_rigid_body, "NSET ELSET REFNODE ROTNODE TIENSET PINNSET POSITION"},
+    {"COUPLING", read_abaqus_coupling, "CONSTRAINTNAME REFNODE SURFACE"},
+    {"KINEMATIC COUPLING", read_abaqus_kinematic_coupling, "REFNODE"},
+    {"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling, "ELSET"},
+    {"EQUATION", read_abaqus_equation, "INPUT"},
+    {"BOUNDARY", read_abaqus_boundary, nullptr, true},
+    {"TIE", read_abaqus_tie,
+     "NAME ADJUST POSITIONTOLERANCE CYCLICSYMMETRY TYPE NOROTATION CONSTRAINTRATIO NOTHICKNESS"},
+    {"CONTACT PAIR", read_abaqus_contact_pair, nullptr, true},
+    {"CONTACT", read_abaqus_contact, nullptr, true},
+    {"MPC", read_abaqus_mpc, "INPUT"},
+    {"PRE-TENSION SECTION", read_abaqus_pre_tension, nullptr, true},
+    {"SPRING", read_abaqus_spring, "ELSET ORIENTATION NONLINEAR"},
+    {"GAP", read_abaqus_gap, nullptr, true},
+    {"TRANSFORM", read_abaqus_transform, "NSET TYPE", true},
 };
 
 /// A keyword that is one or two letters away from one that is read.
 std::string nearly(const std::string& name) {
   if (name.size() > 40) return {};
-  for (const Known& k : handlers) {
-    const std::string known = abaqus_name(k.name);
+  for (const AbaqusReader& r : abaqus_readers) {
+    const std::string known = abaqus_name(r.name);
     const std::size_t letters = known.size();
-    if (letters >= 4 && edit_distance(name, known) <= (letters >= 8 ? 2 : 1)) return k.name;
+    if (letters >= 4 && edit_distance(name, known) <= (letters >= 8 ? 2 : 1)) return r.name;
   }
   return {};
 }
 
-AbaqusHandler handler_of(const std::string& name) {
-  static const std::unordered_map<std::string, AbaqusHandler> map = [] {
-    std::unordered_map<std::string, AbaqusHandler> all;
-    for (const Known& k : handlers) all.emplace(abaqus_name(k.name), k.read);
+/// Null if the keyword is not read.
+const AbaqusReader* reader_of(const std::string& name) {
+  static const auto map = [] {
+    std::unordered_map<std::string, const AbaqusReader*> all;
+    for (const AbaqusReader& r : abaqus_readers) all.emplace(abaqus_name(r.name), &r);
     return all;
   }();
   const auto it = map.find(name);
   return it == map.end() ? nullptr : it->second;
+}
+
+/// Does a keyword of a step say that the part is another one from there on? Loads, procedures and
+/// output requests do not. Elements that go change the part; contact pairs and equations that go do
+/// not.
+bool changes_part(const AbaqusKeyword& keyword) {
+  if (keyword.name == "MODELCHANGE")
+    return abaqus_name(keyword.value("TYPE")) != "CONTACTPAIR" && !keyword.has("ACTIVATE");
+  const AbaqusReader* const reader = reader_of(keyword.name);
+  return (reader != nullptr
+              ? !reader->may_be_in_step
+              : is_abaqus_word("CHANGESOLIDSECTION MATRIXINPUT MATRIXASSEMBLE", keyword.name)) &&
+         !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
 }
 
 /// The keywords of a deck in turn.
@@ -121,77 +129,66 @@ class DeckReader {
                            "the deck begins with {}, expected a keyword line (*...)", shown(first));
     }
     AbaqusKeyword keyword;
-    while (lines_.next_keyword(keyword)) one(keyword);
+    while (lines_.next_keyword(keyword)) {
+      content_.clues.look_at(keyword);
+      AbaqusCard card(keyword, lines_, content_);
+      one(card);
+    }
   }
 
  private:
-  void one(const AbaqusKeyword& keyword) {
-    content_.clues.look_at(keyword);
-    if (const AbaqusHandler handler = handler_of(keyword.name); handler != nullptr) {
-      return handler(lines_, keyword, content_);
-    }
-    if (keyword.name == "STEP") {
-      close_abaqus_blocks(content_, lines_.source(), "before *STEP");
-      note(keyword, "and what follows up to *END STEP is ignored");
-      return step(keyword);
-    }
-    using Use = AbaqusKeywordRule::Use;
-    const AbaqusKeywordRule rule = abaqus_keyword_rule(keyword.name);
-    if (rule.use == Use::harmless) {
-      note(keyword, "is ignored");
-    } else if (rule.use == Use::refused) {
-      error(ErrorCode::unsupported, keyword, fmt::format("is not supported: {}", rule.advice));
+  void one(AbaqusCard& card) {
+    if (const AbaqusReader* const reader = reader_of(card.name)) {
+      if (reader->parameters != nullptr) card.allow_only(reader->parameters);
+      reader->read(card);
+    } else if (card.name == "STEP") {
+      close_abaqus_blocks(content_, card.source, "before *STEP");
+      note(card, "and what follows up to *END STEP is ignored");
+      step(card);
+    } else if (is_harmless_in_abaqus(card.name)) {
+      note(card, "is ignored");
+    } else if (const char* const advice = advice_for_abaqus(card.name)) {
+      error(ErrorCode::unsupported, card, fmt::format("is not supported: {}", advice));
     } else {
-      unknown(keyword);
+      unknown(card);
     }
-    lines_.skip_data();
   }
 
   /// *STEP to *END STEP: loads and results.
-  void step(const AbaqusKeyword& begin) {
+  void step(const AbaqusCard& begin) {
     AbaqusKeyword keyword;
     while (lines_.next_keyword(keyword) && keyword.name != "ENDSTEP") {
       content_.clues.look_at(keyword);
-      // Elements that go change the part; contact pairs and equations that go do not.
-      const bool removes = keyword.name == "MODELCHANGE" &&
-                           abaqus_name(keyword.value("TYPE")) != "CONTACTPAIR" &&
-                           !keyword.has("ACTIVATE");
-      const bool changes =
-          changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
-      if (content_.only_nodes || (!removes && !changes)) continue;
-      error(
-          ErrorCode::contradiction, keyword,
-          fmt::format(
-              "is inside the *STEP of line {}, but the part must be complete before the first step",
-              begin.at.line));
+      if (content_.only_nodes || !changes_part(keyword)) continue;
+      AbaqusCard card(keyword, lines_, content_);
+      error(ErrorCode::contradiction, card,
+            fmt::format("is inside the *STEP of line {}, but the part must be complete before the "
+                        "first step",
+                        begin.at.line));
     }
   }
 
   /// Each keyword once: there may be millions of them.
-  void error(ErrorCode code, const AbaqusKeyword& keyword, const std::string& text) {
-    if (errors_.insert(keyword.name).second) lines_.error(code, keyword, text);
+  void error(ErrorCode code, AbaqusCard& card, const std::string& text) {
+    if (errors_.insert(card.name).second) card.error(code, text);
   }
 
-  void unknown(const AbaqusKeyword& keyword) {
-    if (errors_.contains(keyword.name) || noted_.contains(keyword.name)) return;
+  void note(AbaqusCard& card, std::string_view text) {
+    if (noted_.insert(card.name).second) card.note("{} {}", card.shown, text);
+  }
+
+  void unknown(AbaqusCard& card) {
+    if (errors_.contains(card.name) || noted_.contains(card.name)) return;
     if (content_.only_nodes && noted_.size() >= most_notes) return;
-    const std::string near = nearly(keyword.name);
-    if (!near.empty()) {
-      error(ErrorCode::unknown_key, keyword,
-            fmt::format("is not known, did you mean '*{}'?", near));
-    } else if (content_.only_nodes) {
-      note(keyword, "is not known and is ignored");
-    } else {
-      error(ErrorCode::unknown_key, keyword,
+    const std::string near = nearly(card.name);
+    if (!near.empty())
+      error(ErrorCode::unknown_key, card, fmt::format("is not known, did you mean '*{}'?", near));
+    else if (content_.only_nodes)
+      note(card, "is not known and is ignored");
+    else
+      error(ErrorCode::unknown_key, card,
             "is not known and may change stiffness, mass or constraints: take it out of the deck "
             "if it does not");
-    }
-  }
-
-  void note(const AbaqusKeyword& keyword, std::string_view text) {
-    if (!noted_.insert(keyword.name).second) return;
-    const SourceMark m = lines_.source().mark(keyword.at);
-    content_.notes.push_back(fmt::format("{}:{}: {} {}", m.file, m.line, keyword.shown, text));
   }
 
   static constexpr std::size_t most_notes = 500;  // the harmless ones are fewer
@@ -218,18 +215,14 @@ bool looks_like_abaqus(std::string_view beginning) {
 
 FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart part) {
   AbaqusContent content;
-  content.dialect = options.dialect;
+  content.options = options;
   content.only_nodes = part == DeckPart::nodes;
-  content.temperature = options.temperature;
-  content.contact = options.contact;
-  content.contact_distance = options.contact_distance;
   AbaqusLines lines(source);
   DeckReader(lines, content).read();
   finish_abaqus_assembly(content, source);
   finish_abaqus_constants(lines, content);
-  if (content.nodes.empty() && source.errors() == 0) {
+  if (content.nodes.size() == 0 && source.errors() == 0)
     source.error(ErrorCode::missing, {0, 0}, "the deck has no nodes");
-  }
   source.throw_if_any();
   const bool only_nodes = content.only_nodes;
   content.clues.settle();
@@ -237,7 +230,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   build.element_index.assign(content.elements.size(), -1);
   build.model.notes = content.notes;
   build_abaqus_nodes(build);
-  if (!only_nodes) build_abaqus_elements(build, options);
+  if (!only_nodes) build_abaqus_elements(build);
   if (!only_nodes) as_in_home_program(build);
   if (!only_nodes) build_abaqus_nonstructural_mass(build);
   build_abaqus_sets(build, only_nodes);

@@ -4,21 +4,36 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
+#include "floatframe/decks/ansys/read_ansys.hpp"
 #include "floatframe/decks/number_sizes.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
+namespace {
+
+/// Words that no other format of this folder begins a line with.
+constexpr std::array<std::string_view, 8> ansys_signs = {
+    "NBLOCK,", "EBLOCK,", "/PREP7", "/COM,ANSYS", "ETBLOCK,", "RLBLOCK,", "ET,", "NUMOFF,"};
+
+void note_passed_over(AnsysBuild& build) {
+  std::string list;
+  for (const auto& [word, at] : build.content.passed_over)
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
+  if (!list.empty()) build.file_note("ignored, of loads and analyses: {}", list);
+}
+
+}  // namespace
 
 Mat3 ansys_rotation(const Vec3& angles) {
-  constexpr double degree = std::numbers::pi / 180.0;
-  return (Eigen::AngleAxisd(degree * angles(0), Vec3::UnitZ()) *
-          Eigen::AngleAxisd(degree * angles(1), Vec3::UnitX()) *
-          Eigen::AngleAxisd(degree * angles(2), Vec3::UnitY()))
+  return (Eigen::AngleAxisd(ansys_degree * angles(0), Vec3::UnitZ()) *
+          Eigen::AngleAxisd(ansys_degree * angles(1), Vec3::UnitX()) *
+          Eigen::AngleAxisd(ansys_degree * angles(2), Vec3::UnitY()))
       .toRotationMatrix();
 }
 
@@ -40,33 +55,37 @@ bool AnsysBuild::nodes_of(const AnsysElement& e, std::vector<int>& nodes) {
 }
 
 std::string AnsysBuild::label(const AnsysElement& e) const {
-  const auto it = content.types.find(e.type);
-  const AnsysLibraryElement* library =
-      it == content.types.end() ? nullptr : ansys_library_element(it->second.number);
+  const auto* const library = known(e).second;
   return library == nullptr ? fmt::format("element {}", e.id)
                             : fmt::format("element {} ({})", e.id, library->name);
 }
 
-const AnsysType* AnsysBuild::type(const AnsysElement& e) {
+std::pair<const AnsysType*, const AnsysLibraryElement*> AnsysBuild::known(
+    const AnsysElement& e) const {
   const auto it = content.types.find(e.type);
-  if (it != content.types.end() && ansys_library_element(it->second.number) != nullptr)
-    return &it->second;
+  if (it == content.types.end()) return {};
+  return {&it->second, ansys_library_element(it->second.number)};
+}
+
+const AnsysType* AnsysBuild::type(const AnsysElement& e) {
+  const auto [type, library] = known(e);
+  if (library != nullptr) return type;
   if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
   said.push_back(e.type);
-  if (it == content.types.end()) {
+  if (type == nullptr) {
     source.error(ErrorCode::not_found, e.at, "element {} is of type {}, which no ET gives", e.id,
                  e.type);
-  } else if (it->second.number == 179) {
-    source.error(ErrorCode::unsupported, it->second.at,
+  } else if (type->number == 179) {
+    source.error(ErrorCode::unsupported, type->at,
                  "type {} is PRETS179: the mesh is cut there, and what holds it together is the "
                  "preload of an analysis; write the mesh without the cut",
                  e.type);
   } else {
-    source.error(ErrorCode::unsupported, it->second.at,
+    source.error(ErrorCode::unsupported, type->at,
                  "type {} is element {}, which is not read; read are SOLID45, 92, 95, 185, 186, "
                  "187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, PIPE288, 289, LINK8, "
                  "180, COMBIN14, MATRIX27, MASS21 and MPC184",
-                 e.type, it->second.number);
+                 e.type, type->number);
   }
   return nullptr;
 }
@@ -74,6 +93,13 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
 const AnsysReal* AnsysBuild::real(const AnsysElement& e) const {
   const auto it = content.reals.find(e.real);
   return it == content.reals.end() ? nullptr : &it->second;
+}
+
+const AnsysReal* AnsysBuild::needed_real(const AnsysElement& e) {
+  const AnsysReal* const found = real(e);
+  if (found == nullptr)
+    shared_error(ErrorCode::not_found, e, "its real constants {} are not in the file", e.real);
+  return found;
 }
 
 const AnsysSection* AnsysBuild::section(const AnsysElement& e, const char* kind) const {
@@ -99,7 +125,7 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   } else if (content.materials.empty() && options.material) {
     m = *options.material;
   } else if (!content.materials.empty()) {
-    error(ErrorCode::not_found, e, fmt::format("it has material {}, which is not in the file", id));
+    error(ErrorCode::not_found, e, "it has material {}, which is not in the file", id);
   }
   if (const std::string huge = huge_constant(m); own && !huge.empty())
     source.error(ErrorCode::not_finite, found->second.at, "material {}: {}", id, huge);
@@ -107,11 +133,9 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
     model.without_density[it->second] = {found->second.at, 1.0};
   m.density += more_density;
   if (!std::isfinite(m.density))
-    error(
-        ErrorCode::not_finite, e,
-        fmt::format(
-            "the density of its material {} and its added mass make {:g}, expected a finite number",
-            id, m.density));
+    error(ErrorCode::not_finite, e,
+          "the density of its material {} and its added mass make {:g}, expected a finite number",
+          id, m.density);
   model.materials.push_back(std::move(m));
   model.material_names.push_back(fmt::format("{}", id));
   return it->second;
@@ -120,10 +144,9 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
 std::optional<int> AnsysBuild::layer_material(double number, const AnsysElement& e,
                                               const FeSource& at) {
   if (!(number >= 0.0 && number < 1e9) || number != std::floor(number)) {
-    error_once(
-        ErrorCode::not_a_number, at,
-        fmt::format("section {}: a layer is of material {:g}, which is no number of a material",
-                    e.section, number));
+    error_once(ErrorCode::not_a_number, at,
+               "section {}: a layer is of material {:g}, which is no number of a material",
+               e.section, number);
     return std::nullopt;
   }
   const int id = static_cast<int>(number);
@@ -196,13 +219,15 @@ std::vector<char> AnsysBuild::nodes_with_rotations() const {
   return rotates;
 }
 
-void AnsysBuild::error(ErrorCode code, const AnsysElement& e, const std::string& text) {
+bool AnsysBuild::error(ErrorCode code, const AnsysElement& e, const std::string& text) {
   source.error(code, e.at, "{}: {}", label(e), text);
+  return false;
 }
 
-void AnsysBuild::shared_error(ErrorCode code, const AnsysElement& e, const std::string& text) {
+bool AnsysBuild::shared_error(ErrorCode code, const AnsysElement& e, const std::string& text) {
   const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e, code});
   if (!fresh) ++it->second.others;
+  return false;
 }
 
 void AnsysBuild::report_shared() {
@@ -214,13 +239,57 @@ void AnsysBuild::report_shared() {
   shared.clear();
 }
 
-void AnsysBuild::error_once(ErrorCode code, const FeSource& at, const std::string& text) {
+bool AnsysBuild::error_once(ErrorCode code, const FeSource& at, const std::string& text) {
   if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, text)).second)
     source.error(code, at, text);
+  return false;
 }
 
-void AnsysBuild::note(const FeSource& at, const std::string& text) {
-  model.notes.push_back(source.mark(at).before(text));
+bool looks_like_ansys(std::string_view beginning) {
+  while (!beginning.empty()) {
+    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
+    const std::string_view line = trimmed(beginning.substr(0, end));
+    for (const std::string_view sign : ansys_signs)
+      if (begins_with(line, sign)) return true;
+    beginning.remove_prefix(std::min(end + 1, beginning.size()));
+  }
+  return false;
+}
+
+FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
+  AnsysContent content = read_ansys_content(source);
+  AnsysBuild build{source, content, options, content.model};
+  build_ansys_elements(build);
+  build_ansys_springs(build);
+  build_ansys_rigid(build);
+  build_ansys_contact(build);
+  build.arms.tie(build.model);
+  build_ansys_masses(build);
+  build.report_shared();
+  build_ansys_equations(build);
+  build_ansys_supports(build);
+  build_ansys_components(build);
+  note_passed_over(build);
+  source.throw_if_any();
+  content.model.files = source.files();
+  return std::move(content.model);
+}
+
+FeModel read_ansys_nodes(TextSource& source) {
+  AnsysContent content = read_ansys_content(source);
+  const FeReadOptions options;
+  AnsysBuild build{source, content, options, content.model};
+  build.index.assign(content.elements.size(), -1);
+  build_ansys_supports(build);
+  build_ansys_components(build);
+  source.throw_if_any();
+  content.model.files = source.files();
+  return std::move(content.model);
+}
+
+FeModel read_ansys(const std::filesystem::path& file, const FeReadOptions& options) {
+  TextSource source(file);
+  return read_ansys(source, options);
 }
 
 }  // namespace floatframe

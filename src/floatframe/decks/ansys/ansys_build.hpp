@@ -1,11 +1,9 @@
 #pragma once
 // From the content of an ANSYS deck to the model.
-#include <array>
-#include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,9 +36,13 @@ struct AnsysBuild {
   bool nodes_of(const AnsysElement& e, std::vector<int>& nodes);
   /// "element 12 (SOLID185)"
   std::string label(const AnsysElement& e) const;
-  /// The type of an element and what it is; null with an error, once a type.
+  /// The type of an element; null with an error, once a type.
   const AnsysType* type(const AnsysElement& e);
+  /// What is known of it without an error; nulls where something is not.
+  std::pair<const AnsysType*, const AnsysLibraryElement*> known(const AnsysElement& e) const;
+  /// Null if they are not in the file, `needed_real` with an error.
   const AnsysReal* real(const AnsysElement& e) const;
+  const AnsysReal* needed_real(const AnsysElement& e);
   /// The section of an element if it is one of a kind (SHEL, BEAM, ...), else null.
   const AnsysSection* section(const AnsysElement& e, const char* kind) const;
   /// Index of a material by its number, with a mass besides its own over the volume.
@@ -55,13 +57,38 @@ struct AnsysBuild {
   Mat3 nodal_axes(int node) const;
   /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
   std::vector<char> nodes_with_rotations() const;
-  void error(ErrorCode code, const AnsysElement& e, const std::string& text);
+  /// Errors are false, for functions that say so of what they build.
+  bool error(ErrorCode code, const AnsysElement& e, const std::string& text);
   /// An error that elements of the same type share: `report_shared` says it with the first of them.
-  void shared_error(ErrorCode code, const AnsysElement& e, const std::string& text);
+  bool shared_error(ErrorCode code, const AnsysElement& e, const std::string& text);
   void report_shared();
   /// An error of what many elements have; equal ones are one.
-  void error_once(ErrorCode code, const FeSource& at, const std::string& text);
-  void note(const FeSource& at, const std::string& text);
+  bool error_once(ErrorCode code, const FeSource& at, const std::string& text);
+  /// Each also with a text of fmt and its values.
+  template <class... Args>
+  bool error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
+             Args&&... args) {
+    return error(code, e, fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  bool shared_error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
+                    Args&&... args) {
+    return shared_error(code, e, fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  bool error_once(ErrorCode code, const FeSource& at, fmt::format_string<Args...> text,
+                  Args&&... args) {
+    return error_once(code, at, fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  void note(const FeSource& at, fmt::format_string<Args...> text, Args&&... args) {
+    source.note(model, at, text, std::forward<Args>(args)...);
+  }
+  /// Of the whole file.
+  template <class... Args>
+  void file_note(fmt::format_string<Args...> text, Args&&... args) {
+    source.note(model, {0, 0}, text, std::forward<Args>(args)...);
+  }
 
   std::map<std::pair<int, double>, int> materials = {};
   std::map<int, int> orientations = {};
@@ -83,39 +110,33 @@ struct AnsysBuild {
 
 /// Solids, shells, beams, rods.
 void build_ansys_elements(AnsysBuild& build);
-/// Elements of those families; `nodes`: indices in the order of the deck.
+// Elements of those families, false with an error; `nodes`: indices in the order of the deck.
 void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                        Element& element);
-/// Empty if all of a beam are finite numbers, else what they are.
-std::string ansys_beam_misfit(const AnsysBeam& beam);
-// ansys_build_layers.cpp: solids with layers; the latter false with an error.
+/// Of solids.
 bool ansys_has_layers(const AnsysBuild& build, const AnsysElement& e, const AnsysType& type);
 bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                         Element& element);
-bool build_ansys_line(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
-                      const std::vector<int>& nodes, Element& element);
 /// BEAM and PIPE sections; none with an error.
 std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSection& section,
                                             const AnsysElement& e);
-/// Iy, Iz of the principal axes and the turn, from moments about y and z.
-void set_ansys_principal(double Iyy, double Izz, double Iyz, AnsysBeam& beam);
-/// MATRIX27
-void build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
-                        const std::vector<int>& nodes);
-/// A point mass of an element; inertia of a node without rotations is left out, with a note.
-void add_ansys_mass(AnsysBuild& build, const AnsysElement& e, PointMass mass);
-// ansys_build_points.cpp
+/// Empty if all of a beam are finite numbers, else what they are.
+std::string ansys_beam_misfit(const AnsysBeam& beam);
 /// COMBIN14, MATRIX27, MPC184, CERIG, then MASS21.
 void build_ansys_springs(AnsysBuild& build);
 void build_ansys_rigid(AnsysBuild& build);
 void build_ansys_masses(AnsysBuild& build);
-// ansys_build_contact.cpp
+/// A point mass of an element; inertia of a node without rotations is left out, with a note.
+bool add_ansys_mass(AnsysBuild& build, const AnsysElement& e, PointMass mass);
+/// MATRIX27
+bool build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                        const std::vector<int>& nodes);
 void build_ansys_contact(AnsysBuild& build);
-// ansys_build_constraints.cpp
 void build_ansys_equations(AnsysBuild& build);
 void build_ansys_supports(AnsysBuild& build);
 void build_ansys_components(AnsysBuild& build);
 
+inline constexpr double ansys_degree = std::numbers::pi / 180.0;  ///< [rad]
 /// R_z(a) R_x(b) R_y(c), angles in degrees: of nodes and coordinate systems.
 Mat3 ansys_rotation(const Vec3& angles);
 

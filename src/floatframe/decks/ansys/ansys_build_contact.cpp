@@ -43,16 +43,14 @@ class ContactBuilder {
 
   void build() {
     for (const AnsysElement& e : b_.content.elements) {
-      const auto type = b_.content.types.find(e.type);
-      if (type == b_.content.types.end()) continue;
-      const AnsysLibraryElement* library = ansys_library_element(type->second.number);
+      const auto [type, library] = b_.known(e);
       if (library == nullptr) continue;
       const bool target = library->family == AnsysFamily::target;
       if (!target && library->family != AnsysFamily::contact) continue;
       ContactPair& pair = pairs_[e.real];
       if (pair.at.file < 0) pair.at = e.at;
       (target ? pair.targets : pair.contacts).push_back(&e);
-      if (!target) pair.contact = &type->second;
+      if (!target) pair.contact = type;
     }
     if (pairs_.empty()) return;
     taken_.assign(b_.model.positions.size(), 0);
@@ -116,11 +114,11 @@ class ContactBuilder {
       if (!weights.empty()) s.weights.push_back(weights[node]);
       if (rigid) taken_[node] = 1;
     }
-    b_.note(p.at, fmt::format("{}: node {} {} {} nodes{}", who, b_.model.node_ids[s.reference],
-                              rigid ? "holds" : "moves as the mean of", s.nodes.size(),
-                              rigid     ? ""
-                              : surface ? ", weighed by their shares of the area of the faces"
-                                        : ", all of the same weight"));
+    b_.note(p.at, "{}: node {} {} {} nodes{}", who, b_.model.node_ids[s.reference],
+            rigid ? "holds" : "moves as the mean of", s.nodes.size(),
+            rigid     ? ""
+            : surface ? ", weighed by their shares of the area of the faces"
+                      : ", all of the same weight");
     if (s.nodes.empty()) return;
     b_.model.spiders.push_back(std::move(s));
   }
@@ -169,9 +167,10 @@ class ContactBuilder {
           "leaves its surfaces free, --contact tied joins them where they touch",
           id);
     if (!always && b_.options.contact == DeckContact::ignore)
-      return b_.note(p.at, fmt::format("the contact pair of real constants {} is ignored, as the "
-                                       "options say: its surfaces are free",
-                                       id));
+      return b_.note(p.at,
+                     "the contact pair of real constants {} is ignored, as the options say: its "
+                     "surfaces are free",
+                     id);
     SurfaceTie tie;
     tie.faces = faces_of(p);
     if (tie.faces.empty())
@@ -192,7 +191,7 @@ class ContactBuilder {
     if (!done.free.empty())
       text += fmt::format("; not tied: {}{}", b_.model.node_label(done.free.front()),
                           done.free.size() > 1 ? ", ..." : "");
-    b_.note(p.at, text);
+    b_.note(p.at, "{}", text);
   }
 
   std::vector<ElementFace> faces_of(const ContactPair& p) {

@@ -1,15 +1,142 @@
-// Solids, shells, beams and rods.
-#include <fmt/format.h>
-
+// Solids, shells, beams and rods; of beams and rods also their sections, axes and ends.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
+#include <tuple>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
 #include "floatframe/fe/solid_shapes.hpp"
 
 namespace floatframe {
 namespace {
+
+/// BEAM4: AREA, IZZ, IYY, TKZ, TKY, THETA, ISTRN, IXX, SHEARZ, SHEARY, SPIN, ADDMAS.
+std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e) {
+  const AnsysReal* real = b.needed_real(e);
+  if (real == nullptr) return std::nullopt;
+  AnsysBeam beam;
+  const auto r = [&](std::size_t k) { return real->value(k); };
+  BeamSection& s = beam.section;
+  s.A = r(0);
+  s.Iz = r(1);
+  s.Iy = r(2);
+  s.J = r(7) != 0.0 ? r(7) : r(1) + r(2);
+  if (r(8) > 0.0) s.shear_z = s.A / r(8);
+  if (r(9) > 0.0) s.shear_y = s.A / r(9);
+  beam.turn = r(5) * ansys_degree;
+  beam.mass = r(11);
+  if (!(s.A > 0.0 && s.Iz > 0.0 && s.Iy > 0.0)) {
+    b.error_once(
+        ErrorCode::out_of_range, real->at,
+        "real constants {}: AREA, IZZ and IYY are {:g}, {:g} and {:g}, expected more than 0",
+        e.real, s.A, s.Iz, s.Iy);
+    return std::nullopt;
+  }
+  if (const std::string misfit = ansys_beam_misfit(beam); !misfit.empty()) {
+    b.error_once(ErrorCode::wrong_value, real->at, "real constants {}: {}", e.real, misfit);
+    return std::nullopt;
+  }
+  return beam;
+}
+
+std::optional<AnsysBeam> beam_section_of(AnsysBuild& b, const AnsysElement& e,
+                                         const AnsysType& type) {
+  if (type.number == 4) return beam_of_constants(b, e);
+  const char* const kind = type.number == 288 || type.number == 289 ? "PIPE" : "BEAM";
+  const AnsysSection* s = b.section(e, kind);
+  if (s == nullptr) {
+    b.shared_error(ErrorCode::not_found, e, "its section {} is no SECTYPE,{},{}", e.section,
+                   e.section, kind);
+    return std::nullopt;
+  }
+  return ansys_beam_section(b, *s, e);
+}
+
+/// Local y: of the node for the orientation, which is towards z; without one parallel to the global
+/// xy plane, of an element along z the global y.
+Vec3 local_y(const Vec3& along, const Vec3* towards_z) {
+  const Vec3 x = along.normalized();
+  if (towards_z != nullptr) return towards_z->cross(x);
+  const Vec3 y = Vec3::UnitZ().cross(x);
+  return y.norm() > 1e-4 ? y : Vec3(Vec3::UnitY());
+}
+
+int add_section(FeModel& model, const BeamSection& s) {
+  const auto key = [](const BeamSection& x) {
+    return std::tie(x.A, x.Iy, x.Iz, x.J, x.shear_y, x.shear_z, x.outline, x.width, x.height,
+                    x.bore);
+  };
+  for (std::size_t k = model.sections.size(); k-- > 0;)
+    if (key(model.sections[k]) == key(s)) return static_cast<int>(k);
+  model.sections.push_back(s);
+  return static_cast<int>(model.sections.size()) - 1;
+}
+
+bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& element) {
+  BeamSection s;
+  double mass = 0.0;
+  bool one_way = false;
+  const AnsysSection* section = type.number == 180 ? b.section(e, "LINK") : nullptr;
+  if (section != nullptr && !section->rows.empty()) {
+    s.A = ansys_value(section->rows.front(), 0);
+    mass = ansys_value(section->control, 0);
+    one_way = ansys_value(section->control, 1) != 0.0;
+  } else if (const AnsysReal* real = b.real(e)) {
+    s.A = real->value(0);
+    if (type.number == 180) mass = real->value(1);
+    one_way = type.number == 180 && real->value(2) != 0.0;
+  }
+  if (one_way)
+    return b.shared_error(ErrorCode::unsupported, e,
+                          "it is for tension or compression alone (TENSKEY), which is not linear");
+  if (!(s.A > 0.0))
+    return b.shared_error(
+        ErrorCode::missing, e,
+        "neither its section {} (SECTYPE,{},LINK) nor its real constants {} give an area above 0",
+        e.section, e.section, e.real);
+  element.type = ElementType::rod2;
+  element.material = b.material(e.material, e, mass / s.A);
+  element.section = add_section(b.model, s);
+  return true;
+}
+
+bool build_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
+                const std::vector<int>& nodes, Element& element) {
+  const AnsysFamily family = ansys_library_element(type.number)->family;
+  const std::size_t count = family == AnsysFamily::beam3 ? 3 : 2;
+  if (nodes.size() < count || std::any_of(nodes.begin(), nodes.begin() + static_cast<int>(count),
+                                          [](int n) { return n < 0; }))
+    return b.error(ErrorCode::wrong_count, e, "it has fewer than {} nodes", count);
+  const std::vector<Vec3>& p = b.model.positions;
+  const Vec3 along = p[nodes[1]] - p[nodes[0]];
+  element.nodes[0] = nodes[0];
+  element.nodes[1] = nodes[1];
+  if (!(along.norm() > 0.0)) return b.error(ErrorCode::geometry, e, "its ends are at one place");
+  if (family == AnsysFamily::rod) return rod(b, e, type, element);
+  const auto beam = beam_section_of(b, e, type);
+  if (!beam) return false;
+  element.type = family == AnsysFamily::beam3 ? ElementType::beam3 : ElementType::beam2;
+  if (family == AnsysFamily::beam3) {  // ends, middle there; end, middle, end here
+    element.nodes[1] = nodes[2];
+    element.nodes[2] = nodes[1];
+  }
+  const bool oriented = nodes.size() > count && nodes[count] >= 0;
+  const Vec3 towards = oriented ? Vec3(p[nodes[count]] - p[nodes[0]]) : Vec3::Zero();
+  const Vec3 x = along.normalized();
+  if (oriented && !(x.cross(towards).norm() > 1e-8 * towards.norm()))
+    return b.error(ErrorCode::geometry, e, "its node for the orientation is on its axis");
+  const Vec3 y = local_y(along, oriented ? &towards : nullptr);
+  const Vec3 unit_y = (y - y.dot(x) * x).normalized(), z = x.cross(unit_y);
+  element.reference = std::cos(beam->turn) * unit_y + std::sin(beam->turn) * z;
+  element.material = b.material(e.material, e, beam->mass / beam->section.A);
+  element.section = add_section(b.model, beam->section);
+  const Vec3 arm = beam->arm_y * unit_y + beam->arm_z * z;
+  if (!arm.isZero(0.0))
+    for (std::size_t k = 0; k < count; ++k)
+      element.nodes[k] = b.arms.end(b.model, b.source, element.nodes[k], arm, e.at);
+  return true;
+}
 
 using F = AnsysFamily;
 
@@ -23,9 +150,7 @@ class AnsysElementBuilder {
     for (std::size_t k = 0; k < elements.size(); ++k) one(elements[k], b_.index[k]);
     b_.report_shared();
     const bool springs = std::any_of(elements.begin(), elements.end(), [&](const auto& e) {
-      const auto type = b_.content.types.find(e.type);
-      const auto* library =
-          type == b_.content.types.end() ? nullptr : ansys_library_element(type->second.number);
+      const auto* library = b_.known(e).second;
       return library != nullptr && (library->family == F::spring || library->family == F::matrix);
     });
     if (b_.model.elements.empty() && !springs && b_.source.errors() == 0)
@@ -51,8 +176,7 @@ class AnsysElementBuilder {
     Element element;
     element.id = e.id;
     element.source = e.at;
-    if (line ? !build_ansys_line(b_, e, *type, nodes_, element)
-             : !volume(e, *type, library, element))
+    if (line ? !build_line(b_, e, *type, nodes_, element) : !volume(e, *type, library, element))
       return;
     if (b_.content.lumped) element.mass_form = MassForm::lumped;
     index = static_cast<int>(b_.model.elements.size());
@@ -63,19 +187,14 @@ class AnsysElementBuilder {
   bool volume(const AnsysElement& e, const AnsysType& type, const AnsysLibraryElement& library,
               Element& element) {
     if (static_cast<int>(nodes_.size()) > library.nodes &&
-        std::any_of(nodes_.begin() + library.nodes, nodes_.end(), [](int n) { return n >= 0; })) {
-      b_.error(
-          ErrorCode::wrong_count, e,
-          fmt::format("it has {} nodes, at most {} are expected", nodes_.size(), library.nodes));
-      return false;
-    }
+        std::any_of(nodes_.begin() + library.nodes, nodes_.end(), [](int n) { return n >= 0; }))
+      return b_.error(ErrorCode::wrong_count, e, "it has {} nodes, at most {} are expected",
+                      nodes_.size(), library.nodes);
     for (int& n : nodes_) ++n;  // 0: none
     const auto shape = ansys_shape(library, type, nodes_);
-    if (!shape) {
-      b_.error(ErrorCode::missing, e,
-               "its nodes are repeated or missing in a way that makes no element");
-      return false;
-    }
+    if (!shape)
+      return b_.error(ErrorCode::missing, e,
+                      "its nodes are repeated or missing in a way that makes no element");
     element.type = shape->type;
     for (int k = 0; k < shape->count; ++k) element.nodes[k] = shape->nodes[k] - 1;
     middles(e, *shape, element);
@@ -114,8 +233,6 @@ class AnsysElementBuilder {
   }
 
   static std::span<const shape::Edge> edges_of(ElementType type) {
-    static constexpr std::array<shape::Edge, 3> triangle{{{0, 1}, {1, 2}, {2, 0}}};
-    static constexpr std::array<shape::Edge, 4> quadrilateral{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
     switch (type) {
       case ElementType::tet10:
         return shape::tet_edges;
@@ -127,9 +244,9 @@ class AnsysElementBuilder {
       case ElementType::pyramid13:
         return shape::pyramid_edges;
       case ElementType::tri6:
-        return triangle;
+        return shape::tri_edges;
       case ElementType::quad8:
-        return quadrilateral;
+        return shape::quad_edges;
       default:
         return {};
     }
@@ -137,22 +254,19 @@ class AnsysElementBuilder {
 
   void notes() {
     for (const auto& [name, count] : passed_over_)
-      b_.model.notes.push_back(
-          fmt::format("{}: {} {} have neither stiffness nor mass and are left out",
-                      b_.source.files()[0], count, name));
+      b_.file_note("{} {} have neither stiffness nor mass and are left out", count, name);
     if (!middles_.empty())
-      b_.model.notes.push_back(
-          fmt::format("{}: {} edges without their mid-side node are kept straight, by equations",
-                      b_.source.files()[0], middles_.size()));
+      b_.file_note("{} edges without their mid-side node are kept straight, by equations",
+                   middles_.size());
     const auto layered = std::count_if(b_.model.elements.begin(), b_.model.elements.end(),
                                        [](const Element& e) { return e.layup >= 0; });
     if (layered > 0)
-      b_.model.notes.push_back(
-          fmt::format("{}: {} solids have layers: each layer has the points of its element here, "
-                      "in ANSYS as many through its thickness as SECDATA says",
-                      b_.source.files()[0], layered));
+      b_.file_note(
+          "{} solids have layers: each layer has the points of its element here, in ANSYS as many "
+          "through its thickness as SECDATA says",
+          layered);
     if (b_.content.materials.empty() && !b_.options.material)
-      b_.model.notes.push_back(fmt::format("{}: the file has no material", b_.source.files()[0]));
+      b_.file_note("the file has no material");
   }
 
   AnsysBuild& b_;

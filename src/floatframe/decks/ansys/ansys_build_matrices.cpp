@@ -3,8 +3,6 @@
 //   K = c c^T/k + rest,
 // so a spring of stiffness k along c/k is a part of it, and the rest has one pivot less. The
 // displacements come first: what is left then is of rotations alone.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -25,44 +23,40 @@ class AnsysMatrix {
  public:
   AnsysMatrix(AnsysBuild& build, const AnsysElement& e) : b_(build), e_(e) {}
 
-  void add(const AnsysType& type, const std::vector<int>& nodes) {
-    const AnsysReal* real = b_.real(e_);
-    if (real == nullptr)
-      return b_.shared_error(ErrorCode::not_found, e_,
-                             fmt::format("its real constants {} are not in the file", e_.real));
+  bool add(const AnsysType& type, const std::vector<int>& nodes) {
+    const AnsysReal* real = b_.needed_real(e_);
+    if (real == nullptr) return false;
     if (std::all_of(real->values.begin(), real->values.end(), [](double x) { return x == 0.0; }))
-      return;
-    if (type.keyopt[3] == 5)
-      return b_.note(
-          e_.at, fmt::format("{}: its damping is ignored, the part has modal damping (--damping)",
-                             b_.label(e_)));
+      return true;
+    if (type.keyopt[3] == 5) {
+      b_.note(e_.at, "{}: its damping is ignored, the part has modal damping (--damping)",
+              b_.label(e_));
+      return true;
+    }
     const bool mass = type.keyopt[3] == 2;
     if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
-      return b_.shared_error(ErrorCode::unsupported, e_,
-                             fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
-                                         "stiffness (0, 4) or mass (0, 2)",
-                                         type.keyopt[2], type.keyopt[3]));
+      return b_.shared_error(
+          ErrorCode::unsupported, e_,
+          "KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric stiffness (0, 4) or mass (0, 2)",
+          type.keyopt[2], type.keyopt[3]);
     for (std::size_t k = matrix_constants; k < real->values.size(); ++k)
       if (real->values[k] != 0.0)
         return b_.error_once(
             ErrorCode::wrong_count, real->at,
-            fmt::format("real constants {}: constant {} is {:g}, expected 78 of a symmetric matrix",
-                        e_.real, k + 1, real->values[k]));
+            "real constants {}: constant {} is {:g}, expected 78 of a symmetric matrix", e_.real,
+            k + 1, real->values[k]);
     // What is left of the matrix is made of products of its constants.
     for (std::size_t k = 0; k < real->values.size(); ++k)
       if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
         return b_.error_once(ErrorCode::not_finite, real->at,
-                             fmt::format("real constants {}: constant {} is {:g}, expected a "
-                                         "number whose square does not overflow",
-                                         e_.real, k + 1, x));
+                             "real constants {}: constant {} is {:g}, expected a number whose "
+                             "square does not overflow",
+                             e_.real, k + 1, x);
     if (nodes.size() < 2 || nodes[0] < 0 || nodes[1] < 0 || nodes[0] == nodes[1])
       return b_.error(ErrorCode::missing, e_, "it has no two different nodes");
     nodes_ = {nodes[0], nodes[1]};
     fill(*real);
-    if (mass)
-      masses();
-    else
-      split();
+    return mass ? masses() : split();
   }
 
  private:
@@ -81,7 +75,7 @@ class AnsysMatrix {
   }
 
   /// Of each node the mass of a rigid point, m I and J; a part may have no other mass.
-  void masses() {
+  bool masses() {
     std::array<PointMass, 2> points;
     Mat12 rest = K_;
     for (int k = 0; k < 2; ++k) {
@@ -100,17 +94,17 @@ class AnsysMatrix {
                           "its mass is not that of a rigid point at each node: expected equal "
                           "masses in three directions, moments of inertia and nothing between the "
                           "nodes, or between displacements and rotations");
-    for (const PointMass& point : points) {
+    for (const PointMass& point : points)
       if (point.mass < 0.0 || Vec3(point.J.diagonal()).minCoeff() < 0.0)
         return b_.error(ErrorCode::out_of_range, e_,
                         "its mass has a negative term on its diagonal, expected none below 0");
-    }
     for (PointMass& point : points) add_ansys_mass(b_, e_, point);
+    return true;
   }
 
   double size_of(int i) const { return scale_[of_displacement(i) ? 0 : 1]; }
 
-  void split() {
+  bool split() {
     for (int axis = 0; axis < 3; ++axis) {  // forces of a translation
       const Vec12 f = K_.col(axis) + K_.col(6 + axis);
       for (int i = 0; i < 12; ++i)
@@ -142,6 +136,7 @@ class AnsysMatrix {
                             "its stiffness has negative eigenvalues, expected none below 0");
     }
     for (Spring& s : springs) b_.model.springs.push_back(std::move(s));
+    return true;
   }
 
   Spring spring(const Vec12& along, double stiffness) const {
@@ -165,9 +160,9 @@ class AnsysMatrix {
 
 }  // namespace
 
-void build_ansys_matrix(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
+bool build_ansys_matrix(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
                         const std::vector<int>& nodes) {
-  AnsysMatrix(b, e).add(type, nodes);
+  return AnsysMatrix(b, e).add(type, nodes);
 }
 
 }  // namespace floatframe

@@ -1,6 +1,5 @@
 // The commands of a deck: those that are read, and those that change neither stiffness nor mass.
 // Any other stops the reading.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -12,15 +11,14 @@
 namespace floatframe {
 namespace {
 
-struct AnsysCommand {
-  const char* name;
-  AnsysCommandReader read;
-};
-
 /// Sets the number that elements get from now on.
-template <int AnsysContent::*Member>
+template <int AnsysElement::*Member>
 void set_number(AnsysFields& f, AnsysContent& c) {
-  c.*Member = f.integer(1, "the number");
+  c.current.*Member = f.integer(1, "the number");
+}
+
+void set_nodal_system(AnsysFields& f, AnsysContent& c) {
+  c.nodal_system = f.integer(1, "the number");
 }
 
 void set_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), f.number(2)); }
@@ -65,50 +63,21 @@ void check_target_shape(AnsysFields& f, AnsysContent&) {
 }
 
 void note_units(AnsysFields& f, AnsysContent& c) {
-  c.model.notes.push_back(fmt::format(
-      "{}:{}: the file says that its units are {}; the units given with the file are taken",
-      f.source().files()[f.at().file], f.at().line, shown(f.text(1))));
+  f.source().note(c.model, f.at(),
+                  "the file says that its units are {}; the units given with the file are taken",
+                  shown(f.text(1)));
 }
 
 void end_of_file(AnsysFields&, AnsysContent& c) { c.ended = true; }
 
-constexpr AnsysCommand ansys_commands[] = {
-    {"N", read_ansys_node},
-    {"NBLOCK", read_ansys_node_block},
-    {"E", read_ansys_element},
-    {"EN", read_ansys_element},
-    {"EMORE", read_ansys_element_more},
-    {"EBLOCK", read_ansys_element_block},
-    {"CMBLOCK", read_ansys_component},
-    {"LOCAL", read_ansys_system},
-    {"CSYS", set_number<&AnsysContent::nodal_system>},
-    {"ET", read_ansys_type},
-    {"ETBLOCK", read_ansys_type_block},
-    {"KEYOPT", read_ansys_key_option},
-    {"TYPE", set_number<&AnsysContent::type>},
-    {"MAT", set_number<&AnsysContent::material>},
-    {"REAL", set_number<&AnsysContent::real>},
-    {"SECNUM", set_number<&AnsysContent::section>},
-    {"ESYS", set_number<&AnsysContent::system>},
-    {"R", read_ansys_real},
-    {"RMORE", read_ansys_real_more},
-    {"RLBLOCK", read_ansys_real_block},
-    {"SECTYPE", read_ansys_section},
-    {"SECDATA", read_ansys_section_data},
-    {"SECBLOCK", read_ansys_section_block},
-    {"SECOFFSET", read_ansys_section_offset},
-    {"SECCONTROL", read_ansys_section_control},
-    {"MP", read_ansys_material},
-    {"MPTEMP", read_ansys_temperatures},
-    {"MPDATA", read_ansys_material_data},
-    {"TB", read_ansys_table},
-    {"TBTEMP", read_ansys_table_temperature},
-    {"TBFIELD", read_ansys_table_field},
-    {"TBDATA", read_ansys_table_data},
-    {"CE", read_ansys_equation},
-    {"CP", read_ansys_coupling},
-    {"CERIG", read_ansys_rigid},
-    {"D", read_ansys_support},
+/// Those that stand by themselves.
+constexpr AnsysCommand session_commands[] = {
+    {"CSYS", set_nodal_system},
+    {"TYPE", set_number<&AnsysElement::type>},
+    {"MAT", set_number<&AnsysElement::material>},
+    {"REAL", set_number<&AnsysElement::real>},
+    {"SECNUM", set_number<&AnsysElement::section>},
+    {"ESYS", set_number<&AnsysElement::system>},
     {"TSHAP", check_target_shape},
     {"LUMPM", set_lumped},
     {"*SET", set_parameter},
@@ -126,50 +95,29 @@ constexpr AnsysCommand ansys_commands[] = {
 };
 
 /// Loads, solutions, files, pictures: ignored without a word.
-constexpr std::array ansys_silent = {
-    "/PREP7",     "/NOPR",     "/GOPR",    "/GO",     "/TITLE",     "/SOLU",      "/SOL",
-    "/POST1",     "/POST26",   "/BATCH",   "/CONFIG", "/SHOW",      "/OUTPUT",    "/STITLE",
-    "/NERR",      "/GST",      "/FILNAME", "/CLEAR",  "/WB",        "/VIEW",      "/ESHAPE",
-    "/COLOR",     "/PBC",      "/PNUM",    "/REPLOT", "/NUMBER",    "/AUX15",     "/DEVICE",
-    "/GRAPHICS",  "/EXIT",     "/DELETE",  "/UIS",    "FINISH",     "NUMOFF",     "DOF",
-    "CSCIR",      "CMGRP",     "CMSEL",    "ALLSEL",  "EXTOPT",     "SHPP",       "CHECK",
-    "SAVE",       "TBPT",      "TBEO",     "FC",      "ANTYPE",     "MODOPT",     "MXPAND",
-    "EMUNIT",     "TOFFST",    "STEF",     "TRNOPT",  "THOPT",      "DMPOPT",     "EQSLV",
-    "HROPT",      "BUCOPT",    "LVSCALE",  "MSAVE",   "SOLVE",      "NLGEOM",     "PSTRES",
-    "SSTIF",      "OUTPR",     "OUTRES",   "ERESX",   "TREF",       "TUNIF",      "BFUNIF",
-    "IRLF",       "ACEL",      "OMEGA",    "DOMEGA",  "CGLOC",      "CGOMGA",     "DCGOMG",
-    "CMOMEGA",    "KUSE",      "TIME",     "ALPHAD",  "BETAD",      "DMPRAT",     "DMPSTR",
-    "CRPLIM",     "NCNV",      "NEQIT",    "AUTOTS",  "KBC",        "DELTIM",     "NSUBST",
-    "CNVTOL",     "LNSRCH",    "PRED",     "TIMINT",  "TINTP",      "NROPT",      "RATE",
-    "RESCONTROL", "F",         "SF",       "SFE",     "BF",         "BFE",        "FDELE",
-    "DDELE",      "LSWRITE",   "LSCLEAR",  "NSEL",    "ESEL",       "NSLE",       "ESLN",
-    "SHSD",       "PRNSOL",    "SET",      "EPLOT",   "NPLOT",      "STAOPT",     "SBCLIM",
-    "BCSOPTION",  "DSPOPTION", "NLDIAG",   "RSTOFF",  "OPNCONTROL", "CUTCONTROL", "MONITOR",
-    "SOLCONTROL", "GRP",       "SPOPT",    "CINT",    "GAUGE",      "IC",         "_CDRDOFF",
-    "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TALLOW",     "DMP",        "ETCONTROL",
-    "WPSTYLE",    "WPCSYS",    "MPAMOD",   "/NOLIST", "/GOLIST",    "/AUTO",      "/DIST",
-    "/ANGLE",     "/TYPE",     "/FOCUS",   "/LINE",   "/RGB",       "/TRIAD",     "/PLOPTS",
-    "/EDGE",      "/INQUIRE",  "/XML",     "/STATUS", "/HEADER",    "/PAGE",      "/FORMAT",
-    "*ABSET",     "*ABCHECK",  "*ABFINI",  "KEYW",    "TBLIST",     "MPLIST",     "ETLIST",
-    "NLIST",      "ELIST",     "CM",       "*CFOPEN", "*CFCLOS",    "*DEL",       "SLIST",
-};
+constexpr std::string_view ansys_silent =
+    "/PREP7 /NOPR /GOPR /GO /TITLE /SOLU /SOL /POST1 /POST26 /BATCH /CONFIG /SHOW /OUTPUT /STITLE "
+    "/NERR /GST /FILNAME /CLEAR /WB /VIEW /ESHAPE /COLOR /PBC /PNUM /REPLOT /NUMBER /AUX15 /DEVICE "
+    "/GRAPHICS /EXIT /DELETE /UIS FINISH NUMOFF DOF CSCIR CMGRP CMSEL ALLSEL EXTOPT SHPP CHECK "
+    "SAVE TBPT TBEO FC ANTYPE MODOPT MXPAND EMUNIT TOFFST STEF TRNOPT THOPT DMPOPT EQSLV HROPT "
+    "BUCOPT LVSCALE MSAVE SOLVE NLGEOM PSTRES SSTIF OUTPR OUTRES ERESX TREF TUNIF BFUNIF IRLF ACEL "
+    "OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA KUSE TIME ALPHAD BETAD DMPRAT DMPSTR CRPLIM NCNV "
+    "NEQIT AUTOTS KBC DELTIM NSUBST CNVTOL LNSRCH PRED TIMINT TINTP NROPT RATE RESCONTROL F SF SFE "
+    "BF BFE FDELE DDELE LSWRITE LSCLEAR NSEL ESEL NSLE ESLN SHSD PRNSOL SET EPLOT NPLOT STAOPT "
+    "SBCLIM BCSOPTION DSPOPTION NLDIAG RSTOFF OPNCONTROL CUTCONTROL MONITOR SOLCONTROL GRP SPOPT "
+    "CINT GAUGE IC _CDRDOFF _BUTTON _RETURN *DIM *STATUS TALLOW DMP ETCONTROL WPSTYLE WPCSYS "
+    "MPAMOD /NOLIST /GOLIST /AUTO /DIST /ANGLE /TYPE /FOCUS /LINE /RGB /TRIAD /PLOPTS /EDGE "
+    "/INQUIRE /XML /STATUS /HEADER /PAGE /FORMAT *ABSET *ABCHECK *ABFINI KEYW TBLIST MPLIST ETLIST "
+    "NLIST ELIST CM *CFOPEN *CFCLOS *DEL SLIST";
 
-/// What to do instead, of commands that are met in decks of a session.
-constexpr std::array<std::pair<const char*, const char*>, 24> ansys_refused = {{
+/// What to do instead, of commands (words between blanks) that are met in decks of a session.
+constexpr std::pair<std::string_view, const char*> ansys_refused[] = {
     {"*DO", "loops are not read: write the model with CDWRITE"},
     {"PSMESH", "take the cut and its tension out of the model"},
     {"*USE", "macros are not read: write the model with CDWRITE"},
     {"/INPUT", "further files are not read: write the model with CDWRITE"},
-    {"K", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"L", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"A", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"V", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"BLOCK", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"VMESH", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"AMESH", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"LMESH", "geometry is not meshed here: write the mesh with CDWRITE"},
-    {"NGEN", "generated nodes are not read: write the model with CDWRITE"},
-    {"FILL", "generated nodes are not read: write the model with CDWRITE"},
+    {"K L A V BLOCK VMESH AMESH LMESH", "geometry is not meshed here: write the mesh with CDWRITE"},
+    {"NGEN FILL", "generated nodes are not read: write the model with CDWRITE"},
     {"EGEN", "generated elements are not read: write the model with CDWRITE"},
     {"RBE3", "it takes arrays of the session: write the model with CDWRITE, which has it as CE"},
     {"CEINTF", "it takes the selection of the session: write the model with CDWRITE"},
@@ -181,62 +129,52 @@ constexpr std::array<std::pair<const char*, const char*>, 24> ansys_refused = {{
     {"RESUME", "binary databases are not read: write the model with CDWRITE"},
     {"UPCOORD", "moved nodes are not read: write the model with CDWRITE"},
     {"RMODIF", "changed real constants are not read: write the model with CDWRITE"},
-}};
+};
 
 /// Silent ones that need not be told.
-constexpr std::array ansys_untold = {"FINISH", "NUMOFF", "DOF",    "CSCIR",   "CMGRP",
-                                     "CMSEL",  "ALLSEL", "EXTOPT", "SHPP",    "CHECK",
-                                     "SAVE",   "GRP",    "*DIM",   "_BUTTON", "_RETURN"};
+constexpr std::string_view ansys_untold =
+    "FINISH NUMOFF DOF CSCIR CMGRP CMSEL ALLSEL EXTOPT SHPP CHECK SAVE GRP *DIM _BUTTON _RETURN";
 
-class AnsysReader {
- public:
-  explicit AnsysReader(TextSource& source) : f_(source) {}
+/// `names`: words between blanks.
+bool is_ansys_word(const AnsysFields& f, std::string_view names) {
+  for (auto name = next_word(names); !name.empty(); name = next_word(names))
+    if (f.is(name)) return true;
+  return false;
+}
 
-  AnsysContent read() {
-    while (!c_.ended && f_.next()) one();
-    return std::move(c_);
+void read_command(AnsysFields& f, AnsysContent& c) {
+  const std::string& word = f.command();
+  if (c.branch > 0 && word != "*ELSE" && word != "*ENDIF") return;
+  // NAME=value; a text or an expression is kept as unknown, an error where it is used.
+  if (const std::size_t sign = word.find('='); sign != std::string::npos)
+    return f.set_parameter(f.line().substr(0, sign),
+                           parse_real(trimmed(std::string_view(f.line()).substr(sign + 1))));
+  for (const auto& commands :
+       {ansys_mesh_commands(), ansys_property_commands(), ansys_material_commands(),
+        ansys_constraint_commands(), std::span<const AnsysCommand>(session_commands)})
+    for (const AnsysCommand& command : commands)
+      if (f.is(command.name)) return command.read(f, c);
+  for (const auto& [names, advice] : ansys_refused)
+    if (is_ansys_word(f, names)) f.stop(ErrorCode::unsupported, "{}: {}", word, advice);
+  if (is_ansys_word(f, ansys_silent)) {
+    if (word.front() != '/' && !is_ansys_word(f, ansys_untold))
+      c.passed_over.try_emplace(word, f.at());
+    return;
   }
-
- private:
-  void one() {
-    const std::string& word = f_.command();
-    if (c_.branch > 0 && word != "*ELSE" && word != "*ENDIF") return;
-    if (const std::size_t sign = word.find('='); sign != std::string::npos) return assignment(sign);
-    const auto* command =
-        std::find_if(std::begin(ansys_commands), std::end(ansys_commands),
-                     [&](const AnsysCommand& known) { return f_.is(known.name); });
-    if (command != std::end(ansys_commands)) return command->read(f_, c_);
-    const auto* refused = std::find_if(ansys_refused.begin(), ansys_refused.end(),
-                                       [&](const auto& r) { return f_.is(r.first); });
-    if (refused != ansys_refused.end())
-      f_.stop(ErrorCode::unsupported, fmt::format("{}: {}", word, refused->second));
-    if (std::any_of(ansys_silent.begin(), ansys_silent.end(),
-                    [&](const char* name) { return f_.is(name); })) {
-      const bool told =
-          word.front() != '/' && std::none_of(ansys_untold.begin(), ansys_untold.end(),
-                                              [&](const char* name) { return f_.is(name); });
-      if (told) c_.passed_over.try_emplace(word, f_.at());
-      return;
-    }
-    if (word == "-1") return;  // the end of a block whose count came first
-    f_.stop(ErrorCode::unknown_key,
-            fmt::format("{} is not known: whether it changes stiffness or mass is not clear; "
-                        "remove it from the file if it does not",
-                        shown(f_.text(0))));
-  }
-
-  /// NAME=value; a text or an expression is kept as unknown, an error where it is used.
-  void assignment(std::size_t sign) {
-    const std::string& line = f_.line();
-    f_.set_parameter(line.substr(0, sign), parse_real(trimmed(line.substr(sign + 1))));
-  }
-
-  AnsysFields f_;
-  AnsysContent c_;
-};
+  if (word == "-1") return;  // the end of a block whose count came first
+  f.stop(ErrorCode::unknown_key,
+         "{} is not known: whether it changes stiffness or mass is not clear; remove it from the "
+         "file if it does not",
+         shown(f.text(0)));
+}
 
 }  // namespace
 
-AnsysContent read_ansys_content(TextSource& source) { return AnsysReader(source).read(); }
+AnsysContent read_ansys_content(TextSource& source) {
+  AnsysFields f(source);
+  AnsysContent c;
+  while (!c.ended && f.next()) read_command(f, c);
+  return c;
+}
 
 }  // namespace floatframe

@@ -1,5 +1,4 @@
 // Constraint equations, coupled degrees of freedom, rigid regions, supports.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -21,9 +20,9 @@ int axis_of(AnsysFields& f, std::size_t k) {
   return axis;
 }
 
-/// Node, label and factor from field `first` on.
-void append_terms(AnsysFields& f, AnsysEquation& e, std::size_t first, std::size_t end) {
-  for (std::size_t k = first; k + 2 < end && !f.blank(k); k += 3)
+/// Node, label and factor from field 3 on.
+void append_terms(AnsysFields& f, AnsysEquation& e) {
+  for (std::size_t k = 3; k < f.size() && !f.blank(k); k += 3)
     e.terms.push_back({f.label(k, "the node"), axis_of(f, k + 1), f.real(k + 2, "the factor")});
 }
 
@@ -46,14 +45,6 @@ void refuse_selection(AnsysFields& f, std::size_t k) {
          f.command(), shown(f.text(k)));
 }
 
-}  // namespace
-
-int ansys_axis(std::string_view word) noexcept {
-  for (std::size_t k = 0; k < ansys_axes.size(); ++k)
-    if (same_word(word, ansys_axes[k])) return static_cast<int>(k);
-  return -1;
-}
-
 /// CE,R5.0,DEFI,number,terms,constant and CE,R5.0,NODE,node,label,factor,...;
 /// CE,number,constant,node,label,factor,...
 void read_ansys_equation(AnsysFields& f, AnsysContent& c) {
@@ -63,19 +54,16 @@ void read_ansys_equation(AnsysFields& f, AnsysContent& c) {
     AnsysEquation& e = c.equations[number];
     e.at = f.at();
     e.constant = f.real(2, "the constant");
-    return append_terms(f, e, 3, f.size() + 2);
+    return append_terms(f, e);
   }
   if (f.word(2) == "DEFI") {
     c.constraint = f.label(3, "the number of the equation");
-    AnsysEquation& e = c.equations[c.constraint];
-    e = {};
-    e.at = f.at();
-    e.constant = f.real(5, "the constant");
+    c.equations[c.constraint] = {{}, f.real(5, "the constant"), f.at()};
     return;
   }
   if (f.word(2) != "NODE" || c.equations.empty())
     f.stop(ErrorCode::wrong_value, "CE: expected DEFI, then NODE, found {}", shown(f.text(2)));
-  append_terms(f, c.equations[c.constraint], 3, f.size() + 2);
+  append_terms(f, c.equations[c.constraint]);
 }
 
 /// CP,R5.0,DEFI,number,...,label and CP,R5.0,NODE,nodes; CP,number,label,nodes.
@@ -139,5 +127,22 @@ void read_ansys_support(AnsysFields& f, AnsysContent& c) {
     c.supports.push_back({{f.label(1, "the node"), axis, 0.0}, f.at()});
   }
 }
+
+constexpr AnsysCommand constraint_commands[] = {
+    {"CE", read_ansys_equation},
+    {"CP", read_ansys_coupling},
+    {"CERIG", read_ansys_rigid},
+    {"D", read_ansys_support},
+};
+
+}  // namespace
+
+int ansys_axis(std::string_view word) noexcept {
+  for (std::size_t k = 0; k < ansys_axes.size(); ++k)
+    if (same_word(word, ansys_axes[k])) return static_cast<int>(k);
+  return -1;
+}
+
+std::span<const AnsysCommand> ansys_constraint_commands() { return constraint_commands; }
 
 }  // namespace floatframe

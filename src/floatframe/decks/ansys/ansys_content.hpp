@@ -1,20 +1,67 @@
 #pragma once
 // What the commands of an ANSYS deck say, by kind and with the user's numbers, before it is a
-// model.
+// model; elements of ANSYS by their number, and the solids and shells that their repeated nodes
+// make of them.
 #include <array>
 #include <map>
 #include <optional>
-#include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "floatframe/decks/ansys/ansys_fields.hpp"
-#include "floatframe/decks/ansys/ansys_types.hpp"
 #include "floatframe/fe/fe_model.hpp"
 
 namespace floatframe {
+
+enum class AnsysFamily {
+  brick,       ///< 8 nodes, may be a wedge, a pyramid or a tetrahedron
+  brick20,     ///< the same of second order
+  tet,         ///< 4 or 10 nodes
+  shell,       ///< 4 or 8 nodes, may be a triangle
+  beam2,       ///< 2 nodes and one for the orientation
+  beam3,       ///< 3 nodes and one for the orientation
+  rod,         ///< 2 nodes
+  mass,        ///< 1 node
+  spring,      ///< 2 nodes
+  matrix,      ///< 2 nodes
+  rigid,       ///< MPC184
+  contact,     ///< CONTA171 to 178
+  target,      ///< TARGE169, 170
+  passed_over  ///< neither stiffness nor mass: loads, meshes
+};
+
+struct AnsysLibraryElement {
+  int number = 0;
+  const char* name = "";
+  AnsysFamily family = AnsysFamily::brick;
+  int nodes = 0;  ///< at most, without those for orientation
+};
+
+/// Null if the element is none that is read.
+const AnsysLibraryElement* ansys_library_element(int number) noexcept;
+
+/// ET with its KEYOPTs.
+struct AnsysType {
+  int id = 0, number = 0;
+  std::array<int, 19> keyopt{};  ///< by their number, from 1
+  FeSource at;
+};
+
+/// An element of FeModel: which of the nodes of the ANSYS element it has, in its own order.
+struct AnsysShape {
+  ElementType type = ElementType::hex8;
+  std::array<int, 20> nodes{};
+  int count = 0;
+};
+
+/// The shape of an element with the given nodes (0: none). Mid-side nodes that are not there have
+/// 0 at their place; an element without any is of first order. None if the nodes repeat in a way
+/// that makes no element.
+std::optional<AnsysShape> ansys_shape(const AnsysLibraryElement& element, const AnsysType& type,
+                                      std::span<const int> nodes);
 
 struct AnsysElement {
   int id = 0, type = 0, material = 0, real = 0, section = 0, system = 0;
@@ -117,7 +164,8 @@ struct AnsysContent {
   bool lumped = false;                                   ///< LUMPM,ON
 
   // While reading: what the commands before have set.
-  int type = 1, material = 1, real = 1, section = 1, system = 0, nodal_system = 0;
+  AnsysElement current = {0, 1, 1, 1, 1, 0, 0, 0, {}};
+  int nodal_system = 0;
   int branch = 0;  ///< depth of a *IF whose lines are ignored
   std::vector<double> temperatures;
   std::string table;  ///< of TB, with its material
@@ -138,42 +186,19 @@ int ansys_axis(std::string_view word) noexcept;
 /// Is field 1 the mark of the commands that CDWRITE writes, "R5.0" or "UNBL"?
 bool ansys_written(const AnsysFields& f);
 
-using AnsysCommandReader = void (*)(AnsysFields&, AnsysContent&);
-// ansys_mesh_commands.cpp
-void read_ansys_node(AnsysFields&, AnsysContent&);
-void read_ansys_node_block(AnsysFields&, AnsysContent&);
-void read_ansys_element(AnsysFields&, AnsysContent&);
-void read_ansys_element_more(AnsysFields&, AnsysContent&);
-void read_ansys_element_block(AnsysFields&, AnsysContent&);
-void read_ansys_component(AnsysFields&, AnsysContent&);
-void read_ansys_system(AnsysFields&, AnsysContent&);
-// ansys_property_commands.cpp
-void read_ansys_type(AnsysFields&, AnsysContent&);
-void read_ansys_type_block(AnsysFields&, AnsysContent&);
-void read_ansys_key_option(AnsysFields&, AnsysContent&);
-void read_ansys_real(AnsysFields&, AnsysContent&);
-void read_ansys_real_more(AnsysFields&, AnsysContent&);
-void read_ansys_real_block(AnsysFields&, AnsysContent&);
-void read_ansys_section(AnsysFields&, AnsysContent&);
-void read_ansys_section_data(AnsysFields&, AnsysContent&);
-void read_ansys_section_block(AnsysFields&, AnsysContent&);
-void read_ansys_section_offset(AnsysFields&, AnsysContent&);
-void read_ansys_section_control(AnsysFields&, AnsysContent&);
-// ansys_materials.cpp
-void read_ansys_material(AnsysFields&, AnsysContent&);
-void read_ansys_temperatures(AnsysFields&, AnsysContent&);
-void read_ansys_material_data(AnsysFields&, AnsysContent&);
-void read_ansys_table(AnsysFields&, AnsysContent&);
-void read_ansys_table_temperature(AnsysFields&, AnsysContent&);
-void read_ansys_table_field(AnsysFields&, AnsysContent&);
-void read_ansys_table_data(AnsysFields&, AnsysContent&);
+/// A command and what reads it.
+struct AnsysCommand {
+  const char* name;
+  void (*read)(AnsysFields&, AnsysContent&);
+};
+// Each in its source: nodes and elements; types, constants and sections; materials; constraints.
+std::span<const AnsysCommand> ansys_mesh_commands();
+std::span<const AnsysCommand> ansys_property_commands();
+std::span<const AnsysCommand> ansys_material_commands();
+std::span<const AnsysCommand> ansys_constraint_commands();
+
 /// The material in the units of the deck; its density is 0 if there is none.
 Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,
                         AnsysContent& content, TextSource& source);
-// ansys_constraint_commands.cpp
-void read_ansys_equation(AnsysFields&, AnsysContent&);
-void read_ansys_coupling(AnsysFields&, AnsysContent&);
-void read_ansys_rigid(AnsysFields&, AnsysContent&);
-void read_ansys_support(AnsysFields&, AnsysContent&);
 
 }  // namespace floatframe

@@ -1,7 +1,5 @@
 #include "floatframe/decks/ansys/ansys_fields.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -83,9 +81,8 @@ double AnsysFields::real(std::size_t k, const char* what, double missing) {
   const auto value = number(k);
   if (!value)
     stop(ErrorCode::unsupported,
-         fmt::format(
-             "{}: {}: {}; expressions and parameters that no *SET gives as a number are not read",
-             command_, what, not_a_real(text(k))));
+         "{}: {}: {}; expressions and parameters that no *SET gives as a number are not read",
+         command_, what, not_a_real(text(k)));
   return *value;
 }
 
@@ -93,18 +90,26 @@ int AnsysFields::integer(std::size_t k, const char* what, int missing) {
   if (blank(k)) return missing;
   const double value = real(k, what);
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
-    stop(ErrorCode::not_a_number,
-         fmt::format("{}: {}: {}", command_, what, not_an_integer(text(k))));
+    stop(ErrorCode::not_a_number, "{}: {}: {}", command_, what, not_an_integer(text(k)));
   return static_cast<int>(value);
 }
 
 int AnsysFields::label(std::size_t k, const char* what) {
   const int value = integer(k, what);
   if (value < 1)
-    stop(ErrorCode::missing,
-         fmt::format("{}: {}: {}, expected a number of 1 or more", command_, what,
-                     blank(k) ? std::string("the field is empty") : shown(text(k))));
+    stop(ErrorCode::missing, "{}: {}: {}, expected a number of 1 or more", command_, what,
+         blank(k) ? std::string("the field is empty") : shown(text(k)));
   return value;
+}
+
+std::vector<double> AnsysFields::reals(std::size_t first, const char* what) {
+  std::vector<double> values;
+  for (std::size_t k = first; k < size(); ++k) values.push_back(real(k, what));
+  return values;
+}
+
+Vec3 AnsysFields::three(std::size_t first, const char* what) {
+  return {real(first, what), real(first + 1, what), real(first + 2, what)};
 }
 
 FortranColumns AnsysFields::columns() {
@@ -114,9 +119,8 @@ FortranColumns AnsysFields::columns() {
                  command_);
   const auto format = parse_fortran_columns(line);
   if (!format)
-    source_.stop(ErrorCode::wrong_value, source_.here(),
-                 "{}: a format like (3i9,6e21.13e3) is expected, found {}", command_,
-                 shown(trimmed(line)));
+    source_.stop(ErrorCode::wrong_value, "{}: a format like (3i9,6e21.13e3) is expected, found {}",
+                 command_, shown(trimmed(line)));
   return *format;
 }
 
@@ -130,33 +134,30 @@ bool AnsysFields::block_line(std::string_view& line) {
   }
   if (command_ == "NBLOCK" || command_ == "EBLOCK")
     source_.stop(
-        ErrorCode::damaged, source_.here(),
+        ErrorCode::damaged,
         "the file ends within {}, which begins in line {} and ends with -1: it is cut short",
         command_, at_.line);
   return false;
 }
 
-bool AnsysFields::row(const FortranColumns& format, std::vector<std::string_view>& cells) {
+bool AnsysFields::row(const FortranColumns& format) {
   std::string_view line;
   if (!block_line(line)) return false;
-  cells.clear();
+  cells_.clear();
   if (trimmed(line) == "-1") return false;
-  if (!format.split(line, cells).empty())
-    source_.stop(ErrorCode::wrong_count, source_.here(),
+  if (!format.split(line, cells_).empty())
+    source_.stop(ErrorCode::wrong_count,
                  "{}: the line is longer than its format, which has {} columns", command_,
                  format.columns.size());
-  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  while (!cells_.empty() && cells_.back().empty()) cells_.pop_back();
   return true;
 }
 
-bool AnsysFields::loose_row(std::vector<std::string_view>& cells) {
+bool AnsysFields::loose_row() {
   std::string_view line;
   if (!block_line(line)) return false;
-  if (line.find(',') != std::string_view::npos) {
-    split_commas(line, cells);
-  } else {
-    split_blanks(line, cells);
-  }
+  const bool commas = line.find(',') != std::string_view::npos;
+  (commas ? split_commas : split_blanks)(line, cells_);
   return true;
 }
 
@@ -166,24 +167,30 @@ void AnsysFields::skip_block() {
   }
 }
 
-int AnsysFields::cell_integer(const std::vector<std::string_view>& cells, std::size_t k,
-                              const char* what) {
-  if (k >= cells.size() || cells[k].empty()) return 0;
-  const auto value = parse_integer(cells[k]);
-  if (!value)
-    source_.stop(ErrorCode::not_a_number, source_.here(), "{}: {}: {}", command_, what,
-                 not_an_integer(cells[k]));
+template <class Value>
+Value AnsysFields::cell(std::size_t k, const char* what,
+                        std::optional<Value> (*parse)(std::string_view),
+                        std::string (*wrong)(std::string_view)) {
+  if (k >= cells_.size() || cells_[k].empty()) return 0;
+  const auto value = parse(cells_[k]);
+  if (!value) source_.stop(ErrorCode::not_a_number, "{}: {}: {}", command_, what, wrong(cells_[k]));
   return *value;
 }
 
-double AnsysFields::cell_real(const std::vector<std::string_view>& cells, std::size_t k,
-                              const char* what) {
-  if (k >= cells.size() || cells[k].empty()) return 0.0;
-  const auto value = parse_real(cells[k]);
-  if (!value)
-    source_.stop(ErrorCode::not_a_number, source_.here(), "{}: {}: {}", command_, what,
-                 not_a_real(cells[k]));
-  return *value;
+int AnsysFields::cell_integer(std::size_t k, const char* what) {
+  return cell<int>(k, what, parse_integer, not_an_integer);
+}
+
+double AnsysFields::cell_real(std::size_t k, const char* what) {
+  return cell<double>(k, what, parse_real, not_a_real);
+}
+
+void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<int>& out) {
+  for (std::size_t k = first; k < cells(); ++k) out.push_back(cell_integer(k, what));
+}
+
+void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<double>& out) {
+  for (std::size_t k = first; k < cells(); ++k) out.push_back(cell_real(k, what));
 }
 
 void AnsysFields::stop(ErrorCode code, const std::string& message) {

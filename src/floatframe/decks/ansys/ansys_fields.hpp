@@ -45,6 +45,10 @@ class AnsysFields {
   int integer(std::size_t k, const char* what, int missing = 0);
   /// A whole number of at least 1.
   int label(std::size_t k, const char* what);
+  /// All fields from one on.
+  std::vector<double> reals(std::size_t first, const char* what);
+  /// Three of them.
+  Vec3 three(std::size_t first, const char* what);
   /// If the field is a number or such a parameter.
   std::optional<double> number(std::size_t k) const;
   /// `NAME=value` or *SET; nothing: a text or an expression.
@@ -54,13 +58,18 @@ class AnsysFields {
   FortranColumns columns();
   /// The next line of a block in its columns, of which the last ones may be missing; false at a
   /// line that begins with -1 or with a letter, which comes again as a command.
-  bool row(const FortranColumns& format, std::vector<std::string_view>& cells);
+  bool row(const FortranColumns& format);
   /// The next line of a block, fields between commas or blanks; false at a command.
-  bool loose_row(std::vector<std::string_view>& cells);
+  bool loose_row();
   /// Lines up to the next command.
   void skip_block();
-  int cell_integer(const std::vector<std::string_view>& cells, std::size_t k, const char* what);
-  double cell_real(const std::vector<std::string_view>& cells, std::size_t k, const char* what);
+  /// Of the last row; 0 where it has no cell.
+  std::size_t cells() const noexcept { return cells_.size(); }
+  int cell_integer(std::size_t k, const char* what);
+  double cell_real(std::size_t k, const char* what);
+  /// All whole numbers, all reals from a cell on.
+  void append_cells(std::size_t first, const char* what, std::vector<int>& out);
+  void append_cells(std::size_t first, const char* what, std::vector<double>& out);
 
   [[noreturn]] void stop(ErrorCode code, const std::string& message);
   template <class First, class... Rest>
@@ -71,12 +80,15 @@ class AnsysFields {
 
  private:
   bool block_line(std::string_view& line);
+  template <class Value>
+  Value cell(std::size_t k, const char* what, std::optional<Value> (*parse)(std::string_view),
+             std::string (*wrong)(std::string_view));
   void split(std::string_view command);
 
   TextSource& source_;
   std::string line_, command_;
   std::vector<std::string> waiting_;  // commands of the same line behind `$`, last first
-  std::vector<std::string_view> fields_;
+  std::vector<std::string_view> fields_, cells_;
   FeSource at_;
   std::map<std::string, std::optional<double>, std::less<>> parameters_;
 };

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
 #include "floatframe/decks/temperature_table.hpp"
@@ -17,14 +17,10 @@ namespace {
 constexpr std::size_t most_temperatures = 100;
 
 /// Labels that the part needs.
-bool is_needed(std::string_view label) {
-  static constexpr std::array needed = {"EX",   "EY",   "EZ",  "PRXY", "PRYZ", "PRXZ", "NUXY",
-                                        "NUYZ", "NUXZ", "GXY", "GYZ",  "GXZ",  "DENS"};
-  return std::find(needed.begin(), needed.end(), label) != needed.end();
-}
+constexpr std::string_view needed_labels =
+    "EX EY EZ PRXY PRYZ PRXZ NUXY NUYZ NUXZ GXY GYZ GXZ DENS";
 
-AnsysMaterial& open_ansys_material(AnsysFields& f, AnsysContent& c, std::size_t k) {
-  const int id = f.label(k, "the number of the material");
+AnsysMaterial& open_ansys_material(AnsysFields& f, AnsysContent& c, int id) {
   AnsysMaterial& m = c.materials[id];
   if (m.at.file < 0) m.at = f.at();
   return m;
@@ -32,16 +28,17 @@ AnsysMaterial& open_ansys_material(AnsysFields& f, AnsysContent& c, std::size_t 
 
 /// Tables of TB that change nothing of the linear part, and those that stand beside elastic
 /// constants: the part is linear with these.
-constexpr std::array harmless_tables = {"UVID", "PARA", "FCON", "FLIM", "CTE",  "THER",
-                                        "SPEC", "FRIC", "PELE", "CGCR", "FATI", "ACP"};
-constexpr std::array linear_beside = {"BISO", "MISO", "BKIN", "MKIN", "KINH", "NLIS", "CHAB",
-                                      "PLAS", "CREE", "PRON", "RATE", "CONC", "DP",   "EDP",
-                                      "SDAM", "DMGI", "DMGE", "SHIF", "VISC", "HILL", "GURS"};
+constexpr std::string_view harmless_tables =
+    "UVID PARA FCON FLIM CTE THER SPEC FRIC PELE CGCR FATI ACP";
+constexpr std::string_view linear_beside =
+    "BISO MISO BKIN MKIN KINH NLIS CHAB PLAS CREE PRON RATE CONC DP EDP SDAM DMGI DMGE SHIF VISC "
+    "HILL GURS";
 
-template <typename List>
-bool holds(const List& list, std::string_view word) {
-  return std::any_of(list.begin(), list.end(),
-                     [&](std::string_view entry) { return entry == word; });
+/// `list`: words between blanks.
+bool holds(std::string_view list, std::string_view word) {
+  for (auto entry = next_word(list); !entry.empty(); entry = next_word(list))
+    if (entry == word) return true;
+  return false;
 }
 
 class AnsysElastic {
@@ -54,8 +51,8 @@ class AnsysElastic {
     Material result;
     result.density = value("DENS").value_or(0.0);
     if (result.density < 0.0)
-      error(ErrorCode::out_of_range,
-            fmt::format("DENS is {:g}, no negative density is expected", result.density));
+      error(ErrorCode::out_of_range, "DENS is {:g}, no negative density is expected",
+            result.density);
     refuse_two();
     if (!said_.empty()) return result;
     if (!m_.anisotropic.empty()) return anisotropic(result.density);
@@ -68,39 +65,33 @@ class AnsysElastic {
   }
 
  private:
-  static std::vector<TemperatureRow> rows_of(const AnsysMaterial::Values::mapped_type& table) {
+  /// At the temperature; those at its end if that cannot be, with the reason.
+  std::pair<double, AtTemperature> at(const AnsysMaterial::Values::mapped_type& table) const {
     std::vector<TemperatureRow> rows;
     for (const auto& [T, x] : table) rows.push_back({T, {x}});
-    return rows;
+    AtTemperature found = at_temperature(rows, temperature_);
+    const double x = found.error.empty() ? found.values[0] : rows.front().values[0];
+    return {x, std::move(found)};
+  }
+  std::optional<double> at(const AnsysMaterial::Values& values, const char* label) const {
+    const auto it = values.find(label);
+    if (it == values.end() || it->second.empty()) return std::nullopt;
+    return at(it->second).first;
   }
 
   std::optional<double> value(const char* label) {
-    const auto* const found_rows = m_.find(label);
-    if (found_rows == nullptr) return std::nullopt;
-    const std::vector<TemperatureRow> rows = rows_of(*found_rows);
-    const AtTemperature found = at_temperature(rows, temperature_);
+    const auto* const table = m_.find(label);
+    if (table == nullptr) return std::nullopt;
+    const auto& [x, found] = at(*table);
     if (!found.error.empty()) {
-      error(ErrorCode::wrong_value, fmt::format("its {} {}", label, found.error));
-      return rows.front().values[0];
+      error(ErrorCode::wrong_value, "its {} {}", label, found.error);
+    } else if (found.chosen && temperatures_noted_++ == 0) {
+      source_.note(
+          content_.model, m_.at,
+          "material {} is taken at the temperature {:g} (its table of {} goes from {:g} to {:g})",
+          id_, *temperature_, label, table->front().first, table->back().first);
     }
-    if (found.chosen && temperatures_noted_++ == 0) {
-      const SourceMark mark = source_.mark(m_.at);
-      content_.model.notes.push_back(
-          fmt::format("{}:{}: material {} is taken at the temperature {:g} (its table of {} goes "
-                      "from {:g} to {:g})",
-                      mark.file, mark.line, id_, *temperature_, label, rows.front().temperature,
-                      rows.back().temperature));
-    }
-    return found.values[0];
-  }
-
-  /// At the temperature; nothing if there is none.
-  std::optional<double> at(const AnsysMaterial::Values& values, const char* label) {
-    const auto it = values.find(label);
-    if (it == values.end() || it->second.empty()) return std::nullopt;
-    const std::vector<TemperatureRow> rows = rows_of(it->second);
-    const AtTemperature found = at_temperature(rows, temperature_);
-    return found.error.empty() ? found.values[0] : rows.front().values[0];
+    return x;
   }
 
   /// MP and TB may both give constants: which of them counts is not said in the file.
@@ -109,33 +100,31 @@ class AnsysElastic {
       const auto mp = at(m_.values, by_mp), tb = at(m_.tables, by_tb);
       if (mp && tb && *mp != *tb)
         error(ErrorCode::exclusive,
-              fmt::format(
-                  "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the file",
-                  by_mp, *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC"));
+              "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the file", by_mp,
+              *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC");
     };
     compare("DENS", "DENS");
     const bool isotropic = m_.tables.contains("EX"), any = !m_.anisotropic.empty();
-    if (any && m_.find("EX") != nullptr) {
-      const SourceMark mark = source_.mark(m_.at);
-      content_.model.notes.push_back(
-          fmt::format("{}:{}: material {} has TB,ANEL, which is taken, and EX by {}, which is not",
-                      mark.file, mark.line, id_, isotropic ? "TB,ELASTIC" : "MP"));
-    }
+    if (any && m_.find("EX") != nullptr)
+      source_.note(content_.model, m_.at,
+                   "material {} has TB,ANEL, which is taken, and EX by {}, which is not", id_,
+                   isotropic ? "TB,ELASTIC" : "MP");
     if (any || !isotropic) return;
     compare("EX", "EX");
     compare("PRXY", "PRXY");
     if (!m_.values.contains("PRXY")) compare("NUXY", "PRXY");
     for (const char* label : {"EY", "EZ", "PRYZ", "PRXZ", "NUYZ", "NUXZ", "GXY", "GYZ", "GXZ"})
       if (m_.values.contains(label))
-        error(ErrorCode::exclusive, fmt::format("{} by MP stands beside TB,ELASTIC, which is "
-                                                "isotropic, leave one of the two in the file",
-                                                label));
+        error(ErrorCode::exclusive,
+              "{} by MP stands beside TB,ELASTIC, which is isotropic, leave one of the two in the "
+              "file",
+              label);
   }
 
-  void error(ErrorCode code, const std::string& text) {
-    if (std::find(said_.begin(), said_.end(), text) != said_.end()) return;
-    said_.push_back(text);
-    source_.error(code, m_.at, "material {}: {}", id_, text);
+  template <class... Args>
+  void error(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
+    const std::string text = fmt::format(format, std::forward<Args>(args)...);
+    if (said_.insert(text).second) source_.error(code, m_.at, "material {}: {}", id_, text);
   }
 
   Material isotropic(Material m) {
@@ -145,15 +134,14 @@ class AnsysElastic {
     if (!nu) return error(ErrorCode::missing, "it has no PRXY"), m;
     m.poisson = *nu;
     if (!(m.young > 0.0))
-      error(ErrorCode::out_of_range, fmt::format("EX is {:g}, expected more than 0", m.young));
+      error(ErrorCode::out_of_range, "EX is {:g}, expected more than 0", m.young);
     if (!(m.poisson > -1.0 && m.poisson < 0.5))
-      error(ErrorCode::out_of_range,
-            fmt::format("PRXY is {:g}, expected more than -1 and less than 0.5", m.poisson));
+      error(ErrorCode::out_of_range, "PRXY is {:g}, expected more than -1 and less than 0.5",
+            m.poisson);
     if (const auto G = value("GXY"); G && std::abs(*G - m.shear()) > 1e-3 * std::abs(m.shear()))
       error(ErrorCode::incomplete,
-            fmt::format(
-                "GXY is {:g}, but EX and PRXY give {:g}: an orthotropic material needs EY and EZ",
-                *G, m.shear()));
+            "GXY is {:g}, but EX and PRXY give {:g}: an orthotropic material needs EY and EZ", *G,
+            m.shear());
     return m;
   }
 
@@ -161,7 +149,7 @@ class AnsysElastic {
   double major(const char* pr, const char* nu, double along, double across) {
     if (const auto x = value(pr)) return *x;
     if (const auto x = value(nu)) return *x * along / across;
-    error(ErrorCode::missing, fmt::format("it has no {}", pr));
+    error(ErrorCode::missing, "it has no {}", pr);
     return 0.0;
   }
 
@@ -190,7 +178,7 @@ class AnsysElastic {
                                          {"G23", "GYZ"}})
         if (const std::size_t at = wrong.find(ours); at != std::string::npos)
           wrong.replace(at, std::string_view(ours).size(), theirs);
-      error(ErrorCode::wrong_value, wrong);
+      error(ErrorCode::wrong_value, "{}", wrong);
       return plain;
     }
     // The same in all directions is isotropic.
@@ -199,15 +187,13 @@ class AnsysElastic {
     const Mat6 D = elasticity_of(e);
     if (isotropic.poisson < 0.5 && (D - elasticity_matrix(isotropic)).norm() < 1e-6 * D.norm())
       return isotropic;
-    Material m = anisotropic_material(D, false, plain.density);
-    return m;
+    return anisotropic_material(D, false, plain.density);
   }
 
   /// The upper triangle by rows, in the order xx, yy, zz, xy, yz, xz.
   Material anisotropic(double density) {
     if (m_.anisotropic.size() != 21) {
-      error(ErrorCode::wrong_count,
-            fmt::format("TB,ANEL has {} constants, expected 21", m_.anisotropic.size()));
+      error(ErrorCode::wrong_count, "TB,ANEL has {} constants, expected 21", m_.anisotropic.size());
       return {};
     }
     Mat6 D;
@@ -216,7 +202,7 @@ class AnsysElastic {
       for (int j = i; j < 6; ++j) D(i, j) = D(j, i) = m_.anisotropic[k++];
     const std::string wrong = elasticity_error(D, false, elasticity_name);
     if (!wrong.empty()) {
-      error(ErrorCode::wrong_value, fmt::format("TB,ANEL: {}", wrong));
+      error(ErrorCode::wrong_value, "TB,ANEL: {}", wrong);
       return {};
     }
     if (m_.compliance) D = D.inverse().eval();
@@ -229,21 +215,31 @@ class AnsysElastic {
   AnsysContent& content_;
   TextSource& source_;
   int temperatures_noted_ = 0;
-  std::vector<std::string> said_;
+  std::set<std::string> said_;
 };
-
-}  // namespace
 
 /// MP,EX,1,2.1e5: with further constants it is a polynomial of the temperature.
 void read_ansys_material(AnsysFields& f, AnsysContent& c) {
   const std::string label = f.word(1);
-  if (!is_needed(label)) return;
-  AnsysMaterial& m = open_ansys_material(f, c, 2);
+  if (!holds(needed_labels, label)) return;
+  AnsysMaterial& m = open_ansys_material(f, c, f.label(2, "the number of the material"));
   for (std::size_t k = 4; k < f.size(); ++k)
     if (f.real(k, "the coefficient") != 0.0)
       f.stop(ErrorCode::unsupported, "MP: {} depends on the temperature, only constants are read",
              label);
   m.values[label] = {{0.0, f.real(3, label.c_str())}};
+}
+
+/// The fields of a line that begins at place `start` of a list, with their places from 0.
+template <class Use>
+void each_place(AnsysFields& f, const char* command, int start, std::size_t first, Use use) {
+  for (std::size_t k = first; k < f.size(); ++k) {
+    if (f.blank(k)) continue;
+    const std::size_t place = start - 1 + k - first;
+    if (place >= most_temperatures)
+      f.stop(ErrorCode::too_large, "{}: more than 100 temperatures", command);
+    use(k, place);
+  }
 }
 
 /// MPTEMP,R5.0,count,start,T1,T2,T3; MPTEMP,start,T1,...,T6; MPTEMP: none.
@@ -252,47 +248,37 @@ void read_ansys_temperatures(AnsysFields& f, AnsysContent& c) {
   if (f.blank(at) && f.blank(at + 1)) return c.temperatures.clear();
   const int start = f.blank(at) ? 1 : f.label(at, "the place");
   if (start == 1) c.temperatures.clear();
-  for (std::size_t k = at + 1; k < f.size(); ++k) {
-    if (f.blank(k)) continue;
-    const std::size_t place = start - 1 + k - at - 1;
-    if (place >= most_temperatures)
-      f.stop(ErrorCode::too_large, "MPTEMP: more than 100 temperatures");
+  each_place(f, "MPTEMP", start, at + 1, [&](std::size_t k, std::size_t place) {
     c.temperatures.resize(std::max(c.temperatures.size(), place + 1), 0.0);
     c.temperatures[place] = f.real(k, "the temperature");
-  }
+  });
 }
 
 /// MPDATA,R5.0,count,label,material,start,C1,C2,C3; MPDATA,label,material,start,C1,...,C6.
 void read_ansys_material_data(AnsysFields& f, AnsysContent& c) {
   const std::size_t at = ansys_written(f) ? 3 : 1;
   const std::string label = f.word(at);
-  if (!is_needed(label)) return;
-  AnsysMaterial& m = open_ansys_material(f, c, at + 1);
-  auto& table = m.values[label];
+  if (!holds(needed_labels, label)) return;
+  const int id = f.label(at + 1, "the number of the material");
+  auto& table = open_ansys_material(f, c, id).values[label];
   const int start = f.blank(at + 2) ? 1 : f.label(at + 2, "the place");
   if (start == 1) table.clear();
-  for (std::size_t k = at + 3; k < f.size(); ++k) {
-    if (f.blank(k)) continue;
-    const std::size_t place = start - 1 + k - at - 3;
-    if (place >= most_temperatures)
-      f.stop(ErrorCode::too_large, "MPDATA: more than 100 temperatures");
+  each_place(f, "MPDATA", start, at + 3, [&](std::size_t k, std::size_t place) {
     if (place > table.size())
       f.stop(ErrorCode::wrong_count, "MPDATA: {} begins at place {}, but {} are there", label,
              start, table.size());
     const double T = place < c.temperatures.size() ? c.temperatures[place] : 0.0;
-    const std::pair<double, double> entry{T, f.real(k, label.c_str())};
-    if (place == table.size())
-      table.push_back(entry);
-    else
-      table[place] = entry;
-  }
+    const double value = f.real(k, label.c_str());
+    table.resize(std::max(table.size(), place + 1));
+    table[place] = {T, value};
+  });
 }
 
 void read_ansys_table(AnsysFields& f, AnsysContent& c) {
   c.table = f.word(1).substr(0, 4);
   c.table_material = f.integer(2, "the number of the material", 1);
   if (c.table == "ANEL") {
-    AnsysMaterial& m = open_ansys_material(f, c, 2);
+    AnsysMaterial& m = open_ansys_material(f, c, f.label(2, "the number of the material"));
     m.anisotropic.clear();
     m.compliance = f.word(5) == "1" || f.word(5) == "FLEX";
     if (f.integer(3, "the number of temperatures", 1) > 1)
@@ -301,25 +287,21 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
   }
   c.table_temperature = 0.0;
   if (c.table == "ELAS" || c.table == "DENS") {  // in place of what was there
-    AnsysMaterial& m = c.materials[c.table_material];
-    if (m.at.file < 0) m.at = f.at();
-    for (const char* label : {"EX", "PRXY", "DENS"})
-      if ((c.table == "DENS") == (std::string_view(label) == "DENS")) m.tables.erase(label);
+    AnsysMaterial& m = open_ansys_material(f, c, c.table_material);
+    for (const std::string_view label : {"EX", "PRXY", "DENS"})
+      if ((c.table == "DENS") == (label == "DENS")) m.tables.erase(std::string(label));
     return;
   }
   if (holds(harmless_tables, c.table)) return;
-  if (holds(linear_beside, c.table)) {
-    c.model.notes.push_back(fmt::format(
-        "{}:{}: TB,{} of material {} is not linear: the part has the elastic constants beside it",
-        f.source().files()[f.at().file], f.at().line, f.word(1), c.table_material));
-    return;
-  }
+  if (holds(linear_beside, c.table))
+    return f.source().note(
+        c.model, f.at(),
+        "TB,{} of material {} is not linear: the part has the elastic constants beside it",
+        f.word(1), c.table_material);
   f.stop(ErrorCode::unsupported,
          "TB,{}: this table is not read; a part needs EX and PRXY, EX to GXZ, or TB,ANEL",
          f.word(1));
 }
-
-namespace {
 
 bool is_elastic_table(const AnsysContent& c) {
   return c.table == "ANEL" || c.table == "ELAS" || c.table == "DENS";
@@ -335,20 +317,16 @@ void put_at(std::vector<std::pair<double, double>>& table, double T, double valu
     table.insert(it, {T, value});
 }
 
-}  // namespace
-
 void read_ansys_table_temperature(AnsysFields& f, AnsysContent& c) {
   if (!is_elastic_table(c)) return;
-  const std::size_t at = f.command() == "TBFIELD" ? 2 : 1;
-  c.table_temperature = f.real(at, "the temperature");
+  c.table_temperature = f.real(f.command() == "TBFIELD" ? 2 : 1, "the temperature");
   if (c.table == "ANEL" && !c.materials[c.table_material].anisotropic.empty())
     f.stop(ErrorCode::duplicate, "TB,ANEL: several temperatures; leave one in the file");
 }
 
 /// TBFIELD,TEMP,20 is TBTEMP,20.
 void read_ansys_table_field(AnsysFields& f, AnsysContent& c) {
-  if (!is_elastic_table(c)) return;
-  if (f.word(1) != "TEMP")
+  if (is_elastic_table(c) && f.word(1) != "TEMP")
     f.stop(ErrorCode::unsupported,
            "TBFIELD: TB,{} of material {} depends on {}, only temperatures (TEMP) are read",
            c.table, c.table_material, shown(f.text(1)));
@@ -358,16 +336,14 @@ void read_ansys_table_field(AnsysFields& f, AnsysContent& c) {
 /// TBDATA,start,C1,...,C6
 void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
   if (!is_elastic_table(c)) return;
-  AnsysMaterial& m = c.materials[c.table_material];
-  if (m.at.file < 0) m.at = f.at();
+  AnsysMaterial& m = open_ansys_material(f, c, c.table_material);
   std::vector<double> values;
   for (std::size_t k = 2; k < f.size(); ++k)
     if (!f.blank(k)) values.push_back(f.real(k, "the constant"));
   if (c.table == "DENS") {
     if (values.size() != 1)
       f.stop(ErrorCode::wrong_count, "TB,DENS: {} constants in a line, expected 1", values.size());
-    put_at(m.tables["DENS"], c.table_temperature, values[0]);
-    return;
+    return put_at(m.tables["DENS"], c.table_temperature, values[0]);
   }
   if (c.table == "ELAS") {
     if (values.size() != 2)
@@ -375,8 +351,7 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
              "TB,ELASTIC: {} constants in a line, expected 2 of an isotropic material",
              values.size());
     put_at(m.tables["EX"], c.table_temperature, values[0]);
-    put_at(m.tables["PRXY"], c.table_temperature, values[1]);
-    return;
+    return put_at(m.tables["PRXY"], c.table_temperature, values[1]);
   }
   const std::size_t place = m.anisotropic.size() + 1;
   if (f.integer(1, "the place", static_cast<int>(place)) != static_cast<int>(place))
@@ -387,6 +362,20 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
            c.table_material);
   m.anisotropic.insert(m.anisotropic.end(), values.begin(), values.end());
 }
+
+constexpr AnsysCommand material_commands[] = {
+    {"MP", read_ansys_material},
+    {"MPTEMP", read_ansys_temperatures},
+    {"MPDATA", read_ansys_material_data},
+    {"TB", read_ansys_table},
+    {"TBTEMP", read_ansys_table_temperature},
+    {"TBFIELD", read_ansys_table_field},
+    {"TBDATA", read_ansys_table_data},
+};
+
+}  // namespace
+
+std::span<const AnsysCommand> ansys_material_commands() { return material_commands; }
 
 Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,
                         AnsysContent& content, TextSource& source) {

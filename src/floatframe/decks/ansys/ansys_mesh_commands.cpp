@@ -33,18 +33,23 @@ int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSou
 
 /// A block that says another number of nodes or elements than follow.
 void note_count(AnsysFields& f, AnsysContent& c, double said, std::size_t found, const char* what) {
-  if (!(said > 0.0) || said == static_cast<double>(found)) return;
-  c.model.notes.push_back(fmt::format(
-      "{}:{}: {} says {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
-      f.source().files()[f.at().file], f.at().line, f.command(), said, what, found));
+  if (said > 0.0 && said != static_cast<double>(found))
+    f.source().note(
+        c.model, f.at(),
+        "{} says {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
+        f.command(), said, what, found);
 }
 
 void set_angles(AnsysContent& c, int index, const Vec3& angles) {
   if (!angles.isZero(0.0)) c.node_angles[index] = angles;
 }
 
-Vec3 three(AnsysFields& f, std::size_t first, const char* what) {
-  return {f.real(first, what), f.real(first + 1, what), f.real(first + 2, what)};
+/// With the attributes that are set, its nodes to come.
+AnsysElement next_element(const AnsysContent& c, const FeSource& at) {
+  AnsysElement e = c.current;
+  e.at = at;
+  e.first = c.element_nodes.size();
+  return e;
 }
 
 void add_element(AnsysFields& f, AnsysContent& c, AnsysElement e) {
@@ -60,18 +65,6 @@ void add_element(AnsysFields& f, AnsysContent& c, AnsysElement e) {
   c.elements.push_back(e);
 }
 
-AnsysElement with_attributes(const AnsysContent& c, const FeSource& at) {
-  AnsysElement e;
-  e.type = c.type;
-  e.material = c.material;
-  e.real = c.real;
-  e.section = c.section;
-  e.system = c.system;
-  e.at = at;
-  e.first = c.element_nodes.size();
-  return e;
-}
-
 /// Nodes of the fields from `first`; blank ones are 0.
 void append_nodes(AnsysFields& f, AnsysContent& c, AnsysElement& e, std::size_t first) {
   for (std::size_t k = first; k < f.size(); ++k) {
@@ -80,13 +73,6 @@ void append_nodes(AnsysFields& f, AnsysContent& c, AnsysElement& e, std::size_t 
     c.element_nodes.push_back(f.integer(k, "the node"));
     ++e.nodes;
   }
-}
-
-}  // namespace
-
-bool ansys_written(const AnsysFields& f) {
-  const std::string mark = f.word(1);
-  return mark == "UNBL" || (mark.size() > 2 && mark[0] == 'R' && mark[2] == '.');
 }
 
 /// N,R5.3,LOC,node,solid,line,x,y,z and N,R5.3,ANG,...; N,node,x,y,z,thxy,thyz,thzx.
@@ -98,19 +84,19 @@ void read_ansys_node(AnsysFields& f, AnsysContent& c) {
              "coordinates are read",
              c.nodal_system);
     const int id = f.label(1, "the number of the node");
-    const int index = add_node(f, c, id, three(f, 2, "the coordinate"), f.at());
-    return set_angles(c, index, three(f, 5, "the angle"));
+    const int index = add_node(f, c, id, f.three(2, "the coordinate"), f.at());
+    return set_angles(c, index, f.three(5, "the angle"));
   }
   const int id = f.integer(3, "the number of the node");
   if (id == -1) return;  // the end of a block
   if (f.word(2) == "LOC") {
-    add_node(f, c, id, three(f, 6, "the coordinate"), f.at());
+    add_node(f, c, id, f.three(6, "the coordinate"), f.at());
   } else if (f.word(2) == "ANG") {
     const auto it = c.node_index.find(id);
     if (it == c.node_index.end())
       return f.source().error(ErrorCode::not_found, f.at(),
                               "N: angles of node {}, which is not in the file before", id);
-    set_angles(c, it->second, three(f, 6, "the angle"));
+    set_angles(c, it->second, f.three(6, "the angle"));
   } else {
     f.stop(ErrorCode::wrong_value, "N: expected LOC or ANG, found {}", shown(f.text(2)));
   }
@@ -123,49 +109,50 @@ void read_ansys_node_block(AnsysFields& f, AnsysContent& c) {
     f.stop(ErrorCode::missing,
            "NBLOCK: its format has no column for the number of the node or not three for its "
            "coordinates");
-  std::vector<std::string_view> cells;
   const double said = f.number(4).value_or(0.0);
   const std::size_t before = c.model.positions.size();
-  while (f.row(format, cells)) {
+  while (f.row(format)) {
     const FeSource at = f.source().here();
-    const int id = f.cell_integer(cells, 0, "the number of the node");
+    const int id = f.cell_integer(0, "the number of the node");
     Vec3 p, angles = Vec3::Zero();
     for (int k = 0; k < 3; ++k) {
-      p(k) = f.cell_real(cells, first + k, "the coordinate");
-      angles(k) = f.cell_real(cells, first + 3 + k, "the angle");
+      p(k) = f.cell_real(first + k, "the coordinate");
+      angles(k) = f.cell_real(first + 3 + k, "the angle");
     }
     set_angles(c, add_node(f, c, id, p, at), angles);
   }
   note_count(f, c, said, c.model.positions.size() - before, "nodes");
 }
 
-/// EN,R5.5,ATTR,... and EN,R5.5,NODE,...; EN,number,nodes; E,nodes.
-void read_ansys_element(AnsysFields& f, AnsysContent& c) {
-  if (f.command() == "EN" && ansys_written(f)) {
-    if (f.word(2) == "NODE") {
-      if (c.elements.empty()) f.stop(ErrorCode::missing, "EN: nodes, but no line ATTR before them");
-      AnsysElement& e = c.elements.back();
-      for (std::size_t k = 3; k < f.size(); ++k) {
-        if (f.blank(k)) continue;
-        c.element_nodes.push_back(f.integer(k, "the node"));
-        ++e.nodes;
-      }
-      return;
+/// EN,R5.5,ATTR,... and EN,R5.5,NODE,...
+void read_written_element(AnsysFields& f, AnsysContent& c) {
+  if (f.word(2) == "NODE") {
+    if (c.elements.empty()) f.stop(ErrorCode::missing, "EN: nodes, but no line ATTR before them");
+    for (std::size_t k = 3; k < f.size(); ++k) {
+      if (f.blank(k)) continue;
+      c.element_nodes.push_back(f.integer(k, "the node"));
+      ++c.elements.back().nodes;
     }
-    if (f.word(2) != "ATTR")
-      f.stop(ErrorCode::wrong_value, "EN: expected ATTR or NODE, found {}", shown(f.text(2)));
-    if (f.integer(3, "the number of nodes") == -1) return;  // the end of a block
-    AnsysElement e = with_attributes(c, f.at());
-    e.material = f.integer(4, "the material");
-    e.type = f.integer(5, "the type");
-    e.real = f.integer(6, "the real constants");
-    e.section = f.integer(7, "the section");
-    e.system = f.integer(8, "the coordinate system");
-    e.id = f.integer(9, "the number of the element");
-    return add_element(f, c, e);
+    return;
   }
-  AnsysElement e = with_attributes(c, f.at());
+  if (f.word(2) != "ATTR")
+    f.stop(ErrorCode::wrong_value, "EN: expected ATTR or NODE, found {}", shown(f.text(2)));
+  if (f.integer(3, "the number of nodes") == -1) return;  // the end of a block
+  AnsysElement e = next_element(c, f.at());
+  e.material = f.integer(4, "the material");
+  e.type = f.integer(5, "the type");
+  e.real = f.integer(6, "the real constants");
+  e.section = f.integer(7, "the section");
+  e.system = f.integer(8, "the coordinate system");
+  e.id = f.integer(9, "the number of the element");
+  add_element(f, c, e);
+}
+
+/// EN,number,nodes; E,nodes.
+void read_ansys_element(AnsysFields& f, AnsysContent& c) {
   const bool numbered = f.command() == "EN";
+  if (numbered && ansys_written(f)) return read_written_element(f, c);
+  AnsysElement e = next_element(c, f.at());
   if (!numbered && c.highest_element == std::numeric_limits<int>::max())
     f.stop(ErrorCode::not_a_number, "E: there is no number above 2147483647 for the element");
   e.id = numbered ? f.label(1, "the number of the element") : c.highest_element + 1;
@@ -196,37 +183,26 @@ void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
            format.integers(), lead);
   const double said = f.number(4).value_or(0.0);
   const std::size_t before = c.elements.size();
-  std::vector<std::string_view> cells;
-  while (f.row(format, cells)) {
-    AnsysElement e = with_attributes(c, f.source().here());
-    const auto cell = [&](std::size_t k, const char* what) {
-      return f.cell_integer(cells, k, what);
-    };
-    e.material = cell(solid ? 0 : 3, "the material");
-    e.real = cell(2, "the real constants");
-    e.section = cell(solid ? 3 : 1, "the section");
-    e.system = cell(4, "the coordinate system");
-    e.id = cell(solid ? 10 : 0, "the number of the element");
-    if (solid) e.type = cell(1, "the type");
-    const int count =
-        solid ? cell(8, "the number of nodes") : static_cast<int>(cells.size() - lead);
-    if (cells.size() <= lead || count < 1 || count > 20)
+  while (f.row(format)) {
+    AnsysElement e = next_element(c, f.source().here());
+    e.material = f.cell_integer(solid ? 0 : 3, "the material");
+    e.real = f.cell_integer(2, "the real constants");
+    e.section = f.cell_integer(solid ? 3 : 1, "the section");
+    e.system = f.cell_integer(4, "the coordinate system");
+    e.id = f.cell_integer(solid ? 10 : 0, "the number of the element");
+    if (solid) e.type = f.cell_integer(1, "the type");
+    e.nodes = solid ? f.cell_integer(8, "the number of nodes") : static_cast<int>(f.cells() - lead);
+    if (f.cells() <= lead || e.nodes < 1 || e.nodes > 20)
       f.source().stop(ErrorCode::wrong_count, e.at, "element {} has {} nodes, expected 1 to 20",
-                      e.id, cells.size() <= lead ? 0 : count);
-    for (std::size_t k = lead; k < cells.size(); ++k)
-      c.element_nodes.push_back(cell(k, "the node"));
-    while (c.element_nodes.size() < e.first + count) {
-      if (!f.row(format, cells))
-        f.source().stop(ErrorCode::wrong_count, e.at,
-                        "element {} has {} nodes in its first line, but {} are listed", e.id, count,
-                        c.element_nodes.size() - e.first);
-      for (std::size_t k = 0; k < cells.size(); ++k) c.element_nodes.push_back(cell(k, "the node"));
-    }
-    if (c.element_nodes.size() > e.first + count)
+                      e.id, f.cells() <= lead ? 0 : e.nodes);
+    f.append_cells(lead, "the node", c.element_nodes);
+    const std::size_t end = e.first + e.nodes;
+    while (c.element_nodes.size() < end && f.row(format))
+      f.append_cells(0, "the node", c.element_nodes);
+    if (c.element_nodes.size() != end)
       f.source().stop(ErrorCode::wrong_count, e.at,
-                      "element {} has {} nodes in its first line, but {} are listed", e.id, count,
+                      "element {} has {} nodes in its first line, but {} are listed", e.id, e.nodes,
                       c.element_nodes.size() - e.first);
-    e.nodes = count;
     add_element(f, c, e);
   }
   note_count(f, c, said, c.elements.size() - before, "elements");
@@ -243,12 +219,10 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
   const FortranColumns format = f.columns();
   component.elements = begins_with(kind, "ELEM");
   const bool known = component.elements || begins_with(kind, "NODE");
-  std::vector<std::string_view> cells;
   int found = 0;
-  while (found < count && f.row(format, cells)) {
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      component.members.push_back(f.cell_integer(cells, k, "the member"));
-    found += static_cast<int>(cells.size());
+  while (found < count && f.row(format)) {
+    f.append_cells(0, "the member", component.members);
+    found += static_cast<int>(f.cells());
   }
   if (found != count)
     f.stop(ErrorCode::wrong_count,
@@ -281,19 +255,39 @@ void read_ansys_system(AnsysFields& f, AnsysContent& c) {
     return f.real(k, "the parameter", 1.0) == 1.0 && f.real(k + 1, "the parameter", 1.0) == 1.0;
   };
   if (part == "LOC") {
-    s.origin = three(f, at + 2, "the origin");
+    s.origin = f.three(at + 2, "the origin");
     if (!written) {
-      s.angles = three(f, at + 5, "the angle");
+      s.angles = f.three(at + 5, "the angle");
       s.round = round(at + 8);
       c.nodal_system = id;
     }
   } else if (part == "ANG") {
-    s.angles = three(f, at + 2, "the angle");
+    s.angles = f.three(at + 2, "the angle");
   } else if (part == "PRM") {
     s.round = s.kind == 0 || round(at + 2);
   } else {
     f.stop(ErrorCode::wrong_value, "LOCAL: expected LOC, ANG or PRM, found {}", shown(f.text(2)));
   }
 }
+
+constexpr AnsysCommand mesh_commands[] = {
+    {"N", read_ansys_node},
+    {"NBLOCK", read_ansys_node_block},
+    {"E", read_ansys_element},
+    {"EN", read_ansys_element},
+    {"EMORE", read_ansys_element_more},
+    {"EBLOCK", read_ansys_element_block},
+    {"CMBLOCK", read_ansys_component},
+    {"LOCAL", read_ansys_system},
+};
+
+}  // namespace
+
+bool ansys_written(const AnsysFields& f) {
+  const std::string mark = f.word(1);
+  return mark == "UNBL" || (mark.size() > 2 && mark[0] == 'R' && mark[2] == '.');
+}
+
+std::span<const AnsysCommand> ansys_mesh_commands() { return mesh_commands; }
 
 }  // namespace floatframe

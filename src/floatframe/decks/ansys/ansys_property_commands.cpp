@@ -1,5 +1,4 @@
 // Element types, real constants and sections.
-#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -32,8 +31,6 @@ AnsysSection& open_section(AnsysFields& f, AnsysContent& c) {
   return it->second;
 }
 
-}  // namespace
-
 void read_ansys_type(AnsysFields& f, AnsysContent& c) {
   AnsysType type;
   type.id = f.label(1, "the number of the type");
@@ -45,13 +42,11 @@ void read_ansys_type(AnsysFields& f, AnsysContent& c) {
 
 void read_ansys_type_block(AnsysFields& f, AnsysContent& c) {
   const FortranColumns format = f.columns();
-  std::vector<std::string_view> cells;
-  while (f.row(format, cells)) {
+  while (f.row(format)) {
     AnsysType type;
-    type.id = f.cell_integer(cells, 0, "the number of the type");
-    type.number = f.cell_integer(cells, 1, "the element");
-    for (int k = 1; k <= highest_key_option; ++k)
-      type.keyopt[k] = f.cell_integer(cells, 1 + k, "KEYOPT");
+    type.id = f.cell_integer(0, "the number of the type");
+    type.number = f.cell_integer(1, "the element");
+    for (int k = 1; k <= highest_key_option; ++k) type.keyopt[k] = f.cell_integer(1 + k, "KEYOPT");
     type.at = f.source().here();
     if (type.id < 1 || type.number < 1)
       f.source().stop(ErrorCode::out_of_range, type.at,
@@ -89,10 +84,7 @@ void read_ansys_real(AnsysFields& f, AnsysContent& c) {
     return;
   }
   c.real_set = f.label(1, "the number of the set");
-  AnsysReal& real = c.reals[c.real_set];
-  real = {};
-  real.at = f.at();
-  for (std::size_t k = 2; k < f.size(); ++k) real.values.push_back(f.real(k, "the constant"));
+  c.reals[c.real_set] = {f.reals(2, "the constant"), f.at()};
 }
 
 void read_ansys_real_more(AnsysFields& f, AnsysContent& c) {
@@ -111,36 +103,34 @@ void read_ansys_real_block(AnsysFields& f, AnsysContent& c) {
   if (first.integers() != 2 || more.integers() != 0)
     f.stop(ErrorCode::wrong_value,
            "RLBLOCK: its formats are not two whole numbers with reals, and reals");
-  std::vector<std::string_view> cells;
-  while (f.row(first, cells)) {
+  while (f.row(first)) {
     const FeSource at = f.source().here();
-    const int id = f.cell_integer(cells, 0, "the number of the set");
-    const int count = f.cell_integer(cells, 1, "the number of constants");
+    const int id = f.cell_integer(0, "the number of the set");
+    const int count = f.cell_integer(1, "the number of constants");
     if (id < 1 || count < 0 || count > static_cast<int>(most_rows))
       f.source().stop(ErrorCode::wrong_count, at, "RLBLOCK: set {} has {} real constants", id,
                       count);
-    AnsysReal real;
-    real.at = at;
-    std::size_t room = first.columns.size();
-    for (std::size_t k = 2; k < room && real.values.size() < static_cast<std::size_t>(count); ++k)
-      real.values.push_back(f.cell_real(cells, k, "the constant"));
-    while (real.values.size() < static_cast<std::size_t>(count)) {
-      if (!f.row(more, cells))
+    const std::size_t wanted = count;
+    std::vector<double> values;
+    const auto append = [&](std::size_t from, std::size_t end) {  // missing cells are 0
+      for (std::size_t k = from; k < end && values.size() < wanted; ++k)
+        values.push_back(f.cell_real(k, "the constant"));
+    };
+    append(2, first.columns.size());
+    while (values.size() < wanted) {
+      if (!f.row(more))
         f.source().stop(ErrorCode::wrong_count, at,
                         "RLBLOCK: set {} has {} real constants, but {} are listed", id, count,
-                        real.values.size());
-      room = more.columns.size();
-      for (std::size_t k = 0; k < room && real.values.size() < static_cast<std::size_t>(count); ++k)
-        real.values.push_back(f.cell_real(cells, k, "the constant"));
+                        values.size());
+      append(0, more.columns.size());
     }
-    c.reals[id] = std::move(real);
+    c.reals[id] = {std::move(values), at};
   }
 }
 
 void read_ansys_section(AnsysFields& f, AnsysContent& c) {
   c.section_set = f.label(1, "the number of the section");
-  AnsysSection& s = c.sections[c.section_set];
-  s = {};
+  AnsysSection& s = c.sections[c.section_set] = {};
   s.at = f.at();
   s.kind = f.word(2).substr(0, 4);
   s.shape = f.word(3);
@@ -148,8 +138,7 @@ void read_ansys_section(AnsysFields& f, AnsysContent& c) {
 
 void read_ansys_section_data(AnsysFields& f, AnsysContent& c) {
   AnsysSection& s = open_section(f, c);
-  std::vector<double> row;
-  for (std::size_t k = 1; k < f.size(); ++k) row.push_back(f.real(k, "the value"));
+  std::vector<double> row = f.reals(1, "the value");
   if (s.rows.size() > most_rows)
     f.stop(ErrorCode::wrong_count, "SECDATA: a section has too many lines");
   s.rows.push_back(std::move(row));
@@ -158,16 +147,12 @@ void read_ansys_section_data(AnsysFields& f, AnsysContent& c) {
 void read_ansys_section_block(AnsysFields& f, AnsysContent& c) {
   AnsysSection& s = open_section(f, c);
   const int count = f.integer(1, "the number of lines");
-  std::vector<std::string_view> cells;
   for (int k = 0; k < count; ++k) {
-    if (!f.loose_row(cells))
+    if (!f.loose_row())
       f.stop(ErrorCode::wrong_count,
              "SECBLOCK: section {} has {} lines in its first line, but {} are there", c.section_set,
              count, k);
-    std::vector<double> row;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      row.push_back(f.cell_real(cells, i, "the value"));
-    s.rows.push_back(std::move(row));
+    f.append_cells(0, "the value", s.rows.emplace_back());
   }
 }
 
@@ -176,15 +161,29 @@ void read_ansys_section_offset(AnsysFields& f, AnsysContent& c) {
   AnsysSection& s = open_section(f, c);
   const bool pipe = s.kind == "PIPE" && (f.blank(1) || f.number(1));
   s.offset = pipe ? "USER" : f.word(1).substr(0, 4);
-  s.offsets.clear();
-  for (std::size_t k = pipe ? 1 : 2; k < f.size(); ++k)
-    s.offsets.push_back(f.real(k, "the offset"));
+  s.offsets = f.reals(pipe ? 1 : 2, "the offset");
 }
 
 void read_ansys_section_control(AnsysFields& f, AnsysContent& c) {
-  AnsysSection& s = open_section(f, c);
-  s.control.clear();
-  for (std::size_t k = 1; k < f.size(); ++k) s.control.push_back(f.real(k, "the value"));
+  open_section(f, c).control = f.reals(1, "the value");
 }
+
+constexpr AnsysCommand property_commands[] = {
+    {"ET", read_ansys_type},
+    {"ETBLOCK", read_ansys_type_block},
+    {"KEYOPT", read_ansys_key_option},
+    {"R", read_ansys_real},
+    {"RMORE", read_ansys_real_more},
+    {"RLBLOCK", read_ansys_real_block},
+    {"SECTYPE", read_ansys_section},
+    {"SECDATA", read_ansys_section_data},
+    {"SECBLOCK", read_ansys_section_block},
+    {"SECOFFSET", read_ansys_section_offset},
+    {"SECCONTROL", read_ansys_section_control},
+};
+
+}  // namespace
+
+std::span<const AnsysCommand> ansys_property_commands() { return property_commands; }
 
 }  // namespace floatframe

@@ -1,7 +1,7 @@
-#include "floatframe/decks/ansys/ansys_types.hpp"
-
 #include <algorithm>
 #include <set>
+
+#include "floatframe/decks/ansys/ansys_content.hpp"
 
 namespace floatframe {
 namespace {

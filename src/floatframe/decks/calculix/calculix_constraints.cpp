@@ -1,17 +1,12 @@
 // Springs and point masses of a CalculiX deck, after its equations.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
 
-#include "floatframe/core/plural.hpp"
 #include "floatframe/decks/calculix/calculix_equations.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
-#include "floatframe/fe/element_faces.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/math/dense.hpp"
 
@@ -29,37 +24,28 @@ std::string with_point(std::string number) {
 /// share of the elongation, the others follow the spring's node, so that nothing is loose.
 class Springs {
  public:
-  Springs(CalculixText& deck, CalculixEquations& equations) : deck_(deck), equations_(equations) {}
+  Springs(CalculixText& deck, CalculixEquations& equations)
+      : deck_(deck),
+        equations_(equations),
+        in_elements_(nodes_of_elements(deck.model, [](const Element&) { return true; })) {
+    for (const PointMass& m : deck.model.masses)
+      if (m.mass != 0.0) in_elements_[m.node] = 1;
+    for (const Spider& s : deck.model.spiders) in_elements_[s.reference] = 1;
+  }
 
   void add(const Spring& s) {
     const bool grounded = s.nodes[1] < 0, straight = !grounded && along_its_line(s);
-    std::pair<int, int> ends[2];
-    const int count = grounded ? 1 : 2;
-    for (int end = 0; end < count; ++end) {
-      const auto k = static_cast<std::size_t>(end);
+    std::vector<End> ends;
+    for (int end = 0; end < (grounded ? 1 : 2); ++end) {
       // SPRING2 takes the second displacement less the first.
-      const Vec6 d = end == 0 && !grounded ? Vec6(-s.directions[k]) : s.directions[k];
-      if (straight)
-        ends[end].first = deck_.node(s.nodes[k]);
-      else if (axis_of(d) >= 0 && !equations_.is_turn_of_knot(s.nodes[k], axis_of(d)))
-        ends[end] = equations_.place(s.nodes[k], axis_of(d), s.source);
-      else
-        ends[end] = further_node(s.source, s.nodes[k], d);
+      const Vec6 d = end == 0 && !grounded ? Vec6(-s.directions[end]) : s.directions[end];
+      const int node = s.nodes[end], axis = axis_of(d);
+      ends.push_back(straight ? End{deck_.node(node), 0}
+                     : axis >= 0 && !equations_.is_turn_of_knot(node, axis)
+                         ? equations_.place(node, axis, s.source)
+                         : further_node(s.source, node, d));
     }
-    const int number = ++deck_.numbers.last_element;
-    const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
-    elements_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n{}",
-                             grounded   ? "SPRING1"
-                             : straight ? "SPRINGA"
-                                        : "SPRING2",
-                             set, number);
-    std::string directions;
-    for (int end = 0; end < count; ++end) {
-      elements_ += fmt::format(", {}", ends[end].first);
-      if (!straight) directions += fmt::format("{}{}", end == 0 ? "" : ", ", ends[end].second);
-    }
-    elements_ += fmt::format("\n*SPRING, ELSET={}\n{}\n{}\n", set, directions,
-                             with_point(calculix_number(s.stiffness)));
+    write(ends, s.stiffness);
   }
 
   /// Springs without their massless ends (spring_system): K = sum lambda v v^T. Each term is a
@@ -78,7 +64,7 @@ class Springs {
       }
       const auto first = of_node.begin(), second = std::next(first);
       const bool alone = second == of_node.end();
-      std::vector<std::pair<int, int>> ends = {
+      std::vector<End> ends = {
           further_node(source, first->first, alone ? first->second : Vec6(-first->second))};
       if (!alone) {
         std::map<int, double> sum;
@@ -90,16 +76,7 @@ class Springs {
         ends.push_back(further_node(source, second->first, second->second));
         rows_[rows_.size() - 3].terms = {sum.begin(), sum.end()};  // of its first direction
       }
-      const int number = ++deck_.numbers.last_element;
-      const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
-      elements_ +=
-          alone
-              ? fmt::format("*ELEMENT, TYPE=SPRING1, ELSET={0}\n{1}, {2}\n*SPRING, ELSET={0}\n1\n",
-                            set, number, ends[0].first)
-              : fmt::format(
-                    "*ELEMENT, TYPE=SPRING2, ELSET={0}\n{1}, {2}, {3}\n*SPRING, ELSET={0}\n1, 1\n",
-                    set, number, ends[0].first, ends[1].first);
-      elements_ += with_point(calculix_number(eigen.values(k))) + '\n';
+      write(ends, eigen.values(k));
     }
   }
 
@@ -112,6 +89,25 @@ class Springs {
   }
 
  private:
+  using End = std::pair<int, int>;  ///< node and direction in the deck; 0: along the spring
+
+  void write(const std::vector<End>& ends, double stiffness) {
+    const int number = ++deck_.numbers.last_element;
+    const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
+    std::string nodes, directions;
+    for (const auto& [node, direction] : ends) {
+      nodes += fmt::format(", {}", node);
+      if (direction > 0)
+        directions += fmt::format("{}{}", directions.empty() ? "" : ", ", direction);
+    }
+    elements_ +=
+        fmt::format("*ELEMENT, TYPE={}, ELSET={}\n{}{}\n*SPRING, ELSET={}\n{}\n{}\n",
+                    ends.size() == 1     ? "SPRING1"
+                    : directions.empty() ? "SPRINGA"
+                                         : "SPRING2",
+                    set, number, nodes, set, directions, with_point(calculix_number(stiffness)));
+  }
+
   /// The only degree of freedom of a direction, with the factor 1; else -1.
   static int axis_of(const Vec6& d) {
     int axis = 0;
@@ -120,11 +116,7 @@ class Springs {
   }
 
   bool along_its_line(const Spring& s) const {
-    const auto at = [&](int end) {
-      return deck_.model
-          .positions[static_cast<std::size_t>(s.nodes[static_cast<std::size_t>(end)])];
-    };
-    const Vec3 d = at(1) - at(0);
+    const Vec3 d = deck_.model.positions[s.nodes[1]] - deck_.model.positions[s.nodes[0]];
     if (!(d.norm() > 0.0)) return false;
     Vec6 line = Vec6::Zero();
     line.head<3>() = d.normalized();
@@ -132,35 +124,18 @@ class Springs {
   }
 
   /// CalculiX leaves out degrees of freedom of nodes that only equations have.
-  bool is_in_an_element(int node) {
-    if (in_elements_.empty()) {
-      in_elements_.assign(deck_.model.positions.size(), 0);
-      for (const Element& e : deck_.model.elements)
-        for (int k = 0; k < element_nodes(e.type); ++k)
-          in_elements_[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
-      for (const PointMass& m : deck_.model.masses)
-        if (m.mass != 0.0) in_elements_[static_cast<std::size_t>(m.node)] = 1;
-      for (const Spider& s : deck_.model.spiders)
-        in_elements_[static_cast<std::size_t>(s.reference)] = 1;
-    }
-    return in_elements_[static_cast<std::size_t>(node)] != 0;
-  }
-
   void must_be_in_an_element(const FeSource& source, int node) {
-    if (is_in_an_element(node)) return;
-    deck_.errors.add(
-        ErrorCode::unsupported, deck_.model.mark(source),
-        fmt::format("a spring that is neither along an axis nor along the line of its nodes ends "
-                    "at {}, which no element has: CalculiX would hold it there",
-                    deck_.model.node_label(node)));
+    if (in_elements_[node] != 0) return;
+    deck_.error(source,
+                "a spring that is neither along an axis nor along the line of its nodes ends at "
+                "{}, which no element has: CalculiX would hold it there",
+                deck_.model.node_label(node));
   }
 
-  std::pair<int, int> further_node(const FeSource& source, int node, const Vec6& direction) {
+  End further_node(const FeSource& source, int node, const Vec6& direction) {
     must_be_in_an_element(source, node);
     const int number = ++deck_.numbers.last_node;
-    const Vec3& p = deck_.model.positions[static_cast<std::size_t>(node)];
-    nodes_ += fmt::format("{}, {}, {}, {}\n", number, calculix_number(p(0)), calculix_number(p(1)),
-                          calculix_number(p(2)));
+    nodes_ += calculix_node(number, deck_.model.positions[node]);
     rows_.push_back({{number, 1}, equations_.independent(node, direction), source});
     for (int axis = 1; axis < 3; ++axis)
       rows_.push_back({{number, axis + 1}, equations_.independent(node, Vec6::Unit(axis)), source});
@@ -168,7 +143,7 @@ class Springs {
   }
 
   struct Row {
-    std::pair<int, int> place;
+    End place;
     DependentDofs::Terms terms;
     FeSource source;
   };
@@ -176,7 +151,7 @@ class Springs {
   CalculixText& deck_;
   CalculixEquations& equations_;
   std::string nodes_, elements_;
-  std::vector<char> in_elements_;
+  std::vector<char> in_elements_;  ///< nodes that elements, masses or references of spiders are at
   std::vector<Row> rows_;
 };
 
@@ -184,9 +159,7 @@ class Springs {
 bool is_loose(const Spring& s, const std::set<std::pair<int, int>>& condensed) {
   for (int end = 0; end < 2; ++end)
     for (int axis = 0; axis < 6; ++axis)
-      if (s.directions[static_cast<std::size_t>(end)](axis) != 0.0 &&
-          condensed.contains({s.nodes[static_cast<std::size_t>(end)], axis}))
-        return true;
+      if (s.directions[end](axis) != 0.0 && condensed.contains({s.nodes[end], axis})) return true;
   return false;
 }
 
@@ -209,26 +182,25 @@ void add_springs(CalculixText& deck, Springs& springs) {
   only.springs = loose;
   for (const SpringBlock& block : spring_system(only, table).blocks)
     springs.add_condensed(block, loose.front().source);
-  deck.notes.push_back(
-      fmt::format("{} that massless nodes or rotations of solids have an end at: the stiffness "
-                  "between the others is written, as springs of further nodes",
-                  plural(static_cast<long>(loose.size()), "spring")));
+  deck.note(
+      "{} that massless nodes or rotations of solids have an end at: the stiffness between the "
+      "others is written, as springs of further nodes",
+      plural(static_cast<long>(loose.size()), "spring"));
 }
 
 void add_masses(CalculixText& deck) {
   int& number = deck.numbers.last_element;
-  std::size_t turning = 0;
+  long turning = 0;
   for (const PointMass& m : deck.model.masses) {
     turning += !m.J.isZero(0.0);
     if (m.mass == 0.0) continue;
     const std::string set = written_name(fmt::format("MASS_{}", ++number), true, deck.names);
-    deck.text += fmt::format("*ELEMENT, TYPE=MASS, ELSET={0}\n{1}, {2}\n*MASS, ELSET={0}\n{3}\n",
-                             set, number, deck.node(m.node), calculix_number(m.mass));
+    deck.add("*ELEMENT, TYPE=MASS, ELSET={0}\n{1}, {2}\n*MASS, ELSET={0}\n{3}\n", set, number,
+             deck.node(m.node), calculix_number(m.mass));
   }
   if (turning > 0)
-    deck.notes.push_back(fmt::format(
-        "the inertia of {} about the node is left out: CalculiX has masses without inertia",
-        plural(static_cast<long>(turning), "point mass", "point masses")));
+    deck.note("the inertia of {} about the node is left out: CalculiX has masses without inertia",
+              plural(turning, "point mass", "point masses"));
 }
 
 }  // namespace

@@ -3,73 +3,34 @@
 // Source: CalculiX CrunchiX User's Manual 2.20, "Input deck format".
 #include "floatframe/decks/calculix/calculix_deck.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <optional>
 
-#include "floatframe/core/plural.hpp"
 #include "floatframe/decks/calculix/calculix_text.hpp"
-#include "floatframe/fe/element_faces.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/free_turns.hpp"
 
 namespace floatframe {
 namespace {
 
-const char* calculix_type(ElementType type) {
-  switch (type) {
-    case ElementType::beam2:
-      return "B31";
-    case ElementType::rod2:
-      return "T3D2";
-    case ElementType::beam3:
-      return "B32";
-    case ElementType::tri3:
-      return "S3";
-    case ElementType::shear4:  // refused before
-    case ElementType::quad4:
-      return "S4";
-    case ElementType::tri6:
-      return "S6";
-    case ElementType::quad8:
-      return "S8";
-    case ElementType::membrane3:
-      return "M3D3";
-    case ElementType::membrane4:
-      return "M3D4";
-    case ElementType::membrane4s:
-      return "M3D4R";
-    case ElementType::membrane6:
-      return "M3D6";
-    case ElementType::membrane8:
-      return "M3D8";
-    case ElementType::membrane8r:
-      return "M3D8R";
-    case ElementType::tet4:
-      return "C3D4";
-    case ElementType::tet10:
-      return "C3D10";
-    case ElementType::hex8:
-      return "C3D8";
-    case ElementType::hex8i:
-      return "C3D8I";
-    case ElementType::hex8r:
-      return "C3D8R";
-    case ElementType::hex20:
-      return "C3D20";
-    case ElementType::hex20r:
-      return "C3D20R";
-    case ElementType::wedge6:
-      return "C3D6";
-    case ElementType::wedge15:
-      return "C3D15";
-    case ElementType::pyramid5:
-      return "C3D8";
-    case ElementType::pyramid13:
-      return "C3D20";
-  }
-  return "";
+std::string calculix_type(ElementType type) {
+  using Type = ElementType;
+  static const std::map<Type, const char*> names = {
+      {Type::beam2, "B31"},      {Type::beam3, "B32"},        {Type::rod2, "T3D2"},
+      {Type::tri3, "S3"},        {Type::tri6, "S6"},          {Type::quad4, "S4"},
+      {Type::quad8, "S8"},       {Type::membrane3, "M3D3"},   {Type::membrane4, "M3D4"},
+      {Type::membrane6, "M3D6"}, {Type::membrane4s, "M3D4R"}, {Type::membrane8, "M3D8"},
+      {Type::tet4, "C3D4"},      {Type::membrane8r, "M3D8R"}, {Type::tet10, "C3D10"},
+      {Type::hex8, "C3D8"},      {Type::hex8i, "C3D8I"},      {Type::hex8r, "C3D8R"},
+      {Type::hex20, "C3D20"},    {Type::hex20r, "C3D20R"},    {Type::wedge6, "C3D6"},
+      {Type::wedge15, "C3D15"},  {Type::pyramid5, "C3D8"},    {Type::pyramid13, "C3D20"},
+      {Type::shear4, "S4"}};  // the last is refused before
+  return names.at(type);
+}
+
+bool is_pyramid(ElementType type) {
+  return type == ElementType::pyramid5 || type == ElementType::pyramid13;
 }
 
 /// Nodes as they are written: pyramids are bricks whose upper face is one node.
@@ -80,61 +41,66 @@ std::vector<int> deck_nodes(const CalculixText& deck, const Element& e) {
   } else if (e.type == ElementType::pyramid13) {
     order = {0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
   } else {
-    for (int k = 0; k < element_nodes(e.type); ++k) order.push_back(k);
+    order.resize(nodes_of_element(e).size());
+    std::iota(order.begin(), order.end(), 0);
   }
-  for (int& k : order) k = deck.node(e.nodes[static_cast<std::size_t>(k)]);
+  for (int& k : order) k = deck.node(e.nodes[k]);
   return order;
 }
 
 void add_nodes(CalculixText& deck) {
   deck.text += "*NODE, NSET=NALL\n";
   for (int n = 0; n < deck.model.nodes(); ++n) {
-    if (deck.beside != nullptr && deck.beside->left_out[static_cast<std::size_t>(n)] != 0) continue;
-    const Vec3& p = deck.model.positions[static_cast<std::size_t>(n)];
-    deck.text += fmt::format("{}, {}, {}, {}\n", deck.node(n), calculix_number(p(0)),
-                             calculix_number(p(1)), calculix_number(p(2)));
+    if (deck.beside != nullptr && deck.beside->left_out[n] != 0) continue;
+    deck.text += calculix_node(deck.node(n), deck.model.positions[n]);
   }
   deck.names.insert("NALL");
 }
 
 void add_elements(CalculixText& deck) {
-  std::size_t pyramids = 0, spread = 0, expanded = 0, modes = 0, rods = 0;
+  const std::vector<Element>& elements = deck.model.elements;
   std::string last;
-  for (std::size_t e = 0; e < deck.model.elements.size(); ++e) {
-    const Element& element = deck.model.elements[e];
+  for (std::size_t e = 0; e < elements.size(); ++e) {
     // CalculiX has pipes in B32R only.
-    const auto s = static_cast<std::size_t>(element.section);
-    const bool pipe = element.type == ElementType::beam3 && s < deck.model.sections.size() &&
+    const auto s = static_cast<std::size_t>(elements[e].section);
+    const bool pipe = elements[e].type == ElementType::beam3 && s < deck.model.sections.size() &&
                       deck.model.sections[s].bore > 0.0;
-    const std::string type = pipe ? "B32R" : calculix_type(element.type);
-    if (type != last) deck.text += fmt::format("*ELEMENT, TYPE={}\n", type);
+    const std::string type = pipe ? "B32R" : calculix_type(elements[e].type);
+    if (type != last) deck.add("*ELEMENT, TYPE={}\n", type);
     last = type;
-    std::vector<int> numbers = deck_nodes(deck, element);
+    std::vector<int> numbers = deck_nodes(deck, elements[e]);
     numbers.insert(numbers.begin(), deck.element(e));
     add_calculix_numbers(deck.text, numbers, true);
-    pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
-    modes += element.type == ElementType::hex8i;
-    rods += is_rod(element.type);
-    spread += element.mass_form != MassForm::consistent;
-    expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type) ||
-                is_membrane(element.type);
   }
-  const auto note = [&](std::size_t count, const char* what) {
-    if (count > 0)
-      deck.notes.push_back(fmt::format("{} {}", plural(static_cast<long>(count), "element"), what));
-  };
-  note(pyramids,
-       "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
-  note(spread, "of lumped mass: CalculiX takes consistent mass");
-  note(expanded,
+}
+
+/// Kinds of elements, and what CalculiX does with them.
+void note_habits(CalculixText& deck) {
+  static constexpr std::pair<bool (*)(const Element&), const char*> habits[] = {
+      {[](const Element& e) { return is_pyramid(e.type); },
+       "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node"},
+      {[](const Element& e) { return e.mass_form != MassForm::consistent; },
+       "of lumped mass: CalculiX takes consistent mass"},
+      {[](const Element& e) {
+         return is_beam(e.type) || is_shell(e.type) || is_rod(e.type) || is_membrane(e.type);
+       },
        "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
-       "integration points (B32, S8, not B32R, S8R), its frequencies differ");
-  note(rods,
+       "integration points (B32, S8, not B32R, S8R), its frequencies differ"},
+      {[](const Element& e) { return is_rod(e.type); },
        "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, "
-       "and is clamped to beams at their nodes");
-  note(modes,
+       "and is clamped to beams at their nodes"},
+      {[](const Element& e) { return e.type == ElementType::hex8i; },
        "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
-       "frequencies are lower, by some percent where the mesh is coarse");
+       "frequencies are lower, by some percent where the mesh is coarse"}};
+  const std::vector<Element>& elements = deck.model.elements;
+  for (const auto& [is_of_kind, what] : habits)
+    if (const long count = std::count_if(elements.begin(), elements.end(), is_of_kind); count > 0)
+      deck.note("{} {}", plural(count, "element"), what);
+}
+
+/// 1 for each node of a beam.
+std::vector<char> nodes_of_beams(const FeModel& model) {
+  return nodes_of_elements(model, [](const Element& e) { return is_beam(e.type); });
 }
 
 /// CalculiX 2.20 joins what it makes of rods with what it makes of beams in all directions only if
@@ -142,15 +108,11 @@ void add_elements(CalculixText& deck) {
 /// get numbers above all others.
 void number_rods_after_beams(CalculixText& deck) {
   const std::vector<Element>& elements = deck.model.elements;
-  std::vector<char> bends(deck.model.positions.size(), 0);
+  const std::vector<char> bends = nodes_of_beams(deck.model);
   const auto any_node = [&](const Element& e) {
-    const auto last = e.nodes.begin() + element_nodes(e.type);
-    return std::any_of(e.nodes.begin(), last,
-                       [&](int n) { return bends[static_cast<std::size_t>(n)] != 0; });
+    const std::span<const int> nodes = nodes_of_element(e);
+    return std::any_of(nodes.begin(), nodes.end(), [&](int n) { return bends[n] != 0; });
   };
-  for (const Element& e : elements)
-    for (int k = 0; k < element_nodes(e.type) && is_beam(e.type); ++k)
-      bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
   int largest = 0;  // of the beams
   for (std::size_t i = 0; i < elements.size(); ++i)
     if (is_beam(elements[i].type)) largest = std::max(largest, deck.element(i));
@@ -161,67 +123,57 @@ void number_rods_after_beams(CalculixText& deck) {
     ++renumbered;
   }
   if (renumbered > 0)
-    deck.notes.push_back(
-        fmt::format("{} numbered anew, after the beams that they meet: CalculiX 2.20 joins them "
-                    "only in some directions otherwise",
-                    plural(renumbered, "rod is", "rods are")));
+    deck.note(
+        "{} numbered anew, after the beams that they meet: CalculiX 2.20 joins them only in some "
+        "directions otherwise",
+        plural(renumbered, "rod is", "rods are"));
 }
 
 /// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
 void note_beams_on_shells(CalculixText& deck) {
-  std::vector<unsigned> at(deck.model.positions.size(), 0);
-  for (const Element& e : deck.model.elements) {
-    const unsigned kind = is_beam(e.type) ? 1 : is_shell(e.type) ? 2 : 0;
-    for (int k = 0; k < element_nodes(e.type); ++k)
-      at[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] |= kind;
-  }
-  const auto first = std::find(at.begin(), at.end(), 3u);
-  if (first == at.end()) return;
-  deck.notes.push_back(
-      fmt::format("beams and shells share {}: a shell of CalculiX does not resist that a beam "
-                  "turns there about the normal of the shell, which is a frequency of zero where "
-                  "nothing else does; first: {}",
-                  plural(std::count(at.begin(), at.end(), 3u), "node"),
-                  deck.model.node_label(static_cast<int>(first - at.begin()))));
+  const std::vector<char> beams = nodes_of_beams(deck.model);
+  std::vector<char> both =
+      nodes_of_elements(deck.model, [](const Element& e) { return is_shell(e.type); });
+  for (std::size_t n = 0; n < both.size(); ++n) both[n] &= beams[n];
+  const auto first = std::find(both.begin(), both.end(), 1);
+  if (first == both.end()) return;
+  deck.note(
+      "beams and shells share {}: a shell of CalculiX does not resist that a beam turns there "
+      "about the normal of the shell, which is a frequency of zero where nothing else does; first: "
+      "{}",
+      plural(std::count(both.begin(), both.end(), 1), "node"),
+      deck.model.node_label(static_cast<int>(first - both.begin())));
 }
 
-void add_set(CalculixText& deck, const char* keyword, const std::string& name,
-             const std::vector<int>& members) {
-  if (members.empty()) return;
-  deck.text += fmt::format("*{0}, {0}={1}\n", keyword, deck.name_of(name));
-  add_calculix_numbers(deck.text, members, false);
+template <class Number>
+void add_sets_of(CalculixText& deck, const char* keyword,
+                 const std::map<std::string, std::vector<int>>& sets, Number number_of) {
+  for (const auto& [name, members] : sets) {
+    if (members.empty()) continue;
+    std::vector<int> numbers;
+    for (const int member : members) numbers.push_back(number_of(member));
+    deck.add("*{0}, {0}={1}\n", keyword, deck.name_of(name));
+    add_calculix_numbers(deck.text, numbers, false);
+  }
 }
 
 void add_sets(CalculixText& deck) {
-  for (const auto& [name, nodes] : deck.model.node_sets) {
-    std::vector<int> members;
-    for (const int n : nodes) members.push_back(deck.node(n));
-    add_set(deck, "NSET", name, members);
-  }
-  for (const auto& [name, elements] : deck.model.element_sets) {
-    std::vector<int> members;
-    for (const int e : elements) members.push_back(deck.element(static_cast<std::size_t>(e)));
-    add_set(deck, "ELSET", name, members);
-  }
-  std::size_t skins = 0;
+  add_sets_of(deck, "NSET", deck.model.node_sets, [&](int n) { return deck.node(n); });
+  add_sets_of(deck, "ELSET", deck.model.element_sets, [&](int e) { return deck.element(e); });
+  long skins = 0;
   for (const auto& [name, faces] : deck.model.surfaces) {
     std::string lines;
     for (const ElementFace& f : faces) {
-      const auto e = static_cast<std::size_t>(f.element);
-      const ElementType type = deck.model.elements[e].type;
-      const bool solid = element_kernel(type).family == ElementFamily::solid &&
-                         type != ElementType::pyramid5 && type != ElementType::pyramid13;
-      if (solid)
-        lines += fmt::format("{}, S{}\n", deck.element(e), f.face + 1);
+      const ElementType type = deck.model.elements[f.element].type;
+      if (element_kernel(type).family == ElementFamily::solid && !is_pyramid(type))
+        lines += fmt::format("{}, S{}\n", deck.element(f.element), f.face + 1);
       else
         ++skins;
     }
-    if (!lines.empty())
-      deck.text += fmt::format("*SURFACE, NAME={}\n{}", deck.name_of(name), lines);
+    if (!lines.empty()) deck.add("*SURFACE, NAME={}\n{}", deck.name_of(name), lines);
   }
   if (skins > 0)
-    deck.notes.push_back(fmt::format("{} of surfaces left out: they are not faces of solids",
-                                     plural(static_cast<long>(skins), "face")));
+    deck.note("{} of surfaces left out: they are not faces of solids", plural(skins, "face"));
 }
 
 /// What holds the part in its own deck is not in force here either: comments.
@@ -231,43 +183,44 @@ void add_supports(CalculixText& deck) {
   for (const Support& s : deck.model.supports)
     for (int axis = 0; axis < 6; ++axis)
       if ((s.mask >> static_cast<unsigned>(axis) & 1u) != 0u)
-        deck.text += fmt::format("** {}, {}, {}\n", deck.node(s.node), axis + 1, axis + 1);
+        deck.add("** {}, {}, {}\n", deck.node(s.node), axis + 1, axis + 1);
 }
 
 void add_step(CalculixText& deck, int modes) {
   if (modes <= 0) return;
-  if (!deck.model.without_density.empty()) {
-    deck.notes.push_back(
+  if (!deck.model.without_density.empty())
+    return deck.note(
         "no step of vibration: the density of a material is not known (--density RHO)");
-    return;
-  }
   // Its Lanczos vectors, five times the modes, must not be more than its degrees of freedom.
   if (const int most = static_cast<int>(std::max(1L, deck.dofs / 5)); modes > most) {
     modes = most;
-    deck.notes.push_back(fmt::format(
+    deck.note(
         "the step asks for {}, a fifth of the {} of the deck: asked for more than it can find, "
         "CalculiX prints zeros",
-        plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom")));
+        plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom"));
   }
-  deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
+  deck.add("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
 }
 
 /// Turns of beams: CalculiX loses equations whose dependent term is the rotation of a beam.
 std::size_t leave_out_beams(const FeModel& model, std::vector<FreeTurn>& turns) {
-  std::vector<char> bends(model.positions.size(), 0);
-  for (const Element& e : model.elements)
-    if (is_beam(e.type))
-      for (int k = 0; k < element_nodes(e.type); ++k)
-        bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  const std::vector<char> bends = nodes_of_beams(model);
   return std::erase_if(turns, [&](const FreeTurn& turn) {
-    return std::any_of(turn.group.begin(), turn.group.end(),
-                       [&](int k) { return bends[static_cast<std::size_t>(k)] != 0; });
+    return std::any_of(turn.group.begin(), turn.group.end(), [&](int k) { return bends[k] != 0; });
   });
 }
 
 }  // namespace
 
 std::string calculix_number(double value) { return fmt::format("{:.13g}", value); }
+
+std::string calculix_vector(const Vec3& v) {
+  return fmt::format("{:.13g}, {:.13g}, {:.13g}", v(0), v(1), v(2));
+}
+
+std::string calculix_node(int number, const Vec3& p) {
+  return fmt::format("{}, {}\n", number, calculix_vector(p));
+}
 
 void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bool goes_on) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -298,14 +251,15 @@ WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options)
   if (beside) deck.beside = &*beside;
   if (!turns.empty()) deck.notes.push_back(tied.notes.back());
   if (bars > 0)
-    deck.notes.push_back(
-        fmt::format("{} of beams can turn about the line that holds them: nodes without rotations; "
-                    "that is a frequency of zero of each in CalculiX",
-                    plural(static_cast<long>(bars), "straight group")));
+    deck.note(
+        "{} of beams can turn about the line that holds them: nodes without rotations; that is a "
+        "frequency of zero of each in CalculiX",
+        plural(static_cast<long>(bars), "straight group"));
   deck.text = "*HEADING\nWritten by Floatframe\n";
   number_rods_after_beams(deck);
   add_nodes(deck);
   add_elements(deck);
+  note_habits(deck);
   note_beams_on_shells(deck);
   add_sets(deck);
   add_calculix_sections(deck);

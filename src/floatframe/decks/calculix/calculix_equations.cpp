@@ -1,43 +1,105 @@
+// Knots are nodes of beams whose rotations CalculiX keeps. It makes solids of beams. Beams that
+// meet at a node share what is made of it if they lie in one line; else it joins what is made of
+// each by a rigid knot, and rotations of the node in equations are those of the knot. In one line
+// are beams whose tangents and normals are within 20 degrees of those of the beam with the smallest
+// number, with its section and offsets (gen3dnor.f of CalculiX 2.20).
 #include "floatframe/decks/calculix/calculix_equations.hpp"
-
-#include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
-#include "floatframe/core/plural.hpp"
-#include "floatframe/decks/calculix/calculix_knots.hpp"
-#include "floatframe/fe/element_faces.hpp"
-#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {
 
+/// cos 20 degrees
+constexpr double within_20_degrees = 0.939693;
+
+/// A beam at a node.
+struct BeamEnd {
+  int number = 0;  ///< of the element in the deck
+  Vec3 tangent = Vec3::Zero(), normal = Vec3::Zero();
+  std::array<double, 2> thickness{}, offset{};
+  bool rectangle = false;
+};
+
+BeamEnd beam_end(const CalculixText& deck, std::size_t element, int k) {
+  const FeModel& model = deck.model;
+  const Element& e = model.elements[element];
+  const BeamSection& section = model.sections[e.section];
+  const int count = element_nodes(e.type);
+  std::array<Vec3, 3> at{};
+  for (int i = 0; i < count; ++i) at[i] = model.positions[e.nodes[i]];
+  BeamEnd end;
+  end.number = deck.element(element);
+  end.tangent = beam_tangent(at, count, k).normalized();
+  end.normal = end.tangent.cross(e.reference).normalized();
+  end.rectangle = section.outline == BeamSection::Outline::rectangle;
+  end.thickness = {section.width, end.rectangle ? section.height : section.width};
+  if (deck.beside != nullptr) end.offset = deck.beside->offsets[element];
+  return end;
+}
+
+/// Does CalculiX make other nodes of it than of `first`? Of round sections it may not tell pipes.
+bool is_apart(const BeamEnd& e, const BeamEnd& first) {
+  const auto differ = [](const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    return std::abs(a[0] - b[0]) > 1e-9 || std::abs(a[1] - b[1]) > 1e-9;
+  };
+  return !(e.tangent.dot(first.tangent) > within_20_degrees) ||
+         !(e.normal.dot(first.normal) > within_20_degrees) ||
+         differ(e.thickness, first.thickness) || differ(e.offset, first.offset) ||
+         e.rectangle != first.rectangle;
+}
+
+/// Numbers, in the deck, of the nodes with knots that nothing but beams has.
+std::set<int> knots_of(const CalculixText& deck) {
+  const FeModel& model = deck.model;
+  std::map<int, std::vector<BeamEnd>> ends;  // by nodes
+  std::set<int> others;
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const Element& e = model.elements[i];
+    const bool beam = is_beam(e.type) && e.section >= 0 &&
+                      static_cast<std::size_t>(e.section) < model.sections.size();
+    for (int k = 0; k < element_nodes(e.type); ++k) {
+      const int node = e.nodes[k];
+      if (beam)
+        ends[node].push_back(beam_end(deck, i, k));
+      else
+        others.insert(node);
+    }
+  }
+  std::set<int> out;
+  for (const auto& [node, list] : ends) {
+    if (others.contains(node)) continue;
+    const BeamEnd& first =
+        *std::min_element(list.begin(), list.end(),
+                          [](const BeamEnd& a, const BeamEnd& b) { return a.number < b.number; });
+    if (std::any_of(list.begin(), list.end(), [&](const BeamEnd& e) { return is_apart(e, first); }))
+      out.insert(deck.node(node));
+  }
+  return out;
+}
+
 /// Numbers of the nodes whose displacements are the rotations of another node; 0: none.
 std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
   const FeModel& model = deck.model;
-  std::vector<char> bends(model.positions.size(), 0);
-  for (const Element& e : model.elements)
-    if (element_kernel(e.type).dofs_per_node == 6)
-      for (int k = 0; k < element_nodes(e.type); ++k)
-        bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  const std::vector<char> bends = nodes_of_elements(
+      model, [](const Element& e) { return element_kernel(e.type).dofs_per_node == 6; });
   std::vector<int> out(model.positions.size(), 0);
   for (const Spider& s : model.spiders)
-    if (s.rotation_node >= 0)
-      out[static_cast<std::size_t>(s.reference)] = deck.node(s.rotation_node);
+    if (s.rotation_node >= 0) out[s.reference] = deck.node(s.rotation_node);
   std::string lines;
   int& last = deck.numbers.last_node;
   for (int n = 0; n < model.nodes(); ++n) {
-    const auto at = static_cast<std::size_t>(n);
-    if (table.count(n) < 6 || bends[at] != 0 || out[at] != 0) continue;
-    out[at] = ++last;
-    const Vec3& p = model.positions[at];
-    lines += fmt::format("{}, {}, {}, {}\n", last, calculix_number(p(0)), calculix_number(p(1)),
-                         calculix_number(p(2)));
+    if (table.count(n) < 6 || bends[n] != 0 || out[n] != 0) continue;
+    out[n] = ++last;
+    lines += calculix_node(last, model.positions[n]);
   }
   if (!lines.empty()) deck.text += "** Their displacements are rotations of nodes\n*NODE\n" + lines;
   return out;
@@ -54,15 +116,6 @@ FeSource source_of_tie(const FeModel& model, int node) {
   return {};
 }
 
-/// Nodes of elements: what they can do has stiffness or mass.
-std::vector<char> nodes_of_elements(const FeModel& model) {
-  std::vector<char> out(model.positions.size(), 0);
-  for (const Element& e : model.elements)
-    for (int k = 0; k < element_nodes(e.type); ++k)
-      out[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
-  return out;
-}
-
 /// Of each node without elements what shows its six motions, one column each: by row the factor.
 using NodeColumns = std::map<int, std::array<std::map<int, double>, 6>>;
 
@@ -70,12 +123,12 @@ using NodeColumns = std::map<int, std::array<std::map<int, double>, 6>>;
 void add_masses_and_springs(const FeModel& model, const std::vector<char>& in_elements, int row,
                             NodeColumns& columns) {
   for (const PointMass& m : model.masses)
-    if (in_elements[static_cast<std::size_t>(m.node)] == 0 && m.mass != 0.0)
+    if (in_elements[m.node] == 0 && m.mass != 0.0)
       for (std::size_t axis = 0; axis < 3; ++axis) columns[m.node][axis][row++] = 1.0;
   for (const Spring& s : model.springs)
     for (std::size_t end = 0; end < 2; ++end) {
       const int node = s.nodes[end];
-      if (node < 0 || in_elements[static_cast<std::size_t>(node)] != 0) continue;
+      if (node < 0 || in_elements[node] != 0) continue;
       for (std::size_t axis = 0; axis < 6; ++axis)
         if (const double d = s.directions[end](static_cast<int>(axis)); d != 0.0)
           columns[node][axis][row] = d;
@@ -120,30 +173,31 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
   deck.dofs = std::count(dependences_.dependent.begin(), dependences_.dependent.end(), 0);
   if (!dependences_.any && deck.model.springs.empty()) return;
   const std::vector<int> rotations = add_rotation_nodes(deck, table_);
-  knots_ = calculix_knots(deck);
+  knots_ = knots_of(deck);
   for (int n = 0; n < deck.model.nodes(); ++n)
     for (int axis = 0; axis < table_.count(n); ++axis) {
-      const int turned = axis < 3 ? 0 : rotations[static_cast<std::size_t>(n)];
-      place_[static_cast<std::size_t>(table_.index(n, axis))] =
+      const int turned = axis < 3 ? 0 : rotations[n];
+      place_[table_.index(n, axis)] =
           turned > 0 ? std::pair{turned, axis - 2} : std::pair{deck.node(n), axis + 1};
     }
 }
 
 void CalculixEquations::add_dependences() {
-  const std::vector<char> in_elements = nodes_of_elements(deck_.model);
+  // What nodes of elements can do has stiffness or mass.
+  const std::vector<char> in_elements =
+      nodes_of_elements(deck_.model, [](const Element&) { return true; });
   std::vector<std::string> held;
   for (int node = 0; node < deck_.model.nodes(); ++node)
     for (int axis = 0; axis < table_.count(node); ++axis) {
-      const auto dof = static_cast<std::size_t>(table_.index(node, axis));
+      const int dof = table_.index(node, axis);
       if (dependences_.dependent[dof] == 0) continue;
       add(place_[dof], dependences_.terms[dof], source_of_tie(deck_.model, node));
-      if (dependences_.terms[dof].empty() && in_elements[static_cast<std::size_t>(node)] != 0)
+      if (dependences_.terms[dof].empty() && in_elements[node] != 0)
         held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
     }
-  if (!held.empty())
-    deck_.notes.push_back(fmt::format(
-        "{} held by equations of the model, written as *BOUNDARY: the part is not free; first: {}",
-        plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
+  note_directions(
+      "{} held by equations of the model, written as *BOUNDARY: the part is not free; first: {}",
+      held);
   note_not_rigid(in_elements);
   hold_idle_motions(in_elements);
 }
@@ -157,49 +211,53 @@ void CalculixEquations::note_not_rigid(const std::vector<char>& in_elements) con
   std::vector<Vec6> motion(place_.size());  // of each degree of freedom in the rigid ones
   std::vector<std::string> names;
   for (int node = 0; node < model.nodes(); ++node) {
-    const Vec3 p = model.positions[static_cast<std::size_t>(node)] - box.center();
+    const Vec3 p = model.positions[node] - box.center();
     for (int axis = 0; axis < table_.count(node); ++axis) {
       Vec6 row = rigid_motion_at(p).row(axis);
       row.tail<3>() /= size;
-      motion[static_cast<std::size_t>(table_.index(node, axis))] = row;
+      motion[table_.index(node, axis)] = row;
     }
   }
   for (int node = 0; node < model.nodes(); ++node)
     for (int axis = 0; axis < table_.count(node); ++axis) {
-      const auto dof = static_cast<std::size_t>(table_.index(node, axis));
+      const int dof = table_.index(node, axis);
       if (dependences_.dependent[dof] == 0 || dependences_.terms[dof].empty() ||
-          in_elements[static_cast<std::size_t>(node)] == 0)
+          in_elements[node] == 0)
         continue;
       Vec6 off = motion[dof];
       double largest = off.cwiseAbs().maxCoeff();
       for (const auto& [other, factor] : dependences_.terms[dof]) {
-        const Vec6 term = factor * motion[static_cast<std::size_t>(other)];
+        const Vec6 term = factor * motion[other];
         largest = std::max(largest, term.cwiseAbs().maxCoeff());
         off -= term;
       }
       if (off.cwiseAbs().maxCoeff() > 1e-6 * largest)
         names.push_back(fmt::format("{} {}", model.node_label(node), node_dof_names[axis]));
     }
-  if (names.empty()) return;
-  deck_.notes.push_back(fmt::format(
+  note_directions(
       "{} bound by equations of the model that rigid motions do not satisfy: the part is not free; "
       "first: {}",
-      plural(static_cast<long>(names.size()), "direction is", "directions are"), names.front()));
+      names);
+}
+
+void CalculixEquations::note_directions(fmt::format_string<std::string, const std::string&> text,
+                                        const std::vector<std::string>& names) const {
+  if (!names.empty())
+    deck_.note(text, plural(static_cast<long>(names.size()), "direction is", "directions are"),
+               names.front());
 }
 
 void CalculixEquations::hold_idle_motions(const std::vector<char>& in_elements) {
   if (!dependences_.any) return;
   std::vector<int> node_of(place_.size(), -1);
   for (int n = 0; n < deck_.model.nodes(); ++n)
-    if (in_elements[static_cast<std::size_t>(n)] == 0 && table_.count(n) == 6)
-      std::fill_n(node_of.begin() + table_.begin[static_cast<std::size_t>(n)], 6, n);
+    if (in_elements[n] == 0 && table_.count(n) == 6)
+      std::fill_n(node_of.begin() + table_.begin[n], 6, n);
   NodeColumns columns;
   const auto rows = static_cast<int>(place_.size());
   for (int row = 0; row < rows; ++row)
-    for (const auto& [dof, factor] : dependences_.terms[static_cast<std::size_t>(row)])
-      if (const int n = node_of[static_cast<std::size_t>(dof)]; n >= 0)
-        columns[n][static_cast<std::size_t>(dof - table_.begin[static_cast<std::size_t>(n)])][row] =
-            factor;
+    for (const auto& [dof, factor] : dependences_.terms[row])
+      if (const int n = node_of[dof]; n >= 0) columns[n][dof - table_.begin[n]][row] = factor;
   add_masses_and_springs(deck_.model, in_elements, rows, columns);
   std::set<int> sprung;
   for (const Spring& s : deck_.model.springs) sprung.insert(s.nodes.begin(), s.nodes.end());
@@ -207,16 +265,15 @@ void CalculixEquations::hold_idle_motions(const std::vector<char>& in_elements) 
   for (const auto& [node, of_node] : columns)
     for (const std::size_t axis : repeated_columns(of_node, sprung.contains(node))) {
       const int dof = table_.index(node, static_cast<int>(axis));
-      if (dof < 0 || dependences_.dependent[static_cast<std::size_t>(dof)] != 0) continue;
-      add(place_[static_cast<std::size_t>(dof)], {}, {});
+      if (dof < 0 || dependences_.dependent[dof] != 0) continue;
+      add(place_[dof], {}, {});
       held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
     }
-  if (held.empty()) return;
   deck_.dofs -= static_cast<long>(held.size());
-  deck_.notes.push_back(fmt::format(
+  note_directions(
       "{} held of nodes without elements: what shows that motion does not tell it from others of "
       "the node, and CalculiX finds wrong frequencies if all are free; first: {}",
-      plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
+      held);
 }
 
 void CalculixEquations::add(const std::pair<int, int>& place, const Terms& terms,
@@ -227,25 +284,25 @@ void CalculixEquations::add(const std::pair<int, int>& place, const Terms& terms
     return;
   }
   if (axis > 3) refuse(node, source);
-  deck_.text += fmt::format("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
+  deck_.add("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
   int in_line = 1;
   for (const auto& [other, factor] : terms) {
-    const auto& [there, direction] = place_[static_cast<std::size_t>(other)];
+    const auto& [there, direction] = place_[other];
     if (direction > 3) refuse(there, source);
     deck_.text += in_line++ % 4 == 0 ? ",\n" : ", ";
-    deck_.text += fmt::format("{}, {}, {}", there, direction, calculix_number(factor));
+    deck_.add("{}, {}, {}", there, direction, calculix_number(factor));
   }
   deck_.text += '\n';
 }
 
 std::pair<int, int> CalculixEquations::place(int node, int axis, const FeSource& source) {
-  const std::pair<int, int> place = place_[static_cast<std::size_t>(table_.index(node, axis))];
+  const std::pair<int, int> place = place_[table_.index(node, axis)];
   if (place.second > 3) refuse(place.first, source);
   return place;
 }
 
 bool CalculixEquations::is_turn_of_knot(int node, int axis) const {
-  const auto& [number, direction] = place_[static_cast<std::size_t>(table_.index(node, axis))];
+  const auto& [number, direction] = place_[table_.index(node, axis)];
   return direction > 3 && knots_.contains(number);
 }
 
@@ -259,15 +316,13 @@ void CalculixEquations::refuse(int node, const FeSource& source) {
 void CalculixEquations::say_refused() {
   if (refused_.empty()) return;
   const auto more = static_cast<long>(refused_.size()) - 1;
-  deck_.errors.add(
-      ErrorCode::unsupported, deck_.model.mark(first_source_),
-      fmt::format("the rotation of node {}, of a beam or shell, is in an equation, a spring or the "
-                  "arm of an end beside its node; CalculiX, which makes solids of beams and "
-                  "shells, would lose it (.vtu and .msh show the mesh){}",
-                  first_refused_,
-                  more == 0 ? ""
-                            : fmt::format("; the same holds for {}",
-                                          plural(more, "more node", "more nodes"))));
+  deck_.error(
+      first_source_,
+      "the rotation of node {}, of a beam or shell, is in an equation, a spring or the arm of an "
+      "end beside its node; CalculiX, which makes solids of beams and shells, would lose it (.vtu "
+      "and .msh show the mesh){}",
+      first_refused_,
+      more == 0 ? "" : "; the same holds for " + plural(more, "more node", "more nodes"));
 }
 
 void CalculixEquations::add_zeros() {
@@ -279,9 +334,9 @@ CalculixEquations::Terms CalculixEquations::independent(int node, const Vec6& fa
   for (int axis = 0; axis < 6; ++axis) {
     const int dof = table_.index(node, axis);
     if (factors(axis) == 0.0 || dof < 0) continue;
-    const std::size_t k = static_cast<std::size_t>(dof);
-    if (dependences_.dependent[k] == 0) sum[dof] += factors(axis);
-    for (const auto& [other, factor] : dependences_.terms[k]) sum[other] += factors(axis) * factor;
+    if (dependences_.dependent[dof] == 0) sum[dof] += factors(axis);
+    for (const auto& [other, factor] : dependences_.terms[dof])
+      sum[other] += factors(axis) * factor;
   }
   Terms out;
   for (const auto& [dof, factor] : sum)

@@ -3,7 +3,7 @@
 // none. Rotations of nodes without beams and shells are displacements of further nodes.
 //
 // CalculiX makes solids of beams and shells. Equations with rotations of their nodes are in force
-// only where it joins several of them by a rigid knot (`calculix_knots`), elsewhere it loses them
+// only where it joins several of them by a rigid knot (`knots_of`), elsewhere it loses them
 // silently: refused.
 #include <set>
 #include <string>
@@ -43,6 +43,9 @@ class CalculixEquations {
 
  private:
   void refuse(int node, const FeSource& source);
+  /// How many there are, and the first.
+  void note_directions(fmt::format_string<std::string, const std::string&> text,
+                       const std::vector<std::string>& names) const;
   void hold_idle_motions(const std::vector<char>& in_elements);
   /// Of equations that rigid motions do not satisfy, which are no joints of a free part.
   void note_not_rigid(const std::vector<char>& in_elements) const;

@@ -5,9 +5,10 @@
 #include <map>
 #include <set>
 
+#include "floatframe/decks/nodes_of_element.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
-#include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {
@@ -34,8 +35,12 @@ class ArmEnds {
     const auto it = node_of_.find(end);
     return it == node_of_.end() ? -1 : it->second;
   }
+  /// The node that `node` of a beam is at when its arm is gone.
+  int foot(int node) const {
+    const int there = (*this)(node);
+    return there < 0 ? node : there;
+  }
   void leave_out(int end) { node_of_.erase(end); }
-  const std::map<int, int>& all() const { return node_of_; }
 
  private:
   /// u' = u + theta x d, theta' = theta: six equations; -1 if they say something else.
@@ -43,7 +48,7 @@ class ArmEnds {
     if (list.size() != 6) return -1;
     int node = -1;
     unsigned axes = 0;
-    Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
+    Mat6 A = Mat6::Zero();
     for (const LinearEquation* e : list) {
       const LinearEquation::Term& first = e->terms.front();
       axes |= 1u << static_cast<unsigned>(first.axis);
@@ -55,9 +60,7 @@ class ArmEnds {
       }
     }
     if (axes != 63u || node < 0 || node == end) return -1;
-    const Vec3 d = model_.positions[end] - model_.positions[node];
-    Eigen::Matrix<double, 6, 6> rigid = Eigen::Matrix<double, 6, 6>::Identity();
-    for (int k = 0; k < 3; ++k) rigid.block<1, 3>(k, 3) = d.cross(Vec3::Unit(k)).transpose();
+    const Mat6 rigid = rigid_motion_at(model_.positions[end] - model_.positions[node]);
     return (A - rigid).norm() <= same_arm * rigid.norm() ? node : -1;
   }
 
@@ -79,8 +82,8 @@ class ArmEnds {
     for (const auto& [name, nodes] : model_.node_sets)
       for (const int node : nodes) leave_out(node);
     for (const Element& e : model_.elements)
-      for (int k = 0; k < element_nodes(e.type); ++k)
-        if (!is_beam(e.type)) leave_out(e.nodes[static_cast<std::size_t>(k)]);
+      if (!is_beam(e.type))
+        for (const int node : nodes_of_element(e)) leave_out(node);
   }
 
   const FeModel& model_;
@@ -90,29 +93,26 @@ class ArmEnds {
 /// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
 std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
                                                      const ArmEnds& ends) {
-  const auto s = static_cast<std::size_t>(e.section);
-  if (e.section < 0 || s >= model.sections.size()) return std::nullopt;
-  const BeamSection& section = model.sections[s];
+  if (e.section < 0 || static_cast<std::size_t>(e.section) >= model.sections.size())
+    return std::nullopt;
+  const BeamSection& section = model.sections[e.section];
   if (section.outline == BeamSection::Outline::unknown) return std::nullopt;
   const int count = element_nodes(e.type);
   std::array<Vec3, 3> at{}, arm{};
   for (int k = 0; k < count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const int node = ends(e.nodes[i]);
-    at[i] = model.positions[node < 0 ? e.nodes[i] : node];
-    arm[i] = model.positions[e.nodes[i]] - at[i];
+    at[k] = model.positions[ends.foot(e.nodes[k])];
+    arm[k] = model.positions[e.nodes[k]] - at[k];
   }
   const bool round = section.outline == BeamSection::Outline::round;
   const std::array<double, 2> thickness{section.width, round ? section.width : section.height};
   std::array<double, 2> out{};
   for (int k = 0; k < count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
     const Vec3 t = beam_tangent(at, count, k).normalized();
     const Vec3 n2 = t.cross(e.reference).normalized(), n1 = n2.cross(t);
-    const std::array<double, 2> of_node{-arm[i].dot(n1) / thickness[0],
-                                        -arm[i].dot(n2) / thickness[1]};
+    const std::array<double, 2> of_node{-arm[k].dot(n1) / thickness[0],
+                                        -arm[k].dot(n2) / thickness[1]};
     const double size = std::max({1.0, std::abs(of_node[0]), std::abs(of_node[1])});
-    const bool across = std::abs(arm[i].dot(t)) <= same_arm * size * thickness[0];
+    const bool across = std::abs(arm[k].dot(t)) <= same_arm * size * thickness[0];
     if (k == 0) out = of_node;
     for (std::size_t j = 0; j < 2; ++j)
       if (!across || !(std::abs(of_node[j] - out[j]) <= same_arm * size)) return std::nullopt;
@@ -123,8 +123,8 @@ std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const
 /// What CalculiX would take for beams of one line, whose normals it averages.
 bool along_each_other(const FeModel& model, const Element& a, const Element& b) {
   const auto axis = [&](const Element& e) {
-    const auto last = static_cast<std::size_t>(element_nodes(e.type)) - 1;
-    return Vec3(model.positions[e.nodes[last]] - model.positions[e.nodes[0]]).normalized();
+    const std::span<const int> nodes = nodes_of_element(e);
+    return Vec3(model.positions[nodes.back()] - model.positions[nodes.front()]).normalized();
   };
   return std::abs(axis(a).dot(axis(b))) > 0.9;
 }
@@ -133,15 +133,13 @@ bool along_each_other(const FeModel& model, const Element& a, const Element& b) 
 /// arms belong to beams alone, and beams in one line have one arm.
 class ArmNodes {
  public:
-  explicit ArmNodes(const FeModel& model) : model_(model), taken_(model.positions.size(), 0) {
+  explicit ArmNodes(const FeModel& model)
+      : model_(model),
+        taken_(nodes_of_elements(model, [](const Element& e) { return !is_beam(e.type); })) {
     for (const PointMass& m : model.masses) taken_[m.node] = 1;
     for (const Spring& s : model.springs)
       for (const int node : s.nodes)
         if (node >= 0) taken_[node] = 1;
-    for (const Element& e : model.elements)
-      if (!is_beam(e.type))
-        for (int k = 0; k < element_nodes(e.type); ++k)
-          taken_[e.nodes[static_cast<std::size_t>(k)]] = 1;
   }
 
   bool may_be(const ArmEnds& ends, int end) const {
@@ -167,23 +165,17 @@ class ArmNodes {
   std::vector<char> taken_;
 };
 
-/// The node of the model that `node` of a beam is at when its arm is gone.
-int foot(const ArmEnds& ends, int node) {
-  const int there = ends(node);
-  return there < 0 ? node : there;
-}
-
 /// Does a beam in the same line meet it with another arm?
 bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
                        const std::map<int, std::vector<int>>& beams_at, const Element& e) {
-  for (int k = 0; k < element_nodes(e.type); ++k) {
-    const int node = e.nodes[static_cast<std::size_t>(k)];
-    const auto at = beams_at.find(foot(ends, node));
+  for (const int node : nodes_of_element(e)) {
+    const auto at = beams_at.find(ends.foot(node));
     if (at == beams_at.end()) continue;
     for (const int i : at->second) {
-      const Element& other = model.elements[static_cast<std::size_t>(i)];
-      const auto last = other.nodes.begin() + element_nodes(other.type);
-      if (std::find(other.nodes.begin(), last, node) == last && along_each_other(model, e, other))
+      const Element& other = model.elements[i];
+      const std::span<const int> nodes = nodes_of_element(other);
+      if (std::find(nodes.begin(), nodes.end(), node) == nodes.end() &&
+          along_each_other(model, e, other))
         return true;
     }
   }
@@ -196,21 +188,20 @@ void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
   std::map<int, std::vector<int>> beams_at;
   for (std::size_t i = 0; i < model.elements.size(); ++i)
     if (is_beam(model.elements[i].type))
-      for (int k = 0; k < element_nodes(model.elements[i].type); ++k)
-        beams_at[foot(ends, model.elements[i].nodes[static_cast<std::size_t>(k)])].push_back(
-            static_cast<int>(i));
+      for (const int node : nodes_of_element(model.elements[i]))
+        beams_at[ends.foot(node)].push_back(static_cast<int>(i));
   bool changed = true;
   while (changed) {
     changed = false;
     for (const Element& e : model.elements) {
       if (!is_beam(e.type)) continue;
-      const auto last = e.nodes.begin() + element_nodes(e.type);
-      if (std::none_of(e.nodes.begin(), last, [&](int n) { return ends(n) >= 0; })) continue;
-      if (std::all_of(e.nodes.begin(), last,
+      const std::span<const int> at = nodes_of_element(e);
+      if (std::none_of(at.begin(), at.end(), [&](int n) { return ends(n) >= 0; })) continue;
+      if (std::all_of(at.begin(), at.end(),
                       [&](int n) { return ends(n) < 0 || nodes.may_be(ends, n); }) &&
           !meets_another_arm(model, ends, beams_at, e) && written_offsets(model, e, ends))
         continue;
-      std::for_each(e.nodes.begin(), last, [&](int n) { ends.leave_out(n); });
+      for (const int n : at) ends.leave_out(n);
       changed = true;
     }
   }
@@ -224,19 +215,19 @@ std::optional<OffsetBeams> offset_beams(const FeModel& model) {
   std::set<int> moved;
   for (const Element& e : model.elements)
     if (is_beam(e.type))
-      for (int k = 0; k < element_nodes(e.type); ++k)
-        if (const int n = e.nodes[static_cast<std::size_t>(k)]; ends(n) >= 0) moved.insert(n);
+      for (const int n : nodes_of_element(e))
+        if (ends(n) >= 0) moved.insert(n);
   if (moved.empty()) return std::nullopt;
   OffsetBeams out{model, {}, {}};
   out.offsets.assign(model.elements.size(), {0.0, 0.0});
   out.left_out.assign(model.positions.size(), 0);
-  for (const int end : moved) out.left_out[static_cast<std::size_t>(end)] = 1;
+  for (const int end : moved) out.left_out[end] = 1;
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
     Element& e = out.model.elements[i];
     if (!is_beam(e.type)) continue;
     bool beside = false;
     for (int k = 0; k < element_nodes(e.type); ++k) {
-      int& node = e.nodes[static_cast<std::size_t>(k)];
+      int& node = e.nodes[k];
       if (!moved.contains(node)) continue;
       node = ends(node);
       beside = true;

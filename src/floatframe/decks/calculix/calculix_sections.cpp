@@ -1,17 +1,11 @@
 // Materials, orientations and sections of a CalculiX deck. Elements with the same section, material
 // and axes are a set.
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
-#include <tuple>
 
-#include "floatframe/core/plural.hpp"
 #include "floatframe/decks/calculix/calculix_text.hpp"
-#include "floatframe/fe/elasticity.hpp"
-#include "floatframe/fe/element_faces.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -24,8 +18,7 @@ double further_density(const ShellSection& s) {
 std::string offset_words(const std::array<double, 2>& offsets) {
   std::string out;
   for (std::size_t k = 0; k < 2; ++k)
-    if (std::abs(offsets[k]) > 1e-12)
-      out += fmt::format(", OFFSET{}={}", k + 1, fmt::format("{:.10g}", offsets[k]));
+    if (std::abs(offsets[k]) > 1e-12) out += fmt::format(", OFFSET{}={:.10g}", k + 1, offsets[k]);
   return out;
 }
 
@@ -51,7 +44,7 @@ class SectionWriter {
     std::map<SectionKey, std::vector<int>> sets;
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
       const Element& element = model_.elements[e];
-      if (!writable(element, e)) continue;
+      if (!writable(element, static_cast<int>(e))) continue;
       sets[key_of(element, static_cast<int>(e))].push_back(deck_.element(e));
     }
     say_refused();
@@ -59,32 +52,28 @@ class SectionWriter {
     int number = 0;
     for (const auto& [key, elements] : sets) {
       const std::string set = written_name(fmt::format("SECTION_{}", ++number), true, deck_.names);
-      deck_.text += fmt::format("*ELSET, ELSET={}\n", set);
+      deck_.add("*ELSET, ELSET={}\n", set);
       add_calculix_numbers(deck_.text, elements, false);
       add_section(key, set);
     }
   }
 
  private:
-  const Material& material(int m) const { return model_.materials[static_cast<std::size_t>(m)]; }
-  const ShellSection& shell(int s) const { return model_.shells[static_cast<std::size_t>(s)]; }
-  const BeamSection& beam(int s) const { return model_.sections[static_cast<std::size_t>(s)]; }
+  const Material& material(int m) const { return model_.materials[m]; }
+  const ShellSection& shell(int s) const { return model_.shells[s]; }
+  const BeamSection& beam(int s) const { return model_.sections[s]; }
 
   /// The first element of each reason, and how many more there are.
   void say_refused() {
     for (const auto& [what, elements] : refused_) {
       const Element& first = model_.elements[elements.first];
-      deck_.errors.add(
-          ErrorCode::unsupported, deck_.mark_of(first),
-          fmt::format("{} {}{}", model_.element_label(static_cast<int>(elements.first)), what,
-                      elements.more == 0
-                          ? ""
-                          : fmt::format("; the same holds for {}",
-                                        plural(elements.more, "more element", "more elements"))));
+      const std::string more = plural(elements.more, "more element", "more elements");
+      deck_.error(first.source, "{} {}{}", model_.element_label(elements.first), what,
+                  elements.more == 0 ? "" : "; the same holds for " + more);
     }
   }
 
-  bool writable(const Element& e, std::size_t index) {
+  bool writable(const Element& e, int index) {
     const auto in = [](int i, const auto& list) {
       return i >= 0 && static_cast<std::size_t>(i) < list.size();
     };
@@ -145,10 +134,10 @@ class SectionWriter {
     if (key.family == ElementFamily::beam)
       key.reference = {e.reference(0), e.reference(1), e.reference(2)};
     if (key.family == ElementFamily::beam && deck_.beside != nullptr)
-      key.offset = offset_words(deck_.beside->offsets[static_cast<std::size_t>(index)]);
+      key.offset = offset_words(deck_.beside->offsets[index]);
     if (material(e.material).elasticity && e.orientation >= 0) {
       key.orientation = e.orientation;
-      const Orientation& o = model_.orientations[static_cast<std::size_t>(e.orientation)];
+      const Orientation& o = model_.orientations[e.orientation];
       const bool plain = o.kind == Orientation::Kind::rectangular ||
                          (o.kind == Orientation::Kind::cylindrical && o.turn.isIdentity(0.0));
       if (!plain) key.alone = index;
@@ -165,7 +154,7 @@ class SectionWriter {
                                  : written_name(written_material(model_, m), true, deck_.names);
     it->second = name;
     const Material& given = material(m);
-    deck_.text += fmt::format("*MATERIAL, NAME={}\n", name);
+    deck_.add("*MATERIAL, NAME={}\n", name);
     if (given.elasticity) {
       // Of the symmetric matrix the columns of the upper half, shear in the order 12, 13, 23.
       constexpr std::array<int, 6> order{0, 1, 2, 3, 5, 4};
@@ -173,16 +162,15 @@ class SectionWriter {
       for (std::size_t j = 0; j < 6; ++j)
         for (std::size_t i = 0; i <= j; ++i)
           terms.push_back(calculix_number((*given.elasticity)(order[i], order[j])));
-      deck_.text += fmt::format("*ELASTIC, TYPE=ANISO\n{}\n{}\n{}\n",
-                                fmt::join(terms.begin(), terms.begin() + 8, ", "),
-                                fmt::join(terms.begin() + 8, terms.begin() + 16, ", "),
-                                fmt::join(terms.begin() + 16, terms.end(), ", "));
+      deck_.add("*ELASTIC, TYPE=ANISO\n{}\n{}\n{}\n",
+                fmt::join(terms.begin(), terms.begin() + 8, ", "),
+                fmt::join(terms.begin() + 8, terms.begin() + 16, ", "),
+                fmt::join(terms.begin() + 16, terms.end(), ", "));
     } else {
-      deck_.text += fmt::format("*ELASTIC\n{}, {}\n", calculix_number(given.young),
-                                calculix_number(given.poisson));
+      deck_.add("*ELASTIC\n{}, {}\n", calculix_number(given.young), calculix_number(given.poisson));
     }
     if (given.density + further > 0.0)
-      deck_.text += fmt::format("*DENSITY\n{}\n", calculix_number(given.density + further));
+      deck_.add("*DENSITY\n{}\n", calculix_number(given.density + further));
     return name;
   }
 
@@ -192,7 +180,7 @@ class SectionWriter {
     const auto [it, fresh] = orientations_.try_emplace({key.orientation, key.alone});
     if (fresh) {
       it->second = written_name(fmt::format("AXES_{}", orientations_.size()), true, deck_.names);
-      const Orientation& o = model_.orientations[static_cast<std::size_t>(key.orientation)];
+      const Orientation& o = model_.orientations[key.orientation];
       Vec3 a = o.origin, b = o.origin + o.axes.col(2);
       const bool cylinder = key.alone < 0 && o.kind == Orientation::Kind::cylindrical;
       if (!cylinder) {
@@ -200,28 +188,21 @@ class SectionWriter {
         a = axes.col(0);
         b = axes.col(1);
       }
-      deck_.text +=
-          fmt::format("*ORIENTATION, NAME={}, SYSTEM={}\n{}, {}, {}, {}, {}, {}\n", it->second,
-                      cylinder ? "CYLINDRICAL" : "RECTANGULAR", calculix_number(a(0)),
-                      calculix_number(a(1)), calculix_number(a(2)), calculix_number(b(0)),
-                      calculix_number(b(1)), calculix_number(b(2)));
-      if (key.alone >= 0 && !centre_noted_) {
-        deck_.notes.emplace_back(
+      deck_.add("*ORIENTATION, NAME={}, SYSTEM={}\n{}, {}\n", it->second,
+                cylinder ? "CYLINDRICAL" : "RECTANGULAR", calculix_vector(a), calculix_vector(b));
+      if (key.alone >= 0 && !std::exchange(centre_noted_, true))
+        deck_.note(
             "axes of materials that turn from place to place are those of the middle of each "
             "element");
-        centre_noted_ = true;
-      }
     }
     return ", ORIENTATION=" + it->second;
   }
 
   Vec3 centre(int element) const {
-    const Element& e = model_.elements[static_cast<std::size_t>(element)];
-    const int count = element_nodes(e.type);
+    const std::span<const int> nodes = nodes_of_element(model_.elements[element]);
     Vec3 sum = Vec3::Zero();
-    for (int k = 0; k < count; ++k)
-      sum += model_.positions[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])];
-    return sum / count;
+    for (const int node : nodes) sum += model_.positions[node];
+    return sum / static_cast<double>(nodes.size());
   }
 
   void add_section(const SectionKey& key, const std::string& set) {
@@ -231,42 +212,43 @@ class SectionWriter {
         material_name(key.material, is_of_shell ? further_density(shell(key.section)) : 0.0);
     const std::string axes = orientation_word(key);
     const std::string words = fmt::format("ELSET={}, MATERIAL={}{}", set, of_material, axes);
-    if (key.family == ElementFamily::solid) {
-      deck_.text += fmt::format("*SOLID SECTION, {}\n", words);
-    } else if (key.family == ElementFamily::rod) {
-      deck_.text +=
-          fmt::format("*SOLID SECTION, {}\n{}\n", words, calculix_number(beam(key.section).A));
-    } else if (is_of_shell) {
-      const ShellSection& s = shell(key.section);
-      const std::string offset =
-          s.offset == 0.0 ? ""
-                          : fmt::format(", OFFSET={}", calculix_number(-s.offset / s.thickness));
-      deck_.text += fmt::format("*{} SECTION, {}{}\n{}\n",
-                                key.family == ElementFamily::shell ? "SHELL" : "MEMBRANE", words,
-                                offset, calculix_number(s.thickness));
-    } else {
-      const BeamSection& s = beam(key.section);
-      const bool rectangle = s.outline == BeamSection::Outline::rectangle;
-      const std::string numbers =
-          rectangle ? fmt::format("{}, {}", calculix_number(s.width), calculix_number(s.height))
-          : s.bore > 0.0
-              ? fmt::format("{}, {}", calculix_number(0.5 * s.width),
-                            calculix_number(0.5 * (s.width - s.bore)))
-              : fmt::format("{}, {}", calculix_number(s.width), calculix_number(s.width));
-      deck_.text +=
-          fmt::format("*BEAM SECTION, {}, SECTION={}{}\n{}\n{}, {}, {}\n", words,
-                      rectangle      ? "RECT"
-                      : s.bore > 0.0 ? "PIPE"
-                                     : "CIRC",
-                      key.offset, numbers, calculix_number(key.reference[0]),
-                      calculix_number(key.reference[1]), calculix_number(key.reference[2]));
-    }
+    if (key.family == ElementFamily::solid)
+      deck_.add("*SOLID SECTION, {}\n", words);
+    else if (key.family == ElementFamily::rod)
+      deck_.add("*SOLID SECTION, {}\n{}\n", words, calculix_number(beam(key.section).A));
+    else if (is_of_shell)
+      add_sheet(key, words);
+    else
+      add_beam(key, words);
+  }
+
+  void add_sheet(const SectionKey& key, const std::string& words) {
+    const ShellSection& s = shell(key.section);
+    const std::string offset =
+        s.offset == 0.0 ? "" : ", OFFSET=" + calculix_number(-s.offset / s.thickness);
+    deck_.add("*{} SECTION, {}{}\n{}\n", key.family == ElementFamily::shell ? "SHELL" : "MEMBRANE",
+              words, offset, calculix_number(s.thickness));
+  }
+
+  void add_beam(const SectionKey& key, const std::string& words) {
+    const BeamSection& s = beam(key.section);
+    const bool rectangle = s.outline == BeamSection::Outline::rectangle;
+    const bool pipe = !rectangle && s.bore > 0.0;
+    const double first = pipe ? 0.5 * s.width : s.width;
+    const double second = rectangle ? s.height : pipe ? 0.5 * (s.width - s.bore) : s.width;
+    const Vec3 reference(key.reference[0], key.reference[1], key.reference[2]);
+    deck_.add("*BEAM SECTION, {}, SECTION={}{}\n{}, {}\n{}\n", words,
+              rectangle ? "RECT"
+              : pipe    ? "PIPE"
+                        : "CIRC",
+              key.offset, calculix_number(first), calculix_number(second),
+              calculix_vector(reference));
   }
 
   CalculixText& deck_;
   const FeModel& model_;
   struct Refused {
-    std::size_t first = 0;
+    int first = 0;
     long more = 0;
   };
   std::map<std::string, Refused> refused_;  // by the reason

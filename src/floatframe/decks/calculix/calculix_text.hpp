@@ -1,11 +1,17 @@
 #pragma once
 // What the parts of a CalculiX deck share. Numbers have 13 digits: CalculiX reads 20 characters of
 // a field.
+#include <fmt/format.h>
+
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "floatframe/core/plural.hpp"
 #include "floatframe/decks/calculix/calculix_offsets.hpp"
+#include "floatframe/decks/nodes_of_element.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
 
@@ -23,7 +29,7 @@ struct CalculixText {
   RenamedNames renamed;
   long dofs = 0;  ///< degrees of freedom that depend on none, at least
 
-  int node(int index) const { return numbers.node[static_cast<std::size_t>(index)]; }
+  int node(int index) const { return numbers.node[index]; }
   int element(std::size_t index) const { return numbers.element[index]; }
   /// In capitals; of a set, surface or material of the model.
   std::string name_of(const std::string& given) {
@@ -31,11 +37,27 @@ struct CalculixText {
     renamed.add(given, name);
     return name;
   }
-  SourceMark mark_of(const Element& e) const { return model.mark(e.source); }
+  template <class... Values>
+  void add(fmt::format_string<Values...> lines, Values&&... values) {
+    text += fmt::format(lines, std::forward<Values>(values)...);
+  }
+  template <class... Values>
+  void error(const FeSource& at, fmt::format_string<Values...> sentence, Values&&... values) {
+    errors.add(ErrorCode::unsupported, model.mark(at),
+               fmt::format(sentence, std::forward<Values>(values)...));
+  }
+  template <class... Values>
+  void note(fmt::format_string<Values...> sentence, Values&&... values) {
+    notes.push_back(fmt::format(sentence, std::forward<Values>(values)...));
+  }
 };
 
 /// "1.5e-05", at most 20 characters.
 std::string calculix_number(double value);
+/// "1, 0, 1.5e-05"
+std::string calculix_vector(const Vec3& v);
+/// A line of *NODE.
+std::string calculix_node(int number, const Vec3& p);
 
 /// Numbers, 16 in a line; an element's lines end with a comma where it goes on.
 void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bool goes_on);

@@ -12,36 +12,38 @@
 namespace floatframe {
 namespace {
 
+using SystemKind = Orientation::Kind;
+
 /// A point in the coordinates of a system; angles in degrees.
-Vec3 to_basic(const NastranFrame& f, const Vec3& x) {
+Vec3 to_basic(const Orientation& f, const Vec3& x) {
   constexpr double degree = std::numbers::pi / 180.0;
   Vec3 local = x;
-  if (f.kind == 'C') {
+  if (f.kind == SystemKind::cylindrical) {
     local = {x(0) * std::cos(x(1) * degree), x(0) * std::sin(x(1) * degree), x(2)};
-  } else if (f.kind == 'S') {
+  } else if (f.kind == SystemKind::spherical) {
     const double r = x(0) * std::sin(x(1) * degree);
     local = {r * std::cos(x(2) * degree), r * std::sin(x(2) * degree),
              x(0) * std::cos(x(1) * degree)};
   }
-  return f.origin + f.R * local;
+  return f.origin + f.axes * local;
 }
 
 }  // namespace
 
-Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p) {
-  if (f.kind == 'R') return f.R;
-  const Vec3 local = f.R.transpose() * (p - f.origin);
+Mat3 nastran_axes_at(const Orientation& f, const Vec3& p) {
+  if (f.kind == SystemKind::rectangular) return f.axes;
+  const Vec3 local = f.axes.transpose() * (p - f.origin);
   const double r = std::hypot(local(0), local(1)), R = local.norm();
   const bool on_axis = !(r > 1e-12 * R);
   const double c = on_axis ? 1.0 : local(0) / r, s = on_axis ? 0.0 : local(1) / r;
   Mat3 T;
-  if (f.kind == 'C') {
+  if (f.kind == SystemKind::cylindrical) {
     T << c, -s, 0, s, c, 0, 0, 0, 1;
   } else {
     const double z = R > 0.0 ? local(2) / R : 1.0, w = R > 0.0 ? r / R : 0.0;
     T << w * c, z * c, -s, w * s, z * s, c, z, -w, 0;
   }
-  return f.R * T;
+  return f.axes * T;
 }
 
 Mat3 NastranBuild::axes(int node) const {
@@ -49,14 +51,25 @@ Mat3 NastranBuild::axes(int node) const {
   return it == turned_axes.end() ? Mat3::Identity() : it->second;
 }
 
+Mat3 NastranBuild::axes_of_system(int system, const FeSource& at, int node) {
+  return nastran_axes_at(frame(system, at), model.positions[node]);
+}
+
+bool NastranBuild::direction(const NastranDirection& given, int from, bool turned,
+                             const NastranEntity& e, Vec3& out) {
+  out = turned ? Vec3(axes(from) * given.vector) : given.vector;
+  if (given.node == 0) return true;
+  const int other = node(given.node, e);
+  if (other >= 0) out = model.positions[other] - model.positions[from];
+  return other >= 0;
+}
+
 int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string& who) {
-  if (largest_id_ == 0) {
+  if (largest_id_ == 0)
     largest_id_ = *std::max_element(model.node_ids.begin(), model.node_ids.end());
-  }
-  if (largest_id_ == std::numeric_limits<int>::max()) {
+  if (largest_id_ == std::numeric_limits<int>::max())
     source.stop(ErrorCode::incomplete, at,
                 "{} needs a node of its own, but there is no number above {}", who, largest_id_);
-  }
   model.positions.push_back(p);
   model.node_ids.push_back(++largest_id_);
   model.node_sources.push_back(at);
@@ -66,56 +79,63 @@ int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string&
   return model.nodes() - 1;
 }
 
-void NastranBuild::give_rotations(int node, const FeSource& at, const std::string& who) {
+void NastranBuild::give_rotations(int node, const NastranEntity& e) {
   if (rotates[node] != 0) return;
   rotates[node] = 1;
+  add_rigid_spider(node, add_node(model.positions[node], e.at, e.label()), e.at, e.label());
+}
+
+void NastranBuild::add_rigid_spider(int reference, int node, const FeSource& at,
+                                    const std::string& name) {
   Spider s;
-  s.name = who;
-  s.reference = node;
+  s.name = name;
+  s.reference = reference;
+  s.nodes = {node};
   s.source = at;
-  s.nodes = {add_node(model.positions[node], at, who)};
   model.spiders.push_back(std::move(s));
 }
 
 int NastranBuild::node(int id, const FeSource& at, const std::string& who) {
   const auto it = node_of.find(id);
   if (it != node_of.end()) return it->second;
-  if (id > 0) {
+  if (id > 0)
     source.error(ErrorCode::not_found, at,
                  content.scalar_points.contains(id)
                      ? fmt::format("{} has the scalar point {}, expected a node (GRID)", who, id)
                      : fmt::format("{} has node {}, which is not in the file", who, id));
-  }
   return -1;
 }
 
 void NastranBuild::spend(std::size_t members, const FeSource& at) {
   spent_ += members;
   const std::uint64_t most = 10'000'000 + 100 * (content.grids.size() + content.elements.size());
-  if (spent_ > most) {
+  if (spent_ > most)
     source.stop(ErrorCode::too_large, at,
                 "the sets and supports have more than {} members in all, too many for a file of {} "
                 "nodes and {} elements",
                 most, content.grids.size(), content.elements.size());
-  }
 }
 
 void NastranBuild::note(const FeSource& at, const std::string& text) {
   model.notes.push_back(source.mark(at).before(text));
 }
 
-const NastranFrame& NastranBuild::frame(int id, const FeSource& at) {
+void NastranBuild::note(const NastranCount& count, const std::string& text) {
+  if (count.number > 0) note(count.first, fmt::format("{} {}", count.number, text));
+}
+
+const Orientation& NastranBuild::frame(int id, const FeSource& at) {
   const auto it = frames_.find(id);
   if (it != frames_.end()) return it->second;
   return frames_[id] = made(id, at);
 }
 
-NastranFrame NastranBuild::made(int id, const FeSource& at) {
+Orientation NastranBuild::made(int id, const FeSource& at) {
   if (id == 0) return {};
-  const auto it = content.systems.find(id);
   const auto by_nodes = content.node_systems.find(id);
   const bool nodes = by_nodes != content.node_systems.end();
-  if (it == content.systems.end() && !nodes) {
+  const auto it = nodes ? by_nodes : content.systems.find(id);
+  if (!nodes && it == content.systems.end()) {
     const auto other = content.other_systems.find(id);
     source.error(ErrorCode::not_found, at,
                  other == content.other_systems.end()
@@ -125,54 +145,50 @@ NastranFrame NastranBuild::made(int id, const FeSource& at) {
                                    id, other->second));
     return {};
   }
-  const FeSource own = nodes ? by_nodes->second.at : it->second.at;
+  const NastranSystem& s = it->second;
   if (!open_.insert(id).second || open_.size() > 100) {
-    source.error(ErrorCode::cycle, own,
+    source.error(ErrorCode::cycle, s.at,
                  "coordinate system {} refers to itself through its reference systems, or these "
                  "are more than 100 deep",
                  id);
     return {};
   }
-  if (nodes) {
-    const NastranNodeSystem& s = by_nodes->second;
-    const Vec3 a = place_of(s.a, own, id), b = place_of(s.b, own, id), c = place_of(s.c, own, id);
-    open_.erase(id);
-    return through(s.kind, a, b, c, id, own);
-  }
-  const NastranSystem& s = it->second;
-  const NastranFrame base = frame(s.rid, s.at);
+  const Orientation base = nodes ? Orientation{} : frame(s.rid, s.at);
+  std::array<Vec3, 3> points;
+  for (std::size_t k = 0; k < 3; ++k)
+    points[k] = nodes ? place_of(s.nodes[k], s) : to_basic(base, s.points[k]);
   open_.erase(id);
-  return through(s.kind, to_basic(base, s.a), to_basic(base, s.b), to_basic(base, s.c), id, own);
+  return through(points, s);
 }
 
 /// Origin a, b on z, c in the xz plane.
-NastranFrame NastranBuild::through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
-                                   const FeSource& at) {
-  NastranFrame f;
-  f.kind = kind;
-  f.origin = a;
-  const Vec3 z = b - a, y = z.cross(c - a);
-  if (!(y.norm() > 1e-12 * z.norm() * (c - a).norm())) {
-    source.error(ErrorCode::geometry, at,
-                 "coordinate system {}: its points A, B and C are on a line", id);
+Orientation NastranBuild::through(const std::array<Vec3, 3>& points, const NastranSystem& s) {
+  Orientation f;
+  const char kind = s.card.back();  // CORD2C
+  f.kind = kind == 'C'   ? SystemKind::cylindrical
+           : kind == 'S' ? SystemKind::spherical
+                         : SystemKind::rectangular;
+  f.origin = points[0];
+  const Vec3 z = points[1] - points[0], x = points[2] - points[0], y = z.cross(x);
+  if (!(y.norm() > 1e-12 * z.norm() * x.norm())) {
+    source.error(ErrorCode::geometry, s.at,
+                 "coordinate system {}: its points A, B and C are on a line", s.id);
     return f;
   }
-  f.R.col(2) = z.normalized();
-  f.R.col(1) = y.normalized();
-  f.R.col(0) = f.R.col(1).cross(f.R.col(2));
+  f.axes.col(2) = z.normalized();
+  f.axes.col(1) = y.normalized();
+  f.axes.col(0) = f.axes.col(1).cross(f.axes.col(2));
   return f;
 }
 
-Vec3 NastranBuild::place_of(int id, const FeSource& at, int system) {
-  if (grid_of_.empty()) {
-    for (const NastranGrid& g : content.grids) {
+Vec3 NastranBuild::place_of(int id, const NastranSystem& system) {
+  if (grid_of_.empty())
+    for (const NastranGrid& g : content.grids)
       grid_of_.try_emplace(g.id, static_cast<int>(&g - content.grids.data()));
-    }
-  }
   const auto it = grid_of_.find(id);
   if (it == grid_of_.end()) {
-    source.error(ErrorCode::not_found, at,
-                 "coordinate system {} has node {}, which is not in the file", system, id);
+    source.error(ErrorCode::not_found, system.at,
+                 "coordinate system {} has node {}, which is not in the file", system.id, id);
     return Vec3(id, 0.1 * id * id, 1.0);  // somewhere; the error is known
   }
   const NastranGrid& g = content.grids[it->second];
@@ -198,11 +214,11 @@ void build_nastran_nodes(NastranBuild& build) {
     model.node_ids.push_back(g.id);
     model.node_sources.push_back(g.at);
     // Cylindrical and spherical systems turn with the place.
-    const NastranFrame* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
-    build.turned.push_back(cd != nullptr && (cd->kind != 'R' || !cd->R.isIdentity(1e-9)));
-    if (build.turned.back() != 0) {
+    const Orientation* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
+    build.turned.push_back(cd != nullptr &&
+                           (cd->kind != SystemKind::rectangular || !cd->axes.isIdentity(1e-9)));
+    if (build.turned.back() != 0)
       build.turned_axes[model.nodes() - 1] = nastran_axes_at(*cd, model.positions.back());
-    }
   }
   if (n == 0) build.source.error(ErrorCode::missing, {0, 0}, "the file has no nodes (GRID)");
 }

@@ -15,30 +15,53 @@
 
 namespace floatframe {
 
-/// Axes of a coordinate system in basic coordinates: x = origin + R x_local.
-struct NastranFrame {
-  Mat3 R = Mat3::Identity();
-  Vec3 origin = Vec3::Zero();
-  char kind = 'R';  ///< rectangular, cylindrical, spherical
-};
-
 /// Equations in directions that are not those of the basic axes. Those of one node are solved for
 /// as many of its basic directions, each of its own, so that every equation has a dependent degree
 /// of freedom.
 class NastranEquations {
  public:
+  using Dof = std::pair<int, int>;  ///< node and axis
+  struct Row {
+    std::map<Dof, double> factors;
+    FeSource at;
+    Dof pivot{};  ///< that it is solved for
+  };
   /// `rotation`: the block that the equation determines. The order of its terms does not matter.
-  void add(int node, bool rotation, LinearEquation equation);
+  void add(int node, bool rotation, const LinearEquation& equation);
+  /// A component 0 to 5 of a node, along its axes e, follows another node r rigidly:
+  ///   e.u = e.u_r + (arm x e).theta_r,   e.theta = e.theta_r.
+  void follow(int node, int component, const Mat3& axes, int reference, const Vec3& arm,
+              const FeSource& at);
   void flush(FeModel& model, TextSource& source);
-  /// Node and block of each.
-  std::vector<std::pair<int, bool>> blocks() const {
-    std::vector<std::pair<int, bool>> list;
-    for (const auto& [block, equations] : blocks_) list.push_back(block);
-    return list;
-  }
+  /// By node and block.
+  const auto& blocks() const { return blocks_; }
 
  private:
-  std::map<std::pair<int, bool>, std::vector<LinearEquation>> blocks_;
+  std::map<std::pair<int, bool>, std::vector<Row>> blocks_;
+};
+
+struct NastranBuild;
+/// Where a scalar point is in the model.
+struct NastranScalarPoint {
+  int node = -1;
+  int axis = 0;         ///< 0, or 3 if its springs turn
+  bool sprung = false;  ///< a spring ends there
+  int root = 0;         ///< up to one of the points that springs join
+  FeSource at;          ///< that names it first
+};
+
+/// The scalar points that springs and equations use, by their numbers.
+class NastranScalarPoints {
+ public:
+  void build(NastranBuild& build);
+  /// Null if the number is none that is in use.
+  const NastranScalarPoint* find(int id) const;
+  /// An SPC holds it: it is the ground.
+  bool held(int id) const { return held_.contains(id); }
+
+ private:
+  std::map<int, NastranScalarPoint> points_;
+  NastranRanges held_;
 };
 
 struct NastranBuild {
@@ -54,17 +77,50 @@ struct NastranBuild {
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
   /// Index of a node; an error and -1 if it is not there.
   int node(int id, const FeSource& at, const std::string& who);
-  /// The system in basic coordinates; an error (once a system) and basic axes if it is not there.
-  const NastranFrame& frame(int id, const FeSource& at);
+  int node(int id, const NastranEntity& e) { return node(id, e.at, e.label()); }
+  /// "CBAR 12: ..." where the card stands.
+  template <class... Values>
+  void error(ErrorCode code, const NastranEntity& e, fmt::format_string<Values...> text,
+             Values&&... values) {
+    source.error(code, e.at, "{}: {}", e.label(),
+                 fmt::format(text, std::forward<Values>(values)...));
+  }
+  /// The same; false.
+  template <class... Values>
+  bool fail(ErrorCode code, const NastranEntity& e, fmt::format_string<Values...> text,
+            Values&&... values) {
+    error(code, e, text, std::forward<Values>(values)...);
+    return false;
+  }
+  /// What an element has by a number; null with an error if it is not there.
+  template <class Property>
+  const Property* property(const std::map<int, Property>& all, int id, const char* card,
+                           const NastranEntity& element) {
+    const auto it = all.find(id);
+    if (it != all.end()) return &it->second;
+    error(ErrorCode::not_found, element, "property {} ({}) is not in the file", id, card);
+    return nullptr;
+  }
+  /// The system in basic coordinates, x = origin + axes x_local; an error (once a system) and basic
+  /// axes if it is not there.
+  const Orientation& frame(int id, const FeSource& at);
   void note(const FeSource& at, const std::string& text);
+  /// "3 CTRIA6 elements ..." at the first of them, if there is any.
+  void note(const NastranCount& count, const std::string& text);
   /// Axes of the displacements of a node (CD) at its place; columns in basic axes.
   Mat3 axes(int node) const;
+  /// Those of a system at the place of a node.
+  Mat3 axes_of_system(int system, const FeSource& at, int node);
   std::unordered_map<int, Mat3> turned_axes;  ///< of the turned nodes
+  /// In basic axes, from a node on; `turned`: the vector is in its system. False with an error.
+  bool direction(const NastranDirection& given, int from, bool turned, const NastranEntity& e,
+                 Vec3& out);
   /// A new node with a number of its own.
   int add_node(const Vec3& p, const FeSource& at, const std::string& who);
   std::vector<char> rotates;  ///< nodes that have rotations; empty until constraints are built
   /// A node that nothing else uses gets rotations by a spider with a node of its own.
-  void give_rotations(int node, const FeSource& at, const std::string& who);
+  void give_rotations(int node, const NastranEntity& e);
+  void add_rigid_spider(int reference, int node, const FeSource& at, const std::string& name);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
   /// there are too many in all.
   void spend(std::size_t members, const FeSource& at);
@@ -72,13 +128,12 @@ struct NastranBuild {
  private:
   int largest_id_ = 0;
   std::uint64_t spent_ = 0;
-  NastranFrame made(int id, const FeSource& at);
-  NastranFrame through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
-                       const FeSource& at);
-  /// Where a node is, before it is in the model.
-  Vec3 place_of(int id, const FeSource& at, int system);
+  Orientation made(int id, const FeSource& at);
+  Orientation through(const std::array<Vec3, 3>& points, const NastranSystem& system);
+  /// Where a node of a system is, before it is in the model.
+  Vec3 place_of(int id, const NastranSystem& system);
   std::unordered_map<int, int> grid_of_;
-  std::map<int, NastranFrame> frames_;
+  std::map<int, Orientation> frames_;
   std::set<int> open_;  // systems being made, to find circles
 };
 
@@ -86,31 +141,44 @@ struct NastranBuild {
 void build_nastran_nodes(NastranBuild& build);
 /// Directions of a system at a place: cylinder radial, around, along; sphere radial, along the
 /// meridian (theta), around (phi). On the axis the angle around is zero.
-Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p);
+Mat3 nastran_axes_at(const Orientation& f, const Vec3& p);
 // nastran_masses.cpp
-/// Of each node one.
+/// CONM1 and CMASS of nodes: of each node one.
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
-// nastran_build_elements.cpp
+/// Masses of scalar points are errors, but of those that are held.
+void check_nastran_scalar_masses(NastranBuild& build);
+// nastran_build_springs.cpp
+void build_nastran_springs(NastranBuild& build);
+/// GJ/L of rods; after what gives rotations to nodes.
+void build_nastran_torsion(NastranBuild& build);
+// nastran_equations.cpp
+/// Equations with scalar points. Each is solved for one of them; what is left without any is an
+/// equation of nodes.
+void build_nastran_scalar_equations(NastranBuild& build,
+                                    const std::vector<const NastranEquation*>& equations);
 /// Lumped or consistent.
 void nastran_mass_forms(NastranBuild& build);
+// nastran_build_elements.cpp
 void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
 // nastran_build_layers.cpp
 /// `material`: index of one by its number.
 ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
                                    const NastranProperty& p,
                                    const std::function<int(int)>& material);
+/// Notes of shells that are read as others.
+void note_nastran_shells(NastranBuild& build);
 /// Axes of the material of an element whose section and material are known.
 void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result);
 void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
-/// The cards that a property of a kind could have in place of a material; empty if it may have it.
-std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card);
 // nastran_build_materials.cpp
 /// Materials of the model by their numbers.
 class NastranMaterials {
  public:
   explicit NastranMaterials(NastranBuild& build) : b_(build), c_(build.content) {}
   /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
-  int index(const NastranProperty& p, double nonstructural);
+  int index(const NastranProperty& p, double nonstructural) {
+    return index(p, nonstructural, p.material, true);
+  }
   int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
   /// The same as another without density.
   int massless(int material);
@@ -120,28 +188,37 @@ class NastranMaterials {
 
  private:
   Material elastic(int id, const NastranMaterial& m);
-  Material scaled(Material m) const;
   NastranBuild& b_;
   const NastranContent& c_;
   std::map<std::tuple<int, double, bool>, int> indices_;
   std::map<int, int> massless_;
-  std::set<int> inconsistent_, checked_, unfit_for_bars_;
+  std::set<int> checked_, unfit_for_bars_;
   std::set<std::tuple<int, int, int>> checked_properties_;  // file, line and material
   // Properties by line, whose nonstructural mass is said, and is too negative.
   std::set<std::pair<int, int>> noted_, negative_;
 };
-// nastran_build_weak_bars.cpp
+// nastran_tapers.cpp
+/// A piece of a tapered beam.
+struct NastranPiece {
+  double to = 1.0;  ///< its end, of the length
+  BeamSection section;
+  double turn = 0.0;
+  double nonstructural = 0.0;
+};
+/// Of the tapered properties of a file, as many as the file may have.
+std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build);
+// nastran_build_bars.cpp
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
 bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
 std::string weak_nastran_bar_note(const NastranProperty& p);
 /// Springs that bend as the beam does; the rod has its material and reference vector.
 void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& section,
-                         double shear_modulus, const std::string& who);
-// nastran_build_bars.cpp
+                         double shear_modulus, const NastranEntity& bar);
 /// Columns x along the bar, y in the plane of x and v; zero where there is no direction.
 Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v);
-/// The error of a bar for which there is no direction.
-void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who);
+/// The same; false with an error of the bar where there is no direction.
+bool find_nastran_bar_axes(NastranBuild& build, const NastranEntity& bar, const Vec3& along,
+                           const Vec3& v, Mat3& T);
 /// Orientation and ends of bars. `finish` ties the ends to their nodes.
 class NastranBars {
  public:
@@ -174,12 +251,12 @@ void give_nastran_rigid_rotations(NastranBuild& build);
 /// An RBE3 that is no mean spider of displacements; after all other constraints.
 void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
 // nastran_build_constraints.cpp
-/// Node of a term of an MPC; an error and -1 if it has none.
-int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
-                         const NastranEquation::Term& term);
-/// Adds a term of a node in basic axes.
-void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
-                      LinearEquation& equation);
+/// Adds the part of a node's displacement (`first` 0) or rotation (3) along an axis.
+void add_nastran_direction(LinearEquation& equation, int node, int first, const Vec3& axis,
+                           double factor);
+/// Adds a term of an MPC in basic axes and returns its node; an error and -1 if it has none.
+int add_nastran_term(NastranBuild& build, const NastranEquation& e,
+                     const NastranEquation::Term& term, LinearEquation& equation);
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);
 // nastran_build_sets.cpp

@@ -2,12 +2,19 @@
 // theta. A pinned end is a node of its own too, tied only in the components that are not pinned, in
 // the axes of the element. What two pins of a bar release twice is released once, else nothing
 // would hold the end.
+//
+// Bars of which I1, I2 or J is 0. They have no stiffness there, so as beams they would leave
+// rotations of nodes without any, which Nastran takes out one by one (AUTOSPC). Here they are rods
+// with springs for what stiffness they have, since rotations that springs alone hold are condensed
+// (fe/springs.hpp). In a plane with EI and L, phi = 12 EI/(G As L^2), the beam is
+//   12 EI/(L^3 (1 + phi)) of v_2 - v_1 - L/2 (r_1 + r_2)  and  EI/L of r_2 - r_1,
+// exactly; torsion comes with the rod (build_nastran_torsion).
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/decks/stiffeners.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
@@ -17,15 +24,19 @@ namespace {
 /// One of two equal releases that a bar has at both ends: 1, 4, and in each plane what is more than
 /// two of the deflections and slopes.
 void without_double_releases(unsigned& a, unsigned& b) {
-  for (const unsigned component : {1u, 8u}) {
+  for (const unsigned component : {1u, 8u})
     if ((a & b & component) != 0) b &= ~component;
-  }
   for (const auto& [deflection, slope] : {std::pair{2u, 32u}, std::pair{4u, 16u}}) {
     if ((a & b & deflection) != 0) b &= ~deflection;
     if ((a & b & slope) == 0) continue;
     a &= ~deflection;
     b &= ~deflection;
   }
+}
+
+bool bar_without_axes(NastranBuild& build, const NastranEntity& bar) {
+  return build.fail(ErrorCode::geometry, bar,
+                    "it has no length, or its orientation vector is along its axis");
 }
 
 }  // namespace
@@ -38,15 +49,15 @@ Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
   return T;
 }
 
-void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who) {
-  build.source.error(ErrorCode::geometry, at,
-                     "{}: it has no length, or its orientation vector is along its axis", who);
+bool find_nastran_bar_axes(NastranBuild& build, const NastranEntity& bar, const Vec3& along,
+                           const Vec3& v, Mat3& T) {
+  T = nastran_bar_axes(along, v);
+  return T.squaredNorm() > 2.5 || bar_without_axes(build, bar);  // a column without length is zero
 }
 
 bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {
   static const NastranBarEnds plain;
   const NastranBarEnds& ends = e.ends < 0 ? plain : b_.content.bar_ends[e.ends];
-  const std::string who = fmt::format("{} {}", e.card, e.id);
   const int node[2] = {element.nodes[0], element.nodes[1]};
   const Vec3 p[2] = {b_.model.positions[node[0]], b_.model.positions[node[1]]};
   if (element.type != ElementType::rod2) {
@@ -54,19 +65,10 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     const bool beside = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
     bars_.push_back({{node[0], node[1], -1}, beside, bends && !pinned});
   }
-  if (e.orientation_node > 0) {
-    const int other = b_.node(e.orientation_node, e.at, who);
-    if (other < 0) return false;
-    element.reference = b_.model.positions[other] - p[0];
-  } else {
-    element.reference = e.orientation;
-    if (ends.axes[0] == 'G') element.reference = b_.axes(node[0]) * e.orientation;
-  }
-  if (e.ends < 0 && turn == 0.0) {
-    if (!is_along_axis(p[1] - p[0], element.reference)) return true;
-    nastran_bar_without_axes(b_, e.at, who);
+  if (!b_.direction(e.orientation, node[0], ends.axes[0] == 'G', e, element.reference))
     return false;
-  }
+  if (e.ends < 0 && turn == 0.0)
+    return !is_along_axis(p[1] - p[0], element.reference) || bar_without_axes(b_, e);
   Vec3 arm[2], end[2];
   for (int k = 0; k < 2; ++k) {
     const Mat3 T = ends.axes[1 + k] == 'G' ? b_.axes(node[k])
@@ -74,11 +76,8 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     arm[k] = ends.offset[k] == Vec3::Zero() ? Vec3::Zero() : Vec3(T * ends.offset[k]);
     end[k] = p[k] + arm[k];
   }
-  const Mat3 T = nastran_bar_axes(end[1] - end[0], element.reference);
-  if (!(T.squaredNorm() > 2.5)) {  // a column without length is zero
-    nastran_bar_without_axes(b_, e.at, who);
-    return false;
-  }
+  Mat3 T;
+  if (!find_nastran_bar_axes(b_, e, end[1] - end[0], element.reference, T)) return false;
   element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);
   unsigned pins[2] = {ends.pins[0], ends.pins[1]};
   without_double_releases(pins[0], pins[1]);
@@ -94,16 +93,10 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
         continue;
       }
     }
-    Tie t;
-    t.fresh = b_.add_node(end[k], e.at, who);
-    t.node = node[k];
-    t.arm = arm[k];
-    if (pins[k] != 0) t.axes = T;
-    t.mask = (rod ? 7u : 63u) & ~pins[k];
-    t.at = e.at;
-    element.nodes[k] = t.fresh;
-    if (shared != nullptr) *shared = t.fresh;
-    ties_.push_back(t);
+    const int fresh = element.nodes[k] = b_.add_node(end[k], e.at, e.label());
+    if (shared != nullptr) *shared = fresh;
+    ties_.push_back({fresh, node[k], arm[k], pins[k] != 0 ? T : Mat3(Mat3::Identity()),
+                     (rod ? 7u : 63u) & ~pins[k], e.at});
   }
   return true;
 }
@@ -149,22 +142,52 @@ void NastranBars::tie(const Tie& t, bool rotates) {
       model.spiders[it->second].nodes.push_back(extra);
     }
   }
-  for (int c = 0; c < 6; ++c) {
-    if (((t.mask >> c) & 1u) == 0) continue;
-    const bool rotation = c >= 3;
-    const int first = rotation ? 3 : 0;
-    const Vec3 axis = t.axes.col(c % 3), lever = t.arm.cross(axis);
-    LinearEquation e;
-    e.source = t.at;
-    for (int k = 0; k < 3; ++k) {
-      if (axis(k) == 0.0) continue;
-      e.terms.push_back({t.fresh, first + k, axis(k)});
-      e.terms.push_back({t.node, first + k, -axis(k)});
-    }
-    for (int k = 0; k < 3 && !rotation; ++k) {
-      if (lever(k) != 0.0) e.terms.push_back({t.node, 3 + k, -lever(k)});
-    }
-    b_.equations.add(t.fresh, rotation, std::move(e));
+  for (int c = 0; c < 6; ++c)
+    if (((t.mask >> c) & 1u) != 0) b_.equations.follow(t.fresh, c, t.axes, t.node, t.arm, t.at);
+}
+
+bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends) {
+  const BeamSection& s = p.section;
+  if (!(s.A > 0.0) || s.Iy < 0.0 || s.Iz < 0.0 || s.J < 0.0) return false;  // an error
+  if (s.Iy == 0.0 && s.Iz == 0.0) return true;
+  return (ends == nullptr || ends->plain()) && (s.Iy == 0.0 || s.Iz == 0.0 || s.J == 0.0);
+}
+
+std::string weak_nastran_bar_note(const NastranProperty& p) {
+  const BeamSection& s = p.section;
+  std::string zero;
+  const std::pair<const char*, double> values[] = {{"I1", s.Iz}, {"I2", s.Iy}, {"J", s.J}};
+  for (const auto& [name, value] : values)
+    if (value == 0.0) zero += fmt::format("{}{}", zero.empty() ? "" : ", ", name);
+  const bool bends = s.Iy > 0.0 || s.Iz > 0.0;
+  return fmt::format("without {} its elements are rods{}{}", zero, s.J > 0.0 ? " with torsion" : "",
+                     bends ? " and springs that bend as the beam does (without rotary inertia, "
+                             "stress and stress stiffness of bending)"
+                           : "");
+}
+
+void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& s,
+                         double shear_modulus, const NastranEntity& bar) {
+  FeModel& model = build.model;
+  const Vec3 d = model.positions[rod.nodes[1]] - model.positions[rod.nodes[0]];
+  Mat3 T;
+  if (!find_nastran_bar_axes(build, bar, d, rod.reference, T)) return;
+  const double L = d.norm(), E = model.materials[rod.material].young;
+  for (const bool xz : {false, true}) {
+    const double EI = E * (xz ? s.Iy : s.Iz), area = xz ? s.shear_z : s.shear_y;
+    if (EI == 0.0) continue;
+    const double phi = area > 0.0 ? 12.0 * EI / (shear_modulus * area * L * L) : 0.0;
+    // The slope of the deflection is r about z, and -r about y.
+    const Vec3 across = T.col(xz ? 2 : 1), about = xz ? Vec3(-T.col(1)) : Vec3(T.col(2));
+    Vec6 left, right, turn = Vec6::Zero();
+    left << -across, -0.5 * L * about;
+    right << across, -0.5 * L * about;
+    turn.tail<3>() = about;
+    const std::array<int, 2> nodes = {rod.nodes[0], rod.nodes[1]};
+    const std::string name = fmt::format("the bending of {}", bar.label());
+    model.springs.push_back(
+        {nodes, {left, right}, 12.0 * EI / (L * L * L * (1.0 + phi)), name, rod.source});
+    model.springs.push_back({nodes, {Vec6(-turn), turn}, EI / L, name, rod.source});
   }
 }
 

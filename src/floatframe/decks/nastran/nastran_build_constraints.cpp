@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <unordered_map>
 #include <vector>
@@ -28,15 +27,15 @@ class ConstraintBuilder {
     for (const Element& e : b_.model.elements) {
       const ElementKernel& kernel = element_kernel(e.type);
       if (kernel.dofs_per_node != 6) continue;
-      for (int k = 0; k < kernel.nodes; ++k) b_.rotates[index(e.nodes[k])] = 1;
+      for (int k = 0; k < kernel.nodes; ++k) b_.rotates[e.nodes[k]] = 1;
     }
     for (const Spring& s : b_.model.springs)
       for (int end = 0; end < 2; ++end)
-        if (!s.directions[end].tail<3>().isZero(0.0)) b_.rotates[index(s.nodes[end])] = 1;
+        if (!s.directions[end].tail<3>().isZero(0.0)) b_.rotates[s.nodes[end]] = 1;
   }
 
   void build() {
-    for (const Spider& s : b_.model.spiders) b_.rotates[index(s.reference)] = 1;  // of bars
+    for (const Spider& s : b_.model.spiders) b_.rotates[s.reference] = 1;  // of bars
     for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean})
       for (const NastranSpider& s : b_.content.spiders)
         if (s.kind == kind) spider(s);
@@ -52,8 +51,6 @@ class ConstraintBuilder {
   }
 
  private:
-  static std::size_t index(int node) { return node; }
-
   /// A node with a turned system that follows only in some of its directions.
   struct Follower {
     const NastranSpider* spider = nullptr;
@@ -67,21 +64,10 @@ class ConstraintBuilder {
     for (const Follower& f : followers_) {
       const bool rotates = dofs.count(f.node) == 6;
       const Mat3 axes = b_.axes(f.node);
-      const Vec3 arm = b_.model.positions[index(f.node)] - b_.model.positions[index(f.reference)];
-      for (int c = 0; c < 6; ++c) {
-        const bool rotation = c >= 3;
-        if (((f.spider->mask >> c) & 1u) == 0 || (rotation && !rotates)) continue;
-        const Vec3 axis = axes.col(c % 3), lever = arm.cross(axis);
-        LinearEquation e;
-        e.source = f.spider->at;
-        for (int k = 0; k < 3; ++k) {
-          const int dof = rotation ? 3 + k : k;
-          e.terms.push_back({f.node, dof, axis(k)});
-          e.terms.push_back({f.reference, dof, -axis(k)});
-          if (!rotation) e.terms.push_back({f.reference, 3 + k, -lever(k)});
-        }
-        b_.equations.add(f.node, rotation, std::move(e));
-      }
+      const Vec3 arm = b_.model.positions[f.node] - b_.model.positions[f.reference];
+      for (int c = 0; c < (rotates ? 6 : 3); ++c)
+        if (((f.spider->mask >> c) & 1u) != 0)
+          b_.equations.follow(f.node, c, axes, f.reference, arm, f.spider->at);
     }
   }
 
@@ -95,112 +81,91 @@ class ConstraintBuilder {
       const auto it = b_.node_of.find(s.nodes[i]);
       if (it == b_.node_of.end()) return true;  // an error
       const unsigned mask = s.components[i];
-      const bool rotations = (mask >> 3) != 0 && b_.rotates[index(it->second)] != 0;
+      const bool rotations = (mask >> 3) != 0 && b_.rotates[it->second] != 0;
       plain = plain && seen.insert(it->second).second && (mask & 7u) == translations && !rotations;
     }
     const int reference = b_.node_of.at(s.reference);
-    if (!plain && (s.mask >> 3) != 0)
-      b_.give_rotations(reference, s.at, fmt::format("{} {}", s.card, s.id));
+    if (!plain && (s.mask >> 3) != 0) b_.give_rotations(reference, s);
     return plain;
   }
 
   void spider(const NastranSpider& s) {
-    const std::string who = fmt::format("{} {}", s.card, s.id);
-    if (s.nodes.empty()) {
-      b_.source.error(ErrorCode::missing, s.at, "{} has no nodes", who);
-      return;
-    }
-    if (s.mask == 0) {
-      b_.source.error(ErrorCode::missing, s.at, "{} has no components", who);
-      return;
-    }
+    const std::string who = s.label();
+    if (s.nodes.empty()) return b_.source.error(ErrorCode::missing, s.at, "{} has no nodes", who);
+    if (s.mask == 0) return b_.source.error(ErrorCode::missing, s.at, "{} has no components", who);
+    const bool rigid = s.kind == Spider::Kind::rigid;
     Spider spider;
     spider.kind = s.kind;
     spider.name = who;
     spider.mask = s.mask;
     spider.source = s.at;
-    spider.reference = b_.node(s.reference, s.at, who);
+    spider.reference = b_.node(s.reference, s);
     if (spider.reference < 0) return;
-    if (s.kind == Spider::Kind::mean && !is_plain_mean(s)) return general_.push_back(&s);
+    if (!rigid && !is_plain_mean(s)) return general_.push_back(&s);
     for (const int id : s.nodes) {
-      const int node = b_.node(id, s.at, who);
+      const int node = b_.node(id, s);
       if (node < 0) return;
-      if (s.kind == Spider::Kind::rigid && node == spider.reference)
-        return b_.source.error(ErrorCode::cycle, s.at, "{}: node {} depends on itself", who, id);
-      if (s.kind == Spider::Kind::rigid && (s.mask >> 3) != 0) b_.rotates[index(node)] = 1;
-      if (s.kind == Spider::Kind::rigid && b_.turned[index(node)] != 0 && !any_axes(s.mask)) {
+      if (rigid && node == spider.reference)
+        return b_.error(ErrorCode::cycle, s, "node {} depends on itself", id);
+      if (rigid && (s.mask >> 3) != 0) b_.rotates[node] = 1;
+      if (rigid && b_.turned[node] != 0 && !any_axes(s.mask)) {
         followers_.push_back({&s, spider.reference, node});
         continue;
       }
       spider.nodes.push_back(node);
-      if (s.kind == Spider::Kind::rigid) {
-        if (s.mask == all_six) rigid_of_[node] = static_cast<int>(b_.model.spiders.size());
-      }
+      if (rigid && s.mask == all_six) rigid_of_[node] = static_cast<int>(b_.model.spiders.size());
     }
     if (spider.nodes.empty()) {  // a node that only gives the reference its rotations
       spider.mask = all_six;
-      spider.nodes.push_back(b_.add_node(b_.model.positions[index(spider.reference)], s.at, who));
+      spider.nodes.push_back(b_.add_node(b_.model.positions[spider.reference], s.at, who));
     }
-    b_.rotates[index(spider.reference)] = 1;
-    if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; })) {
+    b_.rotates[spider.reference] = 1;
+    if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; }))
       spider.weights = s.weights;
-    }
     b_.model.spiders.push_back(std::move(spider));
   }
 
   void mass(const NastranMass& m) {
-    const std::string who = fmt::format("{} {}", m.card, m.id);
-    const int node = b_.node(m.node, m.at, who);
+    const int node = b_.node(m.node, m);
     if (node < 0) return;
-    const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
-    if (axes.kind != 'R') {
-      b_.source.error(ErrorCode::unsupported, m.at, "{}: its system {} is not rectangular", who,
-                      m.system);
-      return;
-    }
+    const Orientation system = m.system > 0 ? b_.frame(m.system, m.at) : Orientation{};
+    if (system.kind != Orientation::Kind::rectangular)
+      return b_.error(ErrorCode::unsupported, m, "its system {} is not rectangular", m.system);
     PointMass point;
     point.node = node;
     point.source = m.at;
-    point.name = who;
+    point.name = m.label();
     point.mass = m.mass * b_.content.mass_factor;
-    point.J = b_.content.mass_factor * axes.R * m.J * axes.R.transpose();
-    const Vec3 p = b_.model.positions[index(node)];
+    point.J = b_.content.mass_factor * system.axes * m.J * system.axes.transpose();
+    const Vec3 p = b_.model.positions[node];
     // CID -1: the offset is the place of the mass in basic coordinates.
-    const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
-    if (b_.rotates[index(node)] == 0) {
-      if (offset.norm() > 0.0) {
-        b_.source.error(ErrorCode::unsupported, m.at,
-                        "{} has an offset, but node {} has no rotations; tie the mass to several "
-                        "nodes (RBE2, RBE3)",
-                        who, m.node);
-        return;
-      }
+    const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(system.axes * m.offset);
+    if (b_.rotates[node] == 0) {
+      if (offset.norm() > 0.0)
+        return b_.source.error(ErrorCode::unsupported, m.at,
+                               "{} has an offset, but node {} has no rotations; tie the mass to "
+                               "several nodes (RBE2, RBE3)",
+                               point.name, m.node);
       if (point.J.cwiseAbs().maxCoeff() > 0.0) {
         b_.note(m.at,
                 fmt::format(
                     "{}: node {} has no rotations, so the inertia has no effect and is left out",
-                    who, m.node));
+                    point.name, m.node));
         point.J.setZero();
       }
     }
-    if (offset.norm() > 0.0) point.node = add_rigid_node(node, p + offset, who, m.at);
+    if (offset.norm() > 0.0) point.node = add_rigid_node(node, p + offset, m);
     b_.model.masses.push_back(point);
   }
 
   /// A new node that moves rigidly with another.
-  int add_rigid_node(int node, const Vec3& p, const std::string& who, const FeSource& at) {
-    FeModel& model = b_.model;
-    const int fresh = b_.add_node(p, at, who);
+  int add_rigid_node(int node, const Vec3& p, const NastranMass& m) {
+    const int fresh = b_.add_node(p, m.at, m.label());
     const auto spider = rigid_of_.find(node);
     if (spider != rigid_of_.end()) {
-      model.spiders[index(spider->second)].nodes.push_back(fresh);
+      b_.model.spiders[spider->second].nodes.push_back(fresh);
     } else {
-      Spider rigid;
-      rigid.name = who;
-      rigid.reference = node;
-      rigid.nodes = {fresh};
-      rigid.source = at;
-      model.spiders.push_back(std::move(rigid));
+      b_.add_rigid_spider(node, fresh, m.at, m.label());
     }
     return fresh;
   }
@@ -208,24 +173,22 @@ class ConstraintBuilder {
   void equations() {
     const bool by_control = b_.content.control.there;
     std::set<int> there;
-    for (const NastranEquation& e : b_.content.equations) there.insert(e.set);
+    for (const NastranEquation& e : b_.content.equations) there.insert(e.id);
     const std::set<int> selected =
         selected_nastran_sets(b_, b_.content.control.mpc, b_.content.added_mpc_sets, there, "MPC");
-    int set = 0, passed_over = 0, applied = 0;
-    FeSource first;
+    int set = 0, applied = 0;
+    NastranCount unselected;
     std::vector<const NastranEquation*> of_scalar_points;
     for (const NastranEquation& e : b_.content.equations) {
-      if (by_control && !selected.contains(e.set)) {
-        if (passed_over++ == 0) first = e.at;
+      if (by_control && !selected.contains(e.id)) {
+        unselected.add(e.at);
         continue;
       }
-      if (!by_control && set != 0 && e.set != set) {
-        b_.source.error(ErrorCode::exclusive, e.at,
-                        "the file has MPC sets {} and {}; only one can be read, remove the other",
-                        set, e.set);
-        return;
-      }
-      set = e.set;
+      if (!by_control && set != 0 && e.id != set)
+        return b_.source.error(
+            ErrorCode::exclusive, e.at,
+            "the file has MPC sets {} and {}; only one can be read, remove the other", set, e.id);
+      set = e.id;
       ++applied;
       if (std::any_of(e.terms.begin(), e.terms.end(), [&](const NastranEquation::Term& t) {
             return b_.content.scalar_points.contains(t.node);
@@ -233,31 +196,24 @@ class ConstraintBuilder {
         of_scalar_points.push_back(&e);
         continue;
       }
-      LinearEquation equation;
-      equation.source = e.at;
-      for (const NastranEquation::Term& term : e.terms) {
-        const int node = nastran_node_of_term(b_, e, term);
-        if (node < 0) return;
-        add_nastran_term(b_, node, term, equation);
-      }
+      LinearEquation equation{{}, e.at};
+      for (const NastranEquation::Term& term : e.terms)
+        if (add_nastran_term(b_, e, term, equation) < 0) return;
       const int dependent = b_.node_of.at(e.terms[0].node);
-      if (b_.turned[index(dependent)] != 0) {
-        b_.equations.add(dependent, e.terms[0].component >= 3, std::move(equation));
+      if (b_.turned[dependent] != 0) {
+        b_.equations.add(dependent, e.terms[0].axis >= 3, equation);
       } else {
         b_.model.equations.push_back(std::move(equation));
       }
     }
     build_nastran_scalar_equations(b_, of_scalar_points);
-    if (passed_over > 0) {
-      b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
-                                 "select: they are not applied",
-                                 passed_over));
-    }
-    if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0) {
+    b_.note(
+        unselected,
+        "MPC equations are in sets that the case control does not select: they are not applied");
+    if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0)
       b_.source.error(ErrorCode::not_found, b_.content.control.mpc.front().second,
                       "the case control selects MPC set {}, which is not in the file",
                       b_.content.control.mpc.front().first);
-    }
   }
 
   NastranBuild& b_;
@@ -281,30 +237,6 @@ unsigned held_in_basic(const Mat3& axes, unsigned mask) {
 }
 
 }  // namespace
-
-int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
-                         const NastranEquation::Term& term) {
-  const int node = build.node(term.node, e.at, fmt::format("MPC {}", e.set));
-  if (node < 0 || term.component >= 0) return node;
-  build.source.error(ErrorCode::missing, e.at,
-                     "MPC {}: the component of node {} is missing, expected one of 1 to 6", e.set,
-                     term.node);
-  return -1;
-}
-
-void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
-                      LinearEquation& equation) {
-  if (build.turned[static_cast<std::size_t>(node)] == 0) {
-    equation.terms.push_back({node, term.component, term.factor});
-    return;
-  }
-  const Vec3 axis = build.axes(node).col(term.component % 3);
-  for (int k = 0; k < 3; ++k) {
-    const double factor = term.factor * axis(k);
-    if (std::abs(factor) > 1e-15 * std::abs(term.factor))
-      equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
-  }
-}
 
 void build_nastran_constraints(NastranBuild& build) { ConstraintBuilder(build).build(); }
 

@@ -4,10 +4,6 @@
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/decks/nastran/nastran_tapers.hpp"
-#include "floatframe/fe/elasticity.hpp"
-#include "floatframe/fe/element_faces.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -23,7 +19,7 @@ class ElementBuilder {
         options_(options),
         bars_(build),
         materials_(build),
-        tapers_(build) {}
+        tapers_(nastran_tapers(build)) {}
 
   void build() {
     mesh_only_ = c_.properties.empty() && c_.materials.empty() && c_.other_materials.empty();
@@ -34,11 +30,9 @@ class ElementBuilder {
     std::unordered_map<int, FeSource> seen;
     for (const NastranElement& e : c_.elements) {
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
-      if (!fresh && e.id > 0) {
-        b_.source.error(ErrorCode::duplicate, e.at,
-                        "{}: this element number is in the file twice, first in line {}", label(e),
-                        it->second.line);
-      }
+      if (!fresh && e.id > 0)
+        b_.error(ErrorCode::duplicate, e,
+                 "this element number is in the file twice, first in line {}", it->second.line);
       if (mesh_only_ &&
           (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
         skin(e);
@@ -51,45 +45,47 @@ class ElementBuilder {
   }
 
  private:
-  static std::string label(const NastranElement& e) { return fmt::format("{} {}", e.card, e.id); }
-
   std::vector<std::string> set_names(int property) const {
     std::vector<std::string> names = {fmt::format("PID {}", property)};
-    const auto it = c_.property_names.find(property);
-    if (it != c_.property_names.end() && it->second != names[0]) names.push_back(it->second);
+    const auto it = c_.names.properties.find(property);
+    if (it != c_.names.properties.end() && it->second != names[0]) names.push_back(it->second);
     return names;
   }
 
   /// A surface or line of a mesh without properties: its nodes are a set.
   void skin(const NastranElement& e) {
-    if (skins_++ == 0) first_skin_ = e.at;
+    skins_.add(e.at);
     for (int k = 0; k < e.count; ++k) {
-      const int node = b_.node(e.nodes[k], e.at, label(e));
+      const int node = b_.node(e.nodes[k], e);
       if (node < 0) return;
-      for (const std::string& name : set_names(e.property)) {
+      for (const std::string& name : set_names(e.property))
         if (members_[name].insert(node).second) b_.model.node_sets[name].push_back(node);
-      }
     }
   }
 
-  /// The element's property, of one of the given cards; null with an error.
-  const NastranProperty* property(const NastranElement& e,
-                                  std::initializer_list<const char*> cards) {
+  /// The cards that its property may be; the first is expected.
+  static std::array<std::string_view, 3> property_cards(const NastranElement& e) {
+    if (e.type == ElementType::shear4) return {"PSHEAR"};
+    if (e.surface) return {"PSHELL", "PCOMP", "PCOMPG"};
+    if (e.card == "CBAR") return {"PBAR", "PBARL"};
+    if (e.card == "CBEAM") return {"PBEAM", "PBEAML"};
+    if (e.type == ElementType::rod2) return {e.card == "CTUBE" ? "PTUBE" : "PROD", "CONROD"};
+    return {"PSOLID"};
+  }
+
+  /// Null with an error.
+  const NastranProperty* property(const NastranElement& e) {
     const auto it = c_.properties.find(e.property);
     if (it == c_.properties.end()) {
-      if (missing_.insert(e.property).second) {
-        b_.source.error(ErrorCode::not_found, e.at, "{}: property {} is not in the file", label(e),
-                        e.property);
-      }
+      if (missing_.insert(e.property).second)
+        b_.error(ErrorCode::not_found, e, "property {} is not in the file", e.property);
       return nullptr;
     }
-    const std::string_view card = it->second.card;
-    if (std::find(cards.begin(), cards.end(), card) == cards.end()) {
-      b_.source.error(ErrorCode::wrong_value, e.at, "{}: property {} is a {}, expected a {}",
-                      label(e), e.property, card, *cards.begin());
-      return nullptr;
-    }
-    return &it->second;
+    const auto cards = property_cards(e);
+    if (std::find(cards.begin(), cards.end(), it->second.card) != cards.end()) return &it->second;
+    b_.error(ErrorCode::wrong_value, e, "property {} is a {}, expected a {}", e.property,
+             it->second.card, cards[0]);
+    return nullptr;
   }
 
   void element(const NastranElement& e) {
@@ -98,27 +94,23 @@ class ElementBuilder {
     result.id = e.id;
     result.source = e.at;
     for (int k = 0; k < e.count; ++k) {
-      const std::size_t i = k;
-      result.nodes[i] = b_.node(e.nodes[i], e.at, label(e));
-      if (result.nodes[i] < 0) return;
+      result.nodes[k] = b_.node(e.nodes[k], e);
+      if (result.nodes[k] < 0) return;
     }
     if (mesh_only_) {
       result.material = options_.material ? 0 : -1;
-    } else if (e.type == ElementType::shear4) {
-      const NastranProperty* p = property(e, {"PSHEAR"});
-      if (p == nullptr) return;
+      return add(e, result);
+    }
+    const NastranProperty* const p = property(e);
+    if (p == nullptr) return;
+    if (e.type == ElementType::shear4) {
       result.material = materials_.index(*p, density_of(p->nonstructural, p->thickness));
-      result.section = panel(e.property, *p);
+      result.section = shell(e, *p, p->thickness);
       edge_rods(*p, result);
     } else if (e.surface) {
-      const NastranProperty* p = property(e, {"PSHELL", "PCOMP", "PCOMPG"});
-      if (p == nullptr) return;
-      if (e.other) {
-        b_.source.error(ErrorCode::incomplete, e.at,
-                        "{}: only a part of its mid-side nodes is given; all or none must be",
-                        label(e));
-        return;
-      }
+      if (e.other)
+        return b_.error(ErrorCode::incomplete, e,
+                        "only a part of its mid-side nodes is given; all or none must be");
       // A PCOMP has its nonstructural mass in its section.
       const double t = thickness(e, *p);
       if (p->membrane) result.type = membrane_of(e.type);
@@ -126,26 +118,15 @@ class ElementBuilder {
           materials_.index(*p, p->plies.empty() ? density_of(p->nonstructural, t) : 0.0);
       result.section = shell(e, *p, t);
       orient_nastran_shell(b_, e, result);
-    } else if (e.type == ElementType::beam2) {
-      const bool bar = e.card == std::string_view("CBAR");
-      const NastranProperty* p =
-          bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
-      if (p == nullptr) return;
+    } else if (e.type == ElementType::beam2 || e.type == ElementType::rod2) {
+      const bool beam = e.type == ElementType::beam2;
       if (!p->stations.empty()) return tapered(e, *p, result);
-      if (is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
+      if (beam && is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
         return weak(e, *p, result);
-      if (!bars_.place(e, p->turn, true, result)) return;
+      if (beam && !bars_.place(e, p->turn, true, result)) return;
       result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
-      result.section = section(e.property, *p);
-    } else if (e.type == ElementType::rod2) {
-      const bool tube = e.card == std::string_view("CTUBE");
-      const NastranProperty* p = property(e, {tube ? "PTUBE" : "PROD", "CONROD"});
-      if (p == nullptr) return;
-      result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
-      result.section = rod_section(e.property, *p);
+      result.section = section(e, *p, p->section, beam);
     } else {
-      const NastranProperty* p = property(e, {"PSOLID"});
-      if (p == nullptr) return;
       result.material = materials_.index(*p, 0.0);
       orient_nastran_solid(b_, *p, result);
       if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
@@ -155,9 +136,8 @@ class ElementBuilder {
 
   void add(const NastranElement& e, const Element& result) {
     if (e.property > 0)  // a CONROD has none
-      for (const std::string& name : set_names(e.property)) {
+      for (const std::string& name : set_names(e.property))
         b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
-      }
     b_.model.elements.push_back(result);
   }
 
@@ -168,45 +148,35 @@ class ElementBuilder {
     if (!bars_.place(e, bends ? p.turn : 0.0, false, result)) return;
     result.type = ElementType::rod2;
     result.material = materials_.index(p, p.nonstructural / p.section.A);
-    result.section = rod_section(e.property, p);
+    result.section = section(e, p, p.section, false);
     if (weak_.insert(e.property).second)
-      b_.note(p.at, fmt::format("{} {}: {}", p.card, e.property, weak_nastran_bar_note(p)));
+      b_.note(p.at, fmt::format("{}: {}", p.label(), weak_nastran_bar_note(p)));
     const double shear =
         b_.model.materials[result.material].shear() * materials_.own_shear(p.material);
-    if (bends) add_nastran_bending(b_, result, p.section, shear, label(e));
+    if (bends) add_nastran_bending(b_, result, p.section, shear, e);
     add(e, result);
   }
 
   /// A chain of beams of constant section between the ends of a tapered one.
   void tapered(const NastranElement& e, const NastranProperty& p, Element& whole) {
     if (!bars_.place(e, 0.0, true, whole)) return;
-    const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
+    const std::vector<NastranPiece>& pieces = tapers_.at(e.property);
     const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
-    const Mat3 T = nastran_bar_axes(b - a, whole.reference);
-    if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(b_, e.at, label(e));
+    Mat3 T;
+    if (!find_nastran_bar_axes(b_, e, b - a, whole.reference, T)) return;
     int last = whole.nodes[0];
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const NastranPiece& piece = pieces[k];
       Element part = whole;
       part.nodes[0] = last;
       if (k + 1 < pieces.size())
-        part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, label(e));
+        part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, e.label());
       last = part.nodes[1];
       part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
       part.material = materials_.index(p, density_of(piece.nonstructural, piece.section.A));
-      part.section = piece_section(e.property, p, piece, k);
+      part.section = section(e, p, piece.section, true, k);
       add(e, part);
     }
-  }
-
-  int piece_section(int id, const NastranProperty& p, const NastranPiece& piece, std::size_t k) {
-    std::vector<int>& known = piece_sections_[id];
-    if (k < known.size()) return known[k];
-    if (k == 0) judge_section(p, id);
-    known.push_back(static_cast<int>(b_.model.sections.size()));
-    b_.model.sections.push_back(piece.section);
-    own_shear(p, b_.model.sections.back());
-    return known.back();
   }
 
   static ElementType membrane_of(ElementType shell) {
@@ -222,51 +192,41 @@ class ElementBuilder {
     }
   }
 
-  int section(int id, const NastranProperty& p) {
-    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
+  /// Of an element's property, or a piece of it if it is tapered.
+  int section(const NastranElement& e, const NastranProperty& p, const BeamSection& own, bool beam,
+              std::size_t piece = 0) {
+    const auto [it, fresh] =
+        sections_.try_emplace({e.property, piece}, static_cast<int>(b_.model.sections.size()));
     if (!fresh) return it->second;
-    judge_section(p, id);
-    b_.model.sections.push_back(p.section);
-    own_shear(p, b_.model.sections.back());
+    if (!beam) must_be_positive(p, "A", p.section.A);
+    if (beam && piece == 0) judge_section(p);
+    b_.model.sections.push_back(own);
+    const double ratio = materials_.own_shear(p.material);
+    BeamSection& s = b_.model.sections.back();
+    for (double* x : {&s.J, &s.shear_y, &s.shear_z}) *x *= ratio;
     return it->second;
   }
 
   /// What is wrong with a section of bars, and what is approximated.
-  void judge_section(const NastranProperty& p, int id) {
+  void judge_section(const NastranProperty& p) {
     const std::pair<const char*, double> values[] = {
         {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
-    for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
+    for (const auto& [name, value] : values) must_be_positive(p, name, value);
     for (const std::string& remark : p.remarks)
-      b_.note(p.at, fmt::format("{} {}: {}", p.card, id, remark));
+      b_.note(p.at, fmt::format("{}: {}", p.label(), remark));
   }
 
-  void own_shear(const NastranProperty& p, BeamSection& own) {
-    const double ratio = materials_.own_shear(p.material);
-    for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
-  }
-
-  int rod_section(int id, const NastranProperty& p) {
-    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
-    if (!fresh) return it->second;
-    must_be_positive(p, std::abs(id), "A", p.section.A);
-    b_.model.sections.push_back(p.section);
-    b_.model.sections.back().J *= materials_.own_shear(p.material);
-    return it->second;
-  }
-
-  void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
+  void must_be_positive(const NastranProperty& p, const char* what, double value) {
     if (!(value > 0.0))
-      b_.source.error(ErrorCode::out_of_range, p.at, "{} {}: {} is {:g}, expected more than 0",
-                      p.card, id, what, value);
+      b_.error(ErrorCode::out_of_range, p, "{} is {:g}, expected more than 0", what, value);
   }
 
   /// The mean of the corners.
   double thickness(const NastranElement& e, const NastranProperty& p) {
     if (!e.own_thickness) return p.thickness;
     if (!p.plies.empty()) {
-      b_.source.error(ErrorCode::contradiction, e.at,
-                      "{}: it has thicknesses of its corners, and its property {} is a {}",
-                      label(e), e.property, p.card);
+      b_.error(ErrorCode::contradiction, e,
+               "it has thicknesses of its corners, and its property {} is a {}", p.id, p.card);
       return p.thickness;
     }
     const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
@@ -280,7 +240,7 @@ class ElementBuilder {
     }
     const double mean = sum / corners;
     if (most - least > 1e-6 * mean) {
-      if (uneven_++ == 0) first_uneven_ = e.at;
+      uneven_.add(e.at);
       unevenness_ = std::max(unevenness_, (most - least) / mean);
       return mean;
     }
@@ -291,23 +251,19 @@ class ElementBuilder {
     const auto [it, fresh] =
         shells_.try_emplace({e.property, e.offset, t}, static_cast<int>(b_.model.shells.size()));
     if (!fresh) return it->second;
-    must_be_positive(p, e.property, "the thickness", t);
-    ShellSection section = nastran_shell_section(b_, e, p, [&](int id) {
-      // Of plies the mass counts, of a PSHELL that of its first material.
-      return materials_.index(p, 0.0, id, !p.plies.empty());
-    });
-    if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
+    must_be_positive(p, "the thickness", t);
+    ShellSection section;
+    if (e.type == ElementType::shear4) {
+      section.shear = t * materials_.own_shear(p.material);
+    } else {
+      section = nastran_shell_section(b_, e, p, [&](int id) {
+        // Of plies the mass counts, of a PSHELL that of its first material.
+        return materials_.index(p, 0.0, id, !p.plies.empty());
+      });
+      if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
+    }
     section.thickness = t;
     b_.model.shells.push_back(std::move(section));
-    return it->second;
-  }
-
-  int panel(int id, const NastranProperty& p) {
-    const auto [it, fresh] = panels_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
-    if (!fresh) return it->second;
-    must_be_positive(p, id, "the thickness", p.thickness);
-    b_.model.shells.push_back(
-        {.thickness = p.thickness, .shear = p.thickness * materials_.own_shear(p.material)});
     return it->second;
   }
 
@@ -334,31 +290,22 @@ class ElementBuilder {
   }
 
   void notes() {
-    const bool nothing = b_.model.elements.empty() && c_.springs.list.empty();
-    if (nothing && b_.source.errors() == 0) {
+    const bool nothing = b_.model.elements.empty() && c_.springs.empty();
+    if (nothing && b_.source.errors() == 0)
       b_.source.error(
           ErrorCode::missing, {0, 0},
-          mesh_only_ && skins_ > 0
+          mesh_only_ && skins_.number > 0
               ? "the file has no solid elements, and its shells and bars have no properties"
               : "the file has no solid, shell, bar, rod or spring; of masses and rigid elements "
                 "alone there is no flexible part");
-    }
-    if (skins_ > 0) {
-      b_.note(first_skin_,
-              fmt::format(
-                  "{} surfaces and lines of the mesh have no property: they only make node sets",
-                  skins_));
-    }
-    if (uneven_ > 0)
-      b_.note(first_uneven_, fmt::format("{} shells have corners of different thickness, by {:.1f} "
-                                         "% at most: each has the mean of its corners",
-                                         uneven_, 100.0 * unevenness_));
-    if (mesh_only_ && !options_.material && !b_.model.elements.empty()) {
+    b_.note(skins_, "surfaces and lines of the mesh have no property: they only make node sets");
+    b_.note(uneven_, fmt::format("shells have corners of different thickness, by {:.1f} % at most: "
+                                 "each has the mean of its corners",
+                                 100.0 * unevenness_));
+    if (mesh_only_ && !options_.material && !b_.model.elements.empty())
       b_.note(b_.model.elements[0].source, "the file has no material");
-    }
-    if (!mesh_only_ && options_.material) {
-      b_.note({0, 1}, "the file has materials of its own; the one given is not used");
-    }
+    if (!mesh_only_ && options_.material)
+      b_.note(FeSource{0, 1}, "the file has materials of its own; the one given is not used");
   }
 
   NastranBuild& b_;
@@ -366,17 +313,14 @@ class ElementBuilder {
   const FeReadOptions& options_;
   NastranBars bars_;
   NastranMaterials materials_;
-  NastranTapers tapers_;
-  std::map<int, std::vector<int>> piece_sections_;
+  std::map<int, std::vector<NastranPiece>> tapers_;
   bool mesh_only_ = false;
-  int skins_ = 0;
-  FeSource first_skin_;
+  NastranCount skins_;
   std::set<int> missing_, weak_;
   std::map<std::string, std::set<int>> members_;
-  std::map<int, int> sections_, panels_;
+  std::map<std::pair<int, std::size_t>, int> sections_;
   std::map<std::tuple<int, double, double>, int> shells_;
-  int uneven_ = 0;  // shells whose corners differ in thickness
-  FeSource first_uneven_;
+  NastranCount uneven_;  // shells whose corners differ in thickness
   double unevenness_ = 0.0;
 };
 

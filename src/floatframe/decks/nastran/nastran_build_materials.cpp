@@ -6,6 +6,17 @@
 #include "floatframe/fe/elasticity.hpp"
 
 namespace floatframe {
+namespace {
+
+/// The cards that a property of a kind could have in place of a material; empty if it may have it.
+std::string material_misfit(const NastranMaterial& m, std::string_view card) {
+  const std::string_view have = m.card;
+  const bool shell = card == "PSHELL" || card.starts_with("PCOMP"), solid = card == "PSOLID";
+  if (have == "MAT1" || (solid && have == "MAT9") || (shell && have != "MAT9")) return {};
+  return solid ? "MAT1 or MAT9" : shell ? "MAT1, MAT2 or MAT8" : "MAT1";
+}
+
+}  // namespace
 
 double NastranMaterials::own_shear(int id) {
   const auto it = c_.materials.find(id);
@@ -14,8 +25,7 @@ double NastranMaterials::own_shear(int id) {
   if (!m.young || !m.shear || !m.poisson) return 1.0;
   if (!(*m.shear > 0.0)) {
     if (unfit_for_bars_.insert(id).second)
-      b_.source.error(ErrorCode::out_of_range, m.at,
-                      "MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear);
+      b_.error(ErrorCode::out_of_range, m, "G is {:g}, expected more than 0 for bars", *m.shear);
     return 1.0;
   }
   return *m.shear * 2.0 * (1.0 + *m.poisson) / *m.young;
@@ -31,10 +41,6 @@ int NastranMaterials::massless(int material) {
   return it->second;
 }
 
-int NastranMaterials::index(const NastranProperty& p, double nonstructural) {
-  return index(p, nonstructural, p.material, true);
-}
-
 int NastranMaterials::index(const NastranProperty& p, double nonstructural, int id, bool weighs) {
   const auto key = std::tuple{id, nonstructural, weighs};
   const auto it = indices_.find(key);
@@ -44,7 +50,7 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
   const bool first = checked_properties_.insert({p.at.file, p.at.line, id}).second;
   const auto found = c_.materials.find(id);
   if (found != c_.materials.end()) {
-    const std::string misfit = nastran_material_misfit(found->second, p.card);
+    const std::string misfit = material_misfit(found->second, p.card);
     if (!misfit.empty() && first)
       b_.source.error(ErrorCode::wrong_value, p.at, "{}: material {} is a {}, expected a {}",
                       p.card, id, found->second.card, misfit);
@@ -59,11 +65,10 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
                       "{}: its nonstructural mass makes the density of material {} {:g}, expected "
                       "no negative number",
                       p.card, id, m.density / c_.mass_factor);
-    if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second) {
+    if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second)
       b_.note(p.at,
               fmt::format("{}: its nonstructural mass is added to the density of its material",
                           p.card));
-    }
   } else if (first) {
     const auto other = c_.other_materials.find(id);
     b_.source.error(
@@ -74,9 +79,9 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
   }
   const int fresh = static_cast<int>(b_.model.materials.size());
   b_.model.materials.push_back(m);
-  const auto name = c_.material_names.find(id);
+  const auto name = c_.names.materials.find(id);
   b_.model.material_names.push_back(
-      name == c_.material_names.end()
+      name == c_.names.materials.end()
           ? fmt::format("{} {}", found == c_.materials.end() ? "MAT1" : found->second.card, id)
           : name->second);
   return indices_[key] = fresh;
@@ -85,19 +90,19 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
 /// E, G and NU: two give the third.
 Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   Material result;
-  if (m.elasticity && checked_.insert(id).second) {
+  // The same sentence for each use of the material would not help.
+  const bool first = checked_.insert(id).second;
+  if (m.elasticity && first) {
     const std::string error = nastran_plane_error(m);
-    if (!error.empty())
-      b_.source.error(ErrorCode::wrong_value, m.at, "{} {}: {}", m.card, id, error);
+    if (!error.empty()) b_.error(ErrorCode::wrong_value, m, "{}", error);
   }
   if (m.elasticity) return anisotropic_material(c_.stiffness_factor * *m.elasticity, m.plane, 0.0);
-  if (m.card != std::string_view("MAT1")) return result;  // refused already
+  if (m.card != "MAT1") return result;  // refused already
   const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
   if (given < 2) {
-    if (checked_.insert(id).second)
-      b_.source.error(ErrorCode::wrong_count, m.at,
-                      "MAT1 {}: {} of E, G and NU given, expected two", id,
-                      given == 0 ? "none" : "one");
+    if (first)
+      b_.error(ErrorCode::wrong_count, m, "{} of E, G and NU given, expected two",
+               given == 0 ? "none" : "one");
     return result;
   }
   result.young = m.young ? *m.young : 2.0 * (1.0 + *m.poisson) * *m.shear;
@@ -106,25 +111,20 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   } else if (*m.shear > 0.0) {
     result.poisson = *m.young / (2.0 * *m.shear) - 1.0;
   } else {
-    // The same sentence for each use of the material would not help.
-    if (checked_.insert(id).second)
-      b_.source.error(ErrorCode::out_of_range, m.at,
-                      "MAT1 {}: G is {:g}, expected more than 0 where it gives NU with E", id,
-                      *m.shear);
+    if (first)
+      b_.error(ErrorCode::out_of_range, m,
+               "G is {:g}, expected more than 0 where it gives NU with E", *m.shear);
     return result;
   }
-  if (given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear) &&
-      inconsistent_.insert(id).second) {
+  if (first && given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear))
     b_.note(m.at, fmt::format("MAT1 {}: G is {:.6g}, but E and NU give {:.6g}: bars twist by G, "
                               "shells and solids have E and NU, as in Nastran",
                               id, *m.shear, result.shear()));
-  }
-  if (!checked_.insert(id).second) return scaled(result);
   const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
                           const char* expected) {
-    if (!valid)
-      b_.source.error(ErrorCode::contradiction, m.at, "MAT1 {}: {} is {:g}{}, expected {}", id,
-                      what, found, origin, expected);
+    if (first && !valid)
+      b_.error(ErrorCode::contradiction, m, "{} is {:g}{}, expected {}", what, found, origin,
+               expected);
   };
   const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
                        double y) {
@@ -137,12 +137,8 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
          from(m.poisson, "E", result.young, "G", shear), "more than -1 and less than 0.5");
   const double density = m.density.value_or(0.0);
   expect(density >= 0.0, "RHO", density, "", "no negative density");
-  return scaled(result);
-}
-
-Material NastranMaterials::scaled(Material m) const {
-  m.young *= c_.stiffness_factor;
-  return m;
+  result.young *= c_.stiffness_factor;
+  return result;
 }
 
 }  // namespace floatframe

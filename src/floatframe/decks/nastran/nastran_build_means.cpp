@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -22,22 +23,18 @@ using Key = std::pair<int, int>;  // node, axis
 
 class MeanBuilder {
  public:
-  MeanBuilder(NastranBuild& build, const NastranSpider& s)
-      : b_(build), s_(s), who_(fmt::format("{} {}", s.card, s.id)) {}
+  MeanBuilder(NastranBuild& build, const NastranSpider& s) : b_(build), s_(s) {}
 
   void build() {
-    reference_ = b_.node(s_.reference, s_.at, who_);
+    reference_ = b_.node(s_.reference, s_);
     if (reference_ < 0 || !gather() || !averages()) return;
     taken();
     if (solve(false) || solve(true)) return;
-    error(ErrorCode::dependent,
-          "too many of its nodes depend on other rigid elements or equations already");
+    b_.error(ErrorCode::dependent, s_,
+             "too many of its nodes depend on other rigid elements or equations already");
   }
 
  private:
-  void error(ErrorCode code, const std::string& text) {
-    b_.source.error(code, s_.at, "{}: {}", who_, text);
-  }
   Vec3 arm(int node) const { return b_.model.positions[node] - b_.model.positions[reference_]; }
 
   /// Weights of each node, in basic axes.
@@ -45,7 +42,7 @@ class MeanBuilder {
     std::set<int> others;
     double sum = 0.0;
     for (const int id : s_.nodes) {
-      const int node = b_.node(id, s_.at, who_);
+      const int node = b_.node(id, s_);
       if (node < 0) return false;
       if (node != reference_ && others.insert(node).second) sum += arm(node).norm();
     }
@@ -86,21 +83,17 @@ class MeanBuilder {
       known += v * v.transpose();
     }
     const Mat3 T = b_.axes(reference_);
-    for (int c = 0; c < 6; ++c)
-      if (((s_.mask >> c) & 1u) != 0) ++rows_;
+    rows_ = std::popcount(s_.mask);
     int row = 0;
     for (int c = 0; c < 6; ++c) {
       if (((s_.mask >> c) & 1u) == 0) continue;
       Vec6 d = Vec6::Zero();
       d.segment<3>(c < 3 ? 0 : 3) = T.col(c % 3);
-      if ((known * d - d).norm() > 1e-6) {
-        error(
-            ErrorCode::singular,
-            fmt::format(
-                "the components of its nodes do not define how component {} of the reference moves",
-                c + 1));
-        return false;
-      }
+      if ((known * d - d).norm() > 1e-6)
+        return b_.fail(
+            ErrorCode::singular, s_,
+            "the components of its nodes do not define how component {} of the reference moves",
+            c + 1);
       const Vec6 g = inverse * d;
       for (const auto& [node, W] : weights_) {
         const Vec6 share = W * motion(node) * g;
@@ -129,8 +122,8 @@ class MeanBuilder {
     }
     for (const LinearEquation& e : b_.model.equations)
       taken_.insert({e.terms.front().node, e.terms.front().axis});
-    for (const auto& [node, rotation] : b_.equations.blocks())
-      for (int k = 0; k < 3; ++k) taken_.insert({node, rotation ? 3 + k : k});
+    for (const auto& [block, rows] : b_.equations.blocks())
+      for (int k = 0; k < 3; ++k) taken_.insert({block.first, block.second ? 3 + k : k});
   }
 
   /// Solves the rows for as many dofs, chosen by pivoting. False if these are too few.
@@ -151,12 +144,7 @@ class MeanBuilder {
       pivots.col(k) = columns_.at(solved.back());
     }
     const LeastNorm inverse(pivots);
-    for (int k = 0; k < rows_; ++k) {
-      LinearEquation e;
-      e.source = s_.at;
-      e.terms.push_back({solved[k].first, solved[k].second, 1.0});
-      equations_.push_back(std::move(e));
-    }
+    for (const auto& [node, axis] : solved) equations_.push_back({{{node, axis, 1.0}}, s_.at});
     for (const auto& [key, c] : columns_) {
       if (std::find(solved.begin(), solved.end(), key) != solved.end()) continue;
       const VecX f = inverse.solve(c);
@@ -173,7 +161,6 @@ class MeanBuilder {
 
   NastranBuild& b_;
   const NastranSpider& s_;
-  std::string who_;
   int reference_ = -1, rows_ = 0;
   double size_ = 1.0;
   std::map<int, Mat6> weights_;

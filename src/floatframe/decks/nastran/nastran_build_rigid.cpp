@@ -19,8 +19,7 @@ struct Component {
 
 class RigidBuilder {
  public:
-  RigidBuilder(NastranBuild& build, const NastranRigid& rigid)
-      : b_(build), r_(rigid), who_(fmt::format("{} {}", rigid.card, rigid.id)) {}
+  RigidBuilder(NastranBuild& build, const NastranRigid& rigid) : b_(build), r_(rigid) {}
 
   void build() {
     std::vector<Component> independent, dependent;
@@ -33,29 +32,26 @@ class RigidBuilder {
     if (size_ == 0.0) size_ = 1.0;
     Mat6 N;
     for (int i = 0; i < 6; ++i) N.row(i) = row(independent[i]).transpose();
-    if (pivoted_rank(N, 1e-9) < 6) {
-      b_.source.error(ErrorCode::dependent, r_.at,
-                      "{}: its six independent components do not define a rigid motion", who_);
-      return;
-    }
+    if (pivoted_rank(N, 1e-9) < 6)
+      return b_.error(ErrorCode::dependent, r_,
+                      "its six independent components do not define a rigid motion");
     const Mat6 inverse = N.inverse();
     for (const Component& x : dependent) {
       // A node of solids has no rotations to follow.
       if (x.axis >= 3 && b_.rotates[x.node] == 0) continue;
       const Vec6 share = inverse.transpose() * row(x);
-      LinearEquation e;
-      e.source = r_.at;
+      LinearEquation e{{}, r_.at};
       add(x, unit(x), e);
       for (int i = 0; i < 6; ++i)
         if (std::abs(share(i)) > 1e-14) add(independent[i], -share(i) * unit(independent[i]), e);
-      b_.equations.add(x.node, x.axis >= 3, std::move(e));
+      b_.equations.add(x.node, x.axis >= 3, e);
     }
   }
 
  private:
   bool components(const std::vector<NastranRigid::Part>& parts, std::vector<Component>& out) {
     for (const NastranRigid::Part& p : parts) {
-      const int node = b_.node(p.node, r_.at, who_);
+      const int node = b_.node(p.node, r_);
       if (node < 0) return false;
       for (int axis = 0; axis < 6; ++axis)
         if (((p.mask >> axis) & 1u) != 0) out.push_back({node, axis});
@@ -79,36 +75,28 @@ class RigidBuilder {
   }
 
   void add(const Component& x, double factor, LinearEquation& e) {
-    const Vec3 axis = b_.axes(x.node).col(x.axis % 3);
-    for (int k = 0; k < 3; ++k)
-      if (axis(k) != 0.0) e.terms.push_back({x.node, x.axis < 3 ? k : 3 + k, factor * axis(k)});
+    add_nastran_direction(e, x.node, x.axis < 3 ? 0 : 3, b_.axes(x.node).col(x.axis % 3), factor);
   }
 
   NastranBuild& b_;
   const NastranRigid& r_;
-  std::string who_;
   Vec3 c_ = Vec3::Zero();
   double size_ = 0.0;
 };
 
 /// d.(u_b - u_a) = 0 with d from a to b.
-void rigid_rod(NastranBuild& build, const NastranRigidRod& r) {
-  const std::string who = fmt::format("RROD {}", r.id);
-  const int a = build.node(r.a, r.at, who), b = build.node(r.b, r.at, who);
+void rigid_rod(NastranBuild& build, const NastranRigid& r) {
+  const int a = build.node(r.independent[0].node, r), b = build.node(r.dependent[0].node, r);
   if (a < 0 || b < 0) return;
   const Vec3 d = build.model.positions[b] - build.model.positions[a];
-  if (!(d.norm() > 0.0)) {
-    build.source.error(ErrorCode::geometry, r.at, "{}: it has no length", who);
-    return;
-  }
-  LinearEquation e;
-  e.source = r.at;
+  if (!(d.norm() > 0.0)) return build.error(ErrorCode::geometry, r, "it has no length");
+  LinearEquation e{{}, r.at};
   for (int k = 0; k < 3; ++k) {
     if (std::abs(d(k)) <= 1e-14 * d.norm()) continue;
     e.terms.push_back({b, k, d(k) / d.norm()});
     e.terms.push_back({a, k, -d(k) / d.norm()});
   }
-  build.equations.add(b, false, std::move(e));
+  build.equations.add(b, false, e);
 }
 
 }  // namespace
@@ -117,14 +105,14 @@ void give_nastran_rigid_rotations(NastranBuild& build) {
   for (const NastranRigid& r : build.content.rigids)
     for (const NastranRigid::Part& p : r.independent) {
       const auto it = build.node_of.find(p.node);
-      if ((p.mask >> 3) != 0 && it != build.node_of.end())
-        build.give_rotations(it->second, r.at, fmt::format("{} {}", r.card, r.id));
+      if ((p.mask >> 3) != 0 && it != build.node_of.end()) build.give_rotations(it->second, r);
     }
 }
 
 void build_nastran_rigids(NastranBuild& build) {
-  for (const NastranRigid& r : build.content.rigids) RigidBuilder(build, r).build();
-  for (const NastranRigidRod& r : build.content.rigid_rods) rigid_rod(build, r);
+  for (const bool rods : {false, true})
+    for (const NastranRigid& r : build.content.rigids)
+      if ((r.card == "RROD") == rods) rods ? rigid_rod(build, r) : RigidBuilder(build, r).build();
 }
 
 }  // namespace floatframe

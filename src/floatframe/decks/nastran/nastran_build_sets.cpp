@@ -57,9 +57,8 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
   const NastranContent& c = build.content;
   const NastranNumbers nodes({build.node_of.begin(), build.node_of.end()});
   std::vector<std::pair<int, int>> list;
-  for (std::size_t e = 0; e < build.model.elements.size(); ++e) {
+  for (std::size_t e = 0; e < build.model.elements.size(); ++e)
     list.emplace_back(build.model.elements[e].id, static_cast<int>(e));
-  }
   const NastranNumbers elements(std::move(list));
   std::map<std::pair<bool, std::string>, std::unordered_set<int>> members_of;
   for (const NastranSet& set : c.sets) {
@@ -81,17 +80,16 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
               : fmt::format("set {}: there is no {} from {} to {}", set.id, what, first, last));
     }
     if (!complete) continue;
-    const auto name = c.set_names.find(set.id);
+    const auto name = c.names.sets.find(set.id);
     auto& sets = set.elements ? build.model.element_sets : build.model.node_sets;
     const std::string key =
-        name == c.set_names.end() ? fmt::format("SET {}", set.id) : name->second;
+        name == c.names.sets.end() ? fmt::format("SET {}", set.id) : name->second;
     // Each member once, in the order of the file; several cards of one set add up.
     std::vector<int>& known = sets[key];
     std::unordered_set<int>& there = members_of[{set.elements, key}];
     if (there.empty()) there.insert(known.begin(), known.end());
-    for (const int m : members) {
+    for (const int m : members)
       if (there.insert(m).second) known.push_back(m);
-    }
   }
 }
 

@@ -1,61 +1,62 @@
 #include <algorithm>
-#include <string_view>
-#include <utility>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
 
 /// Cards that change neither stiffness nor mass nor geometry; '*' stands for any end.
-const char* const harmless_cards[] = {
+constexpr std::string_view harmless_cards =
     // loads, methods, what is held
-    "EIG*", "FORCE*", "MOMENT*", "MOMAX", "PLOAD*", "PRES*", "GRAV", "RFORCE*", "ACCEL*", "LOAD*",
-    "CLOAD", "TEMP*", "TTEMP", "SPCD", "SPCR", "SPCAX", "SPCOFF*", "ASET*", "BSET*", "BNDFIX*",
-    "BNDFRE*", "CSET*", "QSET*", "USET*", "OMIT*", "SUPORT*", "SUPAX", "DAREA", "DELAY", "DPHASE",
-    "DLOAD", "LSEQ", "SLOAD", "DEFORM", "TIC*", "DYNRED", "SEQGP", "BOLT*", "RVDOF*", "FREQ*",
-    "RLOAD*", "TLOAD*", "TSTEP*", "TSTP*", "DAMPING", "DAMPGBL", "HYBDAMP", "EPOINT", "ACSRCE",
-    "ALOAD", "ACMODL", "DESC", "RSPEC", "RESPSPC", "MFREQ",
+    "EIG* FORCE* MOMENT* MOMAX PLOAD* PRES* GRAV RFORCE* ACCEL* LOAD* CLOAD TEMP* TTEMP SPCD SPCR "
+    "SPCAX SPCOFF* ASET* BSET* BNDFIX* BNDFRE* CSET* QSET* USET* OMIT* SUPORT* SUPAX DAREA DELAY "
+    "DPHASE DLOAD LSEQ SLOAD DEFORM TIC* DYNRED SEQGP BOLT* RVDOF* FREQ* RLOAD* TLOAD* TSTEP* "
+    "TSTP* DAMPING DAMPGBL HYBDAMP EPOINT ACSRCE ALOAD ACMODL DESC RSPEC RESPSPC MFREQ "
     // nonlinear solutions
-    "NLPARM", "NLPCI", "NLSTEP", "NLOUT", "NLAUTO", "NLADAPT", "NLMOPTS", "NLSTRAT", "NLFREQ*",
-    "NLHARM", "NOLIN*", "NLRGAP", "NLRSFD", "NLCNTL*", "MDLPRM", "PARAMARC", "ITER", "SOLVTYP",
-    "IMPERF*", "IPSTRAIN", "ISTRESS", "INITSO", "STABP*",
+    "NLPARM NLPCI NLSTEP NLOUT NLAUTO NLADAPT NLMOPTS NLSTRAT NLFREQ* NLHARM NOLIN* NLRGAP NLRSFD "
+    "NLCNTL* MDLPRM PARAMARC ITER SOLVTYP IMPERF* IPSTRAIN ISTRESS INITSO STABP* "
     // tables and tables of data
-    "TABLE*", "TABL3D*", "TABLRPC", "TABD*", "TABRND*", "RANDPS", "RANDT*", "RCROSS", "DTI", "DMI",
-    "DMIJ", "DMIJI", "DMIK", "PARVEC",
+    "TABLE* TABL3D* TABLRPC TABD* TABRND* RANDPS RANDT* RCROSS DTI DMI DMIJ DMIJI DMIK PARVEC "
     // optimisation
-    "DCON*", "DRESP*", "DES*", "DV*", "DOPT*", "DTABLE*", "DLINK*", "DEQATN", "DSCREEN", "DRAPE*",
-    "DOBJ*", "DTPL", "DTPG", "DSIZE", "DSHAPE", "DSHUFF*", "DGLOBAL", "DREPORT*", "DREPADD",
-    "DCOMP", "DSMDV", "TOPVAR", "TOMVAR", "BEADVAR", "BLDVAR", "BNDGRID", "MODTRAK", "ADAPT",
+    "DCON* DRESP* DES* DV* DOPT* DTABLE* DLINK* DEQATN DSCREEN DRAPE* DOBJ* DTPL DTPG DSIZE "
+    "DSHAPE DSHUFF* DGLOBAL DREPORT* DREPADD DCOMP DSMDV TOPVAR TOMVAR BEADVAR BLDVAR BNDGRID "
+    "MODTRAK ADAPT "
     // output, plots and marks
-    "PLOTEL*", "ECHO*", "GROUP", "OUTRCV", "OUTPUT", "BOUTPUT", "UNITS", "METADATA", "CBARAO",
-    "SETREF", "PSET", "PVAL", "GM*", "FEEDGE", "FEFACE", "DEBUG", "ACCSSPT", "TITLE", "SUBTITLE",
-    "SUBTI", "LABEL", "CAMPBL*", "ERPPNL", "MONPNT*", "MONDSP*", "MONGRP", "MONSUM*", "MONCNCM",
-    "SWLDPRM", "PRINT*", "GEOMCHECK",
+    "PLOTEL* ECHO* GROUP OUTRCV OUTPUT BOUTPUT UNITS METADATA CBARAO SETREF PSET PVAL GM* FEEDGE "
+    "FEFACE DEBUG ACCSSPT TITLE SUBTITLE SUBTI LABEL CAMPBL* ERPPNL MONPNT* MONDSP* MONGRP "
+    "MONSUM* MONCNCM SWLDPRM PRINT* GEOMCHECK "
     // rotors: gyroscopic terms, which are not of the part
-    "ROTOR*", "RSPIN*", "RGYRO", "ROTPARM", "ROTHYBD", "ROTBENT", "UNBALNC",
+    "ROTOR* RSPIN* RGYRO ROTPARM ROTHYBD ROTBENT UNBALNC "
     // coordinate systems and materials, which are errors where they are used
-    "CORD3*", "MAT3", "MAT4", "MAT5", "MAT10*", "MAT11*", "MATS1", "MATG", "MATHP*", "MATHE*",
-    "MATORT", "MATEP", "MATF*", "MATVP", "MATVE", "MATSMA", "MATUSR", "MATUDS", "MATNLE*", "MATPE*",
-    "MATDMG", "MATCRP", "MATTC", "MATT4", "MATT5", "MATDIGI",
+    "CORD3* MAT3 MAT4 MAT5 MAT10* MAT11* MATS1 MATG MATHP* MATHE* MATORT MATEP MATF* MATVP MATVE "
+    "MATSMA MATUSR MATUDS MATNLE* MATPE* MATDMG MATCRP MATTC MATT4 MATT5 MATDIGI "
     // heat
-    "QVECT", "QVOL", "QBDY*", "QHBDY", "CHBDY*", "PHBDY", "CONV", "CONVM", "PCONV*", "RADSET",
-    "RADM*", "RADBC", "RADBND", "RADLST", "RADCAV", "RADCOL", "RADCT", "VIEW*", "BDYOR", "CHGEN*",
-    "CFTUBE", "PFTUBE", "THPAD",
+    "QVECT QVOL QBDY* QHBDY CHBDY* PHBDY CONV CONVM PCONV* RADSET RADM* RADBC RADBND RADLST "
+    "RADCAV RADCOL RADCT VIEW* BDYOR CHGEN* CFTUBE PFTUBE THPAD "
     // dampers
-    "CVISC", "PVISC", "CDAMP*", "PDAMP",
+    "CVISC PVISC CDAMP* PDAMP "
     // properties of elements that are refused, or of what depends on frequency
-    "PELAST", "PBUSHT", "PBUSH2D", "PDAMPT", "PDAMP5", "PGAP", "PFAST", "PWELD", "PSEAM", "PAABSF",
-    "PACABS", "PACBAR", "PACINF", "PBEND", "PCONEAX", "PLPLANE", "PRAC2D", "PRAC3D",
+    "PELAST PBUSHT PBUSH2D PDAMPT PDAMP5 PGAP PFAST PWELD PSEAM PAABSF PACABS PACBAR PACINF PBEND "
+    "PCONEAX PLPLANE PRAC2D PRAC3D "
     // aeroelasticity, also of ZAERO and ASTROS
-    "AERO*", "CAERO*", "PAERO*", "SPLINE*", "AEFACT", "AELIST*", "AESTAT", "AESURF*", "AEPARM",
-    "AELINK", "AECOMP*", "AEFORCE", "AEPRESS", "AEQUAD4", "AETRIA3", "AEGRID", "AEROS", "AEDW",
-    "AEPLOT*", "AESCALE", "ACOORD", "CSSCHD", "TRIM*", "FLFACT", "FLUTTER", "FLUTTF", "FLTFAST",
-    "FLTPARM", "FLSYM", "FLCOND", "GUST*", "GENGUST", "MKAERO*", "DIVERG", "UXVEC", "SET2", "SET4",
-    "PANLST*", "BODY7", "SEGMESH", "ATTACH", "MLD*", "PLT*", "RUNGEN"};
+    "AERO* CAERO* PAERO* SPLINE* AEFACT AELIST* AESTAT AESURF* AEPARM AELINK AECOMP* AEFORCE "
+    "AEPRESS AEQUAD4 AETRIA3 AEGRID AEROS AEDW AEPLOT* AESCALE ACOORD CSSCHD TRIM* FLFACT FLUTTER "
+    "FLUTTF FLTFAST FLTPARM FLSYM FLCOND GUST* GENGUST MKAERO* DIVERG UXVEC SET2 SET4 PANLST* "
+    "BODY7 SEGMESH ATTACH MLD* PLT* RUNGEN "
+    // regions and parameters of contact, which do nothing without the cards below
+    "BC* BSURF* BEDGE BFRIC BLSEG BWIDTH";
+
+/// These change something.
+constexpr std::string_view contact_cards = "BCTABLE BCTABL1 BCTSET BCONP BCONECT";
+
+struct RefusedCards {
+  std::string_view cards;
+  const char* reason;
+};
 
 /// Cards that are refused with a sentence of their own.
-const std::pair<const char*, const char*> refused_cards[] = {
+constexpr RefusedCards refused_cards[] = {
     {"CBEND", "curved beams are not supported; divide the arc into CBAR elements"},
     {"CBEAM3", "beams of three nodes are not supported; divide them into CBAR elements"},
     {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
@@ -72,57 +73,43 @@ const std::pair<const char*, const char*> refused_cards[] = {
     {"PBCOMP", "lumped sections are not supported; give A, I1, I2 and J with PBEAM"},
     {"PBRSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBAR"},
     {"TF", "transfer functions add stiffness and mass; take them out"},
-    {"CHACAB", "acoustic elements are not supported"},
-    {"CHACBR", "acoustic elements are not supported"},
-    {"CAABSF", "acoustic elements are not supported"},
-    {"CACINF*", "acoustic elements are not supported"},
-    {"CFLUID*", "acoustic elements are not supported"},
-    {"CAXIF*", "acoustic elements are not supported"},
-    {"CSLOT*", "acoustic elements are not supported"},
+    {"CHACAB CHACBR CAABSF CACINF* CFLUID* CAXIF* CSLOT*", "acoustic elements are not supported"},
     {"BGSET", "glued surfaces are not supported; tie them with RBE3 or MPC"},
-    {"SE*", "superelements are not supported; write one model without them"},
-    {"CSUP*", "superelements are not supported; write one model without them"},
-    {"RELEASE", "superelements are not supported; write one model without them"},
-    {"EXTRN", "superelements are not supported; write one model without them"},
-    {"CYJOIN", "cyclic symmetry is not supported; write the whole part"},
-    {"CYSYM", "cyclic symmetry is not supported; write the whole part"},
-    {"CCONEAX", "axisymmetric elements are not supported"},
-    {"CTRIAX*", "axisymmetric elements are not supported"},
-    {"CQUADX*", "axisymmetric elements are not supported"},
-    {"CTRAX*", "axisymmetric elements are not supported"},
+    {"SE* CSUP* RELEASE EXTRN", "superelements are not supported; write one model without them"},
+    {"CYJOIN CYSYM", "cyclic symmetry is not supported; write the whole part"},
+    {"CCONEAX CTRIAX* CQUADX* CTRAX*", "axisymmetric elements are not supported"},
     {"CPLST*", "elements of plane stress and strain are not supported"},
+    {contact_cards, "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
 };
-
-/// Regions and parameters of contact do nothing without these.
-const char* const contact_cards[] = {"BCTABLE", "BCTABL1", "BCTSET", "BCONP", "BCONECT"};
-
-bool is_called(const std::string& name, std::string_view known) {
-  return known.ends_with('*') ? name.starts_with(known.substr(0, known.size() - 1)) : name == known;
-}
 
 }  // namespace
 
-bool is_harmless_nastran_card(const std::string& name) {
-  const bool listed = std::any_of(std::begin(harmless_cards), std::end(harmless_cards),
-                                  [&](std::string_view known) { return is_called(name, known); });
-  const bool region = name.starts_with("BC") || name.starts_with("BSURF") || name == "BEDGE" ||
-                      name == "BFRIC" || name == "BLSEG" || name == "BWIDTH" || name == "BOUTPUT";
-  return listed || (region && !is_nastran_contact_card(name));
-}
-
-bool is_nastran_contact_card(const std::string& name) {
-  return std::any_of(std::begin(contact_cards), std::end(contact_cards),
-                     [&](std::string_view known) { return name == known; });
-}
-
-const char* why_nastran_card_is_refused(const std::string& name) {
-  if (is_nastran_contact_card(name))
-    return "contact is not linear; tie what touches with RBE2 or "
-           "MPC, or take it out";
-  for (const auto& [known, reason] : refused_cards) {
-    if (is_called(name, known)) return reason;
+NastranWords::NastranWords(std::string_view text) {
+  for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
+    if (word.ends_with('*')) {
+      beginnings_.push_back(word.substr(0, word.size() - 1));
+    } else {
+      words_.insert(word);
+    }
   }
-  return nullptr;
+}
+
+bool NastranWords::contains(std::string_view name) const {
+  return words_.contains(name) ||
+         std::any_of(beginnings_.begin(), beginnings_.end(),
+                     [name](std::string_view word) { return name.starts_with(word); });
+}
+
+bool is_harmless_nastran_card(std::string_view name) {
+  static const NastranWords harmless(harmless_cards), contact(contact_cards);
+  return harmless.contains(name) && !contact.contains(name);
+}
+
+const char* why_nastran_card_is_refused(std::string_view name) {
+  const auto* const it =
+      std::find_if(std::begin(refused_cards), std::end(refused_cards),
+                   [name](const RefusedCards& r) { return NastranWords(r.cards).contains(name); });
+  return it == std::end(refused_cards) ? nullptr : it->reason;
 }
 
 }  // namespace floatframe

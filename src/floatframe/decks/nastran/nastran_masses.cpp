@@ -1,5 +1,5 @@
-// CONM1 and CMASS1, 2: matrices of mass of nodes. Those of a rigid body with the mass m, its centre
-// at c from the node and J about the node are
+// Masses of scalar points, and CONM1 and CMASS1, 2: matrices of mass of nodes. Those of a rigid
+// body with the mass m, its centre at c from the node and J about the node are
 //   [ m 1          -m skew(c) ]
 //   [ m skew(c)     J         ]
 // Others, as a mass in one direction only, have no meaning in a part that moves freely.
@@ -8,153 +8,113 @@
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 
-void read_nastran_mass_matrix(NastranFields& f, NastranContent& c) {
-  NastranMassMatrix m;
-  m.card = "CONM1";
-  m.at = f.at();
-  m.id = f.label(0, "the number of the element");
-  m.node = f.label(1, "the node");
-  m.system = f.integer(2, "the coordinate system CID", 0);
-  std::size_t k = 3;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j <= i; ++j) {
-      const std::string name = fmt::format("M{}{}", i + 1, j + 1);
-      m.M(i, j) = m.M(j, i) = f.real(k++, name.c_str(), 0.0);
-    }
-  c.mass_matrices.push_back(m);
-}
-
-void read_nastran_scalar_mass(NastranFields& f, NastranContent& c) {
-  NastranMassMatrix m;
-  const bool own = f.name() == "CMASS2";
-  m.card = own ? "CMASS2" : "CMASS1";
-  m.at = f.at();
-  m.id = f.label(0, "the number of the element");
-  m.system = -1;  // of the node's displacements
-  double mass = 1.0;
-  if (own) {
-    mass = f.real(1, "M");
-  } else {
-    m.property = f.blank(1) ? m.id : f.label(1, "the property");
-  }
-  const auto there = [&](std::size_t i) { return !f.blank(i) && f.text(i) != "0"; };
-  const auto point = [&](std::size_t i) { return there(i) && !there(i + 1); };
-  const bool both = there(2) && there(4);
-  if ((both && point(2) && point(4)) ||
-      (!both && (point(2) || point(4)))) {  // an end without component is a scalar point
-    NastranScalarMass s{m.card, m.id, m.property, {}, mass, m.at};
-    for (std::size_t end = 0; end < 2; ++end)
-      if (point(2 + 2 * end)) s.points[end] = f.label(2 + 2 * end, "the node");
-    return c.scalar_masses.push_back(s);
-  }
-  if (both)
-    return f.error(ErrorCode::unsupported,
-                   "a mass between two nodes is not supported; give CONM2 at each");
-  const std::size_t end = there(2) ? 2 : 4;
-  m.node = f.label(end, "the node");
-  const unsigned mask = f.components(end + 1, "the component");
-  int component = 0;
-  while (component < 6 && mask != (1u << component)) ++component;
-  if (component == 6)
-    return f.error(ErrorCode::out_of_range, "the component is {}, expected one of 1 to 6",
-                   shown(f.text(end + 1)));
-  m.M(component, component) = mass;
-  c.mass_matrices.push_back(m);
-}
-
-void read_nastran_pmass(NastranFields& f, NastranContent& c) {
-  for (std::size_t i = 0; i == 0 || (i < 8 && !f.blank(i)); i += 2) {
-    const int id = f.label(i, "the number of the property");
-    const auto [it, fresh] = c.pmass.try_emplace(id, std::pair{f.real(i + 1, "M"), f.at()});
-    if (!fresh && id > 0) nastran_twice(f, it->second.second);
-  }
-}
-
 namespace {
 
-/// All of a node, in basic axes.
-struct Sum {
-  const NastranMassMatrix* first = nullptr;
-  Mat6 M = Mat6::Zero();
-};
-
 Mat6 in_basic_axes(NastranBuild& build, const NastranMassMatrix& m, int node) {
-  const Mat3 R = m.system < 0 ? build.axes(node)
-                 : m.system == 0
-                     ? Mat3(Mat3::Identity())
-                     : nastran_axes_at(build.frame(m.system, m.at), build.model.positions[node]);
   Mat6 T = Mat6::Zero();
-  T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() = R;
+  T.topLeftCorner<3, 3>() = T.bottomRightCorner<3, 3>() =
+      m.system < 0 ? build.axes(node) : build.axes_of_system(m.system, m.at, node);
   return T * m.M * T.transpose();
 }
 
-bool rigid_body(NastranBuild& build, const Sum& sum, NastranMass& out) {
-  const NastranMassMatrix& first = *sum.first;
+/// `sum`: of all cards of a node, in basic axes; the first gives its name.
+bool rigid_body(NastranBuild& build, const NastranMassMatrix& sum, NastranMass& out) {
   const Mat3 A = sum.M.topLeftCorner<3, 3>(), B = sum.M.topRightCorner<3, 3>();
   const double m = A.trace() / 3.0, size = std::abs(m) + A.norm();
   const Vec3 moment(0.5 * (B(1, 2) - B(2, 1)), 0.5 * (B(2, 0) - B(0, 2)),
                     0.5 * (B(0, 1) - B(1, 0)));
-  if ((A - m * Mat3::Identity()).norm() > 1e-6 * size) {
-    build.source.error(ErrorCode::unsupported, first.at,
-                       "{} {}: node {} has the masses {:g}, {:g} and {:g} along x, y and z; a part "
-                       "that moves freely has one mass in all directions (CONM2)",
-                       first.card, first.id, first.node, A(0, 0), A(1, 1), A(2, 2));
-    return false;
-  }
-  if ((B + skew(moment)).norm() > 1e-6 * B.norm() || (m == 0.0 && B.norm() > 0.0) || m < 0.0) {
-    build.source.error(ErrorCode::unsupported, first.at,
-                       "{} {}: the mass matrix of node {} is not that of a rigid body; give CONM2",
-                       first.card, first.id, first.node);
-    return false;
-  }
-  const Vec3 c = m > 0.0 ? Vec3(moment / m) : Vec3(Vec3::Zero());
-  out.card = first.card;
-  out.id = first.id;
-  out.node = first.node;
+  if ((A - m * Mat3::Identity()).norm() > 1e-6 * size)
+    return build.fail(
+        ErrorCode::unsupported, sum,
+        "node {} has the masses {:g}, {:g} and {:g} along x, y and z; a part that moves freely has "
+        "one mass in all directions (CONM2)",
+        sum.node, A(0, 0), A(1, 1), A(2, 2));
+  if ((B + skew(moment)).norm() > 1e-6 * B.norm() || (m == 0.0 && B.norm() > 0.0) || m < 0.0)
+    return build.fail(ErrorCode::unsupported, sum,
+                      "the mass matrix of node {} is not that of a rigid body; give CONM2",
+                      sum.node);
+  NastranEntity& entity = out;
+  entity = sum;
+  out.node = sum.node;
   out.mass = m;
-  out.offset = c;
-  const Mat3 S = skew(c);
-  out.J = sum.M.bottomRightCorner<3, 3>() + m * S * S;  // about the centre
-  if (out.J.norm() < 1e-9 * sum.M.bottomRightCorner<3, 3>().norm()) out.J.setZero();
-  out.at = first.at;
+  if (m > 0.0) out.offset = moment / m;
+  const Mat3 S = skew(out.offset), about_node = sum.M.bottomRightCorner<3, 3>();
+  out.J = about_node + m * S * S;  // about the centre
+  if (out.J.norm() < 1e-9 * about_node.norm()) out.J.setZero();
   return true;
 }
 
 }  // namespace
 
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build) {
-  std::map<int, Sum> sums;
+  std::map<int, NastranMassMatrix> sums;
   const NastranContent& c = build.content;
   for (const NastranMassMatrix& given : c.mass_matrices) {
     NastranMassMatrix m = given;
-    const std::string who = fmt::format("{} {}", m.card, m.id);
-    const int node = build.node(m.node, m.at, who);
+    const int node = build.node(m.node, m);
     if (node < 0) continue;
     if (m.property > 0) {
-      const auto it = c.pmass.find(m.property);
-      if (it == c.pmass.end()) {
-        build.source.error(ErrorCode::not_found, m.at, "{}: property {} (PMASS) is not in the file",
-                           who, m.property);
-        continue;
-      }
-      m.M *= it->second.first;
+      const auto* const p = build.property(c.pmass, m.property, "PMASS", m);
+      if (p == nullptr) continue;
+      m.M *= p->value;
     }
-    Sum& sum = sums[node];
-    if (sum.first == nullptr) sum.first = &given;
-    sum.M += in_basic_axes(build, m, node);
+    m.M = in_basic_axes(build, m, node);
+    const auto [it, fresh] = sums.try_emplace(node, m);
+    if (!fresh) it->second.M += m.M;
   }
   std::vector<NastranMass> out;
   for (const auto& [node, sum] : sums) {
     NastranMass mass;
-    if (rigid_body(build, sum, mass)) out.push_back(mass);
+    if (rigid_body(build, sum, mass)) out.push_back(std::move(mass));
   }
   return out;
+}
+
+void check_nastran_scalar_masses(NastranBuild& build) {
+  const NastranContent& c = build.content;
+  NastranCount held;
+  for (const NastranScalarElement& m : c.scalar_masses) {
+    double mass = m.value.value_or(1.0);
+    if (m.property > 0) {
+      const auto* const p = build.property(c.pmass, m.property, "PMASS", m);
+      if (p == nullptr) continue;
+      mass *= p->value;
+    }
+    int point = 0;
+    for (const int id : m.nodes) {
+      if (id == 0) continue;
+      if (!c.scalar_points.contains(id)) {
+        build.error(ErrorCode::missing, m,
+                    "the component of node {} is missing, expected one of 1 to 6", id);
+        mass = 0.0;
+      } else if (point == 0 && !build.scalars.held(id)) {
+        point = id;
+      }
+    }
+    if (mass == 0.0) continue;
+    if (point == 0) {
+      held.add(m.at);
+      continue;
+    }
+    build.error(
+        ErrorCode::unsupported, m,
+        "the mass {:g} of scalar point {} has no place, so it has none in the inertia of a part "
+        "that moves; make the point a node (GRID) where the mass is, with CONM2, on CELAS2 in one "
+        "component and tied to the part by MPC in the others",
+        mass, point);
+  }
+  build.note(held, "masses of scalar points that are held (SPC) or of the ground are left out");
+}
+
+// Nastran takes lumped mass for granted: at the nodes without rotary inertia, but of bars about
+// their own axis, unless PARAM COUPMASS is positive.
+void nastran_mass_forms(NastranBuild& build) {
+  if (build.content.properties.empty() || build.content.coupled_mass) return;
+  for (Element& e : build.model.elements) e.mass_form = MassForm::lumped_without_rotation;
 }
 
 }  // namespace floatframe

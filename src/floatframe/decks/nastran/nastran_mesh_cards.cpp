@@ -1,54 +1,13 @@
-// Cards of nodes, coordinate systems, elements, materials and point masses.
+// Cards of nodes, coordinate systems, solids and shells.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
-
-NastranElement element(NastranFields& f, const char* card) {
-  NastranElement e;
-  e.card = card;
-  e.at = f.at();
-  e.id = f.label(0, "the number of the element");
-  e.property = f.blank(1) ? e.id : f.label(1, "the property");
-  return e;
-}
-
-/// THETA or MCID, then ZOFFS.
-void shell_axes(NastranFields& f, std::size_t i, NastranElement& e) {
-  const std::string_view text = f.text(i);
-  if (!text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos) {
-    e.material_system = f.integer(i, "the material system MCID", -1);
-  } else {
-    e.theta = f.real(i, "the material angle THETA", 0.0) * std::numbers::pi / 180.0;
-  }
-  e.offset = f.real(i + 1, "the offset ZOFFS", 0.0);
-}
-
-/// T1 to T4, which with TFLAG 1 are factors of that of the property; negative: none.
-void corner_thicknesses(NastranFields& f, std::size_t corners, std::size_t flag,
-                        NastranElement& e) {
-  for (std::size_t k = 0; k < corners; ++k) {
-    e.corner_thickness[k] = f.real(10 + k, "the thickness of a corner", -1.0);
-    if (f.blank(10 + k)) continue;
-    if (!(e.corner_thickness[k] > 0.0))
-      f.error(ErrorCode::out_of_range, "the thickness of a corner is {:g}, expected more than 0",
-              e.corner_thickness[k]);
-    e.own_thickness = true;
-  }
-  const int relative = f.integer(flag, "TFLAG", 0);
-  if (relative != 0 && relative != 1)
-    f.error(ErrorCode::out_of_range, "TFLAG is {}, expected 0 or 1", relative);
-  e.relative_thickness = relative == 1;
-}
-
-}  // namespace
 
 void read_nastran_grid(NastranFields& f, NastranContent& c) {
   NastranGrid g;
@@ -68,133 +27,141 @@ void read_nastran_grid_default(NastranFields& f, NastranContent& c) {
 }
 
 void read_nastran_system(NastranFields& f, NastranContent& c) {
-  NastranSystem s;
-  s.kind = f.name().back();
-  s.at = f.at();
-  const int id = f.label(0, "the number of the coordinate system");
+  auto s = f.entity<NastranSystem>("the number of the coordinate system");
   s.rid = f.integer(1, "the reference system RID", 0);
-  s.a = f.vector(2, "a coordinate of A");
-  s.b = f.vector(5, "a coordinate of B");
-  s.c = f.vector(8, "a coordinate of C");
-  const auto [it, fresh] = c.systems.try_emplace(id, s);
-  if (!fresh && id > 0) nastran_twice(f, it->second.at);
+  s.points = {f.vector(2, "a coordinate of A"), f.vector(5, "a coordinate of B"),
+              f.vector(8, "a coordinate of C")};
+  f.keep(c.systems, std::move(s));
 }
 
 /// One or two systems on a card.
 void read_nastran_node_system(NastranFields& f, NastranContent& c) {
   for (std::size_t i = 0; i == 0 || (i == 4 && !f.blank(4)); i += 4) {
-    NastranNodeSystem s;
-    s.kind = f.name().back();
-    s.at = f.at();
-    const int id = f.label(i, "the number of the coordinate system");
-    s.a = f.label(i + 1, "node G1");
-    s.b = f.label(i + 2, "node G2");
-    s.c = f.label(i + 3, "node G3");
-    const auto [it, fresh] = c.node_systems.try_emplace(id, s);
-    if (!fresh && id > 0) nastran_twice(f, it->second.at);
+    auto s = f.entity<NastranSystem>("the number of the coordinate system", i);
+    s.nodes = {f.label(i + 1, "node G1"), f.label(i + 2, "node G2"), f.label(i + 3, "node G3")};
+    f.keep(c.node_systems, std::move(s));
   }
 }
 
+NastranElement mesh_element(NastranFields& f) {
+  auto e = f.entity<NastranElement>("the number of the element");
+  e.property = f.label(1, "the property", e.id);
+  return e;
+}
+
+struct SolidCard {
+  std::string_view name;
+  std::size_t corners, all;
+  ElementType linear, quadratic;
+  std::size_t uprights;  ///< vertical edges between the corners of two faces
+};
+
+constexpr SolidCard solid_cards[] = {
+    {"CTETRA", 4, 10, ElementType::tet4, ElementType::tet10, 0},
+    {"CHEXA", 8, 20, ElementType::hex8, ElementType::hex20, 4},
+    {"CPYRAM", 5, 13, ElementType::pyramid5, ElementType::pyramid13, 0},  // CPYRA of OptiStruct
+    {"CPENTA", 6, 15, ElementType::wedge6, ElementType::wedge15, 3}};
+
 void read_nastran_solid(NastranFields& f, NastranContent& c) {
-  const bool tetra = f.name() == "CTETRA", hexa = f.name() == "CHEXA",
-             pyramid = f.name().starts_with("CPYRA");
-  NastranElement e = element(f, tetra ? "CTETRA" : hexa ? "CHEXA" : pyramid ? "CPYRAM" : "CPENTA");
-  const std::size_t corners = tetra     ? 4
-                              : hexa    ? 8
-                              : pyramid ? 5
-                                        : 6,
-                    all = tetra     ? 10
-                          : hexa    ? 20
-                          : pyramid ? 13
-                                    : 15;
+  const SolidCard& card =
+      *std::find_if(std::begin(solid_cards), std::end(solid_cards),
+                    [&f](const SolidCard& known) { return known.name.starts_with(f.name()); });
+  NastranElement e = mesh_element(f);
+  e.card = card.name;
+  const std::size_t midsides = card.all - card.corners;
   std::size_t given = 0;
-  for (std::size_t k = corners; k < all; ++k) given += f.blank(2 + k) ? 0 : 1;
-  if (given > 0 && given < all - corners) {
-    f.error(ErrorCode::incomplete, "{} of its {} mid-side nodes are given; all or none must be",
-            given, all - corners);
-    return;
-  }
-  if (f.size() > 2 + all) {
-    f.error(ErrorCode::too_large, "it has more than {} nodes", all);
-    return;
-  }
-  e.count = static_cast<int>(given > 0 ? all : corners);
-  for (int k = 0; k < e.count; ++k) {
+  for (std::size_t k = card.corners; k < card.all; ++k) given += f.blank(2 + k) ? 0 : 1;
+  if (given > 0 && given < midsides)
+    return f.error(ErrorCode::incomplete,
+                   "{} of its {} mid-side nodes are given; all or none must be", given, midsides);
+  if (f.size() > 2 + card.all)
+    return f.error(ErrorCode::too_large, "it has more than {} nodes", card.all);
+  const std::size_t count = given > 0 ? card.all : card.corners;
+  for (std::size_t k = 0; k < count; ++k) {
     // Nastran: bottom edges, vertical edges, top edges; here the vertical ones come last.
-    std::size_t to = k;
-    if (hexa && k >= 12) to = k < 16 ? k + 4 : k - 4;
-    if (!tetra && !hexa && !pyramid && k >= 9) to = k < 12 ? k + 3 : k - 3;
+    const std::size_t first = card.corners + card.uprights, n = card.uprights;
+    const std::size_t to = n == 0 || k < first ? k : k < first + n ? k + n : k - n;
     e.nodes[to] = f.label(2 + k, "a node");
   }
-  e.type = tetra     ? (given > 0 ? ElementType::tet10 : ElementType::tet4)
-           : hexa    ? (given > 0 ? ElementType::hex20 : ElementType::hex8)
-           : pyramid ? (given > 0 ? ElementType::pyramid13 : ElementType::pyramid5)
-                     : (given > 0 ? ElementType::wedge15 : ElementType::wedge6);
-  c.elements.push_back(e);
+  e.count = static_cast<int>(count);
+  e.type = given > 0 ? card.quadratic : card.linear;
+  c.elements.push_back(std::move(e));
+}
+
+struct SurfaceCard {
+  std::string_view name;
+  std::size_t corners;
+  bool midside;
+  std::size_t axes, flag;  ///< where THETA and TFLAG are
+  ElementType linear, quadratic;
+};
+
+constexpr SurfaceCard surface_cards[] = {
+    {"CTRIA3", 3, false, 5, 9, ElementType::tri3, ElementType::tri3},
+    {"CQUAD4", 4, false, 6, 9, ElementType::quad4, ElementType::quad4},
+    {"CTRIA6", 3, true, 8, 13, ElementType::tri3, ElementType::tri6},
+    {"CQUAD8", 4, true, 14, 16, ElementType::quad4, ElementType::quad8},
+    {"CTRIAR", 3, false, 5, 9, ElementType::tri3, ElementType::tri3},
+    {"CQUADR", 4, false, 6, 9, ElementType::quad4, ElementType::quad4}};
+
+/// THETA or MCID, ZOFFS, then T1 to T4, which with TFLAG 1 are factors of that of the property.
+void read_shell_fields(NastranFields& f, const SurfaceCard& card, NastranElement& e) {
+  const std::string_view text = f.text(card.axes);
+  if (!text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos) {
+    e.material_system = f.integer(card.axes, "the material system MCID", -1);
+  } else {
+    e.theta = f.real(card.axes, "the material angle THETA", 0.0) * std::numbers::pi / 180.0;
+  }
+  e.offset = f.real(card.axes + 1, "the offset ZOFFS", 0.0);
+  for (std::size_t k = 0; k < card.corners; ++k) {
+    e.corner_thickness[k] = -1.0;
+    if (f.blank(10 + k)) continue;
+    e.corner_thickness[k] =
+        f.real(10 + k, "the thickness of a corner", -1.0, NastranRange::positive);
+    e.own_thickness = true;
+  }
+  const int relative = f.integer(card.flag, "TFLAG", 0);
+  if (relative != 0 && relative != 1)
+    f.error(ErrorCode::out_of_range, "TFLAG is {}, expected 0 or 1", relative);
+  e.relative_thickness = relative == 1;
 }
 
 void read_nastran_surface(NastranFields& f, NastranContent& c) {
-  static const char* const cards[] = {"CTRIA3", "CQUAD4", "CTRIA6", "CQUAD8", "CTRIAR", "CQUADR"};
-  NastranElement e = element(f, *std::find_if(std::begin(cards), std::end(cards),
-                                              [&f](const char* card) { return f.name() == card; }));
-  const bool triangle = f.name().starts_with("CTRIA");
-  const std::size_t corners = triangle ? 3 : 4;
+  const SurfaceCard& card =
+      *std::find_if(std::begin(surface_cards), std::end(surface_cards),
+                    [&f](const SurfaceCard& known) { return f.name() == known.name; });
+  NastranElement e = mesh_element(f);
   e.surface = true;
-  const bool midside = f.name() == "CTRIA6" || f.name() == "CQUAD8";
-  const std::size_t all = midside ? 2 * corners : corners;
-  for (std::size_t k = 0; k < all; ++k) {
-    if (k >= corners && f.blank(2 + k)) continue;
-    e.nodes[e.count++] = f.label(2 + k, "a node");
-  }
-  const std::size_t given = e.count - corners;
-  e.other = midside && given > 0 && given < corners;
-  if (midside && given == corners) {
-    e.type = triangle ? ElementType::tri6 : ElementType::quad8;
-  } else {
-    e.type = triangle ? ElementType::tri3 : ElementType::quad4;
-  }
-  if (!e.other) {
-    shell_axes(f, !midside ? 2 + corners : triangle ? 8 : 14, e);
-    corner_thicknesses(f, corners, midside ? (triangle ? 13u : 16u) : 9u, e);
-  }
-  c.elements.push_back(e);
+  const std::size_t all = card.midside ? 2 * card.corners : card.corners;
+  for (std::size_t k = 0; k < all; ++k)
+    if (k < card.corners || !f.blank(2 + k)) e.nodes[e.count++] = f.label(2 + k, "a node");
+  const std::size_t given = e.count - card.corners;
+  e.other = given > 0 && given < card.corners;
+  e.type = given == card.corners ? card.quadratic : card.linear;
+  if (!e.other) read_shell_fields(f, card, e);
+  c.elements.push_back(std::move(e));
 }
 
 void read_nastran_panel(NastranFields& f, NastranContent& c) {
-  NastranElement e = element(f, "CSHEAR");
+  NastranElement e = mesh_element(f);
   e.surface = true;
   e.type = ElementType::shear4;
   for (std::size_t k = 0; k < 4; ++k) e.nodes[e.count++] = f.label(2 + k, "a node");
-  c.elements.push_back(e);
+  c.elements.push_back(std::move(e));
 }
 
-void read_nastran_material(NastranFields& f, NastranContent& c) {
-  NastranMaterial m;
-  m.at = f.at();
-  const int id = f.label(0, "the number of the material");
-  if (!f.blank(1)) m.young = f.real(1, "E");
-  if (!f.blank(2)) m.shear = f.real(2, "G");
-  if (!f.blank(3)) m.poisson = f.real(3, "NU");
-  if (!f.blank(4)) m.density = f.real(4, "RHO");
-  const auto [it, fresh] = c.materials.try_emplace(id, m);
-  if (!fresh && id > 0) nastran_twice(f, it->second.at);
-}
+}  // namespace
 
-void read_nastran_mass(NastranFields& f, NastranContent& c) {
-  NastranMass m;
-  m.at = f.at();
-  m.id = f.label(0, "the number of the element");
-  m.node = f.label(1, "the node");
-  m.system = f.integer(2, "the coordinate system CID", 0);
-  m.mass = f.real(3, "the mass");
-  if (m.mass < 0.0)
-    f.error(ErrorCode::out_of_range, "the mass is {:g}, expected no negative number", m.mass);
-  m.offset = f.vector(4, "the offset");
-  const double I11 = f.real(8, "I11", 0.0), I21 = f.real(9, "I21", 0.0);
-  const double I22 = f.real(10, "I22", 0.0), I31 = f.real(11, "I31", 0.0);
-  const double I32 = f.real(12, "I32", 0.0), I33 = f.real(13, "I33", 0.0);
-  m.J << I11, -I21, -I31, -I21, I22, -I32, -I31, -I32, I33;
-  c.masses.push_back(m);
+std::span<const NastranCardReader> nastran_mesh_cards() {
+  static constexpr NastranCardReader cards[] = {
+      {"GRID", read_nastran_grid},
+      {"GRDSET", read_nastran_grid_default},
+      {"CORD2R CORD2C CORD2S", read_nastran_system},
+      {"CORD1R CORD1C CORD1S", read_nastran_node_system},
+      {"CTETRA CHEXA CPYRAM CPYRA CPENTA", read_nastran_solid},
+      {"CTRIA3 CQUAD4 CTRIA6 CQUAD8 CTRIAR CQUADR", read_nastran_surface},
+      {"CSHEAR", read_nastran_panel}};
+  return cards;
 }
 
 }  // namespace floatframe

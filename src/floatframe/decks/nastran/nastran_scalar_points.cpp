@@ -1,14 +1,14 @@
-#include "floatframe/decks/nastran/nastran_scalar_points.hpp"
-
+// Scalar points of Nastran bulk data (SPOINT, or named by CELAS3 and CELAS4): one degree of freedom
+// without a place. In the model each that a spring or an equation uses is a node of its own, of
+// which the component ux is used, or rx where its springs turn. Springs condense it
+// (fe/springs.hpp), or it depends on nodes by an equation; its place only says where it is shown.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <optional>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/formats/nastran/nastran_fields.hpp"
 
 namespace floatframe {
 
@@ -31,111 +31,6 @@ bool NastranRanges::overlaps(int first, int last) const {
   return after != ranges_.begin() && std::prev(after)->second >= first;
 }
 
-void read_nastran_scalar_points(NastranFields& f, NastranContent& c) {
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    if (f.blank(i)) continue;
-    const auto [first, last] = f.range(i, "a scalar point");
-    if (first > 0) c.scalar_points.add(first, last);
-  }
-}
-
-namespace {
-
-/// A spring or mass between scalar points; point 0 is the ground.
-struct PointElement {
-  int id = 0, property = 0;     ///< 0: it has its own value
-  std::optional<double> value;  ///< K of a CELAS4, M of a CMASS4
-  std::array<int, 2> points{};
-};
-
-/// `value`: the name of its own value; null if it has a property.
-PointElement point_element(NastranFields& f, const char* value, NastranContent& c) {
-  PointElement e;
-  e.id = f.label(0, "the number of the element");
-  if (value != nullptr) {
-    e.value = f.real(1, value);
-  } else {
-    e.property = f.blank(1) ? e.id : f.label(1, "the property");
-  }
-  for (std::size_t end = 0; end < 2; ++end) {
-    if (f.blank(2 + end) || f.text(2 + end) == "0") continue;
-    const int point = e.points[end] = f.label(2 + end, "a scalar point");
-    if (point > 0) c.scalar_points.add(point, point);
-  }
-  return e;
-}
-
-}  // namespace
-
-void read_nastran_scalar_spring(NastranFields& f, NastranContent& c) {
-  NastranSpring s;
-  const bool own = f.name() == "CELAS4";
-  s.card = own ? "CELAS4" : "CELAS3";
-  s.at = f.at();
-  const PointElement e = point_element(f, own ? "K" : nullptr, c);
-  s.id = e.id;
-  s.property = e.property;
-  s.stiffness = e.value;
-  s.nodes = e.points;
-  s.components = {-1, -1};
-  if (s.nodes[0] == 0) std::swap(s.nodes[0], s.nodes[1]);
-  if (s.nodes[0] == 0) return f.error(ErrorCode::missing, "it has no scalar point");
-  c.springs.list.push_back(s);
-}
-
-void read_nastran_mass_of_points(NastranFields& f, NastranContent& c) {
-  const bool own = f.name() == "CMASS4";
-  const PointElement e = point_element(f, own ? "M" : nullptr, c);
-  c.scalar_masses.push_back(
-      {own ? "CMASS4" : "CMASS3", e.id, e.property, e.points, e.value.value_or(1.0), f.at()});
-}
-
-void check_nastran_scalar_masses(NastranBuild& build) {
-  int held = 0;
-  FeSource first;
-  for (const NastranScalarMass& m : build.content.scalar_masses) {
-    const std::string who = fmt::format("{} {}", m.card, m.id);
-    double mass = m.mass;
-    if (m.property > 0) {
-      const auto it = build.content.pmass.find(m.property);
-      if (it == build.content.pmass.end()) {
-        build.source.error(ErrorCode::not_found, m.at, "{}: property {} (PMASS) is not in the file",
-                           who, m.property);
-        continue;
-      }
-      mass *= it->second.first;
-    }
-    int point = 0;
-    for (const int id : m.points) {
-      if (id == 0) continue;
-      if (!build.content.scalar_points.contains(id)) {
-        build.source.error(ErrorCode::missing, m.at,
-                           "{}: the component of node {} is missing, expected one of 1 to 6", who,
-                           id);
-        mass = 0.0;
-      } else if (point == 0 && !build.scalars.held(id)) {
-        point = id;
-      }
-    }
-    if (mass == 0.0) continue;
-    if (point == 0) {
-      if (held++ == 0) first = m.at;
-      continue;
-    }
-    build.source.error(
-        ErrorCode::unsupported, m.at,
-        "{}: the mass {:g} of scalar point {} has no place, so it has none in the inertia of a "
-        "part that moves; make the point a node (GRID) where the mass is, with CONM2, on CELAS2 in "
-        "one component and tied to the part by MPC in the others",
-        who, mass, point);
-  }
-  if (held > 0)
-    build.note(
-        first,
-        fmt::format("{} masses of scalar points that are held (SPC) or of the ground are left out",
-                    held));
-}
-
 namespace {
 
 /// The springs and equations that tie scalar points together, with the first node among them.
@@ -145,8 +40,8 @@ class ScalarPointBuilder {
       : b_(build), c_(build.content), points_(points) {}
 
   void build() {
-    for (const NastranSpring& s : c_.springs.list) {
-      if (std::string_view(s.card).starts_with("CBUSH")) continue;
+    for (const NastranSpring& s : c_.springs) {
+      if (s.card.starts_with("CBUSH")) continue;
       for (const int id : s.nodes)
         if (NastranScalarPoint* point = use(id, s.at)) point->sprung = true;
     }
@@ -165,7 +60,7 @@ class ScalarPointBuilder {
       point.node = b_.model.nodes();
       b_.model.positions.push_back(b_.model.positions[std::max(group.node, 0)]);
       b_.model.node_ids.push_back(id);
-      b_.model.node_sources.push_back(first_[id]);
+      b_.model.node_sources.push_back(point.at);
       b_.turned.push_back(0);
     }
   }
@@ -181,24 +76,22 @@ class ScalarPointBuilder {
   /// Null if it is no scalar point, or the ground.
   NastranScalarPoint* use(int id, const FeSource& at) {
     if (!is_point(id) || b_.scalars.held(id)) return nullptr;
-    const auto [it, fresh] = points_.try_emplace(id);
-    if (fresh) {
-      first_[id] = at;
-      parent_[id] = id;
-    }
-    return &it->second;
+    return &points_.try_emplace(id, NastranScalarPoint{.root = id, .at = at}).first->second;
   }
 
   int root(int id) {
-    while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
+    while (points_.at(id).root != id) {
+      int& above = points_.at(id).root;
+      id = above = points_.at(above).root;
+    }
     return id;
   }
 
   void springs() {
-    for (const NastranSpring& s : c_.springs.list)
+    for (const NastranSpring& s : c_.springs)
       if (points_.contains(s.nodes[0]) && points_.contains(s.nodes[1]))
-        parent_[root(s.nodes[0])] = root(s.nodes[1]);
-    for (const NastranSpring& s : c_.springs.list)
+        points_.at(root(s.nodes[0])).root = root(s.nodes[1]);
+    for (const NastranSpring& s : c_.springs)
       for (int end = 0; end < 2; ++end) {
         const int id = s.nodes[end], other = s.nodes[1 - end];
         const auto node = b_.node_of.find(other);
@@ -208,10 +101,10 @@ class ScalarPointBuilder {
         const bool turns = s.components[1 - end] >= 3;
         if (group.node < 0) group.node = node->second;
         if (group.turns.value_or(turns) != turns)
-          b_.source.error(ErrorCode::dependent, s.at,
-                          "{} {}: scalar point {} is tied to a rotation and to a displacement by "
-                          "springs; one of them must be tied by MPC, which says the lever",
-                          s.card, s.id, id);
+          b_.error(ErrorCode::dependent, s,
+                   "scalar point {} is tied to a rotation and to a displacement by springs; one of "
+                   "them must be tied by MPC, which says the lever",
+                   id);
         group.turns = turns;
       }
   }
@@ -224,10 +117,10 @@ class ScalarPointBuilder {
       int node = -1;
       for (const NastranEquation::Term& t : e.terms) {
         const auto it = b_.node_of.find(t.node);
-        if (it == b_.node_of.end() || t.component < 0) continue;
+        if (it == b_.node_of.end() || t.axis < 0) continue;
         if (node < 0) node = it->second;
         any = true;
-        all = all && t.component >= 3;
+        all = all && t.axis >= 3;
       }
       for (const NastranEquation::Term& t : e.terms) {
         if (!points_.contains(t.node) || !any) continue;
@@ -243,8 +136,6 @@ class ScalarPointBuilder {
   NastranBuild& b_;
   const NastranContent& c_;
   std::map<int, NastranScalarPoint>& points_;
-  std::map<int, FeSource> first_;
-  std::map<int, int> parent_;
   std::map<int, Group> groups_;
 };
 

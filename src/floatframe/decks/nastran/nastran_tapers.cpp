@@ -1,25 +1,24 @@
-#include "floatframe/decks/nastran/nastran_tapers.hpp"
-
+// Beams whose section changes along them (PBEAM, PBEAML with stations). A, I1, I2, I12, J and the
+// nonstructural mass are linear between stations, as in Nastran. Such a beam becomes a chain of
+// beams of constant section with nodes of their own. A piece has the mean area, so that mass is
+// exact, and I and J with which torsion and a constant moment are, the mean over its length of 1/I
+// and 1/J,
+//   I = (I_b - I_a)/ln(I_b/I_a).
+// Under a force at its end the deflection of a cantilever of ratio r and n pieces is off by about
+// 0.25 ln(r)/n^2: n is chosen for 0.05 %. Its elongation is off by less than 0.1 %.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/formats/nastran/nastran_fields.hpp"
 
 namespace floatframe {
 namespace {
 
-constexpr const char* names_of_taper[] = {"A", "I1", "I2", "I12", "J", "NSM"};
 /// A taper below this is rounding of numbers in files.
 constexpr double same_section = 1e-3;
-
-std::array<double, 6> values_of(const NastranStation& s) {
-  return {s.section.A, s.section.I1, s.section.I2, s.section.I12, s.section.J, s.nonstructural};
-}
 
 /// Values between two stations.
 NastranStation between_stations(const NastranStation& a, const NastranStation& b, double x) {
@@ -27,16 +26,13 @@ NastranStation between_stations(const NastranStation& a, const NastranStation& b
   const auto mix = [t](double p, double q) { return p + t * (q - p); };
   NastranStation s;
   s.x = x;
-  s.section = {mix(a.section.A, b.section.A), mix(a.section.I1, b.section.I1),
-               mix(a.section.I2, b.section.I2), mix(a.section.I12, b.section.I12),
-               mix(a.section.J, b.section.J)};
-  s.nonstructural = mix(a.nonstructural, b.nonstructural);
   s.shape = a.shape;
-  s.shape.shear_y = mix(a.shape.shear_y, b.shape.shear_y);
-  s.shape.shear_z = mix(a.shape.shear_z, b.shape.shear_z);
-  s.shape.width = mix(a.shape.width, b.shape.width);
-  s.shape.height = mix(a.shape.height, b.shape.height);
-  s.shape.bore = mix(a.shape.bore, b.shape.bore);
+  for (const auto& [name, value] : nastran_section_values)
+    s.section.*value = mix(a.section.*value, b.section.*value);
+  for (double BeamSection::*const value :
+       {&BeamSection::shear_y, &BeamSection::shear_z, &BeamSection::width, &BeamSection::height,
+        &BeamSection::bore})
+    s.shape.*value = mix(a.shape.*value, b.shape.*value);
   return s;
 }
 
@@ -49,20 +45,20 @@ double harmonic(double a, double b) {
 
 /// Largest ratio of A, I1, I2 and J of two stations, as a logarithm; of I12, which may be zero or
 /// change its sign, the change over the other moments; of NSM over the larger one.
-double taper(const NastranStation& a, const NastranStation& b) {
+double taper(const NastranSection& p, const NastranSection& q) {
   double most = 0.0;
-  const std::array<double, 6> p = values_of(a), q = values_of(b);
-  for (const std::size_t k : {0, 1, 2, 4})
-    if (p[k] > 0.0 && q[k] > 0.0) most = std::max(most, std::abs(std::log(q[k] / p[k])));
-  const double bending = std::sqrt(std::max(p[1] * p[2], q[1] * q[2]));
-  if (bending > 0.0) most = std::max(most, std::abs(q[3] - p[3]) / bending);
-  const double mass = std::max(std::abs(p[5]), std::abs(q[5]));
-  if (mass > 0.0) most = std::max(most, std::abs(q[5] - p[5]) / mass);
+  for (double NastranSection::*const x :
+       {&NastranSection::A, &NastranSection::I1, &NastranSection::I2, &NastranSection::J})
+    if (p.*x > 0.0 && q.*x > 0.0) most = std::max(most, std::abs(std::log(q.*x / p.*x)));
+  const double bending = std::sqrt(std::max(p.I1 * p.I2, q.I1 * q.I2));
+  if (bending > 0.0) most = std::max(most, std::abs(q.I12 - p.I12) / bending);
+  const double mass = std::max(std::abs(p.nonstructural), std::abs(q.nonstructural));
+  if (mass > 0.0) most = std::max(most, std::abs(q.nonstructural - p.nonstructural) / mass);
   return std::min(most, 3.2);
 }
 
 double wanted_pieces(const NastranStation& a, const NastranStation& b) {
-  return (b.x - a.x) * std::sqrt(500.0 * taper(a, b));
+  return (b.x - a.x) * std::sqrt(500.0 * taper(a.section, b.section));
 }
 
 int number_of_pieces(double wanted, double share) {
@@ -72,28 +68,18 @@ int number_of_pieces(double wanted, double share) {
 NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
   const NastranStation middle = between_stations(a, b, 0.5 * (a.x + b.x));
   NastranSection s = middle.section;
-  const bool straight = a.section.I12 == 0.0 && b.section.I12 == 0.0;
   s.J = harmonic(a.section.J, b.section.J);
-  if (straight) {  // turned principal axes turn along the piece: those of its
-                   // middle
+  // Turned principal axes turn along the piece: those of its middle.
+  if (a.section.I12 == 0.0 && b.section.I12 == 0.0) {
     s.I1 = harmonic(a.section.I1, b.section.I1);
     s.I2 = harmonic(a.section.I2, b.section.I2);
   }
   NastranProperty p;
+  p.section = middle.shape;
   set_nastran_section(p, s);
-  NastranPiece piece;
-  piece.from = a.x;
-  piece.to = b.x;
-  piece.section = middle.shape;
-  piece.section.A = p.section.A;
-  piece.section.Iy = p.section.Iy;
-  piece.section.Iz = p.section.Iz;
-  piece.section.J = p.section.J;
-  piece.section.shear_y = harmonic(a.shape.shear_y, b.shape.shear_y);
-  piece.section.shear_z = harmonic(a.shape.shear_z, b.shape.shear_z);
-  piece.turn = p.turn;
-  piece.nonstructural = middle.nonstructural;
-  return piece;
+  p.section.shear_y = harmonic(a.shape.shear_y, b.shape.shear_y);
+  p.section.shear_z = harmonic(a.shape.shear_z, b.shape.shear_z);
+  return {b.x, p.section, p.turn, p.nonstructural};
 }
 
 std::vector<NastranPiece> chain_of(const std::vector<NastranStation>& stations, double share) {
@@ -132,23 +118,27 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
     stations.back().x = 1.0;
   }
   bool same = true;
-  const std::array<double, 6> first = values_of(stations.front());
+  const NastranSection& first = stations.front().section;
   for (const NastranStation& s : stations) {
-    const std::array<double, 6> here = values_of(s);
-    if (here[3] != 0.0 && here[3] * here[3] >= here[1] * here[2])
+    const NastranSection& here = s.section;
+    if (here.I12 != 0.0 && here.I12 * here.I12 >= here.I1 * here.I2)
       return f.error(ErrorCode::out_of_range,
-                     "I12 is {:g} at X/XB = {:g}, its square is not less than I1 I2", here[3], s.x);
-    for (std::size_t k = 0; k < 6; ++k) {
-      same = same && std::abs(here[k] - first[k]) <= same_section * std::abs(first[k]);
-      if (k == 3 || k == 5 || here[k] > 0.0 || (first[k] == 0.0 && here[k] == 0.0)) continue;
+                     "I12 is {:g} at X/XB = {:g}, its square is not less than I1 I2", here.I12,
+                     s.x);
+    for (const auto& [name, value] : nastran_section_values) {
+      const double own = here.*value, at_first = first.*value;
+      same = same && std::abs(own - at_first) <= same_section * std::abs(at_first);
+      const bool any_sign =
+          value == &NastranSection::I12 || value == &NastranSection::nonstructural;
+      if (any_sign || own > 0.0 || (at_first == 0.0 && own == 0.0)) continue;
       return f.error(ErrorCode::out_of_range, "{} is {:g} at X/XB = {:g}, expected more than 0",
-                     names_of_taper[k], here[k], s.x);
+                     name, own, s.x);
     }
   }
   if (!same) p.stations = std::move(stations);
 }
 
-NastranTapers::NastranTapers(NastranBuild& build) {
+std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build) {
   const NastranContent& c = build.content;
   // Pieces are nodes and elements: a file may have so many for its size.
   const double most = 1000.0 + static_cast<double>(c.grids.size() + c.elements.size());
@@ -163,26 +153,22 @@ NastranTapers::NastranTapers(NastranBuild& build) {
     for (std::size_t k = 1; k < s.size(); ++k)
       wanted += number_of_pieces(wanted_pieces(s[k - 1], s[k]), 1.0);
   }
+  std::map<int, std::vector<NastranPiece>> tapers;
   const double share = std::min(1.0, most / std::max(wanted, 1.0));
   for (const auto& [id, count] : beams) {
     const NastranProperty& p = c.properties.at(id);
-    std::vector<NastranPiece>& pieces = pieces_[id] = chain_of(p.stations, share);
+    std::vector<NastranPiece>& pieces = tapers[id] = chain_of(p.stations, share);
     build.note(
         p.at, fmt::format(
-                  "{} {}: its section changes along the beam: {} elements are chains of {} beams "
+                  "{}: its section changes along the beam: {} elements are chains of {} beams "
                   "of constant section, with nodes of their own{}",
-                  p.card, id, count, pieces.size(),
+                  p.label(), count, pieces.size(),
                   share < 1.0
                       ? fmt::format(" (fewer than for 0.05 %, by {:.2g}, for the size of the file)",
                                     share)
                       : ""));
   }
-}
-
-const std::vector<NastranPiece>& NastranTapers::pieces(int property) const {
-  static const std::vector<NastranPiece> none;
-  const auto it = pieces_.find(property);
-  return it == pieces_.end() ? none : it->second;
+  return tapers;
 }
 
 }  // namespace floatframe

@@ -15,15 +15,13 @@ bool looks_like_nastran(std::string_view beginning) {
   constexpr std::array<std::string_view, 8> cards = {"GRID",   "CTETRA", "CHEXA", "CPENTA",
                                                      "CQUAD4", "CTRIA3", "CBAR",  "PSOLID"};
   while (!beginning.empty()) {
-    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    std::string_view line = beginning.substr(0, end);
-    beginning.remove_prefix(std::min(end + 1, beginning.size()));
+    const std::string_view line = next_line(beginning);
     if (line.starts_with('$') || trimmed(line).empty()) continue;
-    line = line.substr(0, std::min(line.find_first_of(", *\t"), line.size()));
-    if (same_word(line, "DMIG")) return false;  // matrices, also with nodes
-    for (const std::string_view card : cards) {
-      if (same_word(line, card)) return true;
-    }
+    const std::string_view name = card_name(line);
+    if (same_word(name, "DMIG")) return false;  // matrices, also with nodes
+    if (std::any_of(cards.begin(), cards.end(),
+                    [name](std::string_view card) { return same_word(name, card); }))
+      return true;
   }
   return false;
 }
@@ -45,6 +43,7 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
     build.scalars.build(build);
     source.throw_if_any();
     build_nastran_elements(build, options);
+    if (!content.properties.empty()) note_nastran_shells(build);
     nastran_mass_forms(build);
     build_nastran_springs(build);
     build_nastran_constraints(build);
@@ -56,9 +55,8 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
   build_nastran_sets(build, part == NastranPart::nodes);
   source.throw_if_any();
   build.model.files = source.files();
-  for (const std::string& note : content.notes) {
+  for (const std::string& note : content.notes)
     build.model.notes.push_back(fmt::format("{}: {}", build.model.files[0], note));
-  }
   return std::move(build.model);
 }
 

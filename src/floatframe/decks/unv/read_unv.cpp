@@ -41,6 +41,17 @@ class UnvBuild {
   }
 
  private:
+  template <class... Args>
+  void note(fmt::format_string<Args...> text, Args&&... args) {
+    in_.note(c_.model, {0, 0}, text, std::forward<Args>(args)...);
+  }
+  template <class... Args>
+  void error(ErrorCode code, const UnvElement& e, fmt::format_string<Args...> text,
+             Args&&... args) {
+    in_.error(code, e.at, "element {} ({}) {}", e.id, e.type->name,
+              fmt::format(text, std::forward<Args>(args)...));
+  }
+
   /// The nodes of an element as indices, in the order of the file; false if there is an error,
   /// which is said once.
   bool gather(const UnvElement& e, std::vector<int>& nodes) {
@@ -57,13 +68,11 @@ class UnvBuild {
       const int id = c_.element_nodes[e.first + k];
       const auto it = c_.node_index.find(id);
       if (it == c_.node_index.end()) {
-        in_.error(ErrorCode::not_found, e.at,
-                  "element {} ({}) has node {}, which is not in the file", e.id, e.type->name, id);
+        error(ErrorCode::not_found, e, "has node {}, which is not in the file", id);
         return false;
       }
       if (!once_.insert(it->second).second) {
-        in_.error(ErrorCode::duplicate, e.at, "element {} ({}) has node {} twice", e.id,
-                  e.type->name, id);
+        error(ErrorCode::duplicate, e, "has node {} twice", id);
         return false;
       }
       nodes.push_back(it->second);
@@ -100,9 +109,7 @@ class UnvBuild {
     const SurfaceThickness::Choice choice =
         thickness_.choose(std::span(ordered).first(corners),
                           groups == groups_of_.end() ? std::vector<std::string>() : groups->second);
-    if (!choice.error.empty())
-      in_.error(ErrorCode::wrong_value, e.at, "element {} ({}) {}", e.id, e.type->name,
-                choice.error);
+    if (!choice.error.empty()) error(ErrorCode::wrong_value, e, "{}", choice.error);
     return choice.section;
   }
 
@@ -166,11 +173,8 @@ class UnvBuild {
 
   /// Rigid elements that share a node are one rigid body.
   void join(const UnvElement& e, const std::vector<int>& nodes) {
-    if (nodes.size() < 2) {
-      in_.error(ErrorCode::wrong_count, e.at,
-                "element {} ({}) has one node, at least 2 are expected", e.id, e.type->name);
-      return;
-    }
+    if (nodes.size() < 2)
+      return error(ErrorCode::wrong_count, e, "has one node, at least 2 are expected");
     for (const int node : nodes) {
       const auto [it, fresh] = joined_.try_emplace(node, node);
       if (fresh) in_order_.emplace_back(node, &e);
@@ -224,9 +228,8 @@ class UnvBuild {
         }
         const UnvElement& e = c_.elements[element->second];
         if (e.index >= 0) element_set.push_back(e.index);
-        if (!e.type->solid() && gather(e, nodes)) {
+        if (!e.type->solid() && gather(e, nodes))
           node_set.insert(node_set.end(), nodes.begin(), nodes.end());
-        }
       }
       append(node_set, c_.model.node_sets, group.name);
       append(element_set, c_.model.element_sets, group.name);
@@ -237,9 +240,8 @@ class UnvBuild {
         set.erase(std::unique(set.begin(), set.end()), set.end());
       }
     for (const auto& [kind, count] : others)
-      c_.model.notes.push_back(fmt::format(
-          "{}: {} members of groups are neither nodes nor elements (kind {}) and are left out",
-          in_.files()[0], count, kind));
+      note("{} members of groups are neither nodes nor elements (kind {}) and are left out", count,
+           kind);
   }
 
   static void append(const std::vector<int>& more, std::map<std::string, std::vector<int>>& sets,
@@ -250,27 +252,22 @@ class UnvBuild {
   }
 
   void notes() {
-    const std::string& file = in_.files()[0];
     if (material_ < 0)
-      c_.model.notes.push_back(
-          fmt::format("{}: materials of the format are not read; give Young's modulus, Poisson's "
-                      "ratio and density with the file",
-                      file));
+      note(
+          "materials of the format are not read; give Young's modulus, Poisson's ratio and density "
+          "with the file");
     else if (materials_ > 1)
-      c_.model.notes.push_back(
-          fmt::format("{}: the elements have {} different material numbers; all get the material "
-                      "given with the file",
-                      file, materials_));
+      note(
+          "the elements have {} different material numbers; all get the material given with the "
+          "file",
+          materials_);
     if (skins_ > 0)
-      c_.model.notes.push_back(
-          fmt::format("{}: {} shells, beams and rods are taken as skins and edges: they make node "
-                      "sets and have no stiffness and no mass",
-                      file, skins_));
-    if (dampers_ > 0)
-      c_.model.notes.push_back(
-          fmt::format("{}: {} dampers are ignored: the part has modal damping", file, dampers_));
-    for (const int number : c_.passed_over)
-      c_.model.notes.push_back(fmt::format("{}: dataset {} is ignored", file, number));
+      note(
+          "{} shells, beams and rods are taken as skins and edges: they make node sets and have no "
+          "stiffness and no mass",
+          skins_);
+    if (dampers_ > 0) note("{} dampers are ignored: the part has modal damping", dampers_);
+    for (const int number : c_.passed_over) note("dataset {} is ignored", number);
   }
 
   TextSource& in_;

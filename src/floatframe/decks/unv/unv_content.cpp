@@ -13,8 +13,8 @@ bool is_unv_delimiter(std::string_view line) { return trimmed(line) == "-1"; }
 
 namespace {
 
-constexpr std::array unv_passed_over{55,   56,   57,   58,   151,  773,  776,  1703, 1710,
-                                     2400, 2414, 2429, 2430, 2432, 2437, 2417, 2420, 164};
+constexpr std::array unv_passed_over{55,   56,   57,   58,   151,  773,  776,  1703,
+                                     1710, 2400, 2414, 2429, 2430, 2432, 2437, 2417};
 
 class UnvParser {
  public:
@@ -25,32 +25,39 @@ class UnvParser {
     while (in_.next(line)) {
       if (trimmed(line).empty()) continue;
       if (!is_unv_delimiter(line))
-        in_.stop(ErrorCode::wrong_value, in_.here(), "a dataset begins with a line -1, found {}",
-                 shown(line));
+        in_.stop(ErrorCode::wrong_value, "a dataset begins with a line -1, found {}", shown(line));
       const FeSource begin = in_.here();
       if (!in_.next(line))
         in_.stop(ErrorCode::damaged, begin, "the file ends where the number of a dataset follows");
       const auto number = parse_label(trimmed(line));
       if (!number)
-        in_.stop(ErrorCode::not_a_number, in_.here(),
-                 "the number of a dataset is expected, found {}", shown(trimmed(line)));
+        in_.stop(ErrorCode::not_a_number, "the number of a dataset is expected, found {}",
+                 shown(trimmed(line)));
       dataset(*number);
     }
     return std::move(c_);
   }
 
  private:
+  /// Those that are read, by their numbers.
+  static const std::map<int, void (UnvParser::*)()> datasets;
+
   /// The next line of the dataset; false at its end.
   bool record(std::string_view& line) {
     if (!in_.next(line))
-      in_.stop(ErrorCode::damaged, in_.here(),
-               "the file ends within dataset {}: a line -1 is expected", dataset_);
+      in_.stop(ErrorCode::damaged, "the file ends within dataset {}: a line -1 is expected",
+               dataset_);
     return !is_unv_delimiter(line);
+  }
+  void skip() {
+    std::string_view line;
+    while (record(line)) {
+    }
   }
   std::string_view needed(const char* what) {
     std::string_view line;
     if (!record(line))
-      in_.stop(ErrorCode::damaged, in_.here(), "dataset {} ends where {} expected", dataset_, what);
+      in_.stop(ErrorCode::damaged, "dataset {} ends where {} expected", dataset_, what);
     return line;
   }
 
@@ -67,25 +74,22 @@ class UnvParser {
     numbers_.clear();
     for (const std::string_view word : words_) {
       const auto value = parse_integer(word);
-      if (!value)
-        in_.stop(ErrorCode::not_a_number, in_.here(), "{}: {}", what, not_an_integer(word));
+      if (!value) in_.stop(ErrorCode::not_a_number, "{}: {}", what, not_an_integer(word));
       numbers_.push_back(*value);
     }
     if (numbers_.size() < least)
-      in_.stop(ErrorCode::wrong_count, in_.here(), "{} has {} numbers, at least {} are expected",
-               what, numbers_.size(), least);
+      in_.stop(ErrorCode::wrong_count, "{} has {} numbers, at least {} are expected", what,
+               numbers_.size(), least);
   }
 
   Vec3 point(std::size_t first, const char* what) {
     if (words_.size() != first + 3)
-      in_.stop(ErrorCode::wrong_count, in_.here(), "{} has {} coordinates, 3 are expected", what,
+      in_.stop(ErrorCode::wrong_count, "{} has {} coordinates, 3 are expected", what,
                words_.size() - std::min(first, words_.size()));
     Vec3 p;
     for (int k = 0; k < 3; ++k) {
       const auto value = parse_real(words_[first + k]);
-      if (!value)
-        in_.stop(ErrorCode::not_a_number, in_.here(), "{}: {}", what,
-                 not_a_real(words_[first + k]));
+      if (!value) in_.stop(ErrorCode::not_a_number, "{}: {}", what, not_a_real(words_[first + k]));
       p[k] = *value;
     }
     return p;
@@ -93,35 +97,15 @@ class UnvParser {
 
   void dataset(int number) {
     dataset_ = number;
-    switch (number) {
-      case 15:
-      case 781:
-      case 2411:
-        return read_nodes();
-      case 780:
-      case 2412:
-        return read_elements();
-      case 2435:
-      case 2452:
-      case 2467:
-      case 2477:
-        return read_groups();
-      case 2420:
-        return read_systems();
-      case 164:
-        return read_units();
-      default:
-        break;
-    }
+    if (const auto known = datasets.find(number); known != datasets.end())
+      return (this->*known->second)();
     if (std::find(unv_passed_over.begin(), unv_passed_over.end(), number) == unv_passed_over.end())
-      in_.stop(ErrorCode::unknown_key, in_.here(),
+      in_.stop(ErrorCode::unknown_key,
                "dataset {} is not known: whether it changes stiffness or mass is not clear; remove "
                "it from the file if it does not",
                number);
     if (number != 151) c_.passed_over.insert(number);
-    std::string_view line;
-    while (record(line)) {
-    }
+    skip();
   }
 
   void read_nodes() {
@@ -186,9 +170,8 @@ class UnvParser {
         c_.element_nodes.insert(c_.element_nodes.end(), numbers_.begin(), numbers_.end());
       }
       if (c_.element_nodes.size() != e.first + e.nodes)
-        in_.stop(ErrorCode::wrong_count, in_.here(),
-                 "element {} ({}) has {} nodes listed, {} are expected", e.id, e.type->name,
-                 c_.element_nodes.size() - e.first, e.nodes);
+        in_.stop(ErrorCode::wrong_count, "element {} ({}) has {} nodes listed, {} are expected",
+                 e.id, e.type->name, c_.element_nodes.size() - e.first, e.nodes);
       const auto [it, fresh] = c_.element_index.try_emplace(e.id, c_.elements.size());
       if (!fresh)
         in_.error(ErrorCode::duplicate, e.at, "element {} is in the file twice, first in line {}",
@@ -215,7 +198,7 @@ class UnvParser {
           group.members.emplace_back(numbers_[k], numbers_[k + 1]);
         if (numbers_.size() % 4 != 0 || group.members.size() > static_cast<std::size_t>(count))
           in_.stop(
-              ErrorCode::wrong_count, in_.here(),
+              ErrorCode::wrong_count,
               "group '{}' has {} members in its first line, and another number of them is listed",
               group.name, count);
       }
@@ -245,12 +228,10 @@ class UnvParser {
 
   void read_units() {
     const std::string text(trimmed(needed("the units are")));
-    c_.model.notes.push_back(fmt::format(
-        "{}:{}: the file says that its units are {}; the units given with the file are taken",
-        in_.files()[in_.here().file], in_.here().line, shown(text)));
-    std::string_view line;
-    while (record(line)) {
-    }
+    in_.note(c_.model, in_.here(),
+             "the file says that its units are {}; the units given with the file are taken",
+             shown(text));
+    skip();
   }
 
   TextSource& in_;
@@ -258,6 +239,15 @@ class UnvParser {
   std::vector<std::string_view> words_;
   std::vector<int> numbers_;
   int dataset_ = 0;
+};
+
+const std::map<int, void (UnvParser::*)()> UnvParser::datasets = {
+    {15, &UnvParser::read_nodes},      {781, &UnvParser::read_nodes},
+    {2411, &UnvParser::read_nodes},    {780, &UnvParser::read_elements},
+    {2412, &UnvParser::read_elements}, {2435, &UnvParser::read_groups},
+    {2452, &UnvParser::read_groups},   {2467, &UnvParser::read_groups},
+    {2477, &UnvParser::read_groups},   {2420, &UnvParser::read_systems},
+    {164, &UnvParser::read_units},
 };
 
 }  // namespace

@@ -1,17 +1,44 @@
 #pragma once
-// What a universal file says, before it is a model: nodes, elements of any type, groups.
+// What a universal file says, before it is a model: nodes, elements of any type, groups;
+// finite elements by their descriptor number, and the order of their nodes.
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "floatframe/decks/unv/unv_types.hpp"
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
+
+/// What becomes of an element.
+enum class UnvUse {
+  mesh,    ///< a solid, or a skin or edge that makes node sets
+  rigid,   ///< its nodes move as one rigid body
+  left,    ///< neither stiffness nor mass: ignored
+  refused  ///< has values in tables of the format that are not read
+};
+
+struct UnvType {
+  int number = 0;
+  const char* name = "";
+  int nodes = 0;
+  bool beam = false;  ///< a record of orientation and end sections comes first
+  /// A solid, or the shell that it is if a thickness is given to it.
+  std::optional<ElementType> element;
+  std::array<int, 20> order{};  ///< of these: node k is node order[k] of the file
+  UnvUse use = UnvUse::mesh;
+
+  bool solid() const noexcept;
+  bool shell() const noexcept { return element && !solid(); }
+};
+
+/// Null if the number is not known.
+const UnvType* unv_type(int number) noexcept;
 
 struct UnvElement {
   const UnvType* type = nullptr;

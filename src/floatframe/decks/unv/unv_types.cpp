@@ -1,7 +1,6 @@
-#include "floatframe/decks/unv/unv_types.hpp"
-
 #include <algorithm>
 
+#include "floatframe/decks/unv/unv_content.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {

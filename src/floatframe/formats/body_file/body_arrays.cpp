@@ -18,18 +18,29 @@ std::vector<double> rows_of(const MatX& matrix) {
   return values;
 }
 
+MatX or_zeros(const MatX& m, Eigen::Index rows, Eigen::Index columns) {
+  return m.size() > 0 ? m : MatX(MatX::Zero(rows, columns));
+}
+
 }  // namespace
 
 NpyArray array_of(const MatX& matrix) {
   return {{size(matrix.rows()), size(matrix.cols())}, rows_of(matrix)};
 }
 
-NpyArray grouped_array(const MatX& matrix, std::size_t group) {
-  return {{size(matrix.rows()) / group, group, size(matrix.cols())}, rows_of(matrix)};
-}
-
 NpyArray list_of(const VecX& vector) {
   return {{size(vector.size())}, std::vector<double>(vector.data(), vector.data() + vector.size())};
+}
+
+void ArrayWriter::matrix(const std::string& name, const MatX& m, Eigen::Index rows,
+                         Eigen::Index columns) {
+  add(name, array_of(or_zeros(m, rows, columns)));
+}
+
+void ArrayWriter::grouped(const std::string& name, const MatX& m, Eigen::Index points,
+                          Eigen::Index group, Eigen::Index columns) {
+  add(name,
+      {{size(points), size(group), size(columns)}, rows_of(or_zeros(m, points * group, columns))});
 }
 
 void ArrayReader::error(ErrorCode code, const std::string& name, const std::string& sentence) {

@@ -8,12 +8,10 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/regular_file.hpp"
-#include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
+#include "floatframe/formats/body_file/body_members.hpp"
 #include "floatframe/formats/body_file/body_numbers.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
-#include "floatframe/formats/body_file/second_order_arrays.hpp"
-#include "floatframe/formats/body_file/stress_arrays.hpp"
 
 namespace floatframe {
 namespace {
@@ -57,11 +55,12 @@ class BodyReader {
 
   BodyFile read() {
     header();
-    invariants();
-    nodes();
+    body_matrices(arrays_, body(), static_cast<Eigen::Index>(body().mode_names.size()));
+    const Eigen::Index nm = body().modes();
+    marker_matrices(arrays_, body().nodes, nm);
     body().second_order =
-        read_second_order(arrays_, body().modes(), static_cast<Eigen::Index>(body().nodes.size()));
-    body().turning = read_turning(arrays_, body().modes());
+        read_second_order(arrays_, nm, static_cast<Eigen::Index>(body().nodes.size()));
+    body().turning = read_turning(arrays_, nm);
     surface();
     if (arrays_.has("projection_p")) projection();
     errors_.throw_if_any();
@@ -72,8 +71,14 @@ class BodyReader {
 
  private:
   FlexibleBody& body() { return out_.part.body; }
-  void error(ErrorCode code, const std::string& sentence) {
-    errors_.add(code, {name_, 0, 0}, "member 'header.json': " + sentence);
+  template <class... Args>
+  void error(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
+    errors_.add(code, {name_, 0, 0},
+                "member 'header.json': " + fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) const {
+    throw InputError(code, {name_, 0, 0}, fmt::format(text, std::forward<Args>(args)...));
   }
 
   /// Nothing else can be read without it.
@@ -81,70 +86,44 @@ class BodyReader {
     const auto it = std::find_if(members_.begin(), members_.end(),
                                  [](const ZipMember& m) { return m.name == "header.json"; });
     if (it == members_.end())
-      throw InputError(ErrorCode::wrong_file, {name_, 0, 0},
-                       "this is not a body file (it has no member 'header.json')");
+      stop(ErrorCode::wrong_file, "this is not a body file (it has no member 'header.json')");
     std::string why;
     const Json json = read_json(it->content, why);
     if (json.is_discarded())
-      throw InputError(ErrorCode::wrong_file, {name_, 0, 0},
-                       "this is not a body file (member 'header.json' is no header: " + why + ")");
+      stop(ErrorCode::wrong_file, "this is not a body file (member 'header.json' is no header: {})",
+           why);
     if (!json.is_object() || text_of(json, "format") != "floatframe body")
-      throw InputError(
-          ErrorCode::wrong_file, {name_, 0, 0},
-          "this is not a body file (member 'header.json' does not say format 'floatframe body')");
+      stop(ErrorCode::wrong_file,
+           "this is not a body file (member 'header.json' does not say format 'floatframe body')");
     const auto version = json.find("format_version");
     if (version == json.end() || *version != body_file_version)
-      throw InputError(ErrorCode::mismatch, {name_, 0, 0},
-                       fmt::format("member 'header.json': found format version {}, this program "
-                                   "reads version {} (the file was written by Floatframe {})",
-                                   version == json.end() ? "none" : json_excerpt(*version),
-                                   body_file_version, excerpt(text_of(json, "floatframe"))));
+      stop(ErrorCode::mismatch,
+           "member 'header.json': found format version {}, this program reads version {} (the file "
+           "was written by Floatframe {})",
+           version == json.end() ? "none" : json_excerpt(*version), body_file_version,
+           excerpt(text_of(json, "floatframe")));
     if (const auto units = json.find("units"); units != json.end() && *units != body_file_units)
       error(ErrorCode::wrong_value,
-            fmt::format("found the units {}, expected \"{}\": all members are in SI units",
-                        json_excerpt(*units), body_file_units));
-    if (const auto m = json.find("modes"); m != json.end() && m->is_array())
-      for (const Json& mode : *m) {
-        body().mode_names.push_back(name_of(mode, "mode"));
-        const auto f = mode.is_object() ? mode.find("frequency_Hz") : mode.end();
-        const bool given = mode.is_object() && f != mode.end() && !f->is_null();
-        if (given && !f->is_number())
-          error(ErrorCode::out_of_range,
-                fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
-                            json_excerpt(*f), header_.frequencies.size() + 1));
-        header_.frequencies.push_back(given && f->is_number() ? f->get<double>() : -1.0);
-      }
-    else
-      error(ErrorCode::missing, "found no list of 'modes', expected one entry per mode");
+            "found the units {}, expected \"{}\": all members are in SI units",
+            json_excerpt(*units), body_file_units);
+    modes(json);
     if (const auto n = json.find("equal_modes_left_out"); n != json.end()) {
       if (n->is_number_integer() && *n >= 0 && *n <= 1000)
         body().equal_left_out = n->get<int>();
       else
         error(ErrorCode::out_of_range,
-              fmt::format("found equal_modes_left_out {}, expected a whole number from 0 to 1000",
-                          json_excerpt(*n)));
+              "found equal_modes_left_out {}, expected a whole number from 0 to 1000",
+              json_excerpt(*n));
     }
-    std::set<std::string> names;
-    if (const auto m = json.find("markers"); m != json.end() && m->is_array())
-      for (const Json& marker : *m) {
-        const std::string name = name_of(marker, "marker");
-        body().nodes.emplace_back().name = name;
-        if (name.empty() || !names.insert(name).second)
-          error(ErrorCode::contradiction, "found the marker name '" + excerpt(name) +
-                                              "', expected names that are not empty and differ");
-        followers(marker, name);
-        interface_of(marker);
-      }
-    else
-      error(ErrorCode::missing, "found no list of 'markers', expected one");
+    markers(json);
     const std::string mass_model = text_of(json, "mass_model");
-    const std::vector<std::string> models{"isoparametric", "six_dof", "hermite"};
-    const auto model = std::find(models.begin(), models.end(), mass_model);
-    if (model == models.end())
-      error(ErrorCode::wrong_value, "found the mass model '" + excerpt(mass_model) +
-                                        "', expected isoparametric, six_dof or hermite");
+    const auto model = std::find(body_mass_models.begin(), body_mass_models.end(), mass_model);
+    if (model == body_mass_models.end())
+      error(ErrorCode::wrong_value,
+            "found the mass model '{}', expected isoparametric, six_dof or hermite",
+            excerpt(mass_model));
     else
-      body().mass_model = static_cast<MassModel>(model - models.begin());
+      body().mass_model = static_cast<MassModel>(model - body_mass_models.begin());
     if (const auto from = json.find("provenance"); from != json.end() && from->is_object())
       provenance(*from, text_of(json, "floatframe"));
     if (const auto stress = json.find("stress"); stress != json.end() && stress->is_object())
@@ -153,7 +132,39 @@ class BodyReader {
       if (const auto health = json.find("health"); health != json.end())
         out_.part.health = health_from_json(health->dump());
     } catch (const InputError& damage) {
-      error(damage.errors().front().code, std::string("health: ") + damage.what());
+      error(damage.errors().front().code, "health: {}", damage.what());
+    }
+  }
+
+  void modes(const Json& json) {
+    const auto list = json.find("modes");
+    if (list == json.end() || !list->is_array())
+      return error(ErrorCode::missing, "found no list of 'modes', expected one entry per mode");
+    for (const Json& mode : *list) {
+      body().mode_names.push_back(name_of(mode, "mode"));
+      const Json f = mode.is_object() ? mode.value("frequency_Hz", Json()) : Json();
+      if (!f.is_null() && !f.is_number())
+        error(ErrorCode::out_of_range,
+              "found the frequency_Hz {} of mode {}, expected a number [Hz]", json_excerpt(f),
+              header_.frequencies.size() + 1);
+      header_.frequencies.push_back(f.is_number() ? f.get<double>() : -1.0);
+    }
+  }
+
+  void markers(const Json& json) {
+    const auto list = json.find("markers");
+    if (list == json.end() || !list->is_array())
+      return error(ErrorCode::missing, "found no list of 'markers', expected one");
+    std::set<std::string> names;
+    for (const Json& marker : *list) {
+      const std::string name = name_of(marker, "marker");
+      body().nodes.emplace_back().name = name;
+      if (name.empty() || !names.insert(name).second)
+        error(ErrorCode::contradiction,
+              "found the marker name '{}', expected names that are not empty and differ",
+              excerpt(name));
+      followers(marker, name);
+      interface_of(marker);
     }
   }
 
@@ -171,8 +182,8 @@ class BodyReader {
     std::string name = text_of(object, "name");
     if (printable(name) != name)
       error(ErrorCode::wrong_value,
-            fmt::format("found the {} name '{}', expected one without control characters", what,
-                        printable(excerpt(name))));
+            "found the {} name '{}', expected one without control characters", what,
+            printable(excerpt(name)));
     return name;
   }
 
@@ -204,8 +215,8 @@ class BodyReader {
     if (right) return;
     list.clear();
     error(ErrorCode::wrong_count,
-          fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
-                      json_excerpt(*given), excerpt(name)));
+          "found moves_with {} of marker '{}', expected a list of surface points",
+          json_excerpt(*given), excerpt(name));
   }
 
   void provenance(const Json& json, const std::string& version) {
@@ -224,55 +235,13 @@ class BodyReader {
         from.files.emplace_back(text_of(entry, "file"), text_of(entry, "hash"));
   }
 
-  void invariants() {
-    const auto nm = static_cast<Eigen::Index>(body().mode_names.size());
-    InertiaInvariants& v = body().invariants;
-    v.m = arrays_.number("m");
-    v.m_u = arrays_.list("m_u", 3);
-    v.P_u = arrays_.matrix("P_u", 3, 3);
-    v.S = arrays_.matrix("S", 3, nm);
-    for (std::size_t i = 0; i < 3; ++i) v.Si[i] = arrays_.matrix(fmt::format("S{}", i + 1), 3, nm);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        const std::string name = fmt::format("S{}{}", i + 1, j + 1);
-        v.Sij[i][j] = arrays_.matrix(name, nm, nm);
-      }
-    body().K = arrays_.matrix("K", nm, nm);
-    body().D = arrays_.matrix("D", nm, nm);
-    body().fixed_interface_frequencies = arrays_.list("frequencies", arrays_.length("frequencies"));
-  }
-
-  void nodes() {
-    const auto n = static_cast<Eigen::Index>(body().nodes.size());
-    const Eigen::Index nm = body().modes();
-    const MatX p = arrays_.matrix("marker_p", n, 3);
-    const MatX X = arrays_.grouped("marker_X", n, 3, nm);
-    const MatX X_theta = arrays_.grouped("marker_X_theta", n, 3, nm);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      ModalNode& node = body().nodes[k];
-      node.p = p.row(k).transpose();
-      node.X = node.X_theta = Mat3X::Zero(3, nm);
-      if (nm == 0) continue;
-      node.X = X.middleRows<3>(3 * k);
-      node.X_theta = X_theta.middleRows<3>(3 * k);
-    }
-  }
-
-  template <std::size_t N>
-  std::vector<std::array<int, N>> cells(const std::string& name, Eigen::Index nodes) {
-    const std::vector<int> flat = arrays_.integers(name, N, nodes);
-    std::vector<std::array<int, N>> out(flat.size() / N);
-    for (std::size_t k = 0; k < flat.size(); ++k) out[k / N][k % N] = flat[k];
-    return out;
-  }
-
   void surface() {
     ReducedPart& part = out_.part;
     part.surface.nodes = arrays_.integers("surface_nodes", std::nullopt, 2147483647);
     const Eigen::Index n = arrays_.length("surface_nodes"), nm = body().modes();
-    part.surface.triangles = cells<3>("surface_triangles", n);
-    part.surface.lines = cells<2>("surface_lines", n);
-    part.surface_positions = arrays_.matrix("surface_positions", n, 3).transpose();
+    part.surface.triangles = arrays_.integers<3>("surface_triangles", n);
+    part.surface.lines = arrays_.integers<2>("surface_lines", n);
+    arrays_.points("surface_positions", part.surface_positions, n);
     // Without modes nothing can be missing; files of parts without modes were written empty once.
     part.surface_modes =
         nm > 0 ? arrays_.grouped("surface_modes", n, 3, nm) : MatX(MatX::Zero(3 * n, 0));
@@ -283,14 +252,11 @@ class BodyReader {
   void projection() {
     auto data = std::make_shared<ProjectionData>();
     const Eigen::Index n = arrays_.length("projection_p"), nm = body().modes();
-    data->p = arrays_.matrix("projection_p", n, 3).transpose();
-    data->X = arrays_.grouped("projection_X", n, 3, nm);
-    if (arrays_.has("projection_X_theta")) {
-      data->X_theta = arrays_.grouped("projection_X_theta", n, 3, nm);
+    projection_matrices(arrays_, *data, n, nm);
+    if (arrays_.has("projection_X_theta"))
       data->M_6 = read_sparse(arrays_, "projection_M_6", 6 * n);
-    } else {
+    else
       data->M_s = read_sparse(arrays_, "projection_M_s", n);
-    }
     read_projection_second_order(arrays_, nm, *data);
     body().projection = data;
   }

@@ -7,11 +7,9 @@
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/enum_index.hpp"
-#include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
+#include "floatframe/formats/body_file/body_members.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
-#include "floatframe/formats/body_file/second_order_arrays.hpp"
-#include "floatframe/formats/body_file/stress_arrays.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -26,14 +24,13 @@ std::string header_of(const BodyFile& content) {
   const Provenance& from = content.provenance;
   Json modes = Json::array(), markers = Json::array(), options = Json::array(),
        files = Json::array();
+  const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
   const VecX frequencies = mode_frequencies(body);
   for (int k = 0; k < body.modes(); ++k) {
     const auto name = static_cast<std::size_t>(k) < body.mode_names.size()
                           ? body.mode_names[k]
                           : fmt::format("mode {}", k + 1);
-    modes.push_back(
-        {{"name", name},
-         {"frequency_Hz", std::isfinite(frequencies[k]) ? Json(frequencies[k]) : Json()}});
+    modes.push_back({{"name", name}, {"frequency_Hz", finite(frequencies[k])}});
   }
   for (const ModalNode& node : body.nodes) {
     const auto it = std::find_if(health.interfaces.begin(), health.interfaces.end(),
@@ -62,12 +59,11 @@ std::string header_of(const BodyFile& content) {
     for (const BeamSectionPlace& section : body.stress->sections) beams.push_back(section.name);
     stress = {{"groups", groups}, {"beams", beams}};
   }
-  const char* mass_models[] = {"isoparametric", "six_dof", "hermite"};
   const Json header = {{"format", "floatframe body"},
                        {"format_version", body_file_version},
                        {"floatframe", from.version},
                        {"units", body_file_units},
-                       {"mass_model", mass_models[index_of(body.mass_model)]},
+                       {"mass_model", body_mass_models[index_of(body.mass_model)]},
                        {"modes", modes},
                        {"equal_modes_left_out", body.equal_left_out},
                        {"markers", markers},
@@ -84,8 +80,7 @@ std::string header_of(const BodyFile& content) {
 }
 
 template <class Sparse>
-void add_sparse(const Sparse& m, const std::string& name,
-                std::vector<std::pair<std::string, std::string>>& out) {
+void add_sparse(const Sparse& m, const std::string& name, ArrayWriter& out) {
   std::vector<double> values;
   std::vector<std::int32_t> columns;
   std::vector<std::int64_t> starts{0};
@@ -97,9 +92,9 @@ void add_sparse(const Sparse& m, const std::string& name,
     starts.push_back(static_cast<std::int64_t>(values.size()));
   }
   const std::size_t n = values.size(), rows = starts.size();
-  out.emplace_back(name + "_data", npy_bytes({{n}, std::move(values)}));
-  out.emplace_back(name + "_indices", npy_bytes({{n}, std::move(columns)}));
-  out.emplace_back(name + "_indptr", npy_bytes({{rows}, std::move(starts)}));
+  out.add(name + "_data", {{n}, std::move(values)});
+  out.add(name + "_indices", {{n}, std::move(columns)});
+  out.add(name + "_indptr", {{rows}, std::move(starts)});
 }
 
 }  // namespace
@@ -134,57 +129,30 @@ VecX mode_frequencies(const FlexibleBody& body) {
 std::string body_file_bytes(const BodyFile& content) {
   const ReducedPart& part = content.part;
   const FlexibleBody& body = part.body;
-  const InertiaInvariants& v = body.invariants;
-  const Eigen::Index nm = body.modes(), markers = static_cast<Eigen::Index>(body.nodes.size());
-  std::vector<std::pair<std::string, std::string>> arrays;
-  const auto add = [&](const std::string& name, const NpyArray& array) {
-    arrays.emplace_back(name, npy_bytes(array));
-  };
-  add("m", {{}, std::vector<double>{v.m}});
-  add("m_u", list_of(v.m_u));
-  add("P_u", array_of(v.P_u));
-  add("S", array_of(v.S));
-  for (std::size_t i = 0; i < 3; ++i) add(fmt::format("S{}", i + 1), array_of(v.Si[i]));
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      add(fmt::format("S{}{}", i + 1, j + 1), array_of(v.Sij[i][j]));
-  add("K", array_of(body.K));
-  add("D", array_of(body.D.size() > 0 ? body.D : MatX(MatX::Zero(nm, nm))));
-  add("frequencies", list_of(body.fixed_interface_frequencies));
-  MatX p(markers, 3), X(3 * markers, nm), X_theta(3 * markers, nm);
-  for (Eigen::Index k = 0; k < markers; ++k) {
-    const ModalNode& node = body.nodes[k];
-    p.row(k) = node.p.transpose();
-    if (nm == 0) continue;
-    X.middleRows<3>(3 * k) = node.X;
-    X_theta.middleRows<3>(3 * k) = node.X_theta;
-  }
-  add("marker_p", array_of(p));
-  add("marker_X", grouped_array(X, 3));
-  add("marker_X_theta", grouped_array(X_theta, 3));
+  const Eigen::Index nm = body.modes();
+  NamedBytes arrays;
+  ArrayWriter out(arrays);
+  body_matrices(out, body, nm);
+  marker_matrices(out, body.nodes, nm);
   const Surface& surface = part.surface;
-  add("surface_nodes", {{surface.nodes.size()},
-                        std::vector<std::int32_t>(surface.nodes.begin(), surface.nodes.end())});
-  add("surface_triangles", array_of(surface.triangles));
-  add("surface_lines", array_of(surface.lines));
-  add("surface_positions", array_of(part.surface_positions.transpose()));
+  out.integers("surface_nodes", surface.nodes);
+  out.integers("surface_triangles", surface.triangles);
+  out.integers("surface_lines", surface.lines);
+  out.points("surface_positions", part.surface_positions, part.surface_positions.cols());
   // Without modes it has rows all the same; a file without a surface has none.
-  const Eigen::Index rows = 3 * static_cast<Eigen::Index>(surface.nodes.size());
-  const bool given = part.surface_modes.rows() == rows && part.surface_modes.cols() == nm;
-  add("surface_modes", grouped_array(given ? part.surface_modes : MatX(MatX::Zero(rows, nm)), 3));
+  const auto n = static_cast<Eigen::Index>(surface.nodes.size());
+  const bool given = part.surface_modes.rows() == 3 * n && part.surface_modes.cols() == nm;
+  out.grouped("surface_modes", given ? part.surface_modes : MatX(), n, 3, nm);
   if (body.projection) {
     const ProjectionData& data = *body.projection;
-    add("projection_p", array_of(data.p.transpose()));
-    add("projection_X", grouped_array(data.X, 3));
-    if (data.six_dof()) {
-      add("projection_X_theta", grouped_array(data.X_theta, 3));
-      add_sparse(data.M_6, "projection_M_6", arrays);
-    } else {
-      add_sparse(data.M_s, "projection_M_s", arrays);
-    }
+    projection_matrices(out, data, data.p.cols(), nm);
+    if (data.six_dof())
+      add_sparse(data.M_6, "projection_M_6", out);
+    else
+      add_sparse(data.M_s, "projection_M_s", out);
   }
-  add_second_order(body, arrays);
-  add_stress(body, arrays);
+  add_second_order(body, out);
+  add_stress(body, out);
   const std::string header = header_of(content);
   std::vector<ZipMember> members{{"header.json", header}};
   for (const auto& [name, bytes] : arrays) members.push_back({name + ".npy", bytes});

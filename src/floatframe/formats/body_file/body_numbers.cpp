@@ -7,7 +7,6 @@
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/json_text.hpp"
-#include "floatframe/formats/body_file/second_order_arrays.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
@@ -52,9 +51,8 @@ class Check {
       if (std::abs(f - header_.frequencies[k]) <= same_number * std::max(f, header_.frequencies[k]))
         continue;
       error(ErrorCode::contradiction,
-            fmt::format("found {:.6g} Hz for mode {}, but K and the modal "
-                        "mass S11 + S22 + S33 give {:.6g} Hz",
-                        header_.frequencies[k], k + 1, f));
+            "found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give {:.6g} Hz",
+            header_.frequencies[k], k + 1, f);
       break;
     }
     health(v);
@@ -70,13 +68,10 @@ class Check {
     for (std::size_t k = 0; k < header_.moves_with.size(); ++k)
       for (const std::int64_t point : header_.moves_with[k]) {
         const ModalNode& node = file_.part.body.nodes[k];
-        if (point < 0 || point >= part.surface_positions.cols()) {
-          error(ErrorCode::out_of_range,
-                fmt::format(
-                    "found the surface point {} for marker '{}', expected a number from 0 to {}",
-                    point, excerpt(node.name), part.surface_positions.cols() - 1));
-          return;
-        }
+        if (point < 0 || point >= part.surface_positions.cols())
+          return error(ErrorCode::out_of_range,
+                       "found the surface point {} for marker '{}', expected a number from 0 to {}",
+                       point, excerpt(node.name), part.surface_positions.cols() - 1);
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
         if (off <= same_number * scale) continue;
         arrays_.error(ErrorCode::contradiction, "marker_X",
@@ -93,14 +88,11 @@ class Check {
     const MassProperties& said = h.from_invariants;
     if (!(said.mass > 0.0)) return;  // no report
     if (h.modes != v.modes())
-      error(
-          ErrorCode::wrong_count,
-          fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
-    if (!(std::abs(v.m - said.mass) <= same_number * said.mass)) {
-      arrays_.error(ErrorCode::contradiction, "m",
-                    "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
-      return;
-    }
+      error(ErrorCode::wrong_count, "health: found {} modes, expected the {} of this file", h.modes,
+            v.modes());
+    if (!(std::abs(v.m - said.mass) <= same_number * said.mass))
+      return arrays_.error(ErrorCode::contradiction, "m",
+                           "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
     if (h.rotary_inertia) of_the_part(v, h);
     const Mat3 J = v.inertia_about_origin();
     const double length = std::sqrt(J.trace() / v.m);
@@ -152,8 +144,10 @@ class Check {
     }
   }
 
-  void error(ErrorCode code, const std::string& sentence) {
-    errors_.add(code, {name_, 0, 0}, "member 'header.json': " + sentence);
+  template <class... Args>
+  void error(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
+    errors_.add(code, {name_, 0, 0},
+                "member 'header.json': " + fmt::format(text, std::forward<Args>(args)...));
   }
 
   const BodyFile& file_;

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
-#include "floatframe/formats/body_file/stress_arrays.hpp"
+#include "floatframe/formats/body_file/body_members.hpp"
 
 namespace floatframe {
 

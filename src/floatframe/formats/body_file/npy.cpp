@@ -20,16 +20,16 @@ static_assert(std::endian::native == std::endian::little,
 constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t alignment = 64;  // of the values, as NumPy writes them
 
-[[noreturn]] void fail(ErrorCode code, const std::string& sentence) {
-  throw InputError(code, sentence);
+template <class... Args>
+[[noreturn]] void fail(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
+  throw InputError(code, fmt::format(text, std::forward<Args>(args)...));
 }
 
 std::size_t count_of(const std::vector<std::size_t>& shape) {
   std::size_t n = 1;
   for (const std::size_t k : shape) {
     if (k != 0 && n > std::numeric_limits<std::size_t>::max() / 16 / k)
-      fail(ErrorCode::wrong_count,
-           "found the shape " + shape_text(shape) + ", expected fewer values");
+      fail(ErrorCode::wrong_count, "found the shape {}, expected fewer values", shape_text(shape));
     n *= k;
   }
   return n;
@@ -139,9 +139,8 @@ template <class T>
 NpyArray values(std::string_view bytes, const Header& header) {
   const std::size_t n = count_of(*header.shape);
   if (bytes.size() != n * sizeof(T))
-    fail(ErrorCode::wrong_count,
-         fmt::format("found {} bytes of values, expected {} for the shape {}", bytes.size(),
-                     n * sizeof(T), shape_text(*header.shape)));
+    fail(ErrorCode::wrong_count, "found {} bytes of values, expected {} for the shape {}",
+         bytes.size(), n * sizeof(T), shape_text(*header.shape));
   std::vector<T> out(n);
   if (n > 0) std::memcpy(out.data(), bytes.data(), bytes.size());
   if (*header.fortran && header.shape->size() > 1) out = reordered(out, *header.shape);
@@ -211,24 +210,24 @@ NpyArray read_npy(std::string_view bytes) {
   };
   const std::size_t version = byte(6);
   if (version < 1 || version > 3)
-    fail(ErrorCode::out_of_range,
-         fmt::format("found version {} of the .npy format, expected 1 to 3", version));
+    fail(ErrorCode::out_of_range, "found version {} of the .npy format, expected 1 to 3", version);
   std::size_t length = byte(8) | byte(9) << 8, start = 10;
   if (version > 1) {
     length |= byte(10) << 16 | byte(11) << 24;
     start = 12;
   }
   if (length > bytes.size() - start)
-    fail(ErrorCode::damaged, fmt::format("found {} bytes of a header of {}: the array is truncated",
-                                         bytes.size() - start, length));
+    fail(ErrorCode::damaged, "found {} bytes of a header of {}: the array is truncated",
+         bytes.size() - start, length);
   const Header header(bytes.substr(start, length));
   const std::string_view rest = bytes.substr(start + length);
   if (*header.descr == "<f8") return values<double>(rest, header);
   if (*header.descr == "<i4") return values<std::int32_t>(rest, header);
   if (*header.descr == "<i8") return values<std::int64_t>(rest, header);
   fail(ErrorCode::wrong_value,
-       "found values of the type '" + header.descr->substr(0, 20) +
-           "', expected <f8, <i4 or <i8 (little-endian doubles and integers)");
+       "found values of the type '{}', expected <f8, <i4 or <i8 (little-endian doubles and "
+       "integers)",
+       header.descr->substr(0, 20));
 }
 
 }  // namespace floatframe

@@ -1,10 +1,7 @@
-#include "floatframe/formats/body_file/stress_arrays.hpp"
-
-#include <fmt/format.h>
-
 #include <limits>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/formats/body_file/body_members.hpp"
 
 namespace floatframe {
 namespace {
@@ -28,90 +25,90 @@ std::shared_ptr<const BodyStress> surface_stress(ArrayReader& arrays, Eigen::Ind
   return out;
 }
 
+/// The matrices of places, or of sections (`of` "section"): for ArrayWriter and ArrayReader.
+template <class IO, class Matrix>
+void stress_matrices(IO& io, const std::string& of, Eigen::Index count, Eigen::Index nm,
+                     Matrix& modes, Matrix& loads) {
+  io.grouped(of + "_modes", modes, count, 6, nm);
+  if (io.wants(of + "_loads", loads.size() > 0))
+    io.grouped(of + "_loads", loads, count, 6, body_load_cases + nm);
+}
+
 void read_places(ArrayReader& arrays, Eigen::Index points, BodyStress& out) {
-  const std::vector<int> flat = arrays.integers("stress_places", 6, any_integer);
-  const auto n = static_cast<Eigen::Index>(flat.size() / 6);
+  const auto rows = arrays.integers<6>("stress_places", any_integer);
+  const auto n = static_cast<Eigen::Index>(rows.size());
   const MatX p = arrays.matrix("stress_p", n, 3);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int* row = flat.data() + 6 * k;
-    if (row[0] > points || row[3] >= layers || row[4] >= static_cast<int>(out.groups.size()) ||
-        row[5] > 1) {
-      arrays.error(ErrorCode::wrong_value, "stress_places",
-                   "place {} is not one: expected a point up to {}, a layer below {}, a group "
-                   "below {} and 0 or 1",
-                   k + 1, points, layers, out.groups.size());
-      return;
-    }
-    out.places.push_back({.layer = static_cast<StressPlace::Layer>(row[3]),
-                          .point = row[0] - 1,
-                          .node = row[1],
-                          .number = row[2],
-                          .group = row[4],
-                          .doubtful = row[5] != 0,
+    const auto& [point, node, number, layer, group, doubtful] = rows[k];
+    if (point > points || layer >= layers || group >= static_cast<int>(out.groups.size()) ||
+        doubtful > 1)
+      return arrays.error(
+          ErrorCode::wrong_value, "stress_places",
+          "place {} is not one: expected a point up to {}, a layer below {}, a group "
+          "below {} and 0 or 1",
+          k + 1, points, layers, out.groups.size());
+    out.places.push_back({.layer = static_cast<StressPlace::Layer>(layer),
+                          .point = point - 1,
+                          .node = node,
+                          .number = number,
+                          .group = group,
+                          .doubtful = doubtful != 0,
                           .p = p.row(k).transpose()});
   }
 }
 
 void read_sections(ArrayReader& arrays, const StressNames& names, BodyStress& out) {
-  const std::vector<int> flat = arrays.integers("stress_sections", 5, any_integer);
-  const MatX p = arrays.matrix("section_p", static_cast<Eigen::Index>(flat.size() / 5), 3);
+  const auto rows = arrays.integers<5>("stress_sections", any_integer);
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  const MatX p = arrays.matrix("section_p", n, 3);
   const auto places = static_cast<int>(out.places.size());
   int before = 0;
-  for (std::size_t k = 0; k < flat.size() / 5; ++k) {
-    const int* row = flat.data() + 5 * k;
-    if (row[3] != static_cast<int>(k % 2) || row[4] < before || row[4] > places) {
-      arrays.error(ErrorCode::wrong_value, "stress_sections",
-                   "section {} is not one: expected the ends 0 and 1 in turn and first places that "
-                   "ascend up to {}",
-                   k + 1, places);
-      return;
-    }
-    before = row[4];
-    out.sections.push_back({row[0], row[1], row[2], row[3],
-                            p.row(static_cast<Eigen::Index>(k)).transpose(),
-                            k < names.beams.size() ? names.beams[k] : ""});
-    out.first_place.push_back(row[4]);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto& [element, node, number, end, first] = rows[k];
+    if (end != k % 2 || first < before || first > places)
+      return arrays.error(
+          ErrorCode::wrong_value, "stress_sections",
+          "section {} is not one: expected the ends 0 and 1 in turn and first places that "
+          "ascend up to {}",
+          k + 1, places);
+    before = first;
+    const std::size_t at = k;
+    out.sections.push_back({element, node, number, end, p.row(k).transpose(),
+                            at < names.beams.size() ? names.beams[at] : ""});
+    out.first_place.push_back(first);
   }
   if (!out.sections.empty()) out.first_place.push_back(places);
 }
 
 }  // namespace
 
-void add_stress(const FlexibleBody& body, NamedBytes& arrays) {
-  if (!body.stress || body.modes() == 0) return;
+void add_stress(const FlexibleBody& body, ArrayWriter& out) {
+  const Eigen::Index nm = body.modes();
+  if (!body.stress || nm == 0) return;
   const BodyStress& s = *body.stress;
-  const auto add = [&](const char* name, const NpyArray& array) {
-    arrays.emplace_back(name, npy_bytes(array));
-  };
   std::vector<std::array<int, 6>> places;
   std::vector<std::array<int, 5>> sections;
-  MatX p(static_cast<Eigen::Index>(s.places.size()), 3);
-  for (const StressPlace& place : s.places) {
-    p.row(static_cast<Eigen::Index>(places.size())) = place.p.transpose();
+  for (const StressPlace& place : s.places)
     places.push_back({place.point + 1, place.node, place.number,
                       static_cast<int>(index_of(place.layer)), place.group,
                       place.doubtful ? 1 : 0});
-  }
-  MatX section_p(static_cast<Eigen::Index>(s.sections.size()), 3);
-  for (std::size_t k = 0; k < s.sections.size(); ++k) {
-    const BeamSectionPlace& section = s.sections[k];
-    section_p.row(static_cast<Eigen::Index>(k)) = section.p.transpose();
-    sections.push_back(
-        {section.element, section.node, section.number, section.end, s.first_place[k]});
-  }
+  for (const BeamSectionPlace& at : s.sections)
+    sections.push_back({at.element, at.node, at.number, at.end, s.first_place[sections.size()]});
   MatX groups(static_cast<Eigen::Index>(s.groups.size()), 2);
   for (Eigen::Index k = 0; k < groups.rows(); ++k)
     groups.row(k) << s.groups[k].young, s.groups[k].poisson;
-  add("stress_places", array_of(places));
-  add("stress_p", array_of(p));
-  add("stress_groups", array_of(groups));
-  add("stress_modes", grouped_array(s.modes, 6));
-  if (s.loads.size() > 0) add("stress_loads", grouped_array(s.loads, 6));
+  const auto count = static_cast<Eigen::Index>(places.size());
+  out.integers("stress_places", places);
+  out.rows(
+      "stress_p", count, [&](std::size_t k) -> auto& { return s.places[k].p; });
+  out.matrix("stress_groups", groups, groups.rows(), 2);
+  stress_matrices(out, "stress", count, nm, s.modes, s.loads);
   if (s.sections.empty()) return;
-  add("stress_sections", array_of(sections));
-  add("section_p", array_of(section_p));
-  add("section_modes", grouped_array(s.section_modes, 6));
-  if (s.section_loads.size() > 0) add("section_loads", grouped_array(s.section_loads, 6));
+  const auto section_count = static_cast<Eigen::Index>(sections.size());
+  out.integers("stress_sections", sections);
+  out.rows(
+      "section_p", section_count, [&](std::size_t k) -> auto& { return s.sections[k].p; });
+  stress_matrices(out, "section", section_count, nm, s.section_modes, s.section_loads);
 }
 
 std::shared_ptr<const BodyStress> read_stress(ArrayReader& arrays, Eigen::Index nm,
@@ -131,13 +128,9 @@ std::shared_ptr<const BodyStress> read_stress(ArrayReader& arrays, Eigen::Index 
   if (arrays.has("stress_sections")) read_sections(arrays, names, *out);
   const auto places = static_cast<Eigen::Index>(out->places.size());
   const auto sections = static_cast<Eigen::Index>(out->sections.size());
-  const Eigen::Index loads = body_load_cases + nm;
-  out->modes = arrays.grouped("stress_modes", places, 6, nm);
-  if (arrays.has("stress_loads")) out->loads = arrays.grouped("stress_loads", places, 6, loads);
-  if (sections == 0) return out;
-  out->section_modes = arrays.grouped("section_modes", sections, 6, nm);
-  if (arrays.has("section_loads"))
-    out->section_loads = arrays.grouped("section_loads", sections, 6, loads);
+  stress_matrices(arrays, "stress", places, nm, out->modes, out->loads);
+  if (sections > 0)
+    stress_matrices(arrays, "section", sections, nm, out->section_modes, out->section_loads);
   return out;
 }
 

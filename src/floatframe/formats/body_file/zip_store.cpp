@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <set>
 
@@ -22,13 +23,14 @@ constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22;
 constexpr std::uint16_t needed_version = 20, first_january_1980 = 0x21, utf8_names = 0x0800;
 constexpr std::size_t largest = std::numeric_limits<std::uint32_t>::max();
 
-void put16(std::string& out, std::size_t x) {
-  out += static_cast<char>(x & 0xff);
-  out += static_cast<char>((x >> 8) & 0xff);
-}
-void put32(std::string& out, std::size_t x) {
-  put16(out, x & 0xffff);
-  put16(out, x >> 16);
+/// A number in so many bytes.
+struct ZipField {
+  int bytes;
+  std::size_t value;
+};
+void put(std::string& out, std::initializer_list<ZipField> fields) {
+  for (const auto& [bytes, value] : fields)
+    for (int k = 0; k < bytes; ++k) out += static_cast<char>((value >> 8 * k) & 0xff);
 }
 
 std::uint32_t crc_of(std::string_view bytes) {
@@ -43,16 +45,17 @@ std::uint32_t crc_of(std::string_view bytes) {
 
 /// What the local header and the directory entry have in common: version to checksum, sizes, name.
 void put_common(std::string& out, const ZipMember& m, std::uint32_t crc) {
-  put16(out, needed_version);
-  put16(out, utf8_names);
-  put16(out, 0);  // stored
-  put16(out, 0);  // midnight
-  put16(out, first_january_1980);
-  put32(out, crc);
-  put32(out, m.content.size());
-  put32(out, m.content.size());
-  put16(out, m.name.size());
-  put16(out, 0);  // no extra field
+  constexpr std::size_t stored = 0, midnight = 0, extra_field = 0;
+  put(out, {{2, needed_version},
+            {2, utf8_names},
+            {2, stored},
+            {2, midnight},
+            {2, first_january_1980},
+            {4, crc},
+            {4, m.content.size()},
+            {4, m.content.size()},
+            {2, m.name.size()},
+            {2, extra_field}});
 }
 
 class ArchiveReader {
@@ -70,16 +73,17 @@ class ArchiveReader {
       fail(ErrorCode::unsupported,
            "the archive is a zip64 archive, expected less than 4 GB and 65535 members");
     if (start > end || size > end - start || start + size != end)
-      fail(ErrorCode::damaged, fmt::format("the directory of the archive is damaged: found {} "
-                                           "bytes at {} of it, expected them to end at {}",
-                                           size, start, end));
+      fail(ErrorCode::damaged,
+           "the directory of the archive is damaged: found {} bytes at {} of it, expected them to "
+           "end at {}",
+           size, start, end);
     std::vector<ZipMember> out;
     std::set<std::string> names;
     std::size_t at = start;
     for (std::size_t k = 0; k < count; ++k) {
       out.push_back(member(at, end));
       if (!names.insert(out.back().name).second)
-        fail(ErrorCode::duplicate, "member '" + out.back().name + "': found twice, expected once");
+        fail(ErrorCode::duplicate, "member '{}': found twice, expected once", out.back().name);
     }
     if (at != end)
       fail(ErrorCode::contradiction,
@@ -88,8 +92,9 @@ class ArchiveReader {
   }
 
  private:
-  [[noreturn]] void fail(ErrorCode code, const std::string& sentence) const {
-    throw InputError(code, SourceMark{file_, 0, 0}, sentence);
+  template <class... Args>
+  [[noreturn]] void fail(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) const {
+    throw InputError(code, SourceMark{file_, 0, 0}, fmt::format(text, std::forward<Args>(args)...));
   }
   std::size_t u16(std::size_t at) const {
     return static_cast<unsigned char>(bytes_[at]) |
@@ -123,29 +128,26 @@ class ArchiveReader {
     m.name = std::string(bytes_.substr(at + entry_size, name_size));
     at += entry_size + rest;
     const std::string who = "member '" + m.name + "': ";
-    if (flags & 1u) fail(ErrorCode::unsupported, who + "is encrypted, expected plain bytes");
+    if (flags & 1u) fail(ErrorCode::unsupported, "{}is encrypted, expected plain bytes", who);
     if (method != 0)
-      fail(ErrorCode::unsupported,
-           fmt::format("{}is compressed (method {}), expected a stored member", who, method));
+      fail(ErrorCode::unsupported, "{}is compressed (method {}), expected a stored member", who,
+           method);
     if (packed != size)
-      fail(ErrorCode::damaged,
-           fmt::format("{}found {} stored bytes for a size of {}, expected as many", who, packed,
-                       size));
+      fail(ErrorCode::damaged, "{}found {} stored bytes for a size of {}, expected as many", who,
+           packed, size);
     if (local > end || end - local < local_size || u32(local) != local_mark)
-      fail(ErrorCode::damaged,
-           fmt::format("{}found no header at byte {}, expected one", who, local));
+      fail(ErrorCode::damaged, "{}found no header at byte {}, expected one", who, local);
     const std::size_t data = local + local_size + u16(local + 26) + u16(local + 28);
     if (u16(local + 26) != name_size || bytes_.substr(local + local_size, name_size) != m.name)
-      fail(ErrorCode::damaged, who + "found another name in its own header, expected the same");
+      fail(ErrorCode::damaged, "{}found another name in its own header, expected the same", who);
     if (data > end || size > end - data)
-      fail(ErrorCode::damaged, fmt::format("{}found {} bytes of {}: it is truncated", who,
-                                           data > end ? 0 : end - data, size));
+      fail(ErrorCode::damaged, "{}found {} bytes of {}: it is truncated", who,
+           data > end ? 0 : end - data, size);
     m.content = bytes_.substr(data, size);
     const std::uint32_t found = crc_of(m.content);
     if (found != crc)
       fail(ErrorCode::damaged,
-           fmt::format("{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who,
-                       found, crc));
+           "{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who, found, crc);
     return m;
   }
 
@@ -169,30 +171,26 @@ std::string zip_archive(const std::vector<ZipMember>& members) {
   for (const ZipMember& m : members) {
     const std::uint32_t crc = crc_of(m.content);
     const std::size_t place = out.size();
-    put32(out, local_mark);
+    put(out, {{4, local_mark}});
     put_common(out, m, crc);
     out += m.name;
     out += m.content;
-    put32(directory, entry_mark);
-    put16(directory, needed_version);
+    put(directory, {{4, entry_mark}, {2, needed_version}});
     put_common(directory, m, crc);
-    put16(directory, 0);  // no comment
-    put16(directory, 0);  // first volume
-    put16(directory, 0);  // attributes
-    put32(directory, 0);
-    put32(directory, place);
+    // No comment, the first volume, no attributes.
+    put(directory, {{2, 0}, {2, 0}, {2, 0}, {4, 0}, {4, place}});
     directory += m.name;
   }
   const std::size_t start = out.size();
   out += directory;
-  put32(out, end_mark);
-  put16(out, 0);
-  put16(out, 0);
-  put16(out, members.size());
-  put16(out, members.size());
-  put32(out, directory.size());
-  put32(out, start);
-  put16(out, archive_comment.size());
+  put(out, {{4, end_mark},
+            {2, 0},
+            {2, 0},
+            {2, members.size()},
+            {2, members.size()},
+            {4, directory.size()},
+            {4, start},
+            {2, archive_comment.size()}});
   out += archive_comment;
   return out;
 }

@@ -1,9 +1,13 @@
 #pragma once
 // What the readers of geometry files share: points and triangles as they come, checked and counted.
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/geometry/geometry_file.hpp"
 
 namespace floatframe {
@@ -17,7 +21,17 @@ class GeometryBuilder {
   /// Indices of points that were given.
   void triangle(int a, int b, int c);
   std::size_t points() const noexcept { return points_.size(); }
-  [[noreturn]] void stop(ErrorCode code, const std::string& sentence, int line = 0) const;
+  /// `line`: of a text file, else 0.
+  template <class... Args>
+  [[noreturn]] void stop(ErrorCode code, int line, fmt::format_string<Args...> text,
+                         Args&&... args) const {
+    throw InputError(code, SourceMark{name_, line, 0},
+                     fmt::format(text, std::forward<Args>(args)...));
+  }
+  template <class... Args>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) const {
+    stop(code, 0, text, std::forward<Args>(args)...);
+  }
 
   TriangleGeometry finish() const;
 
@@ -26,6 +40,11 @@ class GeometryBuilder {
   std::vector<Vec3> points_;
   std::vector<std::array<int, 3>> triangles_;
 };
+
+/// The next line without its end; `text` moves behind it, and `line` counts.
+std::string_view next_geometry_line(std::string_view& text, int& line);
+/// Three numbers of a line behind the word `key`.
+Vec3 geometry_point(const char* key, std::string_view rest, int line, const GeometryBuilder& out);
 
 void parse_stl(std::string_view bytes, GeometryBuilder& out);
 void parse_obj(std::string_view bytes, GeometryBuilder& out);

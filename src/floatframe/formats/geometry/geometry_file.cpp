@@ -1,12 +1,8 @@
 #include "floatframe/formats/geometry/geometry_file.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstring>
+#include <bit>
 #include <unordered_map>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/regular_file.hpp"
 #include "floatframe/formats/geometry/geometry_build.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -18,18 +14,13 @@ std::string geometry_ending(const std::filesystem::path& file) {
   return lower_case(file.extension().string());
 }
 
-struct PointKey {
-  std::array<double, 3> x;
-  bool operator==(const PointKey&) const = default;
-};
+using PointKey = std::array<double, 3>;
 
 struct PointKeyHash {
   std::size_t operator()(const PointKey& key) const noexcept {
     std::uint64_t h = 0;
-    for (const double v : key.x) {
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &v, sizeof bits);
-      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+    for (const double v : key) {
+      h = (h ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
       h ^= h >> 29;
     }
     return static_cast<std::size_t>(h);
@@ -40,26 +31,42 @@ struct PointKeyHash {
 
 int GeometryBuilder::point(const Vec3& p, int line) {
   if (!p.allFinite())
-    stop(ErrorCode::not_finite,
-         fmt::format("point {} is not finite, expected three numbers", points_.size() + 1), line);
+    stop(ErrorCode::not_finite, line, "point {} is not finite, expected three numbers",
+         points_.size() + 1);
   if (points_.size() >= 3 * limits::geometry_triangles)
-    stop(ErrorCode::too_large,
-         fmt::format("found more than {} points, expected at most so many",
-                     3 * limits::geometry_triangles),
-         line);
+    stop(ErrorCode::too_large, line, "found more than {} points, expected at most so many",
+         3 * limits::geometry_triangles);
   points_.push_back(p);
   return static_cast<int>(points_.size()) - 1;
 }
 
 void GeometryBuilder::triangle(int a, int b, int c) {
   if (triangles_.size() >= limits::geometry_triangles)
-    stop(ErrorCode::too_large, fmt::format("found more than {} triangles, expected at most so many",
-                                           limits::geometry_triangles));
+    stop(ErrorCode::too_large, "found more than {} triangles, expected at most so many",
+         limits::geometry_triangles);
   triangles_.push_back({a, b, c});
 }
 
-void GeometryBuilder::stop(ErrorCode code, const std::string& sentence, int line) const {
-  throw InputError(code, SourceMark{name_, line, 0}, sentence);
+std::string_view next_geometry_line(std::string_view& text, int& line) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view rest = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  if (rest.ends_with('\r')) rest.remove_suffix(1);
+  ++line;
+  return rest;
+}
+
+Vec3 geometry_point(const char* key, std::string_view rest, int line, const GeometryBuilder& out) {
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) {
+    const std::string_view word = next_word(rest);
+    const auto x = parse_real(word);
+    if (!x)
+      out.stop(ErrorCode::not_a_number, line, "{}: {}, expected three numbers", key,
+               not_a_real(word));
+    p[k] = *x;
+  }
+  return p;
 }
 
 TriangleGeometry GeometryBuilder::finish() const {
@@ -72,7 +79,7 @@ TriangleGeometry GeometryBuilder::finish() const {
     if (index >= 0) return index;
     const Vec3& p = points_[static_cast<std::size_t>(k)];
     // + 0.0: a negative zero is the same place.
-    const auto [at, fresh] = known.emplace(PointKey{{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}},
+    const auto [at, fresh] = known.emplace(PointKey{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0},
                                            static_cast<int>(places.size()));
     if (fresh) places.push_back(&p);
     return index = at->second;

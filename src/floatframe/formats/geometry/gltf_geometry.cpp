@@ -2,9 +2,9 @@
 // second chunk of a .glb, in data: addresses or in files beside it. Triangles, strips and fans are
 // taken, with the transformations of their nodes; every length and index is checked against what is
 // there.
-#include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -32,6 +32,8 @@ struct GltfNumbers {
 };
 
 constexpr int gltf_u8 = 5121, gltf_u16 = 5123, gltf_u32 = 5125, gltf_f32 = 5126;
+constexpr std::pair<int, std::size_t> gltf_sizes[] = {
+    {gltf_u8, 1}, {gltf_u16, 2}, {gltf_u32, 4}, {gltf_f32, 4}};
 
 class GltfReader {
  public:
@@ -41,7 +43,7 @@ class GltfReader {
 
   void read() {
     if (!json_.is_object())
-      out_.stop(ErrorCode::wrong_file, "found " + json_excerpt(json_) + ", expected glTF");
+      out_.stop(ErrorCode::wrong_file, "found {}, expected glTF", json_excerpt(json_));
     const GltfJson* asset = member(json_, "asset");
     const GltfJson* version = asset ? member(*asset, "version") : nullptr;
     if (!version || !version->is_string() ||
@@ -56,8 +58,7 @@ class GltfReader {
       open.pop_back();
       const GltfJson& node = element("nodes", n);
       if (seen[n])
-        out_.stop(ErrorCode::duplicate,
-                  fmt::format("found node {} twice, expected a tree of nodes", n));
+        out_.stop(ErrorCode::duplicate, "found node {} twice, expected a tree of nodes", n);
       seen[n] = true;
       const GltfPlace own = place_of(node, n);
       const GltfPlace here{above.A * own.A, above.t + above.A * own.t};
@@ -80,14 +81,14 @@ class GltfReader {
   }
   const GltfJson& element(const char* list, std::size_t k) const {
     if (k >= size(list))
-      out_.stop(ErrorCode::not_found,
-                fmt::format("found number {} of '{}', expected one below {}", k, list, size(list)));
+      out_.stop(ErrorCode::not_found, "found number {} of '{}', expected one below {}", k, list,
+                size(list));
     return (*member(json_, list))[k];
   }
   std::size_t whole(const GltfJson& value, const char* key) const {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
-      out_.stop(ErrorCode::out_of_range,
-                fmt::format("{}: found {}, expected a whole number", key, json_excerpt(value)));
+      out_.stop(ErrorCode::out_of_range, "{}: found {}, expected a whole number", key,
+                json_excerpt(value));
     return value.get<std::size_t>();
   }
   std::optional<std::size_t> index(const GltfJson& object, const char* key) const {
@@ -96,8 +97,7 @@ class GltfReader {
   }
   std::size_t required(const GltfJson& object, const char* key) const {
     const auto value = index(object, key);
-    if (!value)
-      out_.stop(ErrorCode::damaged, fmt::format("'{}' is missing: the file is damaged", key));
+    if (!value) out_.stop(ErrorCode::damaged, "'{}' is missing: the file is damaged", key);
     return *value;
   }
   std::vector<std::size_t> indices(const GltfJson& object, const char* key) const {
@@ -116,8 +116,8 @@ class GltfReader {
       if (good) values[k] = (*items)[k].get<double>();
     }
     if (!good)
-      out_.stop(ErrorCode::wrong_count, fmt::format("{}: found {}, expected {} numbers", key,
-                                                    json_excerpt(*items), values.size()));
+      out_.stop(ErrorCode::wrong_count, "{}: found {}, expected {} numbers", key,
+                json_excerpt(*items), values.size());
     return true;
   }
 
@@ -130,8 +130,9 @@ class GltfReader {
       if (!name.starts_with("KHR_materials_") && !name.starts_with("KHR_texture_") &&
           !name.starts_with("EXT_texture_") && !name.starts_with("KHR_lights_"))
         out_.stop(ErrorCode::unsupported,
-                  "found the required extension '" + excerpt(name) +
-                      "', expected glTF 2.0 without it (no compression, no quantization)");
+                  "found the required extension '{}', expected glTF 2.0 without it (no "
+                  "compression, no quantization)",
+                  excerpt(name));
     }
   }
 
@@ -166,7 +167,7 @@ class GltfReader {
       numbers(node, "translation", t);
       Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
       if (!(turn.norm() > 1e-6))
-        out_.stop(ErrorCode::geometry, fmt::format("node {}: found a rotation of length zero", n));
+        out_.stop(ErrorCode::geometry, "node {}: found a rotation of length zero", n);
       place.A = turn.normalized().toRotationMatrix() * Vec3(s[0], s[1], s[2]).asDiagonal();
       place.t = {t[0], t[1], t[2]};
     }
@@ -181,12 +182,12 @@ class GltfReader {
     const GltfJson* uri = member(json, "uri");
     if (!uri) {
       if (k != 0 || chunk_.empty())
-        out_.stop(ErrorCode::damaged,
-                  fmt::format("buffer {} has no content: the file is cut short or damaged", k));
+        out_.stop(ErrorCode::damaged, "buffer {} has no content: the file is cut short or damaged",
+                  k);
       return chunk_;
     }
     if (!uri->is_string())
-      out_.stop(ErrorCode::wrong_value, "uri: found " + json_excerpt(*uri) + ", expected a text");
+      out_.stop(ErrorCode::wrong_value, "uri: found {}, expected a text", json_excerpt(*uri));
     return buffers_.emplace(k, content(uri->get<std::string>())).first->second;
   }
 
@@ -202,53 +203,42 @@ class GltfReader {
     }
     std::string name;
     for (std::size_t k = 0; k < uri.size(); ++k) {
-      int code = 0;
-      const bool escaped =
-          uri[k] == '%' && k + 2 < uri.size() && hex(uri[k + 1], code) && hex(uri[k + 2], code);
+      unsigned code = 0;
+      const char* const digits = uri.data() + k + 1;
+      const bool escaped = uri[k] == '%' && k + 2 < uri.size() &&
+                           std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
       name += escaped ? static_cast<char>(code) : uri[k];
       if (escaped) k += 2;
     }
     if (!loader_ || name.find(':') != std::string::npos || name.find('\0') != std::string::npos)
-      out_.stop(ErrorCode::unsupported, "found a buffer at '" + excerpt(uri) +
-                                            "', expected one inside or in a file beside");
+      out_.stop(ErrorCode::unsupported,
+                "found a buffer at '{}', expected one inside or in a file beside", excerpt(uri));
     const auto place = std::filesystem::path(name).lexically_normal();
     if (name.empty() || place.is_absolute() || *place.begin() == "..")
       out_.stop(ErrorCode::unsupported,
-                "found a buffer at '" + excerpt(uri) +
-                    "', expected one in the folder of this file or below it");
+                "found a buffer at '{}', expected one in the folder of this file or below it",
+                excerpt(uri));
     return loader_(name);
-  }
-  static bool hex(char c, int& code) {
-    const int digit = c >= '0' && c <= '9'   ? c - '0'
-                      : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                      : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                             : -1;
-    code = 16 * code + digit;
-    return digit >= 0;
   }
 
   GltfNumbers accessor(std::size_t k, const char* type, std::size_t values) {
     const GltfJson& json = element("accessors", k);
     const GltfJson* given = member(json, "type");
     if (!given || !given->is_string() || given->get_ref<const std::string&>() != type)
-      out_.stop(ErrorCode::wrong_count,
-                fmt::format("accessor {}: found another type, expected {}", k, type));
+      out_.stop(ErrorCode::wrong_count, "accessor {}: found another type, expected {}", k, type);
     if (member(json, "sparse"))
-      out_.stop(ErrorCode::unsupported,
-                fmt::format("accessor {} is sparse, expected all of its numbers", k));
+      out_.stop(ErrorCode::unsupported, "accessor {} is sparse, expected all of its numbers", k);
     GltfNumbers n;
     n.component = static_cast<int>(required(json, "componentType"));
     n.count = required(json, "count");
-    const std::size_t one = n.component == gltf_u8    ? 1
-                            : n.component == gltf_u16 ? 2
-                            : n.component == gltf_u32 ? 4
-                            : n.component == gltf_f32 ? 4
-                                                      : 0;
+    const auto* const known =
+        std::find_if(std::begin(gltf_sizes), std::end(gltf_sizes),
+                     [&](const auto& size) { return size.first == n.component; });
+    const std::size_t one = known == std::end(gltf_sizes) ? 0 : known->second;
     if (one == 0)
-      out_.stop(
-          ErrorCode::unsupported,
-          fmt::format("accessor {}: found numbers of type {}, expected 5121, 5123, 5125 or 5126", k,
-                      n.component));
+      out_.stop(ErrorCode::unsupported,
+                "accessor {}: found numbers of type {}, expected 5121, 5123, 5125 or 5126", k,
+                n.component);
     const GltfJson& view = element("bufferViews", required(json, "bufferView"));
     const std::string_view all = buffer(required(view, "buffer"));
     const std::size_t offset = index(view, "byteOffset").value_or(0);
@@ -263,9 +253,8 @@ class GltfReader {
     if (!inside)
       out_.stop(
           ErrorCode::damaged,
-          fmt::format(
-              "accessor {} reaches beyond its buffer of {} bytes: the file is cut short or damaged",
-              k, all.size()));
+          "accessor {} reaches beyond its buffer of {} bytes: the file is cut short or damaged", k,
+          all.size());
     n.bytes = all.substr(offset + start);
     return n;
   }
@@ -287,13 +276,11 @@ class GltfReader {
   void mesh(std::size_t m, const GltfPlace& place) {
     const GltfJson* primitives = member(element("meshes", m), "primitives");
     if (!primitives || !primitives->is_array())
-      out_.stop(ErrorCode::damaged,
-                fmt::format("mesh {} has no primitives: the file is damaged", m));
+      out_.stop(ErrorCode::damaged, "mesh {} has no primitives: the file is damaged", m);
     for (const GltfJson& p : *primitives) {
       const std::size_t mode = index(p, "mode").value_or(4);
       if (mode < 4) continue;  // points and lines
-      if (mode > 6)
-        out_.stop(ErrorCode::out_of_range, fmt::format("mode: found {}, expected 0 to 6", mode));
+      if (mode > 6) out_.stop(ErrorCode::out_of_range, "mode: found {}, expected 0 to 6", mode);
       primitive(p, mode, place);
     }
   }
@@ -305,8 +292,8 @@ class GltfReader {
     const GltfNumbers points = accessor(*at, "VEC3", 3);
     if (points.component != gltf_f32)
       out_.stop(ErrorCode::unsupported,
-                fmt::format("accessor {}: found positions of type {}, expected 5126 (float)", *at,
-                            points.component));
+                "accessor {}: found positions of type {}, expected 5126 (float)", *at,
+                points.component);
     const std::size_t first = out_.points();
     for (std::size_t k = 0; k < points.count; ++k) {
       const Vec3 p(number<float>(points, k, 0), number<float>(points, k, 1),
@@ -319,15 +306,13 @@ class GltfReader {
     if (indexed) {
       order = accessor(*indexed, "SCALAR", 1);
       if (order.component == gltf_f32)
-        out_.stop(ErrorCode::unsupported,
-                  fmt::format("accessor {}: found floats, expected indices", *indexed));
+        out_.stop(ErrorCode::unsupported, "accessor {}: found floats, expected indices", *indexed);
     }
     const auto corner = [&](std::size_t k) {
       const std::size_t v = indexed ? whole_number(order, k) : k;
       if (v >= points.count)
-        out_.stop(ErrorCode::not_found,
-                  fmt::format("accessor {}: found point {}, expected one below {}", *indexed, v,
-                              points.count));
+        out_.stop(ErrorCode::not_found, "accessor {}: found point {}, expected one below {}",
+                  *indexed, v, points.count);
       return static_cast<int>(first + v);
     };
     const bool turned = place.A.determinant() < 0.0;
@@ -336,9 +321,8 @@ class GltfReader {
     };
     if (mode == 4) {
       if (order.count % 3 != 0)
-        out_.stop(
-            ErrorCode::wrong_count,
-            fmt::format("found {} corners of triangles, expected a multiple of 3", order.count));
+        out_.stop(ErrorCode::wrong_count, "found {} corners of triangles, expected a multiple of 3",
+                  order.count);
       for (std::size_t k = 0; k + 2 < order.count; k += 3) add(k, k + 1, k + 2);
     } else {
       for (std::size_t k = 0; k + 2 < order.count; ++k)
@@ -365,11 +349,10 @@ void gltf_chunks(std::string_view bytes, GeometryBuilder& out, std::string_view&
   if (bytes.size() < 20)
     out.stop(ErrorCode::damaged, "the file ends in its header: it is cut short");
   if (gltf_word(bytes, 4) != 2)
-    out.stop(ErrorCode::unsupported,
-             fmt::format("found version {} of glTF, expected 2", gltf_word(bytes, 4)));
+    out.stop(ErrorCode::unsupported, "found version {} of glTF, expected 2", gltf_word(bytes, 4));
   if (gltf_word(bytes, 8) > bytes.size())
-    out.stop(ErrorCode::damaged, fmt::format("found {} bytes, expected {}: it is cut short",
-                                             bytes.size(), gltf_word(bytes, 8)));
+    out.stop(ErrorCode::damaged, "found {} bytes, expected {}: it is cut short", bytes.size(),
+             gltf_word(bytes, 8));
   bytes = bytes.substr(0, gltf_word(bytes, 8));
   std::size_t at = 12;
   for (int k = 0; k < 2 && at + 8 <= bytes.size(); ++k) {
@@ -392,7 +375,7 @@ void parse_gltf(std::string_view bytes, const GeometryLoader& loader, GeometryBu
   if (bytes.starts_with("glTF")) gltf_chunks(bytes, out, text, chunk);
   std::string why;
   const GltfJson json = read_json(text, why);
-  if (json.is_discarded()) out.stop(ErrorCode::wrong_file, "the file is not glTF: " + why);
+  if (json.is_discarded()) out.stop(ErrorCode::wrong_file, "the file is not glTF: {}", why);
   GltfReader(json, chunk, loader, out).read();
 }
 

@@ -1,8 +1,6 @@
 // STL. Text: solid, facets of three vertices each, endsolid. Binary: 80 bytes of any text, the
 // number of facets (u32), and 50 bytes for each: normal and three corners (f32, little-endian), two
 // bytes more. A binary file may begin with "solid", too: it is the one whose length fits.
-#include <fmt/format.h>
-
 #include <cstring>
 
 #include "floatframe/formats/geometry/geometry_build.hpp"
@@ -21,15 +19,17 @@ std::uint32_t stl_facets(std::string_view bytes) {
 
 void binary_stl(std::string_view bytes, GeometryBuilder& out) {
   if (bytes.size() < stl_head)
-    out.stop(ErrorCode::wrong_file, fmt::format("found {} bytes, expected an STL file: text that "
-                                                "begins with 'solid', or 84 bytes and facets",
-                                                bytes.size()));
+    out.stop(ErrorCode::wrong_file,
+             "found {} bytes, expected an STL file: text that begins with 'solid', or 84 bytes and "
+             "facets",
+             bytes.size());
   const std::uint32_t count = stl_facets(bytes);
   const std::size_t expected = stl_head + stl_facet * std::size_t{count};
   if (bytes.size() != expected)
-    out.stop(ErrorCode::damaged, fmt::format("found {} bytes, expected {} for the {} triangles "
-                                             "that it announces: it is cut short or damaged",
-                                             bytes.size(), expected, count));
+    out.stop(ErrorCode::damaged,
+             "found {} bytes, expected {} for the {} triangles that it announces: it is cut short "
+             "or damaged",
+             bytes.size(), expected, count);
   for (std::size_t k = 0; k < count; ++k) {
     std::array<float, 9> x{};
     std::memcpy(x.data(), bytes.data() + stl_head + k * stl_facet + 12, sizeof x);
@@ -40,30 +40,12 @@ void binary_stl(std::string_view bytes, GeometryBuilder& out) {
   }
 }
 
-/// Three numbers that follow in a line.
-Vec3 stl_vertex(std::string_view rest, int line, GeometryBuilder& out) {
-  Vec3 p;
-  for (int k = 0; k < 3; ++k) {
-    const std::string_view word = next_word(rest);
-    const auto x = parse_real(word);
-    if (!x)
-      out.stop(ErrorCode::not_a_number, "vertex: " + not_a_real(word) + ", expected three numbers",
-               line);
-    p[k] = *x;
-  }
-  return p;
-}
-
 void text_stl(std::string_view text, GeometryBuilder& out) {
   std::vector<int> corners;
   bool inside = false;
   int line = 0;
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string_view rest = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    ++line;
-    if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
+    std::string_view rest = next_geometry_line(text, line);
     const std::string_view word = next_word(rest);
     if (word.empty() || same_word(word, "facet") || same_word(word, "endfacet")) continue;
     if (same_word(word, "solid")) {
@@ -73,21 +55,20 @@ void text_stl(std::string_view text, GeometryBuilder& out) {
     } else if (same_word(word, "outer")) {
       corners.clear();
     } else if (same_word(word, "vertex")) {
-      corners.push_back(out.point(stl_vertex(rest, line, out), line));
+      corners.push_back(out.point(geometry_point("vertex", rest, line, out), line));
     } else if (same_word(word, "endloop")) {
       if (corners.size() != 3)
-        out.stop(ErrorCode::wrong_count,
-                 fmt::format("found {} vertices of a facet, expected 3", corners.size()), line);
+        out.stop(ErrorCode::wrong_count, line, "found {} vertices of a facet, expected 3",
+                 corners.size());
       out.triangle(corners[0], corners[1], corners[2]);
       corners.clear();
     } else {
-      out.stop(ErrorCode::wrong_value,
-               "found " + shown(word) +
-                   ", expected facet, outer loop, vertex, endloop, endfacet or endsolid",
-               line);
+      out.stop(ErrorCode::wrong_value, line,
+               "found {}, expected facet, outer loop, vertex, endloop, endfacet or endsolid",
+               shown(word));
     }
   }
-  if (inside) out.stop(ErrorCode::damaged, "the file ends without endsolid: it is cut short", line);
+  if (inside) out.stop(ErrorCode::damaged, line, "the file ends without endsolid: it is cut short");
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 // Sections of .msh files of versions 2 and 4.1.
 #include "floatframe/formats/gmsh/gmsh_mesh.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
@@ -29,10 +26,9 @@ class GmshParser {
       const GmshStream::Place at = in_.here();
       if (!in_.next_line(line)) break;
       if (line.empty()) continue;
-      if (!line.starts_with('$')) {
+      if (!line.starts_with('$'))
         in_.stop(ErrorCode::wrong_value, at, "found {}, expected a section such as $Nodes",
                  shown(line));
-      }
       const std::string section(line.substr(1));
       if (section == "PhysicalNames") {
         physical_names();
@@ -40,9 +36,8 @@ class GmshParser {
         entities();
       } else if (section == "Nodes" || section == "Elements") {
         bool& there = section == "Nodes" ? nodes : elements;
-        if (std::exchange(there, true)) {
+        if (std::exchange(there, true))
           in_.stop(ErrorCode::duplicate, at, "section ${} is in the file twice", section);
-        }
         if (section == "Nodes") {
           version_4_ ? nodes_4() : nodes_2();
         } else {
@@ -73,36 +68,31 @@ class GmshParser {
   void format() {
     std::string_view line;
     Place at = in_.here();
-    if (!in_.next_line(line) || line != "$MeshFormat") {
+    if (!in_.next_line(line) || line != "$MeshFormat")
       in_.stop(ErrorCode::wrong_file, at, "found {}, expected '$MeshFormat'", shown(line));
-    }
     at = in_.here();
     std::vector<std::string_view> fields;
     if (in_.next_line(line)) split_blanks(line, fields);
-    if (fields.size() != 3) {
+    if (fields.size() != 3)
       in_.stop(ErrorCode::wrong_value, at,
                "found {}, expected the version, 0 (ASCII) or 1 (binary) and the size of a number, "
                "as in '4.1 0 8'",
                shown(line));
-    }
     const auto version = parse_real(fields[0]);
     version_4_ = version == 4.1;
     mesh_.element_per_group = !version_4_;
-    if (!version || (*version != 4.1 && !(*version >= 2.0 && *version <= 2.2))) {
+    if (!version || (*version != 4.1 && !(*version >= 2.0 && *version <= 2.2)))
       in_.stop(ErrorCode::unsupported, at,
                "the version of the format is {}, expected 4.1 or 2.2 (Gmsh writes them with "
                "Mesh.MshFileVersion)",
                shown(fields[0]));
-    }
-    if (fields[1] != "0" && fields[1] != "1") {
+    if (fields[1] != "0" && fields[1] != "1")
       in_.stop(ErrorCode::out_of_range, at, "found {}, expected 0 (ASCII) or 1 (binary)",
                shown(fields[1]));
-    }
     if (fields[1] == "1") {
-      if (fields[2] != "8") {
+      if (fields[2] != "8")
         in_.stop(ErrorCode::unsupported, at, "numbers of {} bytes are not read, only of 8",
                  shown(fields[2]));
-      }
       in_.set_binary(false);
       const int one = in_.integer("the number 1 that shows the order of bytes");
       if (one == 0x01000000) {
@@ -120,10 +110,9 @@ class GmshParser {
     const Place at = in_.here();
     std::string_view line;
     const auto n = in_.next_line(line) ? parse_integer(line) : std::nullopt;
-    if (!n || *n < 0) {
+    if (!n || *n < 0)
       in_.stop(ErrorCode::wrong_value, at, "found {}, expected {}, a whole number from 0",
                shown(line), what);
-    }
     in_.check_count(at, static_cast<std::uint64_t>(*n), what, numbers_each);
     return static_cast<std::uint64_t>(*n);
   }
@@ -140,12 +129,11 @@ class GmshParser {
       split_blanks(line.substr(0, open), fields);
       const auto dimension = fields.size() == 2 ? parse_integer(fields[0]) : std::nullopt;
       const auto tag = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
-      if (!dimension || *dimension < 0 || *dimension > 3 || !tag || open == close) {
+      if (!dimension || *dimension < 0 || *dimension > 3 || !tag || open == close)
         in_.stop(ErrorCode::wrong_value, group.at,
                  "found {}, expected dimension, number and name of a physical group, as in '2 1 "
                  "\"BORE\"'",
                  shown(line));
-      }
       group.dimension = *dimension;
       group.tag = *tag;
       group.name = std::string(line.substr(open + 1, close - open - 1));
@@ -164,10 +152,9 @@ class GmshParser {
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.real("the size of an entity");
         std::vector<int> groups;
         const auto n = in_.count("the number of physical groups of an entity", 1);
-        for (std::uint64_t k = 0; k < n; ++k) {
+        for (std::uint64_t k = 0; k < n; ++k)
           groups.push_back(std::abs(in_.integer("the number of a physical group") %
                                     std::numeric_limits<int>::max()));
-        }
         if (dimension > 0) {
           const auto bounds = in_.count("the number of bounding entities", 1);
           for (std::uint64_t k = 0; k < bounds; ++k) in_.integer("a bounding entity");
@@ -186,10 +173,9 @@ class GmshParser {
   }
 
   int label(std::uint64_t value, const Place& at, const char* what) const {
-    if (value < 1 || value > largest_label) {
+    if (value < 1 || value > largest_label)
       in_.stop(ErrorCode::out_of_range, at, "{} is {}, expected 1 to {}", what, value,
                largest_label);
-    }
     return static_cast<int>(value);
   }
 
@@ -213,10 +199,9 @@ class GmshParser {
       const auto n = in_.count("the number of nodes of a block", 4);
       const std::size_t first = mesh_.nodes.size();
       for (std::uint64_t i = 0; i < n; ++i) {
-        GmshNode node;
+        GmshNode& node = mesh_.nodes.emplace_back();
         node.at = in_.here();
         node.id = label(in_.size("a node number"), node.at, "the number of a node");
-        mesh_.nodes.push_back(node);
       }
       for (std::size_t i = first; i < mesh_.nodes.size(); ++i) {
         mesh_.nodes[i].p = point();
@@ -224,22 +209,19 @@ class GmshParser {
         for (int k = 0; k < std::clamp(dimension, 0, 3); ++k) in_.real("a parameter of a node");
       }
     }
-    if (mesh_.nodes.size() != total) {
+    if (mesh_.nodes.size() != total)
       in_.stop(ErrorCode::contradiction, at_total,
                "section $Nodes says {} nodes, its blocks have {}", total, mesh_.nodes.size());
-    }
   }
 
   void nodes_2() {
     const auto n = count_line("the number of nodes", 4);
     mesh_.nodes.reserve(n);
     for (std::uint64_t i = 0; i < n; ++i) {
-      GmshNode node;
+      GmshNode& node = mesh_.nodes.emplace_back();
       node.at = in_.here();
-      const int id = in_.integer("a node number");
-      node.id = label(id, node.at, "the number of a node");
+      node.id = label(in_.integer("a node number"), node.at, "the number of a node");
       node.p = point();
-      mesh_.nodes.push_back(node);
     }
   }
 
@@ -269,10 +251,9 @@ class GmshParser {
       const int dimension = in_.integer("the dimension of a block of elements");
       const int entity = in_.integer("the entity of a block of elements");
       const GmshType* t = type(in_.integer("a type of elements"), at);
-      if (t->dimension != dimension) {
+      if (t->dimension != dimension)
         in_.stop(ErrorCode::wrong_value, at, "a block of dimension {} has elements of type {} ({})",
                  dimension, t->number, t->name);
-      }
       const auto n = in_.count("the number of elements of a block", t->nodes + 1);
       const auto it = groups_of_entity_.find({dimension, entity});
       for (std::uint64_t i = 0; i < n; ++i) {
@@ -281,20 +262,13 @@ class GmshParser {
         element.groups = it == groups_of_entity_.end() ? none : it->second;
         element.at = in_.here();
         element.id = label(in_.size("an element number"), element.at, "the number of an element");
-        element.first = mesh_.element_nodes.size();
-        for (int k = 0; k < t->nodes; ++k) {
-          const Place at_node = in_.here();
-          mesh_.element_nodes.push_back(
-              label(in_.size("a node of an element"), at_node, "the number of a node"));
-        }
-        mesh_.elements.push_back(element);
+        add(element, &GmshStream::size);
       }
     }
-    if (mesh_.elements.size() != total) {
+    if (mesh_.elements.size() != total)
       in_.stop(ErrorCode::contradiction, at_total,
                "section $Elements says {} elements, its blocks have {}", total,
                mesh_.elements.size());
-    }
   }
 
   void elements_2() {
@@ -309,13 +283,11 @@ class GmshParser {
       element.type = type(in_.integer("a type of elements"), element.at);
       const int n = in_.binary() ? in_.integer("the number of elements of a block") : 1;
       const int tags = in_.integer("the number of tags");
-      if (n < 1 || static_cast<std::uint64_t>(n) > total - mesh_.elements.size()) {
+      if (n < 1 || static_cast<std::uint64_t>(n) > total - mesh_.elements.size())
         in_.stop(ErrorCode::wrong_count, element.at, "a block has {} elements where {} are left", n,
                  total - mesh_.elements.size());
-      }
-      if (tags < 0 || tags > 1000) {
+      if (tags < 0 || tags > 1000)
         in_.stop(ErrorCode::wrong_count, element.at, "an element with {} tags, expected 2", tags);
-      }
       for (int i = 0; i < n; ++i) {
         if (in_.binary()) element.at = in_.here();
         const int number = in_.binary() ? in_.integer("an element number") : id;
@@ -326,15 +298,21 @@ class GmshParser {
           if (k == 0 && tag > 0) groups.push_back(tag);
         }
         element.groups = group_list(std::move(groups));
-        element.first = mesh_.element_nodes.size();
-        for (int k = 0; k < element.type->nodes; ++k) {
-          const Place at = in_.here();
-          mesh_.element_nodes.push_back(
-              label(in_.integer("a node of an element"), at, "the number of a node"));
-        }
-        mesh_.elements.push_back(element);
+        add(element, &GmshStream::integer);
       }
     }
+  }
+
+  /// With the nodes that follow in the file.
+  template <class Number>
+  void add(GmshElement element, Number (GmshStream::*number)(const char*)) {
+    element.first = mesh_.element_nodes.size();
+    for (int k = 0; k < element.type->nodes; ++k) {
+      const Place at = in_.here();
+      mesh_.element_nodes.push_back(
+          label((in_.*number)("a node of an element"), at, "the number of a node"));
+    }
+    mesh_.elements.push_back(element);
   }
 
   GmshStream& in_;

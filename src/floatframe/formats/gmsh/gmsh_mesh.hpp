@@ -1,7 +1,6 @@
 #pragma once
 // What a .msh file says, before it is a model: nodes, elements of any type, physical groups.
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "floatframe/formats/gmsh/gmsh_stream.hpp"

@@ -37,9 +37,8 @@ bool GmshStream::next_line(std::string_view& line) {
 void GmshStream::end_section(const Place& begin, std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   const std::size_t found = text_.find(end, at_);
-  if (found == std::string_view::npos) {
+  if (found == std::string_view::npos)
     stop(ErrorCode::damaged, begin, "section ${} has no end: '{}' is missing", section, end);
-  }
   line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
                                        text_.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
   at_ = found;
@@ -52,14 +51,13 @@ void GmshStream::expect_end(std::string_view section) {
   const Place at = here();
   const std::string end = fmt::format("$End{}", section);
   const std::string_view rest = text_.substr(at_);
-  if (!rest.starts_with(end)) {
+  if (!rest.starts_with(end))
     stop(ErrorCode::damaged, at,
          rest.empty()
              ? fmt::format("the file ends where '{}' was expected", end)
              : fmt::format("found {}, expected '{}': section ${} has more than it counts",
                            shown(rest.substr(0, std::min(rest.find('\n'), std::size_t{30}))), end,
                            section));
-  }
   std::string_view line;
   next_line(line);
 }
@@ -83,10 +81,9 @@ std::string_view GmshStream::token(const char* what) {
 
 template <class T>
 T GmshStream::raw(const char* what) {
-  if (left() < sizeof(T)) {
+  if (left() < sizeof(T))
     stop(ErrorCode::damaged, "the file ends where {} was expected ({} bytes are left)", what,
          left());
-  }
   unsigned char bytes[sizeof(T)];
   std::memcpy(bytes, text_.data() + at_, sizeof(T));
   if (swapped_) std::reverse(bytes, bytes + sizeof(T));
@@ -96,30 +93,22 @@ T GmshStream::raw(const char* what) {
   return value;
 }
 
-int GmshStream::integer(const char* what) {
-  if (binary_) return raw<std::int32_t>(what);
+template <class T>
+T GmshStream::whole(const char* what, const char* from) {
+  if (binary_) return raw<T>(what);
   const Place at = here();
   const std::string_view field = token(what);
-  int value = 0;
+  T value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) {
-    stop(ErrorCode::not_a_number, at, "found {}, expected {}, a whole number", shown(field), what);
-  }
+  if (error != std::errc() || end != field.data() + field.size())
+    stop(ErrorCode::not_a_number, at, "found {}, expected {}, a whole number{}", shown(field), what,
+         from);
   return value;
 }
 
-std::uint64_t GmshStream::size(const char* what) {
-  if (binary_) return raw<std::uint64_t>(what);
-  const Place at = here();
-  const std::string_view field = token(what);
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) {
-    stop(ErrorCode::not_a_number, at, "found {}, expected {}, a whole number from 0", shown(field),
-         what);
-  }
-  return value;
-}
+int GmshStream::integer(const char* what) { return whole<std::int32_t>(what, ""); }
+
+std::uint64_t GmshStream::size(const char* what) { return whole<std::uint64_t>(what, " from 0"); }
 
 double GmshStream::real(const char* what) {
   const Place at = here();
@@ -144,11 +133,10 @@ std::uint64_t GmshStream::count(const char* what, std::size_t numbers_each) {
 void GmshStream::check_count(const Place& at, std::uint64_t count, const char* what,
                              std::size_t numbers_each) const {
   const std::size_t smallest = binary_ ? 4 : 2;  // an ASCII number and its blank
-  if (count > left() / (smallest * std::max(numbers_each, std::size_t{1})) + 1) {
+  if (count > left() / (smallest * std::max(numbers_each, std::size_t{1})) + 1)
     stop(ErrorCode::damaged, at,
          "{} is {}, more than the {} bytes that are left of the file can hold", what, count,
          left());
-  }
 }
 
 }  // namespace floatframe

@@ -68,6 +68,9 @@ class GmshStream {
   std::string_view token(const char* what);
   template <class T>
   T raw(const char* what);
+  /// `from`: " from 0" where that is the least.
+  template <class T>
+  T whole(const char* what, const char* from);
 
   std::string_view text_;
   std::string name_;

@@ -1,6 +1,7 @@
 #include "floatframe/formats/gmsh/gmsh_types.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace floatframe {
 namespace {
@@ -44,15 +45,7 @@ const GmshType gmsh_types[] = {
 }  // namespace
 
 int surface_corners(const GmshType& type) noexcept {
-  switch (type.number) {
-    case 2:
-    case 9:
-    case 20:
-    case 21:
-      return 3;
-    default:
-      return 4;
-  }
+  return std::string_view(type.name).ends_with("triangle") ? 3 : 4;
 }
 
 const GmshType* gmsh_type(int number) noexcept {

@@ -31,9 +31,7 @@ class GmshModel {
     shells();
     elements();
     sets();
-    for (const std::string& section : mesh_.passed_over) {
-      model_.notes.push_back(fmt::format("{}: section ${} is ignored", model_.files[0], section));
-    }
+    for (const std::string& section : mesh_.passed_over) note("section ${} is ignored", section);
     if (!errors_.empty()) throw InputError(std::move(errors_));
     return std::move(model_);
   }
@@ -41,8 +39,14 @@ class GmshModel {
  private:
   using Place = GmshStream::Place;
 
-  void error(ErrorCode code, const Place& at, std::string message) {
-    errors_.push_back(in_.error(code, at, std::move(message)));
+  template <class... Args>
+  void note(fmt::format_string<Args...> text, Args&&... args) {
+    model_.notes.push_back(
+        fmt::format("{}: {}", model_.files[0], fmt::format(text, std::forward<Args>(args)...)));
+  }
+  template <class... Args>
+  void error(ErrorCode code, const Place& at, fmt::format_string<Args...> text, Args&&... args) {
+    errors_.push_back(in_.error(code, at, fmt::format(text, std::forward<Args>(args)...)));
     if (errors_.size() >= TextSource::most_errors) throw InputError(std::move(errors_));
   }
   FeSource source(const Place& at) const { return {0, in_.binary() ? 0 : at.line}; }
@@ -60,8 +64,8 @@ class GmshModel {
       const auto [it, fresh] = index_.try_emplace(node.id, model_.nodes());
       if (!fresh) {
         const GmshNode& first = mesh_.nodes[it->second];
-        error(ErrorCode::duplicate, node.at,
-              fmt::format("node {} is in the file twice, first {}", node.id, where(first.at)));
+        error(ErrorCode::duplicate, node.at, "node {} is in the file twice, first {}", node.id,
+              where(first.at));
       }
       model_.positions.push_back(node.p);
       model_.node_ids.push_back(node.id);
@@ -75,10 +79,9 @@ class GmshModel {
       model_.material_names.emplace_back();
       material_ = 0;
     } else {
-      model_.notes.push_back(
-          fmt::format("{}: the format has no material; give Young's modulus, Poisson's ratio and "
-                      "density with the file",
-                      model_.files[0]));
+      note(
+          "the format has no material; give Young's modulus, Poisson's ratio and density with the "
+          "file");
     }
   }
 
@@ -91,9 +94,8 @@ class GmshModel {
       const int id = mesh_.element_nodes[e.first + k];
       const auto it = index_.find(id);
       if (it == index_.end()) {
-        error(ErrorCode::not_found, e.at,
-              fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
-                          e.type->name, id));
+        error(ErrorCode::not_found, e.at, "element {} ({}) has node {}, which is not in the file",
+              e.id, e.type->name, id);
         invalid_.insert(e.first);
         return false;
       }
@@ -125,15 +127,15 @@ class GmshModel {
       const auto choice = thickness_.choose(
           std::span(nodes).first(static_cast<std::size_t>(surface_corners(*e.type))), list->second);
       if (!choice.error.empty())
-        error(ErrorCode::wrong_value, e.at, fmt::format("element {} {}", e.id, choice.error));
+        error(ErrorCode::wrong_value, e.at, "element {} {}", e.id, choice.error);
       section_[i] = choice.section;
       skins += choice.section < 0 ? 1 : 0;
     }
     if (skins > 0 && thickness_.others() < 0)
-      model_.notes.push_back(
-          fmt::format("{}: {} surface elements in no group with a thickness are skins: they make "
-                      "node sets and have no stiffness and no mass",
-                      model_.files[0], skins));
+      note(
+          "{} surface elements in no group with a thickness are skins: they make node sets and "
+          "have no stiffness and no mass",
+          skins);
     std::vector<std::string> known;
     for (const auto& [key, name] : names_)
       if (key.first == 2) known.push_back(name);
@@ -150,16 +152,15 @@ class GmshModel {
     int dimension = -1;
     for (const GmshElement& e : mesh_.elements) dimension = std::max(dimension, e.type->dimension);
     if (dimension < 3 && !(dimension == 2 && thickness_.any())) {
-      const auto what = dimension < 0    ? std::string("no elements")
-                        : dimension == 2 ? std::string("no solid elements, only surfaces")
-                        : dimension == 1 ? std::string("no solid elements, only lines")
-                                         : std::string("no solid elements, only points");
+      constexpr const char* what[] = {"no elements", "no solid elements, only points",
+                                      "no solid elements, only lines",
+                                      "no solid elements, only surfaces"};
       throw InputError(
           ErrorCode::missing, {model_.files[0], 0, 0},
           fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges (in Gmsh: "
                       "mesh in 3D and give the volume a physical group), or surfaces to which a "
                       "thickness is given (--thickness, key `thickness`)",
-                      what));
+                      what[dimension + 1]));
     }
     const bool repeats = mesh_.element_per_group && several_groups();
     std::map<int, std::pair<const GmshElement*, int>> unsupported;  // first of a type, number
@@ -171,10 +172,9 @@ class GmshModel {
     for (std::size_t i = 0; i < mesh_.elements.size(); ++i) {
       const GmshElement& e = mesh_.elements[i];
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
-      if (!fresh) {
-        error(ErrorCode::duplicate, e.at,
-              fmt::format("element {} is in the file twice, first {}", e.id, where(it->second)));
-      }
+      if (!fresh)
+        error(ErrorCode::duplicate, e.at, "element {} is in the file twice, first {}", e.id,
+              where(it->second));
       if (!is_part(i)) continue;
       if (!e.type->element) {
         auto& [first, number] = unsupported[e.type->number];
@@ -185,9 +185,8 @@ class GmshModel {
       key = nodes;
       std::sort(key.begin(), key.end());
       if (const auto twice = std::adjacent_find(key.begin(), key.end()); twice != key.end()) {
-        error(ErrorCode::duplicate, e.at,
-              fmt::format("element {} ({}) has node {} twice", e.id, e.type->name,
-                          model_.node_ids[*twice]));
+        error(ErrorCode::duplicate, e.at, "element {} ({}) has node {} twice", e.id, e.type->name,
+              model_.node_ids[*twice]);
         continue;
       }
       if (repeats) {
@@ -204,9 +203,7 @@ class GmshModel {
       Element element;
       element.type = *e.type->element;
       if (e.type->dimension == 2) element.section = section_[i];
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        element.nodes[k] = nodes[e.type->order[k]];
-      }
+      for (std::size_t k = 0; k < nodes.size(); ++k) element.nodes[k] = nodes[e.type->order[k]];
       element.material = material_;
       element.id = e.id;
       element.source = source(e.at);
@@ -215,14 +212,12 @@ class GmshModel {
     for (const auto& [number, first] : unsupported) {
       const GmshElement& e = *first.first;
       error(ErrorCode::unsupported, e.at,
-            fmt::format("element {} is a {} (there are {}), which is not supported{}", e.id,
-                        e.type->name, first.second, advice(number)));
+            "element {} is a {} (there are {}), which is not supported{}", e.id, e.type->name,
+            first.second, advice(number));
     }
-    if (repeated > 0) {
-      model_.notes.push_back(fmt::format(
-          "{}: {} elements are in the file again for a second physical group and are taken once",
-          model_.files[0], repeated));
-    }
+    if (repeated > 0)
+      note("{} elements are in the file again for a second physical group and are taken once",
+           repeated);
   }
 
   /// Of an element that is there again: that of a named group counts.
@@ -231,9 +226,7 @@ class GmshModel {
     if (section_[i] == known.section || section_[i] == others) return;
     if (known.section != others)
       error(ErrorCode::contradiction, e.at,
-            fmt::format(
-                "element {} is there again, and different thicknesses are given to its groups",
-                e.id));
+            "element {} is there again, and different thicknesses are given to its groups", e.id);
     known.section = section_[i];
   }
 
@@ -249,24 +242,17 @@ class GmshModel {
   }
 
   static const char* advice(int type) {
-    switch (type) {
-      case 10:
-      case 12:
-      case 13:
-      case 14:
-        return "; save the mesh with Mesh.SecondOrderIncomplete = 1";
-      default:
-        return "; use elements of first or second order (Mesh.ElementOrder)";
-    }
+    // In between are those of second order, complete.
+    return type >= 10 && type <= 14 ? "; save the mesh with Mesh.SecondOrderIncomplete = 1"
+                                    : "; use elements of first or second order (Mesh.ElementOrder)";
   }
 
   void group_names() {
     for (const GmshGroup& group : mesh_.groups) {
-      if (!names_.try_emplace({group.dimension, group.tag}, group.name).second) {
+      if (!names_.try_emplace({group.dimension, group.tag}, group.name).second)
         error(ErrorCode::duplicate, group.at,
-              fmt::format("physical group {} of dimension {} has a second name {}", group.tag,
-                          group.dimension, shown(group.name)));
-      }
+              "physical group {} of dimension {} has a second name {}", group.tag, group.dimension,
+              shown(group.name));
     }
   }
 
@@ -286,9 +272,9 @@ class GmshModel {
                (e.type->dimension < 3 ? static_cast<std::size_t>(e.type->nodes) : 1);
       if (named <= most) continue;
       error(ErrorCode::too_large, e.at,
-            fmt::format("the physical groups have more than {} members in all, too many for a mesh "
-                        "of {} nodes and {} elements",
-                        most, mesh_.nodes.size(), mesh_.elements.size()));
+            "the physical groups have more than {} members in all, too many for a mesh of {} nodes "
+            "and {} elements",
+            most, mesh_.nodes.size(), mesh_.elements.size());
       throw InputError(std::move(errors_));
     }
   }
@@ -310,26 +296,23 @@ class GmshModel {
         used.insert({dimension, tag});
         const auto [it, fresh] = dimension_of.try_emplace(name, dimension);
         if (!fresh && it->second != dimension && it->second >= 0) {
-          model_.notes.push_back(
-              fmt::format("{}: there are physical groups of several dimensions with the name '{}'; "
-                          "those below volumes make one node set",
-                          model_.files[0], name));
+          note(
+              "there are physical groups of several dimensions with the name '{}'; those below "
+              "volumes make one node set",
+              name);
           it->second = -1;
         }
         if (element_index_[i] >= 0) model_.element_sets[name].push_back(element_index_[i]);
         if (dimension == 3) continue;
         std::vector<int>& set = model_.node_sets[name];
         std::set<int>& known = members[name];
-        for (const int node : nodes) {
+        for (const int node : nodes)
           if (known.insert(node).second) set.push_back(node);
-        }
       }
     }
     for (const GmshGroup& group : mesh_.groups) {
-      if (used.count({group.dimension, group.tag}) == 0) {
-        model_.notes.push_back(
-            fmt::format("{}: physical group '{}' has no elements", model_.files[0], group.name));
-      }
+      if (used.count({group.dimension, group.tag}) == 0)
+        note("physical group '{}' has no elements", group.name);
     }
   }
 

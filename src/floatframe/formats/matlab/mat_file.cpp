@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "floatframe/core/code_points.hpp"
 #include "floatframe/core/diagnostics.hpp"

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/formats/text/text_fields.hpp"
-
 namespace floatframe {
 namespace {
 
@@ -17,48 +15,12 @@ constexpr double half_tolerance = 1e-9;
 
 }  // namespace
 
-bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& column,
-                      double& value) {
-  const auto next = [&] {
-    std::size_t begin = 0;
-    const auto between = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; };
-    while (begin < line.size() && between(line[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < line.size() && !between(line[end])) ++end;
-    const std::string_view field = line.substr(begin, end - begin);
-    line.remove_prefix(end);
-    return field;
-  };
-  const std::string_view first = next(), second = next(), third = next();
-  if (third.empty() || !next().empty()) {
-    source.error(ErrorCode::wrong_count, "the line is not row, column and value");
-    return false;
-  }
-  const std::optional<int> i = parse_label(first), j = parse_label(second);
-  const std::optional<double> v = parse_real(third);
-  if (!i || !j)
-    source.error(ErrorCode::not_a_number, "{}: {}", !i ? "row" : "column",
-                 not_an_integer(!i ? first : second));
-  if (!v) source.error(ErrorCode::not_a_number, "value: " + not_a_real(third));
-  if (!i || !j || !v) return false;
-  row = *i - 1;
-  column = *j - 1;
-  value = *v;
-  return true;
-}
-
 void SymmetricEntries::add(int row, int column, double value, const FeSource& at) {
   file_ = at.file;
   last_ = std::max({last_, row, column});
-  if (row <= column) {
-    entries_.push_back({row, column, value, at.line});
-  } else {
-    entries_.push_back({column, row, value, -at.line});
-  }
-}
-
-std::string SymmetricEntries::name(const Entry& e, const std::vector<std::string>& labels) const {
-  return fmt::format("{} entry ({}, {})", what_, labels[e.row], labels[e.column]);
+  const bool upper = row <= column;
+  entries_.push_back(
+      {std::min(row, column), std::max(row, column), value, upper ? at.line : -at.line});
 }
 
 /// Ascending order; the second of two halves goes.
@@ -66,14 +28,14 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
   const auto before = [](const Entry& a, const Entry& b) {
     return a.column != b.column ? a.column < b.column : a.row < b.row;
   };
-  if (!std::is_sorted(entries_.begin(), entries_.end(), before)) {
+  if (!std::is_sorted(entries_.begin(), entries_.end(), before))
     std::stable_sort(entries_.begin(), entries_.end(), before);
-  }
   double largest = 0.0;
   for (const Entry& e : entries_) largest = std::max(largest, std::abs(e.value));
   const std::size_t errors = source_.errors();
   const auto error = [&](ErrorCode code, const Entry& e, const std::string& text) {
-    source_.error(code, {file_, std::abs(e.line)}, "the {} {}", name(e, labels), text);
+    source_.error(code, {file_, std::abs(e.line)}, "the {} entry ({}, {}) {}", what_, labels[e.row],
+                  labels[e.column], text);
   };
   std::size_t kept = 0;
   for (std::size_t k = 0; k < entries_.size();) {
@@ -90,16 +52,14 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
                   other.value, e.value, std::abs(e.line)));
       }
     }
-    if (e.row == e.column && e.value < 0.0) {
+    if (e.row == e.column && e.value < 0.0)
       error(ErrorCode::out_of_range, e,
             fmt::format("on the diagonal is {:g}, expected no negative value", e.value));
-    }
-    if (e.row == e.column && e.value >= penalty) {
+    if (e.row == e.column && e.value >= penalty)
       error(ErrorCode::unsupported, e,
             fmt::format("on the diagonal is {:g}, the penalty of a support: write the matrices "
                         "without supports",
                         e.value));
-    }
     entries_[kept++] = e;
   }
   entries_.resize(kept);
@@ -112,9 +72,8 @@ SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& lab
   if (!check(labels) || n == 0) return full;  // Eigen's compression reads beyond a matrix of size 0
   if (whole_diagonal) {
     std::vector<char> there(n, 0);
-    for (const Entry& e : entries_) {
+    for (const Entry& e : entries_)
       if (e.row == e.column) there[e.row] = 1;
-    }
     const auto missing = std::find(there.begin(), there.end(), 0);
     if (missing != there.end()) {
       source_.error(ErrorCode::damaged,
@@ -133,39 +92,13 @@ SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& lab
   }
   full.reserve(count);
   // Column by column, rows ascending: the upper half of a column comes before its lower half.
-  for (const Entry& e : entries_) {
+  for (const Entry& e : entries_)
     if (e.value != 0.0) full.insert(e.row, e.column) = e.value;
-  }
-  for (const Entry& e : entries_) {
+  for (const Entry& e : entries_)
     if (e.value != 0.0 && e.row != e.column) full.insert(e.column, e.row) = e.value;
-  }
   full.makeCompressed();
   std::vector<Entry>().swap(entries_);
   return full;
-}
-
-SymmetricEntries read_triples(TextSource& source, const std::string& what, int n,
-                              const std::string& map) {
-  SymmetricEntries entries(source, what);
-  std::string_view line;
-  while (source.next(line)) {
-    line = trimmed(line);
-    if (line.empty() || line.front() == '%' || line.front() == '*') continue;
-    int row = 0, column = 0;
-    double value = 0.0;
-    if (!read_matrix_line(source, line, row, column, value)) continue;
-    if (row >= n || column >= n) {
-      source.error(ErrorCode::out_of_range,
-                   "row {}, column {} is outside: {} has {} degrees of freedom", row + 1,
-                   column + 1, map, n);
-      continue;
-    }
-    entries.add(row, column, value);
-  }
-  if (entries.size() == 0)
-    source.error(ErrorCode::missing, FeSource{0, 0}, "the {} has no entries", what);
-  source.throw_if_any();
-  return entries;
 }
 
 }  // namespace floatframe

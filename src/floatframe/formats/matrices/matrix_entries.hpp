@@ -31,7 +31,6 @@ class SymmetricEntries {
     int line;  // negative: of the lower half
   };
   bool check(const std::vector<std::string>& labels);
-  std::string name(const Entry& e, const std::vector<std::string>& labels) const;
 
   TextSource& source_;
   std::string what_;
@@ -39,15 +38,5 @@ class SymmetricEntries {
   int last_ = -1;
   int file_ = 0;
 };
-
-/// A line "row column value" with blanks or commas between, rows and columns from 1; an error if it
-/// is none.
-bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& column,
-                      double& value);
-
-/// Lines "row column value", rows and columns from 1 to n; `map` names the file that says n. Lines
-/// that begin with % or * are ignored. Throws InputError.
-SymmetricEntries read_triples(TextSource& source, const std::string& what, int n,
-                              const std::string& map);
 
 }  // namespace floatframe

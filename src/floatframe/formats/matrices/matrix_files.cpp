@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
+#include "floatframe/formats/matrices/matrix_model.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
 
 namespace floatframe {
 
@@ -25,16 +23,34 @@ std::optional<Path> first_file(const std::vector<Path>& files) {
   return std::nullopt;
 }
 
-}  // namespace
-
-std::filesystem::path stem_of(const std::filesystem::path& file) {
-  std::filesystem::path stem = file;
-  if (same_word(stem.extension().string(), ".gz")) stem.replace_extension();
-  stem.replace_extension();
-  return stem;
+/// `file` without .gz.
+Path plain_name(const Path& file) {
+  return same_word(file.extension().string(), ".gz") ? Path(file).replace_extension() : file;
 }
 
-Path with_ending(const Path& stem, const char* ending) {
+/// The file given in the options, or the first candidate that is there, also with .gz. Empty paths
+/// are no candidates. If there is none: an error "`what` missing: ... give the `option` file".
+Path companion(const Path& file, const Path& given, std::vector<Path> candidates,
+               std::string_view what, std::string_view option, ErrorList& errors) {
+  if (!given.empty()) return given;
+  std::erase(candidates, Path{});
+  if (const std::optional<Path> found = first_file(candidates)) return *found;
+  std::string names;
+  for (const Path& candidate : candidates)
+    names += (names.empty() ? "" : " or ") + shown(candidate.filename().string());
+  errors.add(ErrorCode::missing, {file.string()},
+             fmt::format("{} missing: {}give the {} file", what,
+                         names.empty() ? "" : "there is no " + names + " beside it; ", option));
+  return {};
+}
+
+constexpr const char* coordinates = "the coordinates of the nodes are";
+
+}  // namespace
+
+Path stem_of(const Path& file) { return plain_name(file).replace_extension(); }
+
+Path with_ending(const Path& stem, const std::string& ending) {
   return stem.empty() ? Path{} : Path(stem.string() + ending);
 }
 
@@ -54,63 +70,61 @@ Path before_word(const Path& file, std::string_view word) {
   return at == std::string::npos ? Path{} : file.parent_path() / name.substr(0, at);
 }
 
+Path with_letter(const Path& stem, char letter) {
+  const std::string name = stem.string();
+  if (!name.ends_with("_K") && !name.ends_with("_k")) return {};
+  const std::string other(1, letter);
+  return name.substr(0, name.size() - 1) + (name.back() == 'K' ? other : lower_case(other));
+}
+
 /// arm_C.mtx beside arm_K.mtx, arm_DMPV1.mtx beside arm_STIF1.mtx.
 Path damping_beside(const Path& stiffness) {
-  Path plain = stiffness;
-  if (same_word(plain.extension().string(), ".gz")) plain.replace_extension();
-  const std::string ending = plain.extension().string();
+  const std::string ending = plain_name(stiffness).extension().string();
   if (!same_word(ending, ".mtx")) return {};
-  const std::string stem = stem_of(stiffness).string();
-  std::vector<Path> named;
-  if (stem.ends_with("_K") || stem.ends_with("_k"))
-    named.emplace_back(stem.substr(0, stem.size() - 1) + (stem.back() == 'K' ? "C" : "c") + ending);
-  if (const Path abaqus = with_word(stiffness, "STIF", "DMPV"); !abaqus.empty())
-    named.emplace_back(abaqus.string() + ending);
+  std::vector<Path> named = {with_ending(with_letter(stem_of(stiffness), 'C'), ending),
+                             with_ending(with_word(stiffness, "STIF", "DMPV"), ending)};
+  std::erase(named, Path{});
   return first_file(named).value_or(Path{});
 }
 
-Path companion(const Path& file, const Path& given, const std::vector<Path>& candidates,
-               std::string_view what, std::string_view option, ErrorList& errors) {
-  if (!given.empty()) return given;
-  std::vector<Path> named;
-  for (const Path& candidate : candidates) {
-    if (!candidate.empty()) named.push_back(candidate);
-  }
-  if (const std::optional<Path> found = first_file(named)) return *found;
-  std::string names;
-  for (const Path& candidate : named) {
-    names += (names.empty() ? "" : " or ") + shown(candidate.filename().string());
-  }
-  errors.add(ErrorCode::missing, {file.string()},
-             fmt::format("{} missing: {}give the {} file", what,
-                         names.empty() ? "" : "there is no " + names + " beside it; ", option));
-  return {};
+Path nodes_beside(const Path& file, const Path& given, const std::vector<const char*>& endings) {
+  std::vector<Path> candidates;
+  for (const char* ending : endings) candidates.push_back(with_ending(stem_of(file), ending));
+  ErrorList errors;
+  Path nodes = companion(file, given, std::move(candidates), coordinates, "nodes", errors);
+  errors.throw_if_any();
+  return nodes;
 }
 
-NamedMatrices named_matrices(const Path& file, const char* ending) {
-  NamedMatrices named{stem_of(file), {}};
-  const std::string name = named.begin.filename().string();
-  if (!name.ends_with("_K") && !name.ends_with("_k")) return named;
-  named.begin = file.parent_path() / name.substr(0, name.size() - 2);
-  named.mass = named.begin.string() + (name.ends_with("_K") ? "_M" : "_m") + ending;
-  return named;
+FeModel read_matrix_files(const Path& file, const FeReadOptions& options,
+                          const MatrixPlaces& places, const ReadMatrices& read) {
+  ErrorList errors;
+  const Path stiffness = companion(file, places.stiffness.empty() ? file : Path{}, places.stiffness,
+                                   "the stiffness is", "stiffness", errors);
+  const Path mass =
+      companion(file, options.mass, places.mass, "the mass matrix is", "mass", errors);
+  std::optional<Path> dofs;
+  if (places.dofs)
+    dofs = companion(file, options.dofs, *places.dofs, "the map of degrees of freedom is", "dofs",
+                     errors);
+  const Path nodes = companion(file, options.nodes, places.nodes, coordinates, "nodes", errors);
+  errors.throw_if_any();
+  const Path damping =
+      options.damping_matrix.empty() ? damping_beside(stiffness) : options.damping_matrix;
+  TextSource stiffness_source(stiffness), mass_source(mass);
+  std::optional<TextSource> dof_source, damping_source;
+  if (dofs) dof_source.emplace(*dofs);
+  if (!damping.empty()) damping_source.emplace(damping);
+  return read(stiffness_source, mass_source, dof_source ? &*dof_source : nullptr, read_nodes(nodes),
+              damping_source ? &*damping_source : nullptr);
 }
 
 std::string_view first_line(std::string_view text, std::string_view comments) {
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view line = trimmed(next_line(text));
     if (!line.empty() && comments.find(line.front()) == std::string_view::npos) return line;
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   return {};
-}
-
-bool is_triple(std::string_view line) {
-  std::vector<std::string_view> fields;
-  split_blanks(line, fields);
-  return fields.size() == 3 && parse_label(fields[0]) && parse_label(fields[1]) &&
-         parse_real(fields[2]);
 }
 
 }  // namespace floatframe

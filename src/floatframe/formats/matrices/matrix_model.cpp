@@ -9,10 +9,8 @@
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/deck_component.hpp"
-#include "floatframe/formats/matrices/matrix_entries.hpp"
+#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -31,15 +29,15 @@ bool is_heading(std::string_view line) {
 /// Calls `use` for each line that is neither empty nor a comment nor a heading.
 template <typename Use>
 void each_row(TextSource& source, Use use) {
-  std::string_view line;
   bool first = true;
-  while (source.next(line)) {
-    line = trimmed(line);
-    if (line.empty() || line.front() == '#') continue;
-    const bool heading = first && is_heading(line);
-    first = false;
-    if (!heading) use(line);
-  }
+  each_line(source, "#", [&](std::string_view line) {
+    if (!std::exchange(first, false) || !is_heading(line)) use(line);
+  });
+}
+
+void add_file(FeModel& model, const std::string& file) {
+  if (std::find(model.files.begin(), model.files.end(), file) == model.files.end())
+    model.files.push_back(file);
 }
 
 /// Elements stand for nothing beside matrices: their sets become node sets.
@@ -73,32 +71,26 @@ void keep_nodes(FeModel& model) {
 /// Leaves nodes out: indices of the others move up; sets without nodes go.
 void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof>& dofs) {
   std::vector<int> index(gone.size(), -1);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < gone.size(); ++k) {
-    if (gone[k] != 0) continue;
-    index[k] = static_cast<int>(kept);
-    model.positions[kept] = model.positions[k];
-    model.node_ids[kept] = model.node_ids[k];
-    if (!model.node_sources.empty()) model.node_sources[kept] = model.node_sources[k];
-    if (!model.node_names.empty()) model.node_names[kept] = model.node_names[k];
-    ++kept;
-  }
-  model.positions.resize(kept);
-  model.node_ids.resize(kept);
-  if (!model.node_sources.empty()) model.node_sources.resize(kept);
-  if (!model.node_names.empty()) model.node_names.resize(kept);
-  const auto place = [&](int node) { return index[node]; };
-  for (auto it = model.node_sets.begin(); it != model.node_sets.end();) {
-    std::vector<int>& nodes = it->second;
-    std::erase_if(nodes, [&](int node) { return place(node) < 0; });
-    for (int& node : nodes) node = place(node);
-    it = nodes.empty() ? model.node_sets.erase(it) : std::next(it);
-  }
-  std::erase_if(model.generated_nodes, [&](int node) { return place(node) < 0; });
-  for (int& node : model.generated_nodes) node = place(node);
-  std::erase_if(model.supports, [&](const Support& s) { return place(s.node) < 0; });
-  for (Support& s : model.supports) s.node = place(s.node);
-  for (Dof& d : dofs) d.node = place(d.node);
+  int kept = 0;
+  for (std::size_t k = 0; k < gone.size(); ++k)
+    if (gone[k] == 0) index[k] = kept++;
+  const auto keep = [&gone](auto& of_nodes) {
+    std::erase_if(of_nodes, [&](const auto& x) { return gone[&x - of_nodes.data()] != 0; });
+  };
+  keep(model.positions);
+  keep(model.node_ids);
+  keep(model.node_sources);
+  keep(model.node_names);
+  const auto renumber = [&index](std::vector<int>& nodes) {
+    std::erase_if(nodes, [&](int node) { return index[node] < 0; });
+    for (int& node : nodes) node = index[node];
+  };
+  for (auto& [name, nodes] : model.node_sets) renumber(nodes);
+  std::erase_if(model.node_sets, [](const auto& set) { return set.second.empty(); });
+  renumber(model.generated_nodes);
+  std::erase_if(model.supports, [&](const Support& s) { return index[s.node] < 0; });
+  for (Support& s : model.supports) s.node = index[s.node];
+  for (Dof& d : dofs) d.node = index[d.node];
 }
 
 /// Spiders of the deck are in the matrices: the nodes that follow them have no rows, and neither
@@ -111,18 +103,16 @@ void remove_spiders(FeModel& model, std::vector<Dof>& dofs) {
     if (s.rotation_node >= 0) nodes.push_back(s.rotation_node);
     int without = 0;
     for (const int node : nodes) {
-      const std::size_t k = node;
-      if (with_row[k] != 0) continue;
-      gone[k] = 1;
+      if (with_row[node] != 0) continue;
+      gone[node] = 1;
       if (node != s.rotation_node) ++without;
     }
-    const std::size_t reference = s.reference;
     const SourceMark mark = model.mark(s.source);
     model.notes.push_back(
         fmt::format("{}:{}: {} is in the matrices already: its {} nodes have no rows{}", mark.file,
                     mark.line, s.name.empty() ? "the spider" : "spider " + shown(s.name), without,
-                    with_row[reference] != 0
-                        ? fmt::format(", its reference is node {}", model.node_ids[reference])
+                    with_row[s.reference] != 0
+                        ? fmt::format(", its reference is node {}", model.node_ids[s.reference])
                         : ""));
   }
   model.spiders.clear();
@@ -204,17 +194,13 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
         return;
       }
     }
-    // A line of commas alone has no field.
-    const std::optional<int> node = fields.empty() ? std::optional<int>{} : parse_label(fields[0]);
-    const std::optional<int> direction =
-        fields.size() > 1 ? parse_integer(fields[1]) : std::optional<int>{};
-    if (!node || !direction || fields.size() != 2 || *direction < 0 || *direction > 6) {
-      source.error(
+    fields.resize(std::max<std::size_t>(fields.size(), 2));  // a line of commas alone has none
+    const std::optional<int> node = parse_label(fields[0]), direction = parse_integer(fields[1]);
+    if (!node || !direction || fields.size() != 2 || *direction < 0 || *direction > 6)
+      return source.error(
           ErrorCode::wrong_value,
           "{} is no degree of freedom, expected node and direction 1 to 6, or 0 of a scalar point",
           shown(line));
-      return;
-    }
     labels.push_back({*node, *direction, source.here()});
   });
   if (labels.empty() && source.errors() == 0)
@@ -235,29 +221,24 @@ FeModel read_node_table(TextSource& source) {
   std::vector<std::string_view> fields;
   each_row(source, [&](std::string_view line) {
     split_blanks(line, fields);
-    if (fields.size() != 4) {
-      source.error(ErrorCode::wrong_count, "the line has {} fields, expected node, x, y, z",
-                   fields.size());
-      return;
-    }
+    if (fields.size() != 4)
+      return source.error(ErrorCode::wrong_count, "the line has {} fields, expected node, x, y, z",
+                          fields.size());
     const std::optional<int> id = parse_label(fields[0]);
     if (!id)
       return source.error(ErrorCode::not_a_number, "node number: " + not_an_integer(fields[0]));
     Vec3 p;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::optional<double> value = parse_real(fields[k + 1]);
-      if (!value) {
-        source.error(ErrorCode::not_a_number, "coordinate {} of node {}: {}", k + 1, *id,
-                     not_a_real(fields[k + 1]));
-        return;
-      }
-      p[static_cast<Eigen::Index>(k)] = *value;
+      if (!value)
+        return source.error(ErrorCode::not_a_number, "coordinate {} of node {}: {}", k + 1, *id,
+                            not_a_real(fields[k + 1]));
+      p(k) = *value;
     }
     const auto [it, added] = lines.emplace(*id, source.here().line);
-    if (!added) {
-      source.error(ErrorCode::duplicate, "node {} is there already (line {})", *id, it->second);
-      return;
-    }
+    if (!added)
+      return source.error(ErrorCode::duplicate, "node {} is there already (line {})", *id,
+                          it->second);
     model.positions.push_back(p);
     model.node_ids.push_back(*id);
     model.node_sources.push_back(source.here());
@@ -291,16 +272,13 @@ FeModel read_nodes(const std::filesystem::path& file) {
 
 FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseMatrix K,
                      SparseMatrix M, TextSource& labels_source,
-                     const std::vector<std::string>& other_files) {
+                     const std::vector<std::string>& matrix_files) {
   const std::vector<int> scalars = add_scalars(model, labels, labels_source);
   std::unordered_map<int, int> index_of_id;
-  for (std::size_t k = 0; k < model.node_ids.size(); ++k) {
-    index_of_id.emplace(model.node_ids[k], static_cast<int>(k));
-  }
+  for (int k = 0; k < std::ssize(model.node_ids); ++k) index_of_id.emplace(model.node_ids[k], k);
   std::unordered_map<int, int> reference_of_rotation;
-  for (const Spider& s : model.spiders) {
+  for (const Spider& s : model.spiders)
     if (s.rotation_node >= 0) reference_of_rotation.emplace(s.rotation_node, s.reference);
-  }
   FeMatrices matrices;
   std::map<std::pair<int, int>, FeSource> seen;
   for (const DofLabel& label : labels) {
@@ -312,16 +290,14 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
     }
     Dof dof{node->second, label.direction == 0 ? 3 : label.direction - 1};
     const auto reference = reference_of_rotation.find(node->second);
-    if (reference != reference_of_rotation.end() && dof.axis < 3) {
+    if (reference != reference_of_rotation.end() && dof.axis < 3)
       dof = {reference->second, dof.axis + 3};
-    }
     const auto [first, added] = seen.emplace(std::pair(dof.node, dof.axis), label.at);
-    if (!added) {
+    if (!added)
       labels_source.stop(ErrorCode::unsupported, label.at,
                          "degree of freedom {}.{} is there already (line {}); matrices in which "
                          "beams and shells are expanded to solids cannot be read: read the deck",
                          label.node, label.direction, first->second.line);
-    }
     matrices.dofs.push_back(dof);
   }
   labels_source.throw_if_any();
@@ -335,40 +311,36 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
   model.matrices->M = in_model_axes(std::move(M), model, labels_source);
   // Those of the nodes come first, to which the places of nodes point.
   model.files.insert(model.files.end(), labels_source.files().begin(), labels_source.files().end());
-  model.files.insert(model.files.end(), other_files.begin(), other_files.end());
+  for (const std::string& file : matrix_files) add_file(model, file);
   return model;
 }
 
-FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
-                        bool mass_diagonal, MatrixReader read, TextSource* damping) {
-  const std::vector<DofLabel> labels = read_dof_labels(dofs);
-  dofs.throw_if_any();
-  const std::vector<std::string> names = dof_names(labels);
-  const int n = static_cast<int>(labels.size());
-  const std::string& map = dofs.files().front();
-  SparseMatrix K = read(stiffness, "stiffness", n, map).finish(n, names, true);
-  stiffness.throw_if_any();
-  SparseMatrix M = read(mass, "mass", n, map).finish(n, names, mass_diagonal);
-  mass.throw_if_any();
-  FeModel model = matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
-                               {stiffness.files().front(), mass.files().front()});
-  if (damping == nullptr) return model;
-  SparseMatrix C = read(*damping, "damping", n, map).finish(n, names, false);
-  damping->throw_if_any();
-  add_matrix_damping(model, std::move(C), *damping);
+FeModel matrix_model_of(const MatrixTexts& texts, FeModel nodes,
+                        const std::vector<DofLabel>& labels, const MatrixReader& read) {
+  const auto checked = [&read](TextSource& source, const char* what) {
+    SparseMatrix matrix = read(source, what);
+    source.throw_if_any();
+    return matrix;
+  };
+  SparseMatrix K = checked(texts.stiffness, "stiffness"), M = checked(texts.mass, "mass");
+  FeModel model = matrix_model(std::move(nodes), labels, std::move(K), std::move(M), texts.rows,
+                               {texts.stiffness.files().front(), texts.mass.files().front()});
+  if (texts.damping != nullptr)
+    add_matrix_damping(model, checked(*texts.damping, "damping"), *texts.damping);
   return model;
 }
 
-std::filesystem::path damping_matrix_of(const std::filesystem::path& stiffness,
-                                        const FeReadOptions& options) {
-  return options.damping_matrix.empty() ? damping_beside(stiffness) : options.damping_matrix;
+void note_other_matrices(FeModel& model, const std::string& file,
+                         const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  model.notes.push_back(fmt::format(
+      "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}", file,
+      fmt::join(names, ", ")));
 }
 
 void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source) {
   model.matrices->C = in_model_axes(std::move(C), model, source);
-  const std::string& file = source.files().front();
-  if (std::find(model.files.begin(), model.files.end(), file) == model.files.end())
-    model.files.push_back(file);
+  add_file(model, source.files().front());
 }
 
 }  // namespace floatframe

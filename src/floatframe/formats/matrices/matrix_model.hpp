@@ -2,11 +2,11 @@
 // What all formats of matrices share: the nodes behind the rows, the map of degrees of freedom, the
 // files beside the stiffness, and the model made of them.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
@@ -35,18 +35,23 @@ FeModel read_nodes(const std::filesystem::path& file);
 /// `labels_source` for the places of errors and the names of files.
 FeModel matrix_model(FeModel nodes, const std::vector<DofLabel>& labels, SparseMatrix K,
                      SparseMatrix M, TextSource& labels_source,
-                     const std::vector<std::string>& other_files);
+                     const std::vector<std::string>& matrix_files);
 
-/// The entries of a matrix of n rows; `map` names the file that says n.
-using MatrixReader = SymmetricEntries (*)(TextSource& source, const std::string& what, int n,
-                                          const std::string& map);
-/// The same from texts and a map of the rows. With `mass_diagonal` the mass must have its whole
-/// diagonal. `damping` may be null.
-FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
-                        bool mass_diagonal, MatrixReader read, TextSource* damping);
-/// The file of viscous damping: of the options, or beside the stiffness; empty: none.
-std::filesystem::path damping_matrix_of(const std::filesystem::path& stiffness,
-                                        const FeReadOptions& options);
+/// Texts with stiffness, mass and viscous damping (null: there is none), and the one that names
+/// their rows. Several may be one.
+struct MatrixTexts {
+  TextSource &stiffness, &mass;
+  TextSource* damping;
+  TextSource& rows;
+};
+/// The matrix "stiffness", "mass" or "damping" of a text.
+using MatrixReader = std::function<SparseMatrix(TextSource& source, const std::string& what)>;
+/// The same from texts, which are read in this order; `labels` may be known with the first.
+FeModel matrix_model_of(const MatrixTexts& texts, FeModel nodes,
+                        const std::vector<DofLabel>& labels, const MatrixReader& read);
+/// A note of matrices that are not read.
+void note_other_matrices(FeModel& model, const std::string& file,
+                         const std::vector<std::string>& names);
 /// Viscous damping, rows as those of the stiffness, beside stiffness and mass.
 void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -45,7 +46,7 @@ class DmigFile {
 
   /// The entries of the matrix KAAX (MAAX, BAAX), else of the only one whose name begins with this
   /// letter; an error if there are none or several.
-  const std::vector<DmigEntry>& matrix(char letter, const char* what, const char* advice) {
+  const std::vector<DmigEntry>& matrix(char letter, const std::string& what, const char* advice) {
     const auto of_letter = [&](const auto& m) { return m.first[0] == letter; };
     std::vector<std::string> found;
     for (const auto& [name, entries] : matrices_)
@@ -54,13 +55,12 @@ class DmigFile {
     const auto other = std::find_if(unfit_.begin(), unfit_.end(), of_letter);
     if (found.empty() && other != unfit_.end())
       source_.stop(ErrorCode::wrong_value, other->second.first, other->second.second);
-    if (found.size() != 1) {
+    if (found.size() != 1)
       source_.stop(
           ErrorCode::wrong_value, {0, 0},
           "the file has {} {} matrix (its matrices: {}); expected one whose name begins with {}{}",
           found.empty() ? "no" : "more than one", what,
           names_.empty() ? "none" : fmt::format("{}", fmt::join(names_, ", ")), letter, advice);
-    }
     name_ = found[0];
     used_.insert(name_);
     return matrices_[name_];
@@ -72,11 +72,11 @@ class DmigFile {
   }
   const std::string& name() const { return name_; }
   /// Matrices that `matrix` has not given.
-  std::string others() const {
-    std::string text;
-    for (const std::string& name : names_)
-      if (!used_.contains(name)) text += (text.empty() ? "" : ", ") + name;
-    return text;
+  std::vector<std::string> others() const {
+    std::vector<std::string> names;
+    std::set_difference(names_.begin(), names_.end(), used_.begin(), used_.end(),
+                        std::back_inserter(names));
+    return names;
   }
 
  private:
@@ -133,105 +133,70 @@ class DmigFile {
   std::string name_;
 };
 
-SparseMatrix matrix_of(TextSource& source, const char* what, const std::vector<DmigEntry>& entries,
-                       const std::map<Row, int>& rows, const std::vector<std::string>& names,
-                       bool whole_diagonal) {
-  SymmetricEntries matrix(source, what);
-  for (const DmigEntry& e : entries) matrix.add(rows.at(e.row), rows.at(e.column), e.value, e.at);
-  return matrix.finish(static_cast<int>(rows.size()), names, whole_diagonal);
-}
-
 }  // namespace
 
 bool looks_like_dmig(std::string_view beginning) {
-  while (!beginning.empty()) {
-    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    std::string_view line = beginning.substr(0, end);
-    beginning.remove_prefix(std::min(end + 1, beginning.size()));
-    line = line.substr(0, std::min(line.find_first_of(", *\t"), line.size()));
-    if (same_word(line, "DMIG")) return true;
-  }
+  while (!beginning.empty())
+    if (same_word(card_name(next_line(beginning)), "DMIG")) return true;
   return false;
 }
 
 FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSource* damping) {
   DmigFile first(stiffness);
-  const std::vector<DmigEntry>& K = first.matrix('K', "stiffness", "");
   std::map<Row, int> rows;
-  for (const DmigEntry& e : K) {
-    rows.emplace(e.row, 0);
-    rows.emplace(e.column, 0);
-  }
-  if (rows.empty())
-    stiffness.stop(ErrorCode::missing, FeSource{0, 0},
-                   "matrix {} has no entries, expected a stiffness", first.name());
   std::vector<DofLabel> labels;
-  for (auto& [row, index] : rows) {
-    index = static_cast<int>(labels.size());
-    labels.push_back({row.first, row.second, {0, 0}});
-  }
-  std::optional<DmigFile> second;
-  if (mass != nullptr) second.emplace(*mass);
-  TextSource& mass_source = mass != nullptr ? *mass : stiffness;
-  DmigFile& mass_file = mass != nullptr ? *second : first;
-  const std::string K_name = first.name();
-  const auto check_rows = [&](const std::vector<DmigEntry>& entries, TextSource& source,
-                              const std::string& name) {
-    for (const DmigEntry& e : entries) {
-      for (const Row& row : {e.row, e.column}) {
-        if (rows.count(row) > 0) continue;
-        source.stop(ErrorCode::not_found, e.at, "degree of freedom {}.{} of {} is not in {}",
-                    row.first, row.second, name, K_name);
+  std::vector<std::string> names;
+  std::string K_name;
+  const auto read = [&](TextSource& source, const std::string& what) {
+    std::optional<DmigFile> other;
+    if (&source != &stiffness) other.emplace(source);
+    DmigFile& file = other ? *other : first;
+    const bool stiff = what == "stiffness", heavy = what == "mass";
+    const std::vector<DmigEntry>& entries =
+        file.matrix(stiff   ? 'K'
+                    : heavy ? 'M'
+                            : 'B',
+                    what, heavy ? "; or give the mass file" : "");
+    if (stiff) {
+      K_name = file.name();
+      for (const DmigEntry& e : entries)
+        for (const Row& row : {e.row, e.column}) rows.emplace(row, 0);
+      if (rows.empty())
+        source.stop(ErrorCode::missing, {0, 0}, "{} has no entries, expected a stiffness", K_name);
+      for (auto& [row, index] : rows) {
+        index = static_cast<int>(labels.size());
+        labels.push_back({row.first, row.second, {0, 0}});
       }
+      names = dof_names(labels);
     }
+    SymmetricEntries matrix(source, what);
+    for (const DmigEntry& e : entries) {
+      for (const Row& row : {e.row, e.column})
+        if (!rows.contains(row))
+          source.stop(ErrorCode::not_found, e.at, "degree of freedom {}.{} of {} is not in {}",
+                      row.first, row.second, file.name(), K_name);
+      matrix.add(rows.at(e.row), rows.at(e.column), e.value, e.at);
+    }
+    return matrix.finish(static_cast<int>(rows.size()), names, stiff);
   };
-  const std::vector<DmigEntry>& M = mass_file.matrix('M', "mass", "; or give the mass file");
-  check_rows(M, mass_source, mass_file.name());
-  const std::vector<std::string> names = dof_names(labels);
-  SparseMatrix stiff = matrix_of(stiffness, "stiffness", K, rows, names, true);
-  stiffness.throw_if_any();
-  SparseMatrix heavy = matrix_of(mass_source, "mass", M, rows, names, false);
-  mass_source.throw_if_any();
-  std::vector<std::string> other_files;
-  if (mass != nullptr) other_files.push_back(mass->files().front());
-  FeModel model = matrix_model(std::move(nodes), labels, std::move(stiff), std::move(heavy),
-                               stiffness, other_files);
-  std::optional<DmigFile> third;
-  if (damping != nullptr) third.emplace(*damping);
-  if (DmigFile& damping_file = third ? *third : first; third || first.has('B')) {
-    TextSource& source = third ? *damping : stiffness;
-    const std::vector<DmigEntry>& B = damping_file.matrix('B', "damping", "");
-    check_rows(B, source, damping_file.name());
-    SparseMatrix C = matrix_of(source, "damping", B, rows, names, false);
-    source.throw_if_any();
-    add_matrix_damping(model, std::move(C), source);
-  }
-  if (!first.others().empty()) {
-    model.notes.push_back(fmt::format(
-        "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}",
-        stiffness.files().front(), first.others()));
-  }
+  if (damping == nullptr && first.has('B')) damping = &stiffness;
+  FeModel model =
+      matrix_model_of({stiffness, mass == nullptr ? stiffness : *mass, damping, stiffness},
+                      std::move(nodes), labels, read);
+  note_other_matrices(model, stiffness.files().front(), first.others());
   return model;
 }
 
 FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& options) {
-  const std::filesystem::path stem = stem_of(file);
   std::filesystem::path nodes = options.nodes;
   if (nodes.empty()) {
     TextSource cards(file);
     NastranCards reader(cards, false, NastranBegin::any);
     NastranCard card;
-    while (nodes.empty() && reader.next(card)) {
+    while (nodes.empty() && reader.next(card))
       if (card.name == "GRID") nodes = file;
-    }
   }
-  ErrorList errors;
-  nodes =
-      companion(file, nodes,
-                {with_ending(stem, ".bdf"), with_ending(stem, ".dat"), with_ending(stem, ".nas"),
-                 with_ending(stem, ".fem"), with_ending(stem, "_nodes.csv")},
-                "the coordinates of the nodes are", "nodes", errors);
-  errors.throw_if_any();
+  nodes = nodes_beside(file, nodes, {".bdf", ".dat", ".nas", ".fem", "_nodes.csv"});
   TextSource stiffness(file);
   std::optional<TextSource> mass, damping;
   if (!options.mass.empty()) mass.emplace(options.mass);

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/matrices/op4_file.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -97,7 +95,6 @@ SparseMatrix whole(const Op4Matrix& m) {
 
 FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options) {
   const std::string name = file.string();
-  const std::filesystem::path stem = stem_of(file);
   const std::vector<Op4Matrix> matrices = read_op4_matrices(read_whole_file(file), name);
   const Op4Matrix* K = choose_op4(matrices, 'K', 0, name);
   const Op4Matrix* M = K == nullptr ? nullptr : choose_op4(matrices, 'M', K->rows, name);
@@ -111,15 +108,10 @@ FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options
                     K == nullptr ? "stiffness K" : "mass M of the size of the stiffness",
                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
   const Op4Matrix* B = choose_op4(matrices, 'B', K->rows, name);
-  ErrorList errors;
-  std::vector<std::filesystem::path> beside;
-  for (const char* ending : {".pch", ".asm", ".bdf", ".dat", ".nas", ".blk", "_nodes.csv"})
-    beside.push_back(with_ending(stem, ending));
-  const std::filesystem::path nodes =
-      companion(file, options.nodes, beside, "the coordinates of the nodes are", "nodes", errors);
-  errors.throw_if_any();
+  const std::filesystem::path nodes = nodes_beside(
+      file, options.nodes, {".pch", ".asm", ".bdf", ".dat", ".nas", ".blk", "_nodes.csv"});
   std::filesystem::path dofs = options.dofs;
-  if (const auto table = with_ending(stem, "_dofs.csv");
+  if (const auto table = with_ending(stem_of(file), "_dofs.csv");
       dofs.empty() && std::filesystem::exists(table))
     dofs = table;
   TextSource source(dofs.empty() ? nodes : dofs);
@@ -136,10 +128,7 @@ FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options
   std::erase_if(names, [&](const std::string& n) {
     return n == K->name || n == M->name || (B != nullptr && n == B->name);
   });
-  if (!names.empty())
-    model.notes.push_back(fmt::format(
-        "{}: matrices that are neither stiffness, mass nor viscous damping are ignored: {}", name,
-        fmt::join(names, ", ")));
+  note_other_matrices(model, name, names);
   return model;
 }
 

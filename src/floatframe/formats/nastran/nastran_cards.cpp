@@ -42,12 +42,21 @@ bool is_continuation(std::string_view name) {
 
 }  // namespace
 
+std::string_view next_line(std::string_view& rest) noexcept {
+  const std::size_t end = std::min(rest.find('\n'), rest.size());
+  const std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return line;
+}
+
+std::string_view card_name(std::string_view line) noexcept {
+  return line.substr(0, std::min(line.find_first_of(", *\t"), line.size()));
+}
+
 bool has_begin_bulk(std::string_view beginning) {
   while (!beginning.empty()) {
-    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    const std::string_view line = beginning.substr(0, end);
+    const std::string_view line = next_line(beginning);
     if (is_begin(line.substr(0, line.find('$')))) return true;
-    beginning.remove_prefix(std::min(end + 1, beginning.size()));
   }
   return false;
 }
@@ -100,21 +109,17 @@ void NastranCards::command(std::string_view line) {
   if (equals == std::string_view::npos) return;
   const std::string_view value = trimmed(line.substr(equals + 1));
   const auto id = parse_label(value);
-  if (same_word(word, "MPC")) {
-    if (id && control_.mpc.size() < most_commands) control_.mpc.emplace_back(*id, source_.here());
-    return;
-  }
-  if (same_word(word, "SPC")) {
-    if (id && control_.spc.size() < most_commands) control_.spc.emplace_back(*id, source_.here());
+  for (const auto& [known, sets] : {std::pair{"MPC", &control_.mpc}, {"SPC", &control_.spc}}) {
+    if (!same_word(word, known)) continue;
+    if (id && sets->size() < most_commands) sets->emplace_back(*id, source_.here());
     return;
   }
   if (same_word(word.substr(0, word.find('(')), "STATSUB")) control_.preload = source_.here();
   for (const char* known : {"K2GG", "M2GG", "K2PP", "M2PP", "A2GG", "NSM", "MFLUID"}) {
     if (!same_word(word, known) || same_word(value, "NONE")) continue;
-    if (control_.additions.size() < most_commands) {
+    if (control_.additions.size() < most_commands)
       control_.additions.emplace_back(fmt::format("{} = {}", known, value.substr(0, 40)),
                                       source_.here());
-    }
   }
 }
 
@@ -138,13 +143,11 @@ void NastranCards::comment(std::string_view text) {
   const std::string_view first = next_word(rest);
   const bool set = same_word(first, "HMSET"), hypermesh = set || same_word(first, "HMNAME");
   if (!hypermesh && !same_word(first, "FEMAP")) return;
-  std::map<int, std::string>* names = &set_names_;
-  if (!set) {
-    const std::string_view kind = next_word(rest);
-    names = begins_with(kind, "PROP")  ? &property_names_
-            : begins_with(kind, "MAT") ? &material_names_
-                                       : nullptr;
-  }
+  const std::string_view kind = set ? "SET" : next_word(rest);
+  std::map<int, std::string>* const names = set                         ? &names_.sets
+                                            : begins_with(kind, "PROP") ? &names_.properties
+                                            : begins_with(kind, "MAT")  ? &names_.materials
+                                                                        : nullptr;
   const std::size_t open = rest.find(hypermesh ? '"' : ':');
   if (names == nullptr || open == std::string_view::npos) return;
   std::string_view before = rest.substr(0, open), name = rest.substr(open + 1);
@@ -166,14 +169,12 @@ void NastranCards::split(std::string_view text, Line& line) {
     while (fields.size() > width + 2 && fields.back().empty()) fields.pop_back();
     // A line that is put back comes again.
     if (fields.size() > width + 2 &&
-        std::exchange(too_long_, source_.here().line) != source_.here().line) {
+        std::exchange(too_long_, source_.here().line) != source_.here().line)
       source_.error(ErrorCode::wrong_count,
                     "the line has {} fields; a line in free field has at most {}", fields.size(),
                     width + 2);
-    }
-    for (std::size_t i = 1; i <= width; ++i) {
+    for (std::size_t i = 1; i <= width; ++i)
       line.data.push_back(i < fields.size() ? fields[i] : std::string_view{});
-    }
     if (fields.size() > width + 1) line.mark = fields[width + 1];
     return;
   }
@@ -181,11 +182,7 @@ void NastranCards::split(std::string_view text, Line& line) {
     std::string wide;  // up to the last column that counts
     for (const char c : text) {
       if (wide.size() >= 80) break;
-      if (c == '\t') {
-        wide.append(8 - wide.size() % 8, ' ');
-      } else {
-        wide += c;
-      }
+      wide.append(c == '\t' ? 8 - wide.size() % 8 : 1, c == '\t' ? ' ' : c);
     }
     text = expanded_.emplace_back(std::move(wide));
   }
@@ -206,9 +203,8 @@ void NastranCards::include(std::string_view text, bool executive) {
   const char quote = !path.empty() && (path[0] == '\'' || path[0] == '"') ? path[0] : '\0';
   std::string_view line;
   while (quote != '\0' && path.find(quote, 1) == std::string::npos) {
-    if (path.size() > 4096 || !source_.next(line)) {
+    if (path.size() > 4096 || !source_.next(line))
       source_.stop(ErrorCode::missing, at, "the name of the included file has no closing quote");
-    }
     path += trimmed(line);
   }
   if (quote != '\0') path = path.substr(1, path.find(quote, 1) - 1);
@@ -224,50 +220,42 @@ bool NastranCards::next(NastranCard& card) {
   }
   expanded_.clear();
   std::string_view text;
-  while (true) {
+  for (bool found = false; !found;) {
     if (!next_text(text)) return false;
     if (begins_with(trimmed(text), "INCLUDE") && text.find(',') == std::string_view::npos) {
       include(text, false);
-      continue;
-    }
-    if (is_begin(text)) {
-      if (begins(trimmed(text)) && !std::exchange(begun_, true)) continue;
+    } else if (!is_begin(text)) {
+      found = true;
+    } else if (!begins(trimmed(text)) || std::exchange(begun_, true)) {
       source_.stop(ErrorCode::unsupported, source_.here(),
                    fmt::format(one_model, shown(trimmed(text))));
     }
-    break;
   }
   ended_ = begins_with(text, "ENDDATA");
   if (ended_) return false;
   Line line;
   split(text, line);
-  if (is_continuation(line.name)) {
+  if (is_continuation(line.name))
     source_.stop(ErrorCode::wrong_value, source_.here(), "found a continuation {}, expected a card",
                  shown(line.name));
-  }
-  card.name = upper_case(line.name);
-  if (card.name.back() == '*') card.name.pop_back();
-  card.name = std::string(trimmed(card.name));
+  if (line.name.ends_with('*')) line.name.remove_suffix(1);
+  card.name = upper_case(trimmed(line.name));
   card.fields = line.data;
   card.continuations.clear();
   card.at = source_.here();
   std::string_view mark = line.mark;
   while (next_text(text)) {
-    if (begins_with(trimmed(text), "INCLUDE")) {
+    const bool include = begins_with(trimmed(text), "INCLUDE");
+    if (!include) split(text, line);
+    if (include || !is_continuation(line.name)) {
       source_.put_back();
       break;
     }
-    split(text, line);
-    if (!is_continuation(line.name)) {
-      source_.put_back();
-      break;
-    }
-    if (!same_mark(mark, line.name)) {
+    if (!same_mark(mark, line.name))
       source_.error(ErrorCode::incomplete,
                     "the continuation {} does not follow the card with this mark; the card before "
                     "({} in line {}) has {}",
                     shown(line.name), card.name, card.at.line, shown(mark));
-    }
     const std::size_t width = line.large ? 4 : 8;
     while (card.fields.size() % width != 0) card.fields.emplace_back();
     card.continuations.emplace_back(card.fields.size(), source_.here());

@@ -3,7 +3,9 @@
 // (commas), with their continuations and includes. A continuation follows its card; if both carry
 // marks, these must agree. Of executive and case control before BEGIN BULK only what changes the
 // part is kept: PARAM entries come as cards, matrices and sets that are selected are in `control`.
+#include <algorithm>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,9 +13,28 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/formats/nastran/nastran_card.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
+
+/// A name and fields.
+struct NastranCard {
+  std::string name;                      ///< upper case, without '*'
+  std::vector<std::string_view> fields;  ///< trimmed, from field 2; those of continuations follow
+  FeSource at;
+  /// First field of each continuation and where it stands.
+  std::vector<std::pair<std::size_t, FeSource>> continuations;
+
+  /// Where a field stands.
+  FeSource place(std::size_t i) const {
+    const auto next = std::upper_bound(continuations.begin(), continuations.end(), i,
+                                       [](std::size_t k, const auto& c) { return k < c.first; });
+    return next == continuations.begin() ? at : std::prev(next)->second;
+  }
+  std::string_view field(std::size_t i) const {
+    return i < fields.size() ? fields[i] : std::string_view{};
+  }
+};
 
 /// What the case control selects.
 struct NastranControl {
@@ -23,6 +44,11 @@ struct NastranControl {
   std::vector<std::pair<std::string, FeSource>> additions;
   std::optional<FeSource> preload;            ///< STATSUB
   std::vector<std::string> missing_includes;  ///< of the executive control
+};
+
+/// Names that pre-processors leave in comments, by number.
+struct NastranNames {
+  std::map<int, std::string> properties, materials, sets;
 };
 
 /// What begins the bulk data: BEGIN BULK, or BEGIN SUPER of a punched superelement as well.
@@ -39,10 +65,7 @@ class NastranCards {
   /// ENDDATA was met.
   bool ended() const { return ended_; }
   const NastranControl& control() const { return control_; }
-  /// Names that pre-processors leave in comments, by number.
-  const std::map<int, std::string>& property_names() const { return property_names_; }
-  const std::map<int, std::string>& material_names() const { return material_names_; }
-  const std::map<int, std::string>& set_names() const { return set_names_; }
+  const NastranNames& names() const { return names_; }
 
  private:
   struct Line {
@@ -67,9 +90,13 @@ class NastranCards {
   NastranControl control_;
   std::deque<NastranCard> cards_of_control_;
   std::deque<std::string> expanded_;  // lines of the card that had tabs
-  std::map<int, std::string> property_names_, material_names_, set_names_;
+  NastranNames names_;
 };
 
+/// The next line of a text; `rest` moves behind it.
+std::string_view next_line(std::string_view& rest) noexcept;
+/// The name that a line of bulk data begins with.
+std::string_view card_name(std::string_view line) noexcept;
 /// Is there a line BEGIN (BULK, SUPER, ...) in a text or in the beginning of a file?
 bool has_begin_bulk(std::string_view text);
 

@@ -6,21 +6,22 @@
 
 namespace floatframe {
 
-void NastranFields::error_at(ErrorCode code, const FeSource& at, const std::string& message) {
+std::string NastranFields::card_label() const {
   const std::string_view id = card_.field(0);
-  source_.error(code, at,
-                parse_label(id) ? fmt::format("{} {}: {}", card_.name, id, message)
-                                : fmt::format("{}: {}", card_.name, message));
+  return parse_label(id) ? fmt::format("{} {}", card_.name, id) : card_.name;
+}
+
+void NastranFields::error_at(ErrorCode code, const FeSource& at, const std::string& message) {
+  source_.error(code, at, "{}: {}", card_label(), message);
 }
 
 int NastranFields::label(std::size_t i, const char* what) {
   const auto value = parse_label(card_.field(i));
-  if (!value) {
-    error_in(ErrorCode::missing, i,
+  if (!value)
+    error_in(ErrorCode::missing, i, "{}",
              blank(i) ? fmt::format("{} is missing", what)
                       : fmt::format("{} is {}, expected a whole number from 1", what,
                                     shown(card_.field(i))));
-  }
   return value.value_or(0);
 }
 
@@ -42,25 +43,24 @@ int NastranFields::integer(std::size_t i, const char* what, int otherwise) {
   return value.value_or(otherwise);
 }
 
-double NastranFields::real(std::size_t i, const char* what) {
-  if (blank(i)) {
-    error_in(ErrorCode::missing, i, "{} is missing", what);
-    return 1.0;
+double NastranFields::real(std::size_t i, const char* what, std::optional<double> otherwise,
+                           NastranRange range) {
+  if (blank(i) && !otherwise) error_in(ErrorCode::missing, i, "{} is missing", what);
+  double value = otherwise.value_or(1.0);
+  if (!blank(i)) {
+    const auto given = parse_real(card_.field(i));
+    if (!given) error_in(ErrorCode::not_a_number, i, "{}: {}", what, not_a_real(card_.field(i)));
+    if (given && whole_ != nullptr && parse_integer(card_.field(i)) && whole_->count++ == 0) {
+      whole_->first = fmt::format("{}: {} is {}", card_label(), what, shown(card_.field(i)));
+      whole_->at = card_.place(i);
+    }
+    value = given.value_or(value);
   }
-  return real(i, what, 1.0);
-}
-
-double NastranFields::real(std::size_t i, const char* what, double otherwise) {
-  if (blank(i)) return otherwise;
-  const auto value = parse_real(card_.field(i));
-  if (!value) error_in(ErrorCode::not_a_number, i, "{}: {}", what, not_a_real(card_.field(i)));
-  if (value && whole_ != nullptr && parse_integer(card_.field(i)) && whole_->count++ == 0) {
-    const std::string_view id = card_.field(0);
-    whole_->first = fmt::format("{}{}{}: {} is {}", card_.name, parse_label(id) ? " " : "",
-                                parse_label(id) ? id : "", what, shown(card_.field(i)));
-    whole_->at = card_.place(i);
-  }
-  return value.value_or(otherwise);
+  if (range == NastranRange::positive && !(value > 0.0))
+    error(ErrorCode::out_of_range, "{} is {:g}, expected more than 0", what, value);
+  if (range == NastranRange::not_negative && value < 0.0)
+    error(ErrorCode::out_of_range, "{} is {:g}, expected no negative number", what, value);
+  return value;
 }
 
 Vec3 NastranFields::vector(std::size_t i, const char* what) {
@@ -83,11 +83,21 @@ unsigned NastranFields::components(std::size_t i, const char* what) {
   return mask;
 }
 
+int NastranFields::component(std::size_t i, bool needed) {
+  const unsigned mask = components(i, "the component");
+  if (mask == 0 && !needed) return -1;
+  int component = 0;
+  while (component < 6 && mask != (1u << component)) ++component;
+  if (component == 6)
+    error(ErrorCode::out_of_range, "the component is {}, expected one of 1 to 6",
+          shown(card_.field(i)));
+  return component;
+}
+
 void NastranFields::must_be_zero(std::size_t i, const char* what) {
-  if (real(i, what, 0.0) != 0.0) {
+  if (real(i, what, 0.0) != 0.0)
     error_in(ErrorCode::unsupported, i, "{} is {}, which is not supported", what,
              shown(card_.field(i)));
-  }
 }
 
 }  // namespace floatframe

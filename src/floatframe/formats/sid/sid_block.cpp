@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "floatframe/formats/sid/sid_items.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -31,10 +30,9 @@ class BlockReader {
     while (true) {
       const SidItem item = next_sid_item(source_, wanted.c_str());
       if (item.key == end) break;
-      if (!item.has_value) {
-        source_.stop(ErrorCode::wrong_value, source_.here(), "found {} in block {}, expected {}",
-                     shown(item.key), name_, wanted);
-      }
+      if (!item.has_value)
+        source_.stop(ErrorCode::wrong_value, "found {} in block {}, expected {}", shown(item.key),
+                     name_, wanted);
       if (item.key.starts_with("m0(") || item.key.starts_with("m1(")) {
         if (sizes_fit_) read_entry(item);
       } else {
@@ -46,30 +44,21 @@ class BlockReader {
 
  private:
   void read_header(const SidItem& item) {
-    if (seen0_.size() > 0) {
-      source_.error(ErrorCode::wrong_value, "{} of block {} comes after its entries",
-                    shown(item.key), name_);
-      return;
-    }
+    if (seen0_.size() > 0)
+      return source_.error(ErrorCode::wrong_value, "{} of block {} comes after its entries",
+                           shown(item.key), name_);
     const auto value = parse_integer(item.value);
-    if (!value) {
-      source_.error(ErrorCode::not_a_number, "{} of block {}: {}", shown(item.key), name_,
-                    not_an_integer(item.value));
-      return;
-    }
+    if (!value)
+      return source_.error(ErrorCode::not_a_number, "{} of block {}: {}", shown(item.key), name_,
+                           not_an_integer(item.value));
     const auto size = [&](Eigen::Index expected, const char* why) {
-      if (*value == expected) return;
-      sizes_fit_ = false;
-      source_.error(ErrorCode::wrong_value, "block {}: {} is {}, expected {}{}", name_, item.key,
-                    *value, expected, why);
+      if (*value != expected)
+        misfit(ErrorCode::wrong_value, "{} is {}, expected {}{}", item.key, *value, expected, why);
     };
     if (item.key == "order") {
       order_ = *value;
-      if (order_ < 0 || order_ > 1) {
-        sizes_fit_ = false;
-        source_.error(ErrorCode::out_of_range, "block {}: order is {}, expected 0 or 1", name_,
-                      *value);
-      }
+      if (order_ < 0 || order_ > 1)
+        misfit(ErrorCode::out_of_range, "order is {}, expected 0 or 1", *value);
     } else if (item.key == "nrow") {
       if (name_ == "J" && *value == 3) {
         block_.m0 = Mat3::Zero();
@@ -88,22 +77,24 @@ class BlockReader {
       size(0, ": terms of second order are not read");
     } else if (item.key == "structure") {
       structure_ = *value;
-      if (structure_ < 0 || structure_ > 4) {
-        sizes_fit_ = false;
-        source_.error(ErrorCode::out_of_range, "block {}: structure is {}, expected 0 to 4", name_,
-                      *value);
-      } else if (structure_ == 4 && block_.m0.rows() != block_.m0.cols()) {
-        sizes_fit_ = false;
-        source_.error(ErrorCode::incomplete,
-                      "block {}: structure 4 (unit matrix) needs a square block, not {} x {}",
-                      name_, block_.m0.rows(), block_.m0.cols());
-      }
+      if (structure_ < 0 || structure_ > 4)
+        misfit(ErrorCode::out_of_range, "structure is {}, expected 0 to 4", *value);
+      else if (structure_ == 4 && block_.m0.rows() != block_.m0.cols())
+        misfit(ErrorCode::incomplete, "structure 4 (unit matrix) needs a square block, not {} x {}",
+               block_.m0.rows(), block_.m0.cols());
     } else {
       source_.error(
           ErrorCode::unknown_key,
           "unknown item {} in block {} (expected order, nrow, ncol, nq, nqn, structure, m0 or m1)",
           shown(item.key), name_);
     }
+  }
+
+  /// An error after which entries are not looked at.
+  template <class... Args>
+  void misfit(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
+    sizes_fit_ = false;
+    source_.error(code, "block {}: {}", name_, fmt::format(text, std::forward<Args>(args)...));
   }
 
   std::optional<Entry> entry_of(const std::string& key) {
@@ -143,18 +134,14 @@ class BlockReader {
   void read_entry(const SidItem& item) {
     const auto e = entry_of(item.key);
     if (!e) return;
-    const auto value = real(item.value);
+    const auto value = sid_real(source_, item.value);
     if (!value) return;
-    if (structure_ == 0 || structure_ == 4) {
-      source_.error(ErrorCode::missing, "{} in block {}, whose structure {} has no entries",
-                    shown(item.key), name_, structure_);
-      return;
-    }
-    if (structure_ == 1 && e->row != e->column && *value != 0.0) {
-      source_.error(ErrorCode::contradiction, "{} in block {}, whose structure 1 is diagonal",
-                    shown(item.key), name_);
-      return;
-    }
+    if (structure_ == 0 || structure_ == 4)
+      return source_.error(ErrorCode::missing, "{} in block {}, whose structure {} has no entries",
+                           shown(item.key), name_, structure_);
+    if (structure_ == 1 && e->row != e->column && *value != 0.0)
+      return source_.error(ErrorCode::contradiction,
+                           "{} in block {}, whose structure 1 is diagonal", shown(item.key), name_);
     if (seen0_.size() == 0) seen0_ = MatX::Zero(block_.m0.rows(), block_.m0.cols());
     if (e->order == 1 && block_.m1.empty()) {
       const std::size_t modes = modes_;
@@ -164,11 +151,10 @@ class BlockReader {
     const std::size_t mode = e->mode;
     MatX& values = e->order == 1 ? block_.m1[mode] : block_.m0;
     double& line = (e->order == 1 ? seen1_[mode] : seen0_)(e->row, e->column);
-    if (line > 0.0) {
-      source_.error(ErrorCode::duplicate, "{} of block {} is in the file twice, first in line {}",
-                    shown(item.key), name_, line);
-      return;
-    }
+    if (line > 0.0)
+      return source_.error(ErrorCode::duplicate,
+                           "{} of block {} is in the file twice, first in line {}", shown(item.key),
+                           name_, line);
     line = source_.here().line;
     values(e->row, e->column) = *value;
   }
@@ -176,9 +162,8 @@ class BlockReader {
   /// Fills what the structure implies.
   void finish() {
     if (structure_ == 4) block_.m0.setIdentity();
-    if (order_ == 1 && block_.m1.empty()) {
+    if (order_ == 1 && block_.m1.empty())
       block_.m1.assign(modes_, MatX::Zero(block_.m0.rows(), block_.m0.cols()));
-    }
     if (structure_ != 2 || block_.m0.rows() != block_.m0.cols() || seen0_.size() == 0) return;
     const double scale = block_.m0.cwiseAbs().maxCoeff();
     for (Eigen::Index r = 0; r < block_.m0.rows(); ++r) {
@@ -198,12 +183,6 @@ class BlockReader {
     }
   }
 
-  std::optional<double> real(std::string_view field) {
-    const auto value = parse_real(field);
-    if (!value) source_.error(ErrorCode::not_a_number, not_a_real(field));
-    return value;
-  }
-
   TextSource& source_;
   const std::string& name_;
   int modes_;
@@ -215,6 +194,55 @@ class BlockReader {
 };
 
 }  // namespace
+
+std::string without_blanks(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (c != ' ' && c != '\t') out += c;
+
+  return out;
+}
+
+SidItem next_sid_item(TextSource& source, const char* wanted) {
+  std::string_view text;
+  while (source.next(text)) {
+    text = trimmed(text);
+    if (!text.empty()) break;
+  }
+  if (text.empty()) source.stop(ErrorCode::damaged, "the file ends where {} was expected", wanted);
+
+  SidItem item;
+  const std::size_t equals = text.find('=');
+  item.has_value = equals != std::string_view::npos;
+  item.key = without_blanks(text.substr(0, equals));
+  if (item.has_value) item.value = trimmed(text.substr(equals + 1));
+  return item;
+}
+
+void expect_sid_item(TextSource& source, const char* key) {
+  const std::string words = key == std::string_view("newmodal")  ? "new modal"
+                            : key == std::string_view("endpart") ? "end part"
+                                                                 : key;
+  const SidItem item = next_sid_item(source, fmt::format("'{}'", words).c_str());
+  if (item.key != key)
+    source.stop(ErrorCode::wrong_value, "found {}, expected '{}'", shown(item.key), words);
+}
+
+void skip_sid_block(TextSource& source, const std::string& key) {
+  const FeSource begin = source.here();
+  const std::string end = "end" + key;
+  std::string_view text;
+  while (source.next(text))
+    if (without_blanks(text) == end) return;
+
+  source.stop(ErrorCode::missing, begin, "{} has no end", shown(key));
+}
+
+std::optional<double> sid_real(TextSource& source, std::string_view field) {
+  const auto value = parse_real(field);
+  if (!value) source.error(ErrorCode::not_a_number, not_a_real(field));
+  return value;
+}
 
 void read_sid_block(TextSource& source, const std::string& name, int modes, SidTaylor& block) {
   BlockReader(source, name, modes, block).read();

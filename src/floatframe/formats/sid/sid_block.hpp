@@ -1,12 +1,34 @@
 #pragma once
-// A block of a SID_FEM file: "name", order, nrow, ncol, nq, nqn, structure, entries m0(r,c) and
-// m1(r,q,c), "end name".
+// A SID_FEM file as items, one per line: "key = value" or "key"; and its blocks: "name", order,
+// nrow, ncol, nq, nqn, structure, entries m0(r,c) and m1(r,q,c), "end name".
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "floatframe/formats/sid/sid_content.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
+
+/// A line; the key without blanks.
+struct SidItem {
+  std::string key;
+  std::string_view value;
+  bool has_value = false;
+};
+
+std::string without_blanks(std::string_view text);
+
+/// The next line that is not blank. `wanted` says what should have come if the file ends: then it
+/// throws InputError, as `expect` does.
+SidItem next_sid_item(TextSource& source, const char* wanted);
+void expect_sid_item(TextSource& source, const char* key);
+
+/// A number; nothing with an error.
+std::optional<double> sid_real(TextSource& source, std::string_view field);
+
+/// To the end of something unknown; throws InputError if it has none.
+void skip_sid_block(TextSource& source, const std::string& key);
 
 /// Reads the block whose name was the last line. `block` comes with the size that it must have;
 /// memory is taken for that and for the number of modes, never for what the block claims.

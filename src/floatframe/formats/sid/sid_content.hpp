@@ -25,7 +25,9 @@
 // Signs of Cr, Gr and Oe are those of the file of PY_SID that EMBSlib uses as an example. Indices
 // of m1 in the file: (row, mode, column). ksigma is zero, Ke and De are the modal stiffness and
 // damping of first order. Displacements of second order add to the first-order terms of Ct, Cr,
-// Oe, phi and psi: sid_second_order.hpp.
+// Oe, phi and psi, as below.
+#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,8 +63,63 @@ struct SidContent {
   SidTaylor mdCM, J, Ct, Cr, Me, Gr, Ge, Oe, ksigma, Ke, De;
 };
 
+/// A block as the file has it, a member of `Owner`: its size is fixed, or so many times the number
+/// of modes.
+template <class Owner>
+struct SidBlock {
+  struct Size {
+    int fixed = 0, of_modes = 0;
+    int with(int modes) const { return fixed + of_modes * modes; }
+  };
+  enum Need { may_miss, with_modes, always };
+
+  const char* name;
+  SidTaylor Owner::*block;
+  Size rows, columns;
+  bool first_order;  ///< bodies have terms there
+  Need needed = may_miss;
+
+  SidTaylor zero(int modes, int modes_of_m1) const {
+    return {rows.with(modes), columns.with(modes), modes_of_m1};
+  }
+  /// Of a body.
+  void clear(Owner& owner, int modes) const { owner.*block = zero(modes, first_order ? modes : 0); }
+};
+using SidModal = SidBlock<SidContent>;
+inline constexpr SidModal sid_modal_blocks[] = {
+    {"mdCM", &SidContent::mdCM, {3}, {1}, true, SidModal::always},
+    {"J", &SidContent::J, {6}, {1}, true, SidModal::always},
+    {"Ct", &SidContent::Ct, {0, 1}, {3}, false, SidModal::with_modes},
+    {"Cr", &SidContent::Cr, {0, 1}, {3}, true, SidModal::with_modes},
+    {"Me", &SidContent::Me, {0, 1}, {0, 1}, false, SidModal::with_modes},
+    {"Gr", &SidContent::Gr, {3}, {0, 3}, false},
+    {"Ge", &SidContent::Ge, {0, 1}, {0, 3}, false},
+    {"Oe", &SidContent::Oe, {0, 1}, {6}, true},
+    {"ksigma", &SidContent::ksigma, {0, 1}, {1}, false},
+    {"Ke", &SidContent::Ke, {0, 1}, {0, 1}, false, SidModal::with_modes},
+    {"De", &SidContent::De, {0, 1}, {0, 1}, false},
+};
+inline constexpr SidBlock<SidFrame> sid_frame_blocks[] = {
+    {"origin", &SidFrame::origin, {3}, {1}, true},
+    {"phi", &SidFrame::phi, {3}, {0, 1}, false},
+    {"psi", &SidFrame::psi, {3}, {0, 1}, false},
+    {"AP", &SidFrame::AP, {3}, {3}, true},
+};
+
 /// The blocks of a body. Me, Ke and De are symmetrised.
 SidContent sid_content(const FlexibleBody& body);
+
+// Of moments s(i, j) = int a_i b_j dm, with a = r or phi_l and b = phi_k:
+inline constexpr int sid_pairs_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};  ///< behind the squares
+inline constexpr int sid_pairs_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};   ///< behind the diagonal
+/// Row k of Oe.
+Eigen::Matrix<double, 1, 6> sid_centrifugal(const Mat3& s);
+/// int a x b dm: row k of Cr.
+Vec3 sid_cross(const Mat3& s);
+/// Block k of Gr.
+Mat3 sid_gyroscopic(const Mat3& s);
+/// With phi_l and phi_k, from matrices of all modes.
+Mat3 sid_moments(const std::array<std::array<MatX, 3>, 3>& S, int l, int k);
 
 /// The text of a file.
 std::string sid_text(const SidContent& content);
@@ -73,5 +130,27 @@ SidContent parse_sid_content(std::string_view text, const std::string& name);
 
 /// The body that has these blocks. Throws InputError if they contradict each other.
 SidBody sid_body(const SidContent& content, const std::string& name);
+
+// Of a SID_FEM file what is of second order in the amplitudes: S^ij, and the displacements of
+// second order (body/second_order.hpp), which are the terms of first order of phi, Ct, Cr and Oe.
+// With t_ij(l, k) = S^ij(l, k) + S2i[i][j](l, k), row k of m1(l) is
+//   Ct   S2[j](l, k)
+//   Cr   t_ij - t_ji: odd in l, k what S^ij has of it, even what S2i has
+//   Oe   t_aa - tr t,  t_ab + t_ba: the sum of both
+//   Gr   2 (tr t I - t^T), here of S^ij alone: of bodies with displacements of second order
+//        Floatframe writes it, so that Oe can be divided
+// and phi, psi of a frame have h_j(l, k), theta_j(l, k) in row j. Files without this Gr: if Oe
+// gives the modal masses it is of inertia alone; else S^11, S^22, S^33 are each a third of Me and
+// the rest of Oe is S2i, so that the sum, which is what a stiffened body feels, is exact.
+
+/// Sets Sij and second_order of a body that has its other invariants and nodes (in the order of the
+/// frames). Me: symmetric.
+void sid_second_order(const SidContent& content, const MatX& Me, FlexibleBody& body,
+                      const std::function<void(int line, const std::string&)>& note);
+
+/// The same from a body: adds to the blocks of `content`, which are those of inertia. S2i is the
+/// sum of `second_order` and `turning`, which a file cannot tell apart: read again all of it counts
+/// with stiffening only.
+void add_sid_second_order(const FlexibleBody& body, SidContent& content);
 
 }  // namespace floatframe

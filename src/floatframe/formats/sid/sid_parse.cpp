@@ -7,12 +7,11 @@
 // never for what a block claims.
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <set>
 
 #include "floatframe/formats/sid/sid_block.hpp"
-#include "floatframe/formats/sid/sid_items.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -35,11 +34,10 @@ class SidParser {
         refmod();
       } else if (item.key == "frame") {
         frames();
-      } else if (SidTaylor* block = modal_block(item.key)) {
-        if (block->line > 0) {
+      } else if (SidTaylor* block = block_of(content_, sid_modal_blocks, item.key)) {
+        if (block->line > 0)
           source_.error(ErrorCode::duplicate, "block {} is in the file twice, first in line {}",
                         item.key, block->line);
-        }
         read_sid_block(source_, item.key, content_.modes, *block);
       } else {
         source_.error(ErrorCode::unknown_key,
@@ -56,64 +54,37 @@ class SidParser {
   }
 
  private:
-  [[noreturn]] void stop(ErrorCode code, std::string message) {
-    source_.stop(code, source_.here(), std::move(message));
-  }
-
   SidItem next(const char* wanted) { return next_sid_item(source_, wanted); }
 
   void first_line() {
     std::string_view text;
-    if (!source_.next(text)) stop(ErrorCode::missing, "the file is empty");
+    if (!source_.next(text)) source_.stop(ErrorCode::missing, "the file is empty");
     const std::string_view numbers = text.substr(0, text.find(':'));
     std::vector<std::string_view> fields;
     split_blanks(numbers, fields);
     const auto nodes = fields.size() == 2 ? parse_integer(fields[0]) : std::nullopt;
     const auto modes = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
-    if (!nodes || !modes || *nodes < 0 || *modes < 0) {
-      stop(
-          ErrorCode::wrong_value,
-          fmt::format("found {}, expected the numbers of nodes and of modes, as in '3 1 : comment'",
-                      shown(trimmed(text))));
-    }
-    if (*modes > most_modes) {
-      stop(ErrorCode::too_large,
-           fmt::format("{} modes are more than the {} that can be read", *modes, most_modes));
-    }
+    if (!nodes || !modes || *nodes < 0 || *modes < 0)
+      source_.stop(ErrorCode::wrong_value,
+                   "found {}, expected the numbers of nodes and of modes, as in '3 1 : comment'",
+                   shown(trimmed(text)));
+    if (*modes > most_modes)
+      source_.stop(ErrorCode::too_large, "{} modes are more than the {} that can be read", *modes,
+                   most_modes);
     nodes_ = *nodes;
     const int nq = content_.modes = *modes;
     content_.comment = std::string(trimmed(
         text.size() > numbers.size() ? text.substr(numbers.size() + 1) : std::string_view{}));
-    content_.mdCM = SidTaylor(3, 1, nq);
-    content_.J = SidTaylor(6, 1, nq);
-    content_.Ct = SidTaylor(nq, 3, 0);
-    content_.Cr = SidTaylor(nq, 3, 0);
-    content_.Me = SidTaylor(nq, nq, 0);
-    content_.Gr = SidTaylor(3, 3 * nq, 0);
-    content_.Ge = SidTaylor(nq, 3 * nq, 0);
-    content_.Oe = SidTaylor(nq, 6, 0);
-    content_.ksigma = SidTaylor(nq, 1, 0);
-    content_.Ke = SidTaylor(nq, nq, 0);
-    content_.De = SidTaylor(nq, nq, 0);
+    for (const auto& b : sid_modal_blocks) content_.*b.block = b.zero(nq, 0);
   }
 
-  SidTaylor* modal_block(const std::string& key) {
-    const std::array<std::pair<const char*, SidTaylor*>, 11> blocks = {
-        {{"mdCM", &content_.mdCM},
-         {"J", &content_.J},
-         {"Ct", &content_.Ct},
-         {"Cr", &content_.Cr},
-         {"Me", &content_.Me},
-         {"Gr", &content_.Gr},
-         {"Ge", &content_.Ge},
-         {"Oe", &content_.Oe},
-         {"ksigma", &content_.ksigma},
-         {"Ke", &content_.Ke},
-         {"De", &content_.De}}};
-    for (const auto& [name, block] : blocks) {
-      if (key == name) return block;
-    }
-    return nullptr;
+  /// Null if none of the blocks has this name.
+  template <class Owner, std::size_t N>
+  static SidTaylor* block_of(Owner& owner, const SidBlock<Owner> (&blocks)[N],
+                             const std::string& key) {
+    const auto* known = std::find_if(std::begin(blocks), std::end(blocks),
+                                     [&](const auto& b) { return key == b.name; });
+    return known == std::end(blocks) ? nullptr : &(owner.*known->block);
   }
 
   void refmod() {
@@ -122,16 +93,15 @@ class SidParser {
       if (item.key == "endrefmod") return;
       if (item.key == "mass") {
         content_.mass_line = source_.here().line;
-        content_.mass = real(item.value).value_or(1.0);
+        content_.mass = sid_real(source_, item.value).value_or(1.0);
         if (content_.mass <= 0.0)
           source_.error(ErrorCode::out_of_range, "the mass is not positive");
       } else if (item.key == "nelastq") {
         const auto n = parse_integer(item.value);
-        if (!n || *n != content_.modes) {
+        if (!n || *n != content_.modes)
           source_.error(ErrorCode::contradiction,
                         "nelastq is {}, the first line of the file says {} modes",
                         shown(item.value), content_.modes);
-        }
       } else if (item.key.starts_with("ielastq")) {
         mode_name(item);
       } else {
@@ -146,11 +116,9 @@ class SidParser {
     std::string_view number = std::string_view(item.key).substr(7);
     if (number.size() > 2) number = number.substr(1, number.size() - 2);
     const auto k = parse_integer(number);
-    if (!k || *k < 1 || *k > content_.modes) {
-      source_.error(ErrorCode::not_found, "{} names no mode (there are {})", shown(item.key),
-                    content_.modes);
-      return;
-    }
+    if (!k || *k < 1 || *k > content_.modes)
+      return source_.error(ErrorCode::not_found, "{} names no mode (there are {})", shown(item.key),
+                           content_.modes);
     content_.mode_names.resize(content_.modes);
     std::string_view name = item.value;
     if (name.ends_with("Hz")) name = trimmed(name.substr(0, name.rfind(':')));
@@ -158,25 +126,22 @@ class SidParser {
   }
 
   void frames() {
-    if (frame_line_ > 0) {
+    if (frame_line_ > 0)
       source_.error(ErrorCode::duplicate, "block frame is in the file twice, first in line {}",
                     frame_line_);
-    }
     frame_line_ = source_.here().line;
     while (true) {
       const SidItem item = next("'new node' or 'end frame'");
       if (item.key == "endframe") break;
-      if (item.key != "newnode") {
-        stop(ErrorCode::wrong_value,
-             fmt::format("found {}, expected 'new node' or 'end frame'", shown(item.key)));
-      }
+      if (item.key != "newnode")
+        source_.stop(ErrorCode::wrong_value, "found {}, expected 'new node' or 'end frame'",
+                     shown(item.key));
       node(std::string(item.value));
     }
-    if (static_cast<int>(content_.frames.size()) != nodes_) {
+    if (static_cast<int>(content_.frames.size()) != nodes_)
       source_.error(ErrorCode::contradiction, {0, frame_line_},
                     "block frame has {} nodes, the first line of the file says {}",
                     content_.frames.size(), nodes_);
-    }
   }
 
   void node(std::string id) {
@@ -184,29 +149,20 @@ class SidParser {
     const FeSource begin = source_.here();
     SidFrame f;
     f.node = std::move(id);
-    f.origin = SidTaylor(3, 1, 0);
-    f.phi = SidTaylor(3, nq, 0);
-    f.psi = SidTaylor(3, nq, 0);
-    f.AP = SidTaylor(3, 3, 0);
+    for (const auto& b : sid_frame_blocks) f.*b.block = b.zero(nq, 0);
     SidTaylor sigma(6, nq, 0);
     while (true) {
       const SidItem item = next("'end node'");
       if (item.key == "endnode") break;
-      SidTaylor* block = item.key == "origin"  ? &f.origin
-                         : item.key == "phi"   ? &f.phi
-                         : item.key == "psi"   ? &f.psi
-                         : item.key == "AP"    ? &f.AP
-                         : item.key == "sigma" ? &sigma
-                                               : nullptr;
+      SidTaylor* block = item.key == "sigma" ? &sigma : block_of(f, sid_frame_blocks, item.key);
       if (block != nullptr) {
         read_sid_block(source_, item.key, content_.modes, *block);
       } else if (item.key == "rframe") {
-        if (!same_word(without_blanks(item.value), "bodyref")) {
+        if (!same_word(without_blanks(item.value), "bodyref"))
           source_.error(
               ErrorCode::unsupported,
               "rframe is {}, expected 'body ref': nodes relative to another frame are not read",
               shown(item.value));
-        }
       } else {
         source_.error(ErrorCode::unknown_key,
                       "unknown item {} in a node (expected rframe, origin, phi, psi, AP or sigma)",
@@ -214,37 +170,26 @@ class SidParser {
         if (!item.has_value) skip_sid_block(source_, item.key);
       }
     }
-    if (f.origin.line == 0) {
+    if (f.origin.line == 0)
       source_.error(ErrorCode::missing, begin, "node {} has no origin", shown(f.node));
-    }
-    if (f.phi.line == 0 && nq > 0) {
+
+    if (f.phi.line == 0 && nq > 0)
       source_.error(ErrorCode::missing, begin, "node {} has no phi", shown(f.node));
-    }
-    if (!taken_.insert(f.node).second) {
+
+    if (!taken_.insert(f.node).second)
       source_.error(ErrorCode::duplicate, begin, "node {} is in the file twice", shown(f.node));
-    }
     content_.frames.push_back(std::move(f));
   }
 
-  std::optional<double> real(std::string_view field) {
-    const auto value = parse_real(field);
-    if (!value) source_.error(ErrorCode::not_a_number, not_a_real(field));
-    return value;
-  }
-
   void check_complete() {
-    const auto need = [&](const char* name, bool there) {
+    const auto need = [&](const std::string& name, bool there) {
       if (!there) source_.error(ErrorCode::missing, "the file has no {}", name);
     };
     need("mass in block refmod", content_.mass_line > 0);
     if (nodes_ > 0) need("block frame", frame_line_ > 0);
-    need("block mdCM", content_.mdCM.line > 0);
-    need("block J", content_.J.line > 0);
-    if (content_.modes == 0) return;
-    need("block Ct", content_.Ct.line > 0);
-    need("block Cr", content_.Cr.line > 0);
-    need("block Me", content_.Me.line > 0);
-    need("block Ke", content_.Ke.line > 0);
+    for (const auto& b : sid_modal_blocks)
+      if (b.needed == SidModal::always || (b.needed == SidModal::with_modes && content_.modes > 0))
+        need(fmt::format("block {}", b.name), (content_.*b.block).line > 0);
   }
 
   TextSource source_;

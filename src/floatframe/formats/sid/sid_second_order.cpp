@@ -1,17 +1,15 @@
-#include "floatframe/formats/sid/sid_second_order.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+
+#include "floatframe/formats/sid/sid_content.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr double same_digits = 1e-6;    // numbers of a file have 12 digits
 constexpr double inertia_alone = 0.05;  // lumped masses of some writers against consistent ones
-constexpr int pairs_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};
 constexpr int pairs_of_cross[3][2] = {{1, 2}, {2, 0}, {0, 1}};
 
 using Moments = std::array<std::array<MatX, 3>, 3>;
@@ -194,13 +192,12 @@ class SecondOrderOfSid {
                         off));
     } else if (!inertia) {
       note_(c_.Oe.first_order() ? c_.Oe.line : c_.Me.line,
-            std::string(
-                c_.Oe.first_order()
-                    ? fmt::format("m1 of Oe does not give the modal masses (deviation {:.2g} from "
-                                  "Me), so it holds more than inertia: geometric stiffening, whose "
-                                  "sum with inertia is kept. ",
-                                  off)
-                    : "") +
+            std::string(c_.Oe.first_order()
+                            ? fmt::format("m1 of Oe does not give the modal masses (deviation "
+                                          "{:.2g} from Me), so it holds more than inertia: "
+                                          "geometric stiffening, whose sum with inertia is kept. ",
+                                          off)
+                            : "") +
                 "The file has no second-order inertia terms: the mass matrix at zero deformation "
                 "and its first derivative are exact, its second derivative and softening by spin "
                 "are not (S^11, S^22 and S^33 are each taken as a third of Me)");
@@ -240,21 +237,11 @@ void add_sid_second_order(const FlexibleBody& body, SidContent& c) {
   c.Gr.m1.assign(nq, MatX::Zero(3, 3 * nq));
   for (int l = 0; l < nq; ++l) {
     for (int k = 0; k < nq; ++k) {
-      Mat3 t, h;  // of inertia; of the displacements of second order
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-          t(i, j) = body.invariants.Sij[i][j](l, k);
-          h(i, j) = s.S2i[i][j](l, k);
-        }
-      c.Gr.m1[l].middleCols<3>(3 * k) = 2.0 * (t.trace() * Mat3::Identity() - t.transpose());
-      for (int a = 0; a < 3; ++a) {
-        c.Ct.m1[l](k, a) = s.S2[a](l, k);
-        c.Oe.m1[l](k, a) += h(a, a) - h.trace();
-        const auto [i, j] = pairs_of_Oe[a];
-        c.Oe.m1[l](k, 3 + a) += h(i, j) + h(j, i);
-        const auto [m, n] = pairs_of_cross[a];
-        c.Cr.m1[l](k, a) += h(m, n) - h(n, m);
-      }
+      const Mat3 h = sid_moments(s.S2i, l, k);
+      c.Gr.m1[l].middleCols<3>(3 * k) = sid_gyroscopic(sid_moments(body.invariants.Sij, l, k));
+      for (int a = 0; a < 3; ++a) c.Ct.m1[l](k, a) = s.S2[a](l, k);
+      c.Oe.m1[l].row(k) += sid_centrifugal(h);
+      c.Cr.m1[l].row(k) += sid_cross(h).transpose();
     }
   }
   for (const SecondOrderNode& node : s.nodes) {

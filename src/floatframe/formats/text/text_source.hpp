@@ -93,6 +93,16 @@ class TextSource {
                          fmt::format_string<First, Rest...> text, First&& first, Rest&&... rest) {
     stop(code, at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
   }
+  template <class... Args>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
+    stop(code, here_, fmt::format(text, std::forward<Args>(args)...));
+  }
+  /// "file:line: ..." for FeModel::notes; line 0: of the whole file.
+  template <class... Args>
+  void note(FeModel& model, const FeSource& at, fmt::format_string<Args...> text,
+            Args&&... args) const {
+    model.notes.push_back(mark(at).before(fmt::format(text, std::forward<Args>(args)...)));
+  }
   void throw_if_any() { errors_.throw_if_any(); }
   std::size_t errors() const noexcept { return errors_.size(); }
   static constexpr std::size_t most_errors = 50;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <span>
 
 namespace floatframe {
 
@@ -43,8 +42,8 @@ class VtuWriter {
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
     xml_ += fmt::format(
-        "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">"
-        "{:.17g}</DataArray>\n",
+        "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">{:.17g}</DataArray>\n",
         g.time);
     for (const auto& [name, texts] : g.texts) column_of_texts(name, texts);
     xml_ += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",

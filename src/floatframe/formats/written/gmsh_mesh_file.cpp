@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <set>
 
 #include "floatframe/core/plural.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/gmsh/gmsh_types.hpp"
 #include "floatframe/formats/written/mesh_writers.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
@@ -16,64 +16,13 @@
 namespace floatframe {
 namespace {
 
-constexpr std::array<int, 20> as_it_is{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
-                                       10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
-
-/// Number of the type in Gmsh; of solids the order comes from the reader's table.
-int gmsh_number(ElementType type) {
-  switch (type) {
-    case ElementType::beam2:
-    case ElementType::rod2:
-      return 1;
-    case ElementType::beam3:
-      return 8;
-    case ElementType::tri3:
-    case ElementType::membrane3:
-      return 2;
-    case ElementType::quad4:
-    case ElementType::shear4:
-    case ElementType::membrane4:
-    case ElementType::membrane4s:
-      return 3;
-    case ElementType::tri6:
-    case ElementType::membrane6:
-      return 9;
-    case ElementType::quad8:
-    case ElementType::membrane8:
-    case ElementType::membrane8r:
-      return 16;
-    case ElementType::tet4:
-      return 4;
-    case ElementType::tet10:
-      return 11;
-    case ElementType::hex8:
-    case ElementType::hex8i:
-    case ElementType::hex8r:
-      return 5;
-    case ElementType::hex20:
-    case ElementType::hex20r:
-      return 17;
-    case ElementType::wedge6:
-      return 6;
-    case ElementType::wedge15:
-      return 18;
-    case ElementType::pyramid5:
-      return 7;
-    case ElementType::pyramid13:
-      return 19;
-  }
-  return 0;
-}
-
-/// Place in the file of each node of the element.
+/// Place in the file of each node of the element; of solids as the table of the reader has it.
 std::array<int, 20> file_order(ElementType type, const GmshType& gmsh) {
-  if (type == ElementType::beam3) {
-    std::array<int, 20> order = as_it_is;
-    order[1] = 2;
-    order[2] = 1;
-    return order;
-  }
-  return gmsh.element ? gmsh.order : as_it_is;
+  if (gmsh.element) return gmsh.order;
+  std::array<int, 20> order{};
+  std::iota(order.begin(), order.end(), 0);
+  if (type == ElementType::beam3) std::swap(order[1], order[2]);
+  return order;
 }
 
 using Groups = std::vector<int>;  ///< tags of physical groups, ascending
@@ -111,7 +60,7 @@ class GmshFile {
   }
 
  private:
-  int dimension_of(const Element& e) const { return gmsh_type(gmsh_number(e.type))->dimension; }
+  static int dimension_of(const Element& e) { return written_cell(e.type).dimension; }
 
   int new_group(int dimension, const std::string& name) {
     auto& used = used_names_[static_cast<std::size_t>(dimension)];
@@ -158,10 +107,8 @@ class GmshFile {
       return entities_[it->second];
     };
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-      const int type = gmsh_number(model_.elements[e].type);
-      entity(dimension_of(model_.elements[e]), of_element_[e])
-          .members[type]
-          .push_back(static_cast<int>(e));
+      const WrittenCell& cell = written_cell(model_.elements[e].type);
+      entity(cell.dimension, of_element_[e]).members[cell.gmsh].push_back(static_cast<int>(e));
     }
     for (std::size_t n = 0; n < model_.positions.size(); ++n)
       if (!of_node_[n].empty())

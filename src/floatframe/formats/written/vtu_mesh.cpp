@@ -3,7 +3,10 @@
 // arrays of 0 and 1.
 #include <fmt/format.h>
 
-#include "floatframe/fe/element_faces.hpp"
+#include <array>
+#include <span>
+
+#include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/vtk/vtk_file.hpp"
 #include "floatframe/formats/written/mesh_writers.hpp"
@@ -15,57 +18,10 @@ namespace {
 /// Sets beyond this many are left out: arrays of each cell would fill the memory.
 constexpr std::size_t most_sets = 200;
 
-/// The nodes of VTK's cells are in the order of the model's, but in the quadratic beam.
-std::uint8_t vtk_cell_of(ElementType type) {
-  switch (type) {
-    case ElementType::beam2:
-    case ElementType::rod2:
-      return 3;
-    case ElementType::beam3:
-      return 21;
-    case ElementType::tri3:
-    case ElementType::membrane3:
-      return 5;
-    case ElementType::quad4:
-    case ElementType::shear4:
-    case ElementType::membrane4:
-    case ElementType::membrane4s:
-      return 9;
-    case ElementType::tri6:
-    case ElementType::membrane6:
-      return 22;
-    case ElementType::quad8:
-    case ElementType::membrane8:
-    case ElementType::membrane8r:
-      return 23;
-    case ElementType::tet4:
-      return 10;
-    case ElementType::tet10:
-      return 24;
-    case ElementType::hex8:
-    case ElementType::hex8i:
-    case ElementType::hex8r:
-      return 12;
-    case ElementType::hex20:
-    case ElementType::hex20r:
-      return 25;
-    case ElementType::wedge6:
-      return 13;
-    case ElementType::wedge15:
-      return 26;
-    case ElementType::pyramid5:
-      return 14;
-    case ElementType::pyramid13:
-      return 27;
-  }
-  return 0;
-}
-
 /// What a cell shows.
 struct Cells {
   std::vector<std::int32_t> element, kind, material;
   std::vector<double> young, density, thickness;
-  std::vector<std::string> kinds;
 
   void add(int number, int kind_of, int material_of, const Material& m, double t) {
     element.push_back(number);
@@ -77,7 +33,7 @@ struct Cells {
   }
 };
 
-void add_cell(VtkGrid& grid, std::uint8_t type, std::initializer_list<int> nodes) {
+void add_cell(VtkGrid& grid, std::uint8_t type, std::span<const int> nodes) {
   grid.connectivity.insert(grid.connectivity.end(), nodes.begin(), nodes.end());
   grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
   grid.types.push_back(type);
@@ -87,16 +43,11 @@ void add_element_cells(const FeModel& model, const WrittenNumbers& numbers, VtkG
                        Cells& cells) {
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const Element& element = model.elements[e];
-    const int count = element_nodes(element.type);
-    if (element.type == ElementType::beam3) {
-      add_cell(grid, vtk_cell_of(element.type),
-               {element.nodes[0], element.nodes[2], element.nodes[1]});
-    } else {
-      grid.connectivity.insert(grid.connectivity.end(), element.nodes.begin(),
-                               element.nodes.begin() + count);
-      grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
-      grid.types.push_back(vtk_cell_of(element.type));
-    }
+    std::array<int, 20> nodes = element.nodes;
+    // Nodes are in the order of VTK, but in the quadratic beam.
+    if (element.type == ElementType::beam3) std::swap(nodes[1], nodes[2]);
+    const WrittenCell& cell = written_cell(element.type);
+    add_cell(grid, cell.vtk, std::span(nodes).first(static_cast<std::size_t>(cell.nodes)));
     const auto m = static_cast<std::size_t>(element.material);
     const auto s = static_cast<std::size_t>(element.section);
     const bool known = element.material >= 0 && m < model.materials.size();
@@ -112,12 +63,12 @@ void add_other_cells(const FeModel& model, VtkGrid& grid, Cells& cells) {
   for (const Spider& s : model.spiders) {
     if (s.reference < 0) continue;
     for (const int node : s.nodes) {
-      add_cell(grid, vtk_cell::line, {s.reference, node});
+      add_cell(grid, vtk_cell::line, std::array{s.reference, node});
       cells.add(0, spider, -1, {}, 0.0);
     }
   }
   for (const PointMass& m : model.masses) {
-    add_cell(grid, vtk_cell::vertex, {m.node});
+    add_cell(grid, vtk_cell::vertex, std::array{m.node});
     cells.add(0, mass, -1, {}, 0.0);
   }
 }
@@ -149,15 +100,12 @@ void add_set_arrays(const FeModel& model, VtkGrid& grid, std::vector<std::string
   renamed.note(notes);
   if (left_out > 0)
     notes.push_back(
-        fmt::format("{} sets are left out: only the first {} of nodes and of elements "
-                    "are written",
+        fmt::format("{} sets are left out: only the first {} of nodes and of elements are written",
                     left_out, most_sets));
   if (!model.surfaces.empty())
-    notes.push_back(
-        fmt::format("{} not written",
-                    model.surfaces.size() == 1
-                        ? "1 surface of element faces is"
-                        : fmt::format("{} surfaces of element faces are", model.surfaces.size())));
+    notes.push_back(fmt::format(
+        "{} not written", plural(static_cast<long>(model.surfaces.size()),
+                                 "surface of element faces is", "surfaces of element faces are")));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "floatframe/core/plural.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,7 +34,26 @@ int largest_number(const std::vector<int>& numbers) {
   return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
 }
 
+constexpr WrittenCell written_cells[] = {
+    {1, 2, 3, 1},  {1, 3, 21, 8},                                   // lines
+    {2, 3, 5, 2},  {2, 4, 9, 3},    {2, 6, 22, 9}, {2, 8, 23, 16},  // triangles, quadrilaterals
+    {3, 4, 10, 4}, {3, 10, 24, 11},                                 // tetrahedra
+    {3, 5, 14, 7}, {3, 13, 27, 19},                                 // pyramids
+    {3, 6, 13, 6}, {3, 15, 26, 18},                                 // wedges
+    {3, 8, 12, 5}, {3, 20, 25, 17},                                 // bricks
+};
+
 }  // namespace
+
+const WrittenCell& written_cell(ElementType type) {
+  const ElementKernel& kernel = element_kernel(type);
+  const int dimension = is_beam(type) || is_rod(type)           ? 1
+                        : kernel.family == ElementFamily::solid ? 3
+                                                                : 2;
+  return *std::find_if(std::begin(written_cells), std::end(written_cells), [&](const auto& cell) {
+    return cell.dimension == dimension && cell.nodes == kernel.nodes;
+  });
+}
 
 WrittenNumbers written_numbers(const FeModel& model, std::vector<std::string>& notes) {
   WrittenNumbers out;

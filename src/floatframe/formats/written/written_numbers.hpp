@@ -1,5 +1,6 @@
 #pragma once
 // What all written meshes need: numbers of nodes and elements, and names that any program reads.
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,6 +16,14 @@ struct WrittenNumbers {
   int last_node = 0, last_element = 0;
 };
 WrittenNumbers written_numbers(const FeModel& model, std::vector<std::string>& notes);
+
+/// What an element is in other programs.
+struct WrittenCell {
+  int dimension = 0, nodes = 0;
+  std::uint8_t vtk = 0;
+  int gmsh = 0;
+};
+const WrittenCell& written_cell(ElementType type);
 
 /// Letters, digits, '_' and '-', at most 60; in upper case if asked for; none of `used`, which it
 /// joins.

@@ -1,0 +1,119 @@
+#pragma once
+// A keyword line with its data lines, as its handler reads them into the content of the deck. Data
+// lines that a handler leaves are skipped.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "floatframe/decks/abaqus/abaqus_content.hpp"
+
+namespace floatframe {
+
+class AbaqusCard : public AbaqusKeyword {
+ public:
+  AbaqusCard(AbaqusKeyword keyword, AbaqusLines& of_deck, AbaqusContent& to_fill)
+      : AbaqusKeyword(std::move(keyword)), lines(of_deck), content(to_fill) {}
+
+  AbaqusLines& lines;
+  TextSource& source = lines.source();
+  AbaqusContent& content;
+  std::vector<std::string_view> fields;  ///< of the last data line
+
+  /// An error for each parameter that is not among some, between blanks.
+  void allow_only(std::string_view known);
+  /// The value of a parameter ("REF NODE") that must be there; an error and empty if it is not.
+  std::string_view required(std::string_view parameter);
+  /// The value of a parameter as a name: upper case without blanks.
+  std::string word(std::string_view parameter) const { return abaqus_name(value(parameter)); }
+  /// Is a parameter missing, or has it one of some values, between blanks? Else an error:
+  /// "has the type {}, expected ISOTROPIC".
+  bool is_one_of(std::string_view parameter, std::string_view values,
+                 fmt::format_string<std::string> text, ErrorCode code = ErrorCode::wrong_value);
+  /// The set that a parameter names, which is there from now on; null without the parameter.
+  AbaqusSet* set(std::map<AbaqusContent::Key, AbaqusSet>& sets, std::string_view parameter);
+  /// The number, set or surface that a parameter names.
+  AbaqusReference reference_of(std::string_view parameter) const {
+    return content.reference(value(parameter), at);
+  }
+  /// The same; digits are a name too.
+  AbaqusReference named(std::string_view parameter) const {
+    return content.named(value(parameter), at);
+  }
+  /// Data lines come from the file of the parameter INPUT, if it is there.
+  void take_input();
+
+  /// The next data line, without the empty field after a comma at its end; false if there are no
+  /// more.
+  bool next();
+  /// The same; an error if there is none.
+  bool needs_line();
+  /// A field of the line; empty if it is not there.
+  std::string_view field(std::size_t k) const { return k < fields.size() ? fields[k] : ""; }
+  /// The node, element or set that a field names.
+  AbaqusReference reference(std::size_t k) const { return content.reference(field(k), here()); }
+  /// A real field; an error that begins with `what` if it is none.
+  double real(std::size_t k, std::string_view what);
+  /// The same; an empty or missing field is `otherwise`.
+  double real_or(std::size_t k, double otherwise, std::string_view what) {
+    return field(k).empty() ? otherwise : real(k, what);
+  }
+  /// One error if it is no positive number.
+  double positive(std::size_t k, std::string_view what);
+  /// Three fields from k on, 0 where they are empty or missing.
+  Vec3 vector(std::size_t k, std::string_view what);
+  int integer(std::string_view text, std::string_view what);
+  int integer_or(std::size_t k, int otherwise, std::string_view what) {
+    return field(k).empty() ? otherwise : integer(field(k), what);
+  }
+  /// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from k on, as a
+  /// mask; 0 and an error if they are none.
+  unsigned dofs(std::size_t k, std::string_view what);
+  /// An error if the line has more than `count` fields, or another one follows it.
+  void no_more(std::size_t count);
+
+  /// Is there an error in what was read since the keyword or the last line?
+  bool misread() const noexcept { return source.errors() != errors_before_line_; }
+  /// Errors up to here count no more for `wrong`.
+  void start() noexcept { errors_before_ = source.errors(); }
+  /// Is there an error since the parameters were looked at, or the last `start`?
+  bool wrong() const noexcept { return source.errors() != errors_before_; }
+  FeSource here() const noexcept { return source.here(); }
+  /// "deck.inp:12"
+  std::string place(const FeSource& of) const { return abaqus_place(source, of); }
+
+  /// An error at the keyword: "*SOLID SECTION " + text.
+  void error(ErrorCode code, std::string_view text) {
+    source.error(code, at, "{} {}", shown, text);
+  }
+  template <class First, class... Rest>
+  void error(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
+             Rest&&... rest) {
+    error(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  /// An error at the last line.
+  template <class... Values>
+  void error_in_line(ErrorCode code, fmt::format_string<Values...> text, Values&&... values) {
+    source.error(code, here(), fmt::format(text, std::forward<Values>(values)...));
+  }
+  /// A note with the place of the keyword.
+  template <class... Values>
+  void note(fmt::format_string<Values...> text, Values&&... values) {
+    content.note(source.mark(at), fmt::format(text, std::forward<Values>(values)...));
+  }
+
+ private:
+  std::size_t errors_before_line_ = source.errors(), errors_before_ = source.errors();
+};
+
+/// Adds a node or an element; false and an error if its number is there already.
+template <class T>
+bool add_to_abaqus(AbaqusCard& card, AbaqusNumbered<T>& all, const T& thing,
+                   std::string_view word) {
+  const int there = all.add(thing);
+  if (there >= 0)
+    card.source.error(ErrorCode::duplicate, thing.at, "{} {} is there already ({})", word, thing.id,
+                      card.place(all[there].at));
+  return there < 0;
+}
+
+}  // namespace floatframe
