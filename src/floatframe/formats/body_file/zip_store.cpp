@@ -11,7 +11,9 @@
 #include <limits>
 #include <set>
 
+#include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formats/body_file/archive_seal.hpp"
 
 namespace floatframe {
 namespace {
@@ -155,6 +157,20 @@ class ArchiveReader {
   const std::string& file_;
 };
 
+// The end of a sealed archive: the length of its comment as two bytes, then the comment.
+constexpr std::string_view seal_begin = "Sealed ";
+constexpr std::size_t seal_hash_size = 32, length_size = 2;
+constexpr std::size_t sealed_size = seal_begin.size() + seal_hash_size + 1 + archive_comment.size();
+
+std::string seal_of(std::string_view content) {
+  std::string comment(seal_begin);
+  comment += content_hash(content);
+  comment += ' ';
+  comment += archive_comment;
+  std::string end{static_cast<char>(sealed_size), '\0'};
+  return end + comment;
+}
+
 }  // namespace
 
 std::string zip_archive(const std::vector<ZipMember>& members) {
@@ -197,6 +213,19 @@ std::string zip_archive(const std::vector<ZipMember>& members) {
 
 std::vector<ZipMember> read_zip(std::string_view bytes, const std::string& file) {
   return ArchiveReader(bytes, file).read();
+}
+
+std::string sealed_archive(std::string archive) {
+  if (!archive.ends_with(archive_comment)) return archive;
+  archive.resize(archive.size() - archive_comment.size() - length_size);
+  return archive + seal_of(archive);
+}
+
+bool is_sealed_archive(std::string_view archive) {
+  constexpr std::size_t end = length_size + sealed_size;
+  if (archive.size() < end) return false;
+  const std::string_view content = archive.substr(0, archive.size() - end);
+  return archive.substr(content.size()) == seal_of(content);
 }
 
 }  // namespace floatframe
