@@ -314,7 +314,8 @@ TEST(Laminates, FaultySections) {
   EXPECT_EQ(error([](FeModel& m) { m.shells[0].thickness = 0.003; }), "wrong_value");
   EXPECT_EQ(error([](FeModel& m) { m.shells[0].mass = -1.0; }), "wrong_value");
   EXPECT_EQ(error([](FeModel& m) { m.orientations[0].axes << 0, 0, 1, 0, 1, 0, 1, 0, 0; }),
-            "geometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry");
+            "geometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeometry\ngeomet"
+            "ry\ngeometry\ngeometry\ngeometry");
   EXPECT_EQ(error([](FeModel& m) { (*m.materials[0].elasticity)(0, 1) = 1e12; }), "wrong_value");
   EXPECT_EQ(error([](FeModel& m) { (*m.materials[0].elasticity)(3, 3) = -1.0; }), "wrong_value");
   EXPECT_EQ(error([](FeModel& m) { m.elements[0].orientation = 7; }), "geometry");

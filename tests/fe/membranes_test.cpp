@@ -206,8 +206,7 @@ TEST(Membranes, WhatIsWrongIsSaid) {
     change(model);
     return error_of([&] { validate(model); });
   };
-  EXPECT_EQ(error(ElementType::membrane4, [](FeModel& m) { m.shells[0].offset = .1; }),
-            "geometry");
+  EXPECT_EQ(error(ElementType::membrane4, [](FeModel& m) { m.shells[0].offset = .1; }), "geometry");
   EXPECT_EQ(error(ElementType::membrane4s, [](FeModel& m) { m.shells[0].thickness = 0; }),
             "geometry");
   EXPECT_EQ(error(ElementType::membrane4,

@@ -31,8 +31,7 @@ TEST(Validate, Simulation) {
       {[](S& s) { s.velocity.y() = nan; }, "simulation.velocity[2]: out_of_range"},
       {[](S& s) { s.coordinates = static_cast<Coordinates>(2); },
        "simulation.coordinates: wrong_value"},
-      {[](S& s) { s.inertia = static_cast<InertiaMethod>(-1); },
-       "simulation.inertia: wrong_value"},
+      {[](S& s) { s.inertia = static_cast<InertiaMethod>(-1); }, "simulation.inertia: wrong_value"},
       {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: missing"},
       {[](S& s) { s.start = Start::state; }, "simulation.start: missing"},
       {[](S& s) { s.offset["block"].translation.x() = 0.1; },
@@ -104,7 +103,8 @@ TEST(Validate, AllErrorsAtOnce) {
   rigid(d).mass = -1.0;
   d.outputs[0].component = 7;
   EXPECT_EQ(errors(d),
-            "bodies.block.rigid.mass: out_of_range\noutputs.z.axis: wrong_value\nsimulation.step: out_of_range");
+            "bodies.block.rigid.mass: out_of_range\noutputs.z.axis: wrong_value\nsimulation.step: "
+            "out_of_range");
 }
 
 }  // namespace

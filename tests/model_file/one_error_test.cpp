@@ -88,8 +88,7 @@ TEST(OneError, Names) {
   EXPECT_EQ(said(other), "m:4:3: wrong_value");
   EXPECT_EQ(said(with("child: arm", "child: amr")), "m:6:32: joints.pin.child: not_found");
   EXPECT_EQ(said(good_model + "bodies: {}\n"), "m:8:1: duplicate");
-  EXPECT_EQ(said(good_model + "outputs: {time: {position: arm, axis: x}}\n"),
-            "m:8:11: duplicate");
+  EXPECT_EQ(said(good_model + "outputs: {time: {position: arm, axis: x}}\n"), "m:8:11: duplicate");
 }
 
 TEST(OneError, Groups) {

@@ -38,9 +38,7 @@ struct Extent {
   bool known() const noexcept { return low <= high; }
   double range() const noexcept { return high > low ? high - low : 0.0; }
   /// 0: there is none.
-  double size() const noexcept {
-    return known() ? std::max(std::abs(low), std::abs(high)) : 0.0;
-  }
+  double size() const noexcept { return known() ? std::max(std::abs(low), std::abs(high)) : 0.0; }
   bool constant() const noexcept { return known() && range() <= 1e-9 * size(); }
 };
 Extent extent_of(const std::vector<double>& values);

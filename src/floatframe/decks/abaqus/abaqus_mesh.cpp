@@ -98,7 +98,7 @@ struct FurtherFields {
 
 /// Fields of an element: id, nodes. A line that ends with a comma, or that has fifteen nodes and
 /// more, goes on in the next one. False at the end of the data.
-bool next_element(AbaqusCard& card, std::size_t count, FeSource& at) {
+bool read_abaqus_element(AbaqusCard& card, std::size_t count, FeSource& at) {
   std::vector<std::string_view>& fields = card.fields;
   std::string_view line;
   if (!card.lines.next_data(line)) return false;
@@ -293,7 +293,7 @@ void read_abaqus_elements(AbaqusCard& card) {
   card.take_input();
   FurtherFields further;
   FeSource at;
-  while (next_element(card, static_cast<std::size_t>(type->nodes) + 1, at)) {
+  while (read_abaqus_element(card, static_cast<std::size_t>(type->nodes) + 1, at)) {
     const auto element = element_of_fields(card, *type, at, further);
     if (element && add_to_abaqus(card, content.elements, *element, "element") && set != nullptr)
       set->items.push_back({element->id, element->id, 1, -1, content.scope, at});
