@@ -1,5 +1,8 @@
+#include "floatframe/parts/body_info.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,7 +12,7 @@
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/parts/file_info.hpp"
+#include "floatframe/parts/json_vector.hpp"
 
 namespace floatframe {
 namespace {

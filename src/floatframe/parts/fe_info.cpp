@@ -16,6 +16,7 @@
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/vector_text.hpp"
 #include "floatframe/parts/file_info.hpp"
+#include "floatframe/parts/json_vector.hpp"
 #include "floatframe/parts/part_text.hpp"
 
 namespace floatframe {
