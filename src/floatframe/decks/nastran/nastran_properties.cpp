@@ -207,8 +207,10 @@ void read_ptube(NastranFields& f, NastranProperty& p) {
 
 template <void (*read)(NastranFields&, NastranProperty&)>
 void read_nastran_property(NastranFields& f, NastranContent& c) {
-  auto p = f.entity<NastranProperty>("the number of the property");
+  NastranProperty p;
   read(f, p);
+  NastranEntity& entity = p;
+  entity = f.entity<NastranEntity>("the number of the property");
   f.keep(c.properties, std::move(p));
 }
 

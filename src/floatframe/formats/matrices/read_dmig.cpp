@@ -162,7 +162,8 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
       for (const DmigEntry& e : entries)
         for (const Row& row : {e.row, e.column}) rows.emplace(row, 0);
       if (rows.empty())
-        source.stop(ErrorCode::missing, {0, 0}, "{} has no entries, expected a stiffness", K_name);
+        source.stop(ErrorCode::missing, {0, 0}, "matrix {} has no entries, expected a stiffness",
+                    K_name);
       for (auto& [row, index] : rows) {
         index = static_cast<int>(labels.size());
         labels.push_back({row.first, row.second, {0, 0}});
