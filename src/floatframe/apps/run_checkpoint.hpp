@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/report/results_csv.hpp"
+#include "floatframe/report/results_file.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {

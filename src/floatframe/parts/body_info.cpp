@@ -1,3 +1,5 @@
+#include "floatframe/parts/body_info.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/parts/file_info.hpp"
 
 namespace floatframe {
 namespace {

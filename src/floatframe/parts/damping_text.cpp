@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/parts/part_text.hpp"
+#include "floatframe/parts/text_pieces.hpp"
 
 namespace floatframe {
 namespace {

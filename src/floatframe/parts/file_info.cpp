@@ -5,6 +5,7 @@
 
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/parts/body_info.hpp"
 #include "floatframe/parts/fe_info.hpp"
 
 namespace floatframe {

@@ -4,6 +4,7 @@
 
 #include "floatframe/parts/damping_text.hpp"
 #include "floatframe/parts/part_text.hpp"
+#include "floatframe/parts/text_pieces.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 
 namespace floatframe {

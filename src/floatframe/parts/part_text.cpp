@@ -11,6 +11,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/core/utf8_text.hpp"
 #include "floatframe/parts/node_ways.hpp"
+#include "floatframe/parts/text_pieces.hpp"
 
 namespace floatframe {
 namespace {

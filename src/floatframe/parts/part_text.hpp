@@ -16,11 +16,6 @@ inline constexpr const char* tie_words[] = {"rigid", "mean"};
 /// Body references but `node`: the words of BodyReference::Kind.
 inline constexpr const char* reference_words[] = {"mean_axis", "buckens"};
 
-/// The text taken apart at a character.
-std::vector<std::string> pieces_of(const std::string& text, char at);
-/// The number that all of the text is; nothing if it is none, or not finite.
-std::optional<double> finite_number(const std::string& text);
-
 /// Directions "all", or pieces such as xyz, x+z or xyz+rz, as a mask: bit 0..5 = ux..rz; nothing if
 /// the text is something else.
 std::optional<unsigned> dofs_of(const std::string& text);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "floatframe/core/csv_field.hpp"
+#include "floatframe/report/results_file.hpp"
 
 namespace floatframe {
 void append_csv_header(std::string& text, const std::vector<Column>& columns) {
