@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +11,6 @@
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/parts/json_vector.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// Texts of options taken apart.
+// Arguments of the command line taken apart.
 #include <optional>
 #include <string>
 #include <vector>

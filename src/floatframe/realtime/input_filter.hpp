@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "floatframe/realtime/packet.hpp"
-#include "floatframe/realtime/udp_socket.hpp"
+#include "floatframe/realtime/udp_address.hpp"
 
 namespace floatframe {
 
