@@ -153,7 +153,7 @@ TEST(AbaqusSprings, DashpotsAndGaps) {
 
 TEST(AbaqusSprings, Errors) {
   const std::pair<std::string, const char*> wrong[] = {
-      {with_spring("SPRINGA", "2, 5", "\n\n5.\n"), "arm.inp:23: missing"},
+      {with_spring("SPRINGA", "2, 5", "\n\n5.\n"), "arm.inp:23: geometry"},
       {with_spring("SPRINGA", "5, 6", "\n"), "arm.inp:24: incomplete"},
       {with_spring("SPRING2", "5, 6", "\n1, 1\n"), "arm.inp:24: incomplete"},
       {with_spring("SPRING2", "5, 6", "\n1, 7\n5.\n"), "arm.inp:24: out_of_range"},

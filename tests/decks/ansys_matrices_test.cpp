@@ -154,7 +154,7 @@ TEST(AnsysMatrices, MassesOfPoints) {
   bad(0, 6) = bad(6, 0) = 0.5;
   EXPECT_EQ(ansys_error(deck(bad)), wrong);
   bad = -M;
-  EXPECT_EQ(ansys_error(deck(bad)), "a.cdb:40: unsupported");
+  EXPECT_EQ(ansys_error(deck(bad)), "a.cdb:40: out_of_range");
 }
 
 /// A node that only a spring turns keeps its inertia.

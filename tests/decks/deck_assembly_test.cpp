@@ -171,7 +171,7 @@ TEST(DeckAssembly, FaultyAssemblies) {
        fmt::format("a.inp:{}: wrong_count", n + 2)},
       {head + "*Instance, name=ONE, part=P\n*Node\n20, 1, 1, 1\n*End Instance\n"
               "*Instance, name=TWO, part=P\n",
-       fmt::format("a.inp:{}: missing", n + 4)},
+       fmt::format("a.inp:{}: unsupported", n + 4)},
       {two + "*Boundary\nEND, 1\n" + wood, fmt::format("a.inp:{}: duplicate", n + 5)},
       {two + "*Boundary\nTHREE.END, 1\n" + wood, fmt::format("a.inp:{}: not_found", n + 5)},
       {two + "*Boundary\nTWO.99, 1\n" + wood, fmt::format("a.inp:{}: not_found", n + 5)},
@@ -185,7 +185,7 @@ TEST(DeckAssembly, FaultyAssemblies) {
        fmt::format("a.inp:{}: contradiction", n - 7)},
       {two + "*Tie, name=T\nONE.12, ONE.BACK\n" + wood, fmt::format("a.inp:{}: not_found", n + 5)},
       {"*Part, name=A\n" + brick_lines + "*End Part\n*Part, name=B\n*End Part\n" + wood,
-       fmt::format("a.inp:{}: wrong_value", n - 1)}};
+       fmt::format("a.inp:{}: missing", n - 1)}};
   for (const auto& [text, expected] : cases) {
     const bool assembly = text.find("*Assembly") != std::string::npos;
     const std::string found = assembly_error(text + (assembly ? "*End Assembly\n" : ""));

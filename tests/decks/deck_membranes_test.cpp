@@ -118,7 +118,7 @@ TEST(DeckMembranes, SaysWhatIsWrong) {
   EXPECT_EQ(error(begin + ", OFFSET=.5\n.002\n"), "foil.inp:18: unsupported");
   EXPECT_EQ(error(begin + "\n"), "foil.inp:18: missing");
   EXPECT_EQ(error(begin + "\n-1.\n"), "foil.inp:19: out_of_range");
-  EXPECT_EQ(error("*SHELL SECTION, ELSET=FOIL, MATERIAL=AL\n.002\n"), "foil.inp:18: unsupported");
+  EXPECT_EQ(error("*SHELL SECTION, ELSET=FOIL, MATERIAL=AL\n.002\n"), "foil.inp:18: wrong_value");
   EXPECT_EQ(error(begin + "\n.002\n.003\n"), "foil.inp:20: unsupported");
   EXPECT_EQ(error(begin + ", COMPOSITE\n.002\n").substr(0, 50), "foil.inp:18: unsupported");
 }

@@ -76,7 +76,7 @@ TEST(NastranMasses, MatrixOfARigidBody) {
 TEST(NastranMasses, Errors) {
   EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1\nCMASS2,6,3.,1,2\n"), "arm.bdf:8: unsupported");
   EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1,2,1\n"), "arm.bdf:8: unsupported");
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,12\n"), "arm.bdf:8: unsupported");
+  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,12\n"), "arm.bdf:8: out_of_range");
   EXPECT_EQ(mass_error(bar + "CMASS1,5,3,1,1\n"), "arm.bdf:8: not_found");
   EXPECT_EQ(mass_error(bar + "CONM1,5,1,,2.,,2.,,\n,2.,.3\n"), "arm.bdf:8: unsupported");
 }

@@ -191,8 +191,8 @@ TEST(Unv, FaultyFiles) {
       {unv_dataset(2411, "1 0 0 1\n0 0\n"), "a.unv:4: wrong_count"},
       {unv_dataset(2411, "1 0 0 1\n0 0 a\n"), "a.unv:4: not_a_number"},
       {n + unv_dataset(2411, "1 0 0 1\n0 0 0\n") + t, "a.unv:14: duplicate"},
-      {n, "a.unv: not_found"},
-      {elements("1 91 2 1 7 3\n1 2 3\n"), "a.unv: not_found"},
+      {n, "a.unv: missing"},
+      {elements("1 91 2 1 7 3\n1 2 3\n"), "a.unv: missing"},
       {elements("1 161 2 1 7 1\n1\n"), "a.unv:14: unsupported"},
       {elements("1 136 2 1 7 2\n1 2\n"), "a.unv:14: unsupported"},
       {elements("1 151 2 1 7 2\n1 2\n"), "a.unv:14: unsupported"},
@@ -213,10 +213,10 @@ TEST(Unv, FaultyFiles) {
       {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 1\nA\n7 1 0 0 7 2 0 0\n"), "a.unv:21: wrong_count"},
       {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 -1\nA\n"), "a.unv:19: out_of_range"},
       {n + t + unv_dataset(2467, "1 0 0 0 0 0 0 1\n"), "a.unv:20: damaged"},
-      {n + t + system("1", "0 0 0"), "a.unv:3: not_found"},
-      {n + t + system("0", "0 0 2"), "a.unv:3: not_found"},
+      {n + t + system("1", "0 0 0"), "a.unv:3: unsupported"},
+      {n + t + system("0", "0 0 2"), "a.unv:3: unsupported"},
       {unv_dataset(2411, "1 7 0 1\n0 0 0\n2 0 0 1\n1 0 0\n3 0 0 1\n0 1 0\n4 0 0 1\n0 0 1\n") + t,
-       "a.unv:3: not_found"},
+       "a.unv:3: unsupported"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);

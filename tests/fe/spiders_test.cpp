@@ -175,7 +175,7 @@ TEST(Spiders, Refusals) {
   EXPECT_EQ(refusal(f), "wrong_value");
   f.positions.emplace_back(1, 2, 3);  // 14: nothing uses it, nor an equation with another node
   f.equations[0].terms = {{14, 0, 1.0}};
-  EXPECT_EQ(refusal(f), "out_of_range");
+  EXPECT_EQ(refusal(f), "wrong_value");
   f.equations[0].terms = {{0, 0, 0.0}, {1, 1, 1.0}};
   EXPECT_EQ(refusal(f), "out_of_range");
 }

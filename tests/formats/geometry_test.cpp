@@ -176,7 +176,7 @@ TEST(Geometry, Errors) {
   says(replaced(text_stl(), "endsolid t\n", ""), "t.stl", "t.stl:29: damaged");
   says(replaced(text_stl(), "1.000000e0", "nan"), "t.stl", "t.stl:5: not_a_number");
   says("solid t\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "t.stl",
-       "t.stl:5: wrong_value");
+       "t.stl:5: wrong_count");
   says("solid t\nversion 2\n", "t.stl", "t.stl:2: wrong_value");
   const std::string binary = binary_stl("made");
   says(binary.substr(0, 200), "t.stl", "t.stl: damaged");
@@ -184,16 +184,16 @@ TEST(Geometry, Errors) {
   damaged.replace(84 + 12, 4, "\xff\xff\xff\x7f");
   says(damaged, "t.stl", "t.stl: not_finite");
   says("v 0 0\n", "t.obj", "t.obj:1: not_a_number");
-  says("v 0 0 0\nf 1 2 3\n", "t.obj", "t.obj:2: wrong_value");
-  says("v 0 0 0\nf 1 1\n", "t.obj", "t.obj:2: wrong_value");
+  says("v 0 0 0\nf 1 2 3\n", "t.obj", "t.obj:2: not_found");
+  says("v 0 0 0\nf 1 1\n", "t.obj", "t.obj:2: wrong_count");
   says("v 0 0 0\nf 1 x 1\n", "t.obj", "t.obj:2: not_a_number");
   says(glb().substr(0, 300), "t.glb", "t.glb: damaged");
-  says("{}", "t.gltf", "t.gltf: missing");
+  says("{}", "t.gltf", "t.gltf: wrong_file");
   says(replaced(gltf(), "\"count\":12", "\"count\":15"), "t.gltf", "t.gltf: damaged");
   says(replaced(gltf(), "\"mesh\":0", "\"mesh\":0,\"children\":[0]"), "t.gltf",
        "t.gltf: duplicate");
   says(replaced(gltf(), "\"scene\":0", "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]"),
-       "t.gltf", "t.gltf: wrong_file");
+       "t.gltf", "t.gltf: unsupported");
   const std::string other = geometry_error(gltf_json("other.bin"), "t.gltf");
   EXPECT_EQ(other, "t.gltf: unsupported");
   for (const char* uri :

@@ -18,11 +18,11 @@ TEST(Validate, WhatIsValidIsBuilt) {
 
 TEST(Validate, Model) {
   check({
-      {[](D& d) { d.name = "a/b"; }, "name: out_of_range"},
-      {[](D& d) { d.name = std::string(101, 'n'); }, "name: out_of_range"},
-      {[](D& d) { d.name = " "; }, "name: out_of_range"},
+      {[](D& d) { d.name = "a/b"; }, "name: wrong_value"},
+      {[](D& d) { d.name = std::string(101, 'n'); }, "name: wrong_value"},
+      {[](D& d) { d.name = " "; }, "name: wrong_value"},
       {[](D& d) { d.gravity.z() = nan; }, "gravity[3]: out_of_range"},
-      {[](D& d) { d = ModelDescription(); }, "out_of_range"},
+      {[](D& d) { d = ModelDescription(); }, "missing"},
   });
 }
 
@@ -71,7 +71,7 @@ TEST(Validate, Bodies) {
 TEST(Validate, ReducedBodies) {
   check({
       {[](D& d) { part(d).mass_model = static_cast<MassModel>(-1); },
-       "bodies.part.flexible.mass_model: out_of_range"},
+       "bodies.part.flexible.mass_model: wrong_value"},
       {[](D& d) {
          part(d).K.resize(2, 2);
          part(d).K.setIdentity();

@@ -25,7 +25,7 @@ TEST(Validate, ForcesRoadsInputs) {
        "forces.spring.spring.piecewise[1].below: "
        "out_of_range\nforces.spring.spring.piecewise[2].about: out_of_range"},
       {[](D& d) { kind<SpringDamperDescription>(d, 0).spring = two_pieces(1.0, 1.0, 2.0); },
-       "forces.spring.spring.piecewise[1]: wrong_value"},
+       "forces.spring.spring.piecewise[1]: contradiction"},
       {[](D& d) {
          kind<SpringDamperDescription>(d, 0).damper =
              PiecewisePolynomial({2.0, 1.0}, {{0.0, {0.0}}, {0.0, {0.0}}, {0.0, {0.0}}});
@@ -34,7 +34,7 @@ TEST(Validate, ForcesRoadsInputs) {
       {[](D& d) {
          kind<SpringDamperDescription>(d, 0).damper = PiecewisePolynomial({1.0}, {{0.0, {0.0}}});
        },
-       "forces.spring.damper: out_of_range"},
+       "forces.spring.damper: wrong_count"},
       {[](D& d) {
          kind<SpringDamperDescription>(d, 0).damper = PiecewisePolynomial::polynomial({});
        },
@@ -77,7 +77,7 @@ TEST(Validate, ForcesRoadsInputs) {
       {[](D& d) {
          d.forces[0].kind = ForceValues{static_cast<ForceType>(99), {}};
        },
-       "forces.spring.type: out_of_range"},
+       "forces.spring.type: wrong_value"},
       {[](D& d) { d.forces[3].kind = by_key({}); },
        "forces.tyre: missing\nforces.tyre: missing\nforces.tyre: missing\nforces.tyre: missing"},
       {[](D& d) {
@@ -104,7 +104,7 @@ TEST(Validate, ForcesRoadsInputs) {
       {[](D& d) { d.inputs[0].initial = 2.0; }, "inputs.push.initial: out_of_range"},
       {[](D& d) { d.inputs[0].high = -1.0; }, "inputs.push.max: contradiction"},
       {[](D& d) { d.inputs[0].low = nan; }, "inputs.push.min: out_of_range"},
-      {[](D& d) { d.inputs[0].unit = "N,m"; }, "inputs.push.unit: out_of_range"},
+      {[](D& d) { d.inputs[0].unit = "N,m"; }, "inputs.push.unit: wrong_value"},
       {[](D& d) {
          d.inputs[0].clamp = true;
          d.inputs[0].low.reset();

@@ -16,8 +16,7 @@ TEST(Validate, Joints) {
          d.outputs.clear();
        },
        "joints.slide: duplicate"},
-      {[](D& d) { d.joints[1].type = static_cast<JointType>(99); },
-       "joints.pin.type: out_of_range"},
+      {[](D& d) { d.joints[1].type = static_cast<JointType>(99); }, "joints.pin.type: wrong_value"},
       {[](D& d) { d.joints[1].parent.body = "blok"; }, "joints.pin.parent: not_found"},
       {[](D& d) { d.joints[1].child.body = "x"; }, "joints.pin.child: not_found"},
       {[](D& d) { d.joints[1].child.body = "ground"; }, "joints.pin.child: wrong_value"},
@@ -58,7 +57,7 @@ TEST(Validate, Joints) {
          d.rods[0].length.reset();
          d.rods[0].a.point = d.rods[0].b.point;
        },
-       "rods.rod: out_of_range"},
+       "rods.rod: geometry"},
       {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: not_found"},
       {[](D& d) { d.rods[0].a.node = "n0"; }, "rods.rod.from.node: incomplete"},
       // Nodes are known when the bodies are reduced; the errors are those of model files.
@@ -104,17 +103,17 @@ const std::string long_name = "outputs." + std::string(201, 'n') + ": out_of_ran
 
 TEST(Validate, Outputs) {
   check({
-      {[](D& d) { d.outputs[0].name = "a,b"; }, "outputs.a,b: out_of_range"},
-      {[](D& d) { d.outputs[0].name = "a\tb"; }, "outputs.a\\tb: out_of_range"},
-      {[](D& d) { d.outputs[0].name = std::string("a\0b", 3); }, "outputs.a\\x00b: out_of_range"},
-      {[](D& d) { d.outputs[0].name = ""; }, "outputs.: out_of_range"},
+      {[](D& d) { d.outputs[0].name = "a,b"; }, "outputs.a,b: wrong_value"},
+      {[](D& d) { d.outputs[0].name = "a\tb"; }, "outputs.a\\tb: wrong_value"},
+      {[](D& d) { d.outputs[0].name = std::string("a\0b", 3); }, "outputs.a\\x00b: wrong_value"},
+      {[](D& d) { d.outputs[0].name = ""; }, "outputs.: wrong_value"},
       {[](D& d) { d.outputs[0].name = std::string(201, 'n'); }, long_name},
-      {[](D& d) { d.outputs[0].name = "time"; }, "wrong_value"},
-      {[](D& d) { d.outputs[1].name = "z"; }, "wrong_value"},
+      {[](D& d) { d.outputs[0].name = "time"; }, "duplicate"},
+      {[](D& d) { d.outputs[1].name = "z"; }, "duplicate"},
       {[](D& d) { d.outputs[0].type = static_cast<OutputType>(99); }, "outputs.z: wrong_value"},
-      {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: out_of_range"},
-      {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: out_of_range"},
-      {[](D& d) { d.outputs[1].component = 3; }, "outputs.yaw.angle: out_of_range"},
+      {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: wrong_value"},
+      {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: wrong_value"},
+      {[](D& d) { d.outputs[1].component = 3; }, "outputs.yaw.angle: wrong_value"},
       {[](D& d) { d.outputs[2].component = 2; }, "outputs.q.component: out_of_range"},
       {[](D& d) { d.outputs[2].component = std::numeric_limits<int>::max(); },
        "outputs.q.component: out_of_range"},
@@ -124,7 +123,7 @@ TEST(Validate, Outputs) {
       {[](D& d) { d.outputs[1].at.body = "ground"; }, "outputs.yaw.rotation: wrong_value"},
       {[](D& d) { d.outputs[2].entity = "pins"; }, "outputs.q.joint_position: not_found"},
       {[](D& d) { d.outputs[4].entity = "lod"; }, "outputs.F.force: not_found"},
-      {[](D& d) { d.outputs[5].entity = "load"; }, "outputs.L.length: incomplete"},
+      {[](D& d) { d.outputs[5].entity = "load"; }, "outputs.L.length: wrong_value"},
       {[](D& d) {
          d.outputs[0].type = OutputType::distance;
          d.outputs[0].to.body = "blok";

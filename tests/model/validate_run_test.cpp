@@ -32,8 +32,8 @@ TEST(Validate, Simulation) {
       {[](S& s) { s.coordinates = static_cast<Coordinates>(2); },
        "simulation.coordinates: wrong_value"},
       {[](S& s) { s.inertia = static_cast<InertiaMethod>(-1); }, "simulation.inertia: wrong_value"},
-      {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: missing"},
-      {[](S& s) { s.start = Start::state; }, "simulation.start: missing"},
+      {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: wrong_value"},
+      {[](S& s) { s.start = Start::state; }, "simulation.start: wrong_value"},
       {[](S& s) { s.offset["block"].translation.x() = 0.1; },
        "simulation.start.offset: incomplete"},
       {[](S& s) {

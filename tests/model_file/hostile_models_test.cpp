@@ -215,7 +215,7 @@ TEST_F(Hostile, ControlCharactersAreRefusedAndWrittenOut) {
 
 TEST_F(Hostile, AColumnMayNotBeCalledTime) {
   EXPECT_EQ(errors(body + "outputs:\n  time: {position: a, axis: x}\n"),
-            Errors{"model.yaml:5:3: out_of_range"});
+            Errors{"model.yaml:5:3: duplicate"});
 }
 
 TEST_F(Hostile, OverrideTexts) {

@@ -219,7 +219,7 @@ TEST(Damping, OfAMatrixBesideStiffnessAndMass) {
   EXPECT_NEAR(damped_modes(both, DampingReference::frame).front().fraction,
               damped_modes(stiff.body, DampingReference::frame).front().fraction + 0.01, 1e-8);
   EXPECT_EQ(error_of([] { reduce_part(as_matrices(0.0, -3e-6), both_ends()); }).substr(0, 51),
-            "wrong_value");
+            "out_of_range");
 }
 
 TEST(Damping, ErrorsAndWhatIsLeft) {
@@ -230,7 +230,7 @@ TEST(Damping, ErrorsAndWhatIsLeft) {
   EXPECT_EQ(refused(2.0), "out_of_range");
   ModalDamping d;
   d.fractions.assign(15, 0.01);
-  EXPECT_EQ(refused(d), "contradiction");
+  EXPECT_EQ(refused(d), "wrong_count");
   d.bands = usual_damping_bands();
   EXPECT_EQ(refused(d), "out_of_range");
   d.fractions.clear();

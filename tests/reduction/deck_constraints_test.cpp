@@ -107,7 +107,7 @@ TEST(DeckConstraints, ContactPairsAreWhatTheUserSays) {
                               "*CONTACT PAIR,INTERACTION=I\nBOTTOM,TOP\n");
   FeReadOptions options;
   EXPECT_EQ(test::without_folders(error_of([&] { read_fe_file(folder / "two.inp", options); })),
-            "two.inp:32: wrong_value");
+            "two.inp:32: unsupported");
   options.contact = DeckContact::ignore;
   EXPECT_EQ(read_fe_file(folder / "two.inp", options).equations.size(), 0u);
   options.contact = DeckContact::tied;
@@ -131,17 +131,17 @@ TEST(DeckConstraints, ErrorsOfTiesAndTurnedDirections) {
     return folder.without(error_of([&] { read_fe_file(folder / "bad.inp"); }));
   };
   const std::pair<const char*, const char*> cases[] = {
-      {"*TIE,NAME=T\nBOTTOM\n", "bad.inp:32: wrong_value"},
+      {"*TIE,NAME=T\nBOTTOM\n", "bad.inp:32: missing"},
       {"*TIE,NAME=T\n", "bad.inp:31: missing"},
       {"*TIE,NAME=T\nBOTTOM,TIP\n", "bad.inp:32: not_found"},
       {"*TIE,NAME=T,POSITION TOLERANCE=-1\nBOTTOM,TOP\n", "bad.inp:31: out_of_range"},
       {"*TIE,NAME=T,MULTISTAGE\nBOTTOM,TOP\n", "bad.inp:31: unsupported"},
       {"*SURFACE,NAME=N,TYPE=NODE\n5,\n*TIE,NAME=T\nBOTTOM,N\n", "bad.inp:34: wrong_value"},
       {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=S\n0,0,0,0,0,1\n", "bad.inp:33: wrong_value"},
-      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P\n1,0,0,2,0,0\n", "bad.inp:33: incomplete"},
-      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n1,0,0,1,0,0\n", "bad.inp:33: incomplete"},
+      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P\n1,0,0,2,0,0\n", "bad.inp:33: geometry"},
+      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n1,0,0,1,0,0\n", "bad.inp:33: geometry"},
       {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n1,0,0,1,0\n", "bad.inp:33: incomplete"},
-      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n0,0,0,0,0,1\n", "bad.inp:33: wrong_value"},
+      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n0,0,0,0,0,1\n", "bad.inp:33: geometry"},
       {"*TRANSFORM,NSET=Q\n1,0,0,0,1,0\n", "bad.inp:31: not_found"},
       {"*NSET,NSET=P\n6\n*TRANSFORM,NSET=P\n1,1,0,0,1,0\n*NODE\n20,0,0,3\n"
        "*KINEMATIC COUPLING,REF NODE=20\nP,1,1\n",

@@ -98,7 +98,7 @@ TEST(FreeTurnsOfParts, AnInterfaceCannotHoldThem) {
   d.choice.by = NodeChoice::By::node;
   d.choice.number = a + 1;
   options.interfaces.push_back(d);
-  EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "wrong_value");
+  EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "singular");
   options.interfaces.back().mask = 7;
   const ReducedPart part = reduce_part(model, options);
   EXPECT_EQ(part.body.nodes.back().name, "BAR");
@@ -121,10 +121,10 @@ TEST(FreeTurnsOfParts, AForceBesideTheLineCannotTurnThem) {
   d.choice.by = NodeChoice::By::node;
   d.choice.number = model.nodes();
   options.interfaces.push_back(d);
-  EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "wrong_value");
+  EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "singular");
   options.interfaces.pop_back();
   options.markers.push_back({.name = "TIP", .choice = d.choice, .at = {}, .residual = true});
-  EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "wrong_value");
+  EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "singular");
   options.markers[0].residual = false;
   EXPECT_LT(reduce_part(model, options).health.rigid_residual, 1e-12);
 }

@@ -91,13 +91,13 @@ TEST_F(Reading, SaysWhatIsNotAsExpected) {
   EXPECT_EQ(complaint(""), " missing");
   EXPECT_EQ(complaint("x,y\n"), "1:1: wrong_value");
   EXPECT_EQ(complaint("time,x,x\n"), "1:8: duplicate");
-  EXPECT_EQ(complaint("time,\"x\n"), "1:6: wrong_value");
+  EXPECT_EQ(complaint("time,\"x\n"), "1:6: damaged");
   EXPECT_EQ(complaint("time,x,y\n0,1,2\n1,a,3\n"), "3:3: out_of_range");
   EXPECT_EQ(complaint("time,x,y\n0,1\n1,2,3\n"), "2:3: out_of_range");
   EXPECT_EQ(complaint("time,x\n0,1,2\n"), "2:3: out_of_range");
   EXPECT_EQ(complaint("time,x\n0,\n1,2\n"), "2:3: out_of_range");
-  EXPECT_EQ(complaint("time,x\n0,1\n0,1\n"), "3:1: wrong_count");
-  EXPECT_EQ(complaint("time,x\nnan,1\n"), "2:1: wrong_count");
+  EXPECT_EQ(complaint("time,x\n0,1\n0,1\n"), "3:1: contradiction");
+  EXPECT_EQ(complaint("time,x\nnan,1\n"), "2:1: contradiction");
   EXPECT_EQ(complaint(std::string("time,x\n0,") + std::string(2 << 20, '1') + "\n"),
             "2:1: too_large");
   EXPECT_THROW(ResultsReader((folder_.path() / "none.csv").string()), InputError);

@@ -94,9 +94,9 @@ TEST_F(TablePlan, OneRunALine) {
 }
 
 TEST_F(TablePlan, ErrorsNameThePlace) {
-  EXPECT_EQ(error_of_table(""), ":1:1: out_of_range");
-  EXPECT_EQ(error_of_table("a,b\n"), ":1:1: out_of_range");
-  EXPECT_EQ(error_of_table("a,b\n1,2\n1,2,3\n"), ":3:1: out_of_range");
+  EXPECT_EQ(error_of_table(""), ":1:1: missing");
+  EXPECT_EQ(error_of_table("a,b\n"), ":1:1: missing");
+  EXPECT_EQ(error_of_table("a,b\n1,2\n1,2,3\n"), ":3:1: wrong_count");
   EXPECT_EQ(error_of_table("a,b\n1, \n"), ":2:4: missing");
   EXPECT_EQ(error_of_table("a,b\n1,\"x\n"), ":2:3: out_of_range");
   EXPECT_EQ(error_of_table("a,,b\n1,2,3\n"), ":1:1: missing");

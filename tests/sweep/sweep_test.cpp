@@ -251,10 +251,10 @@ TEST_F(Sweep, PlansOfAProgram) {
   options_.plan.names = {"push"};
   EXPECT_EQ(error(), "out_of_range");
   options_.plan.runs = {{"1"}, {"2", "3"}};
-  EXPECT_EQ(error(), "wrong_value");
+  EXPECT_EQ(error(), "wrong_count");
   options_.plan.runs = {{"1"}, {"2"}};
   options_.plan.origins = {"here"};
-  EXPECT_EQ(error(), "wrong_value");
+  EXPECT_EQ(error(), "wrong_count");
   options_.plan.origins.clear();
   options_.threads = 0;
   EXPECT_EQ(error(), "out_of_range");
