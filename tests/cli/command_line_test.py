@@ -143,12 +143,12 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, bench, sweep, reduce, info, convert, compare, outputs, export, stress or rainflow"),
-                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, bench, sweep, reduce, info, convert, compare, outputs, export, stress or rainflow"),
+                ((), "a command is required: run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, outputs, export, stress, rainflow or bench"),
+                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, outputs, export, stress, rainflow or bench"),
                 (("run",), "MODEL is required"),
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),
-                (("runn", "pendulum.yaml"), "or rainflow, did you mean 'run'? (see floatframe --help)"),
+                (("runn", "pendulum.yaml"), "or bench, did you mean 'run'? (see floatframe --help)"),
                 (("bench", "chian"), "expected iltis, chain, scaling, start or step, did you mean 'chain'? (see floatframe bench --help)"),
                 (("run", "pendulum.yaml", "--frobnicate"), "floatframe: unknown option '--frobnicate' (see floatframe run --help)"),
                 (("run", "pendulum.yaml", "--stepp", "1"), "unknown option '--stepp', did you mean '--step'? (see floatframe run --help)"),

@@ -99,7 +99,7 @@ TEST(Validate, AxesOfTinyNumbersAreDirections) {
   }
 }
 
-const std::string long_name = "outputs." + std::string(201, 'n') + ": out_of_range";
+const std::string long_name = "outputs." + std::string(201, 'n') + ": wrong_value";
 
 TEST(Validate, Outputs) {
   check({

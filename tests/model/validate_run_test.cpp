@@ -33,7 +33,7 @@ TEST(Validate, Simulation) {
        "simulation.coordinates: wrong_value"},
       {[](S& s) { s.inertia = static_cast<InertiaMethod>(-1); }, "simulation.inertia: wrong_value"},
       {[](S& s) { s.start = static_cast<Start>(5); }, "simulation.start: wrong_value"},
-      {[](S& s) { s.start = Start::state; }, "simulation.start: wrong_value"},
+      {[](S& s) { s.start = Start::state; }, "simulation.start: missing"},
       {[](S& s) { s.offset["block"].translation.x() = 0.1; },
        "simulation.start.offset: incomplete"},
       {[](S& s) {

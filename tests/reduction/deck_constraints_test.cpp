@@ -140,7 +140,7 @@ TEST(DeckConstraints, ErrorsOfTiesAndTurnedDirections) {
       {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=S\n0,0,0,0,0,1\n", "bad.inp:33: wrong_value"},
       {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P\n1,0,0,2,0,0\n", "bad.inp:33: geometry"},
       {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n1,0,0,1,0,0\n", "bad.inp:33: geometry"},
-      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n1,0,0,1,0\n", "bad.inp:33: incomplete"},
+      {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n1,0,0,1,0\n", "bad.inp:33: geometry"},
       {"*NSET,NSET=P\n1\n*TRANSFORM,NSET=P,TYPE=C\n0,0,0,0,0,1\n", "bad.inp:33: geometry"},
       {"*TRANSFORM,NSET=Q\n1,0,0,0,1,0\n", "bad.inp:31: not_found"},
       {"*NSET,NSET=P\n6\n*TRANSFORM,NSET=P\n1,1,0,0,1,0\n*NODE\n20,0,0,3\n"

@@ -123,8 +123,8 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
                           const char* expected) {
     if (first && !valid)
-      b_.error(ErrorCode::contradiction, m, "{} is {:g}{}, expected {}", what, found, origin,
-               expected);
+      b_.error(origin.empty() ? ErrorCode::out_of_range : ErrorCode::contradiction, m,
+               "{} is {:g}{}, expected {}", what, found, origin, expected);
   };
   const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
                        double y) {
