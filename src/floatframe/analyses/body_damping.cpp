@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "floatframe/body/modal_damping.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
-#include "floatframe/report/notes_text.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 
 namespace floatframe {

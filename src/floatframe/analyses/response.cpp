@@ -9,6 +9,7 @@
 #include "floatframe/analyses/rotor_options.hpp"
 #include "floatframe/analyses/unbalance_report.hpp"
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/model/road_spectrum.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
 #include "floatframe/simulation/operating_point.hpp"
@@ -31,7 +32,7 @@ struct ResponseOptions {
 double roughness_of(const std::string& text) {
   for (int k = 0; k < static_cast<int>(std::size(road_classes::names)); ++k)
     if (text == road_classes::names[k]) return road_classes::roughness(k);
-  const std::optional<double> value = number_of(text);
+  const std::optional<double> value = finite_number(text);
   if (!value || !(*value > 0.0))
     throw InputError(ErrorCode::wrong_value,
                      fmt::format("--road-spectrum: found '{}', expected a class, A to H, or the "
@@ -48,8 +49,8 @@ struct HarmonicRequest {
 HarmonicRequest harmonic_request(const std::string& text) {
   const std::size_t equals = text.rfind('='), at = text.rfind('@');
   if (equals != std::string::npos && at != std::string::npos && equals < at) {
-    const auto amplitude = number_of(text.substr(equals + 1, at - equals - 1)),
-               frequency = number_of(text.substr(at + 1));
+    const auto amplitude = finite_number(text.substr(equals + 1, at - equals - 1)),
+               frequency = finite_number(text.substr(at + 1));
     if (amplitude && frequency && *frequency >= 0.0)
       return {text.substr(0, equals), *amplitude, *frequency};
   }

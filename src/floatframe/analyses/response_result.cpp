@@ -7,16 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "floatframe/analyses/complex_curves.hpp"
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
-
-double phase_of(std::complex<double> value) { return degrees * std::arg(value); }
 
 std::string name_of(const ResponseCurve& c) { return c.output.name + " / " + c.input.name; }
 
@@ -73,22 +70,6 @@ std::string road_text(const RoadLoading& loading, const RoadResponse& road) {
 std::string ResponseCurve::unit() const {
   const std::string above = output.unit.empty() ? "1" : output.unit;
   return input.unit.empty() ? above : above + " per " + input.unit;
-}
-
-ComplexParts parts_of(const std::vector<std::complex<double>>& values, bool at_rest) {
-  ComplexParts out;
-  const auto moves = [](const std::complex<double>& v) { return std::abs(v) > 0.0; };
-  auto first = at_rest ? std::find_if(values.begin(), values.end(), moves) : values.begin();
-  if (first == values.end()) first = values.begin();
-  for (auto v = values.begin(); v != values.end(); ++v) {
-    const double phase = phase_of(v < first ? *first : *v);
-    out.size.push_back(std::abs(*v));
-    out.phase.push_back(
-        v <= first ? phase : out.phase.back() + std::remainder(phase - out.phase.back(), 360.0));
-    out.real.push_back(v->real());
-    out.imaginary.push_back(v->imag());
-  }
-  return out;
 }
 
 std::string response_text(const ResponseResult& r) {

@@ -3,20 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 
 namespace floatframe {
-
-std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 SpeedRange speed_range(const std::string& option, const std::string& text) {
   const auto bad = [&] {

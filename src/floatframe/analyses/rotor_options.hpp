@@ -1,5 +1,5 @@
 #pragma once
-// Options that analyses share, those of rotors above all.
+// Options that analyses of rotors share.
 #include <optional>
 #include <string>
 
@@ -11,9 +11,6 @@ struct SpeedRange {
   std::string joint;
   double from = 0.0, to = 0.0, step = 0.0;  ///< [rad/s]
 };
-
-/// The number that all of the text is; nothing if it is none, or not finite.
-std::optional<double> number_of(const std::string& text);
 
 /// "motor=0:1200:40". Throws InputError, which names the option.
 SpeedRange speed_range(const std::string& option, const std::string& text);

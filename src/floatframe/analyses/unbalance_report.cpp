@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "floatframe/analyses/response_result.hpp"
-#include "floatframe/analyses/rotor_options.hpp"
+#include "floatframe/analyses/complex_curves.hpp"
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
 
@@ -39,9 +39,9 @@ Unbalance unbalance_of(const std::string& text) {
   const std::size_t equals = text.rfind('='), at = text.rfind('@');
   const bool angled = at != std::string::npos && equals != std::string::npos && at > equals;
   if (equals != std::string::npos && equals > 0) {
-    const auto moment =
-                   number_of(text.substr(equals + 1, angled ? at - equals - 1 : std::string::npos)),
-               angle = angled ? number_of(text.substr(at + 1)) : std::optional(0.0);
+    const auto moment = finite_number(
+                   text.substr(equals + 1, angled ? at - equals - 1 : std::string::npos)),
+               angle = angled ? finite_number(text.substr(at + 1)) : std::optional(0.0);
     const std::string place = text.substr(0, equals);
     const std::size_t colon = place.find(':');
     if (moment && angle)

@@ -215,7 +215,7 @@ class HeaderReader {
         refuse(ErrorCode::wrong_value, path, "found " + json_excerpt(x) + ", expected a text");
     } else {
       if (!x.is_number())
-        refuse(ErrorCode::out_of_range, path, "found " + json_excerpt(x) + ", expected a number");
+        refuse(ErrorCode::not_a_number, path, "found " + json_excerpt(x) + ", expected a number");
     }
     return x.get<T>();
   }

@@ -27,11 +27,6 @@ struct ModelFingerprint {
 std::map<std::string, std::string> relative_to_model(
     const std::string& model, const std::map<std::string, std::string>& files);
 
-/// The model files as one text, with the values of their parameters in place of the expressions:
-/// what a run was made from, for people, and without subsystems a model file again. Each use of a
-/// subsystem file is a document of its own, "--- # front_left".
-std::string resolved_text(const ModelInstance& root);
-
 /// `model` and `simulation` of a loaded model file with its subsystems.
 void fingerprint(const ModelInstance& root, ModelFingerprint& out);
 

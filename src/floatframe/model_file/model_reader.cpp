@@ -11,6 +11,7 @@
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/load_instances.hpp"
 #include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/model_file/resolved_text.hpp"
 
 namespace floatframe {
 namespace {

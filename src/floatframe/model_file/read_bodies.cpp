@@ -221,7 +221,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     if (auto group = rigid_value->section("a map with mass, centre_of_mass, inertia")) {
       note_keys(*group, body.origin);
       rigid = read_rigid(self, *group);
-      judge(s, body.origin, [&](const validation::Entity& entity) {
+      validate_entity(s, body.origin, [&](const validation::Entity& entity) {
         validation::rigid(rigid->description, entity);
       });
     }
@@ -286,13 +286,6 @@ std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInst
     out.emplace_back(name, std::move(*section));
   }
   return out;
-}
-
-void judge(const YamlSection& section, const Origin& origin,
-           const std::function<void(const validation::Entity&)>& check) {
-  ErrorList found;
-  check({found, origin, section.path()});
-  for (ErrorEntry& e : found.take()) section.value().context().errors->add(std::move(e));
 }
 
 void read_bodies(const ModelInstance& self, ReadModel& model) {

@@ -155,8 +155,8 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
       j.motion = read_motion(*v, joint_unit_name(j.type, 0), Interpolation::cubic);
   j.cut = s.boolean("cut", false);
   s.finish();
-  judge(s, j.origin,
-        [&](const validation::Entity& entity) { validation::joint_values(j, entity); });
+  validate_entity(s, j.origin,
+                  [&](const validation::Entity& entity) { validation::joint_values(j, entity); });
   model.joints.emplace(j.name, j.type);
   place(j, self.world);
   model.description.joints.push_back(std::move(j));

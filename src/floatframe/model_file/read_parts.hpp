@@ -100,8 +100,8 @@ std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInst
 /// What `check` (of model/validate.hpp) finds wrong with an entity that has been read, at the
 /// places of its keys. Values that could not be read are to stand in the entity as valid ones by
 /// then, so that nothing is said twice.
-void judge(const YamlSection& section, const Origin& origin,
-           const std::function<void(const validation::Entity&)>& check);
+void validate_entity(const YamlSection& section, const Origin& origin,
+                     const std::function<void(const validation::Entity&)>& check);
 
 /// A direction: [x, y, z] of any length but zero, or x, y, z, -x, -y, -z. Returned as given (not
 /// normalised).

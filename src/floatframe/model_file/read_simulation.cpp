@@ -1,4 +1,4 @@
-// How a model starts and is run: `simulation`, `initial`, and the `inputs` that come from outside.
+// How a model starts and is run: `simulation` and `initial`.
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/model_reader.hpp"
@@ -151,7 +151,7 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (const auto v = s.get("record")) read_record(self, *v, d.record);
   s.finish();
   if (d.start == Start::state && !d.state) return;  // the file could not be read
-  judge(s, d.origin, [&](const validation::Entity& group) { validate(d, group.errors); });
+  validate_entity(s, d.origin, [&](const validation::Entity& group) { validate(d, group.errors); });
 }
 
 void read_initial(const ModelInstance& self, ReadModel& model) {
@@ -166,25 +166,6 @@ void read_initial(const ModelInstance& self, ReadModel& model) {
   if (const auto v = s->get("amplitude_rates"))
     read_amplitudes(self, model, *v, "initial.amplitude_rates", model.description.amplitude_rates);
   s->finish();
-}
-
-void read_inputs(const ModelInstance& self, ReadModel& model) {
-  for (auto& [name, s] : active_entities(self, EntityKind::input)) {
-    InputDescription i;
-    i.name = self.prefix + name;
-    i.origin = s.origin();
-    if (const auto v = s.get("unit")) i.unit = v->text("a unit, for example N").value_or("");
-    const char* unit = i.unit.c_str();
-    i.initial = s.number("initial", any_number(unit), 0.0);
-    if (const auto v = s.get("min")) i.low = v->number(any_number(unit));
-    if (const auto v = s.get("max")) i.high = v->number(any_number(unit));
-    i.clamp = s.boolean("clamp", false);
-    s.finish();
-    const std::size_t before = self.context.errors->size();
-    judge(s, i.origin, [&](const validation::Entity& entity) { validation::input(i, entity); });
-    if (self.context.errors->size() > before) continue;
-    model.description.inputs.push_back(std::move(i));
-  }
 }
 
 }  // namespace floatframe

@@ -11,6 +11,7 @@
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
+#include "floatframe/parts/json_vector.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 // What is in a body file or in a SID_FEM file, for people and as JSON. SI units.
-#include <array>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,5 @@ std::string sid_info_text(const std::string& file, const FlexibleBody& body,
                           const std::vector<std::string>& notes);
 std::string sid_info_json(const std::string& file, const FlexibleBody& body,
                           const std::vector<std::string>& notes);
-
-/// A vector as JSON has it: three numbers.
-inline std::array<double, 3> json_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace floatframe

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/parts/text_pieces.hpp"
+#include "floatframe/core/text_pieces.hpp"
 
 namespace floatframe {
 namespace {

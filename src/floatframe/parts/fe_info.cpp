@@ -15,7 +15,8 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/vector_text.hpp"
-#include "floatframe/parts/body_info.hpp"
+#include "floatframe/parts/beam_arms.hpp"
+#include "floatframe/parts/json_vector.hpp"
 #include "floatframe/parts/part_text.hpp"
 
 namespace floatframe {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/parts/damping_text.hpp"
 #include "floatframe/parts/part_text.hpp"
-#include "floatframe/parts/text_pieces.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 
 namespace floatframe {

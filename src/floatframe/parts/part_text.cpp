@@ -9,9 +9,9 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/core/utf8_text.hpp"
 #include "floatframe/parts/node_ways.hpp"
-#include "floatframe/parts/text_pieces.hpp"
 
 namespace floatframe {
 namespace {
@@ -207,22 +207,6 @@ std::string place_text(const NodeChoice& c, const std::optional<Vec3>& at) {
 }
 
 }  // namespace
-
-std::vector<std::string> pieces_of(const std::string& text, char at) {
-  std::vector<std::string> out{""};
-  for (const char c : text)
-    if (c == at)
-      out.emplace_back();
-    else
-      out.back() += c;
-  return out;
-}
-
-std::optional<double> finite_number(const std::string& text) {
-  char* end = nullptr;
-  const double x = std::strtod(text.c_str(), &end);
-  return text.empty() || *end != '\0' || !std::isfinite(x) ? std::nullopt : std::optional(x);
-}
 
 std::optional<unsigned> dofs_of(const std::string& text) {
   if (text == "all") return 63u;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
-#include <utility>
 
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
@@ -14,6 +13,7 @@
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/parts/beam_arms.hpp"
 #include "floatframe/parts/part_options.hpp"
 #include "floatframe/parts/part_text.hpp"
 #include "floatframe/reduction/connectivity.hpp"
@@ -340,27 +340,6 @@ ReduceProposal propose_reduction(const PartJob& job, const FeModel& model,
     out.obstacle = refusal_of(model, job, likely_units.empty() ? "si" : likely_units.front(),
                               out.interfaces, modes);
   out.command = command_of(job, model, likely_units, out.interfaces, modes);
-  return out;
-}
-
-std::vector<char> beam_arms(const FeModel& model) {
-  std::vector<char> out(model.spiders.size(), 0);
-  if (model.spiders.empty() || model.generated_nodes.empty()) return out;
-  std::set<std::pair<int, int>> bars;  // file and line
-  for (const Element& e : model.elements)
-    if ((is_beam(e.type) || is_rod(e.type)) && e.source.line > 0)
-      bars.emplace(e.source.file, e.source.line);
-  std::set<int> ends;
-  for (const int node : model.generated_nodes) {
-    const FeSource& at = model.node_sources[static_cast<std::size_t>(node)];
-    if (bars.contains({at.file, at.line})) ends.insert(node);
-  }
-  for (std::size_t i = 0; i < model.spiders.size(); ++i) {
-    const Spider& s = model.spiders[i];
-    out[i] =
-        s.kind == Spider::Kind::rigid && !s.nodes.empty() &&
-        std::all_of(s.nodes.begin(), s.nodes.end(), [&](int node) { return ends.contains(node); });
-  }
   return out;
 }
 

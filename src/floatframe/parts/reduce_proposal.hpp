@@ -26,11 +26,6 @@ struct ReduceProposal {
   std::string obstacle;
 };
 
-/// Of each spider: is it rigid, and was every node that follows made for a bar? A reader made these
-/// to hold ends of bars beside their nodes (offsets, pins): nobody thought of an interface there.
-/// Such a node stands in the file where its bar does.
-std::vector<char> beam_arms(const FeModel& model);
-
 /// Of the job the file and how the model was read from it.
 ReduceProposal propose_reduction(const PartJob& job, const FeModel& model,
                                  const std::vector<std::string>& likely_units);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "floatframe/realtime/clocks.hpp"
+#include "floatframe/realtime/input_watch.hpp"
 #include "floatframe/realtime/realtime.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"
@@ -16,56 +17,6 @@
 #include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
-
-/// Watches whether inputs keep coming. A partner that falls silent is an event with a beginning,
-/// the last step that took inputs, and an end; the first ones are kept for the report.
-class InputWatch {
- public:
-  /// `step` [s]. `listening`: there are inputs and somebody who may send them.
-  InputWatch(const RealTimeOptions& options, double step, bool listening, RealTimeReport& report)
-      : since_(options.silent_since),
-        patience_(listening && options.input_timeout > 0.0
-                      ? std::max(1L, std::lround(std::min(options.input_timeout / step, 1e15)))
-                      : std::numeric_limits<long>::max()),
-        report_(report) {}
-
-  /// Inputs came for the step that begins at `time` [s].
-  void came(double time) noexcept {
-    if (silent_) end(time, true);
-    without_ = 0;
-    last_ = report_.last_inputs = time;
-    report_.inputs_came = true;
-  }
-
-  /// No inputs came for a step. True at the one with which the silence begins.
-  bool missed() noexcept {
-    if (++without_ != patience_) return false;
-    silent_ = true;
-    ++report_.input_timeouts;
-    if (since_ != nullptr) since_->store(last_, std::memory_order_relaxed);
-    return true;
-  }
-
-  /// The run ends at `time` [s].
-  void finish(double time) noexcept {
-    if (silent_) end(time, false);
-  }
-
- private:
-  void end(double time, bool came_again) noexcept {
-    const std::size_t k = report_.input_timeouts - 1;
-    if (k < report_.silences.size()) report_.silences[k] = {last_, time, came_again};
-    silent_ = false;
-    // Whoever looks on takes a silence that lasts to the end for no more than that.
-    if (came_again && since_ != nullptr) since_->store(-1.0, std::memory_order_relaxed);
-  }
-
-  std::atomic<double>* since_;
-  long patience_, without_ = 0;
-  double last_ = 0.0;
-  bool silent_ = false;
-  RealTimeReport& report_;
-};
 
 template <class F>
 class RealTimeRunner {

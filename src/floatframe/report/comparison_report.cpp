@@ -8,9 +8,9 @@
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/printable.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
-#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {

@@ -15,12 +15,4 @@ std::string notes_text(const std::vector<std::string>& notes) {
   return text;
 }
 
-std::string names_text(const std::vector<std::string>& names, std::size_t most) {
-  const std::size_t shown = std::min(most, names.size());
-  std::string text;
-  for (std::size_t k = 0; k < shown; ++k) text += (k > 0 ? ", " : "") + names[k];
-  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
 }  // namespace floatframe

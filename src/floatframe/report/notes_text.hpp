@@ -1,6 +1,5 @@
 #pragma once
-// Notes on the start of a run for the terminal, and lists of names in sentences.
-#include <cstddef>
+// Notes on the start of a run for the terminal.
 #include <string>
 #include <vector>
 
@@ -8,8 +7,5 @@ namespace floatframe {
 
 /// One line a note, at most 20 of them; empty without notes.
 std::string notes_text(const std::vector<std::string>& notes);
-
-/// "a, b, c and 7 more"
-std::string names_text(const std::vector<std::string>& names, std::size_t most);
 
 }  // namespace floatframe

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "floatframe/body/body_shape.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/history/history_content.hpp"
 #include "floatframe/model/joint_list.hpp"
-#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/report/notes_text.hpp"
+#include "floatframe/core/text_pieces.hpp"
 
 namespace floatframe {
 namespace {

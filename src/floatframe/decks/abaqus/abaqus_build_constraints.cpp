@@ -102,7 +102,7 @@ int reference_of(AbaqusBuild& build, const AbaqusSpider& raw) {
 }
 
 void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) {
-  Spider spider = raw.made;
+  Spider spider = raw.in_model;
   spider.source = raw.where.at;
   const std::size_t before = build.source.errors();
   spider.reference = reference_of(build, raw);

@@ -90,7 +90,7 @@ unsigned AbaqusCard::dofs(std::size_t k, std::string_view what) {
   const std::optional<int> last = field(k + 1).empty() ? first : parse_integer(field(k + 1));
   if (first && last && *first >= 1 && *last <= 6 && *last >= *first)
     return (63u >> (6 - *last)) & (63u << (*first - 1));
-  error_in_line(ErrorCode::missing,
+  error_in_line(field(k).empty() ? ErrorCode::missing : ErrorCode::out_of_range,
                 "{}: the degrees of freedom are {}{}{}, expected numbers from 1 to 6", what,
                 field(k).empty() ? "missing" : floatframe::shown(field(k)),
                 last != first ? " to " : "", last != first ? floatframe::shown(field(k + 1)) : "");

@@ -30,11 +30,11 @@ void read_kind_of_coupling(AbaqusCard& kind, AbaqusSpider& spider) {
   if (mask == 0) mask = all_directions;
   if (kind.name == "KINEMATIC") {
     kind.allow_only("");
-    spider.made.mask = mask;
+    spider.in_model.mask = mask;
     return;
   }
   kind.allow_only("WEIGHTINGMETHOD COUPLING");
-  spider.made.kind = Spider::Kind::mean;
+  spider.in_model.kind = Spider::Kind::mean;
   kind.is_one_of("WEIGHTINGMETHOD", "UNIFORM", "has the weighting {}, expected UNIFORM");
   check_rotations_of_nodes(kind);
   if (mask != all_directions)
@@ -76,11 +76,11 @@ void add_mpc_bar(AbaqusContent& content, const AbaqusReference& node,
   for (AbaqusSpider& s : content.spiders) {
     const bool same = s.where.name == reference.name && s.where.first == reference.first &&
                       s.where.scope == reference.scope;
-    if (same && s.made.name.starts_with("MPC ")) return s.nodes.push_back(node);
+    if (same && s.in_model.name.starts_with("MPC ")) return s.nodes.push_back(node);
   }
   AbaqusSpider spider;
   spider.where = reference;
-  spider.made.name = "MPC " + content.text(reference, "node");
+  spider.in_model.name = "MPC " + content.text(reference, "node");
   spider.nodes = {node};
   content.spiders.push_back(std::move(spider));
 }
@@ -143,10 +143,10 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
     if (!card.has(parameter)) continue;
     (parameter == std::string_view("ELSET") ? spider.elements : spider.nodes)
         .push_back(card.named(parameter));
-    spider.made.name = card.word(parameter);
+    spider.in_model.name = card.word(parameter);
   }
   // Pinned nodes follow in translation only: for nodes without rotations there is no difference.
-  if (card.has("PINNSET")) spider.made.mask = all_translations;
+  if (card.has("PINNSET")) spider.in_model.mask = all_translations;
   if (card.has("PINNSET") && spider.nodes.size() != 1)
     card.error(ErrorCode::unsupported, "has PIN NSET beside another set, which is not supported");
   if (spider.nodes.empty() && spider.elements.empty())
@@ -156,7 +156,7 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
 
 void read_abaqus_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.made.name = card.word("CONSTRAINTNAME");
+  spider.in_model.name = card.word("CONSTRAINTNAME");
   card.required("REF NODE");
   const bool of_surface = !card.required("SURFACE").empty();
   AbaqusKeyword following;
@@ -186,13 +186,13 @@ void read_abaqus_kinematic_coupling(AbaqusCard& card) {
     mask = dofs;
   }
   if (spider.nodes.empty()) return card.error(ErrorCode::missing, "has no nodes");
-  spider.made.mask = mask;
+  spider.in_model.mask = mask;
   add_spider(card, spider);
 }
 
 void read_abaqus_distributing_coupling(AbaqusCard& card) {
   AbaqusSpider spider;
-  spider.made.kind = Spider::Kind::mean;
+  spider.in_model.kind = Spider::Kind::mean;
   const bool named = !card.required("ELSET").empty();
   while (card.next()) {
     spider.nodes.push_back(card.reference(0));

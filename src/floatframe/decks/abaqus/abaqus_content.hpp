@@ -203,7 +203,7 @@ struct AbaqusNodalValue : AbaqusThing {
 
 /// `where` is its reference.
 struct AbaqusSpider : AbaqusThing {
-  Spider made;                              ///< with its kind, name and mask
+  Spider in_model;                          ///< with its kind, name and mask
   std::optional<AbaqusReference> rotation;  ///< ROT NODE
   std::vector<AbaqusReference> nodes, elements;
   std::vector<double> weights;             ///< one an entry of `nodes`; empty: 1
@@ -234,7 +234,7 @@ struct AbaqusSpring : AbaqusThing {
 /// *TIE, or a contact pair that is joined; `where` is its slave surface.
 struct AbaqusTie : AbaqusThing {
   AbaqusReference master;
-  SurfaceTie made;  ///< how they are tied
+  SurfaceTie in_model;  ///< how they are tied
   bool contact = false;
 };
 

@@ -62,7 +62,7 @@ void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& take
                        word, shown(master_name));
     return;
   }
-  SurfaceTie tie = raw.made;
+  SurfaceTie tie = raw.in_model;
   tie.nodes = nodes_of_surface(build, *slave, slave_name);
   tie.faces = build.model.surfaces.at(master_name);
   tie.source = raw.where.at;
@@ -88,12 +88,12 @@ void read_abaqus_tie(AbaqusCard& card) {
         card.shown);
   AbaqusTie tie;
   const std::string_view tolerance = card.value("POSITIONTOLERANCE");
-  tie.made.distance = parse_real(tolerance).value_or(0.0);
-  if (card.has("POSITIONTOLERANCE") && !(tie.made.distance > 0.0))
+  tie.in_model.distance = parse_real(tolerance).value_or(0.0);
+  if (card.has("POSITIONTOLERANCE") && !(tie.in_model.distance > 0.0))
     card.error(ErrorCode::out_of_range, "has the position tolerance {}, expected a positive number",
                shown(tolerance));
-  tie.made.adjust = !same_word(card.value("ADJUST"), "NO");
-  tie.made.rotations = !card.has("NOROTATION");
+  tie.in_model.adjust = !same_word(card.value("ADJUST"), "NO");
+  tie.in_model.rotations = !card.has("NOROTATION");
   read_pairs(card, tie);
 }
 
@@ -115,8 +115,8 @@ void read_abaqus_contact_pair(AbaqusCard& card) {
                       "--contact tied joins them where they touch");
   AbaqusTie tie;
   tie.contact = true;
-  tie.made.adjust = false;
-  tie.made.distance = card.content.options.contact_distance;
+  tie.in_model.adjust = false;
+  tie.in_model.distance = card.content.options.contact_distance;
   read_pairs(card, tie);
 }
 

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 8> ansys_signs = {
 
 void note_passed_over(AnsysBuild& build) {
   std::string list;
-  for (const auto& [word, at] : build.content.passed_over)
+  for (const auto& [word, at] : build.content.ignored)
     list += fmt::format("{}{}", list.empty() ? "" : ", ", word);
   if (!list.empty()) build.file_note("ignored, of loads and analyses: {}", list);
 }

@@ -166,7 +166,7 @@ class AnsysElementBuilder {
     const AnsysType* type = b_.type(e);
     if (type == nullptr) return;
     const AnsysLibraryElement& library = *ansys_library_element(type->number);
-    if (library.family == F::passed_over) ++passed_over_[library.name];
+    if (library.family == F::ignored) ++ignored_[library.name];
     const bool line =
         library.family == F::beam2 || library.family == F::beam3 || library.family == F::rod;
     const bool solid =
@@ -253,7 +253,7 @@ class AnsysElementBuilder {
   }
 
   void notes() {
-    for (const auto& [name, count] : passed_over_)
+    for (const auto& [name, count] : ignored_)
       b_.file_note("{} {} have neither stiffness nor mass and are left out", count, name);
     if (!middles_.empty())
       b_.file_note("{} edges without their mid-side node are kept straight, by equations",
@@ -271,7 +271,7 @@ class AnsysElementBuilder {
 
   AnsysBuild& b_;
   std::vector<int> nodes_;
-  std::map<std::string, int> passed_over_;
+  std::map<std::string, int> ignored_;
   std::map<std::pair<int, int>, int> middles_;
 };
 

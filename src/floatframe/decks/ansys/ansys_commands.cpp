@@ -44,7 +44,7 @@ void set_lumped(AnsysFields& f, AnsysContent& c) {
 }
 
 void skip_with_block(AnsysFields& f, AnsysContent& c) {
-  c.passed_over.try_emplace(f.command(), f.at());
+  c.ignored.try_emplace(f.command(), f.at());
   f.skip_block();
 }
 
@@ -157,8 +157,7 @@ void read_command(AnsysFields& f, AnsysContent& c) {
   for (const auto& [names, advice] : ansys_refused)
     if (is_ansys_word(f, names)) f.stop(ErrorCode::unsupported, "{}: {}", word, advice);
   if (is_ansys_word(f, ansys_silent)) {
-    if (word.front() != '/' && !is_ansys_word(f, ansys_untold))
-      c.passed_over.try_emplace(word, f.at());
+    if (word.front() != '/' && !is_ansys_word(f, ansys_untold)) c.ignored.try_emplace(word, f.at());
     return;
   }
   if (word == "-1") return;  // the end of a block whose count came first

@@ -116,7 +116,7 @@ void read_ansys_rigid(AnsysFields& f, AnsysContent& c) {
 /// D,node,label,value,value2,last,increment,label,...
 void read_ansys_support(AnsysFields& f, AnsysContent& c) {
   if (!f.number(1)) {
-    c.passed_over.try_emplace("D of a selection", f.at());
+    c.ignored.try_emplace("D of a selection", f.at());
     return;
   }
   for (const std::size_t k : {2u, 7u, 8u, 9u, 10u, 11u}) {

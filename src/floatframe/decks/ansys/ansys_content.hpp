@@ -17,20 +17,20 @@
 namespace floatframe {
 
 enum class AnsysFamily {
-  brick,       ///< 8 nodes, may be a wedge, a pyramid or a tetrahedron
-  brick20,     ///< the same of second order
-  tet,         ///< 4 or 10 nodes
-  shell,       ///< 4 or 8 nodes, may be a triangle
-  beam2,       ///< 2 nodes and one for the orientation
-  beam3,       ///< 3 nodes and one for the orientation
-  rod,         ///< 2 nodes
-  mass,        ///< 1 node
-  spring,      ///< 2 nodes
-  matrix,      ///< 2 nodes
-  rigid,       ///< MPC184
-  contact,     ///< CONTA171 to 178
-  target,      ///< TARGE169, 170
-  passed_over  ///< neither stiffness nor mass: loads, meshes
+  brick,    ///< 8 nodes, may be a wedge, a pyramid or a tetrahedron
+  brick20,  ///< the same of second order
+  tet,      ///< 4 or 10 nodes
+  shell,    ///< 4 or 8 nodes, may be a triangle
+  beam2,    ///< 2 nodes and one for the orientation
+  beam3,    ///< 3 nodes and one for the orientation
+  rod,      ///< 2 nodes
+  mass,     ///< 1 node
+  spring,   ///< 2 nodes
+  matrix,   ///< 2 nodes
+  rigid,    ///< MPC184
+  contact,  ///< CONTA171 to 178
+  target,   ///< TARGE169, 170
+  ignored   ///< neither stiffness nor mass: loads, meshes
 };
 
 struct AnsysLibraryElement {
@@ -175,7 +175,7 @@ struct AnsysContent {
   int constraint = 0;                 ///< number of the last CE or CP
   int highest_element = 0;
   bool ended = false;  ///< /EOF
-  std::map<std::string, FeSource> passed_over;
+  std::map<std::string, FeSource> ignored;
 };
 
 /// Throws InputError at the first error of form.

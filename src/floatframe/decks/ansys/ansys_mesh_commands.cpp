@@ -231,7 +231,7 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
   if (known) {
     c.components.push_back(std::move(component));
   } else {
-    c.passed_over.try_emplace(fmt::format("CMBLOCK of {}", shown(f.text(2))), f.at());
+    c.ignored.try_emplace(fmt::format("CMBLOCK of {}", shown(f.text(2))), f.at());
   }
 }
 

@@ -127,10 +127,10 @@ void NastranBuild::note(const NastranCount& count, const std::string& text) {
 const Orientation& NastranBuild::frame(int id, const FeSource& at) {
   const auto it = frames_.find(id);
   if (it != frames_.end()) return it->second;
-  return frames_[id] = made(id, at);
+  return frames_[id] = make_frame(id, at);
 }
 
-Orientation NastranBuild::made(int id, const FeSource& at) {
+Orientation NastranBuild::make_frame(int id, const FeSource& at) {
   if (id == 0) return {};
   const auto by_nodes = content.node_systems.find(id);
   const bool nodes = by_nodes != content.node_systems.end();

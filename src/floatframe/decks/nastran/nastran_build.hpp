@@ -128,7 +128,7 @@ struct NastranBuild {
  private:
   int largest_id_ = 0;
   std::uint64_t spent_ = 0;
-  Orientation made(int id, const FeSource& at);
+  Orientation make_frame(int id, const FeSource& at);
   Orientation through(const std::array<Vec3, 3>& points, const NastranSystem& system);
   /// Where a node of a system is, before it is in the model.
   Vec3 place_of(int id, const NastranSystem& system);

@@ -18,7 +18,7 @@ void NastranFields::error_at(ErrorCode code, const FeSource& at, const std::stri
 int NastranFields::label(std::size_t i, const char* what) {
   const auto value = parse_label(card_.field(i));
   if (!value)
-    error_in(ErrorCode::missing, i, "{}",
+    error_in(blank(i) ? ErrorCode::missing : ErrorCode::not_a_number, i, "{}",
              blank(i) ? fmt::format("{} is missing", what)
                       : fmt::format("{} is {}, expected a whole number from 1", what,
                                     shown(card_.field(i))));
