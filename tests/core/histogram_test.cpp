@@ -87,9 +87,9 @@ TEST(Histogram, IsTheSameWhereItGoesOn) {
   Histogram h, other;
   for (const Nanoseconds x : {5, 700, 90'000, 90'100, 3'000'000}) h.add(x);
   Tape tape;
-  h.walk(tape);
+  h.serialize(tape);
   tape.reads = true;
-  other.walk(tape);
+  other.serialize(tape);
   EXPECT_TRUE(other.holds(5));
   EXPECT_FALSE(other.holds(6));
   EXPECT_EQ(other.percentile(0.5), h.percentile(0.5));
@@ -97,7 +97,7 @@ TEST(Histogram, IsTheSameWhereItGoesOn) {
   EXPECT_EQ(other.mean(), h.mean());
   tape.numbers[0] += 1.0;
   tape.at = 0;
-  other.walk(tape);
+  other.serialize(tape);
   EXPECT_FALSE(other.holds(5)) << "a count too many";
 }
 

@@ -101,7 +101,7 @@ TEST_P(ForceOfKind, MotionTakesEnergyOut) {
 // What springs keep, what dampers take and what the wrench does, in the motion at hand and with the
 // targets that move; tyres leave the account to their users.
 TEST_P(ForceOfKind, EnergyRateBelongsToTheEnergy) {
-  if (!regime().regular || GetParam().kind().account == ForceAccount::tyres) return;
+  if (!regime().regular || GetParam().kind().energy == EnergyCategory::tyres) return;
   for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const MarkerPair p{x.a, x.b};

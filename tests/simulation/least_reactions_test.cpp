@@ -88,7 +88,7 @@ TEST(LeastReactions, AreAnOrthogonalProjection) {
   MatX P(n, n);
   for (int k = 0; k < n; ++k) {
     VecX lambda = VecX::Unit(n, k);
-    least.shorten(lambda);
+    least.project_to_minimum_norm(lambda);
     P.col(k) = lambda;
   }
   EXPECT_EQ(n, 5 * (1 + 3 * cells));

@@ -129,7 +129,7 @@ simulation: {step: 0.01, duration: 0.3, output_interval: 0.1}
 /// Of one formulation at the start of a mechanism.
 template <class F>
 struct Solved {
-  StartedModel<F> started;
+  InitialisedModel<F> started;
   ReactionSolver<F> solver;
   explicit Solved(const Model& model, const SimulationDescription& o, InertiaMethod method)
       : started(model, with(o, method)),
@@ -297,7 +297,7 @@ TEST(Reactions, AreSampledWithoutAllocation) {
 template <class F>
 void expect_impulses_to_be_the_change_of_momentum() {
   const Model model = model_of(spatial_linkage);
-  StartedModel<F> started(model, model.simulation);
+  InitialisedModel<F> started(model, model.simulation);
   F& f = started.formulation();
   StepOptions options = started.step_options();
   AugmentedLagrangian<F> projecting(f, options);
@@ -308,7 +308,7 @@ void expect_impulses_to_be_the_change_of_momentum() {
   // Several steps: the first errors are round-off.
   for (int k = 0; k < 20; ++k) {
     rough = projected;
-    plain.set_experience(projecting.experience());
+    plain.set_tangent_reuse(projecting.tangent_reuse());
     ASSERT_TRUE(plain.step(rough, 2e-3).accepted());
     ASSERT_TRUE(projecting.step(projected, 2e-3).accepted());
     ASSERT_TRUE(rough.q == projected.q);

@@ -147,7 +147,7 @@ bool is_conservative(const ModelDescription& d) {
   for (const JointDescription& j : d.joints)
     if (j.motion) return false;
   for (const ForceDescription& f : d.forces) {
-    if (force_account(f.type()) != ForceAccount::springs) return false;
+    if (energy_category(f.type()) != EnergyCategory::springs) return false;
     const ForceView values(f);
     for (const ForceKey& key : force_keys(f.type())) {
       const auto signal = values.signal(key.name);

@@ -69,7 +69,7 @@ ModelDescription described(const StepArguments& a) {
 int run_steps(const StepArguments& a) {
   ModelDescription description = described(a);
   SimulationDescription& o = description.simulation;
-  set_clock(o, a.step, a.duration);
+  set_time_options(o, a.step, a.duration);
   if (!a.tolerance.empty()) o.tolerance = number_within("--tolerance", a.tolerance, 0.0, 1.0);
   if (!a.spectral_radius.empty())
     o.spectral_radius = number_within("--spectral-radius", a.spectral_radius, 0.0, 1.0);

@@ -135,7 +135,7 @@ std::string check_json(const ModelCounts& c, const Model& model) {
 /// The page of the model where a run of it begins.
 std::string page_of_start(const Model& model, const ModelCounts& counts) {
   require_page("--report");
-  StartedModel<RelativeFormulation> start(model, model.simulation);
+  InitialisedModel<RelativeFormulation> start(model, model.simulation);
   JointFollower joints(start.model());
   SystemState state = system_state(start.formulation(), start.state(), joints);
   place_bodies(start.model(), start.inertia(), state);

@@ -228,7 +228,7 @@ std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& syst
 
 template <class F>
 SystemState linearised_state(const Model& model) {
-  StartedModel<F> start(model, model.simulation);
+  InitialisedModel<F> start(model, model.simulation);
   JointFollower joints(start.model());
   SystemState state = system_state(start.formulation(), start.state(), joints);
   place_bodies(start.model(), start.inertia(), state);

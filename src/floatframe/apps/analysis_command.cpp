@@ -27,12 +27,12 @@ struct AnalysisArguments {
 /// Of an analysis that runs the model, perhaps many times.
 void require_steps(const SimulationDescription& simulation) {
   if (simulation.duration > 1e7 * simulation.step)
-    throw InputError(ErrorCode::too_large, place_of_clock(simulation),
+    throw InputError(ErrorCode::too_large, mark_of_time_settings(simulation),
                      fmt::format("a duration of {:g} s with a step of {:g} s takes more than 1e+07 "
                                  "steps; give a shorter --duration",
                                  simulation.duration, simulation.step));
   if (!(simulation.duration >= simulation.step))
-    throw InputError(ErrorCode::out_of_range, place_of_clock(simulation),
+    throw InputError(ErrorCode::out_of_range, mark_of_time_settings(simulation),
                      "the run is shorter than one step; give a --duration");
 }
 
@@ -74,7 +74,7 @@ int run_analysis(const Analysis& analysis, const AnalysisArguments& a) {
   ModelDescription description = read_model(a.model, false, &used);
   require_writable(output_files(analysis, a), files_of(used), a.overwrite);
   if (analysis.makes_steps) {
-    set_clock(description.simulation, a.step, a.duration);
+    set_time_options(description.simulation, a.step, a.duration);
     require_steps(description.simulation);
   }
   check_inertia_method(description, description.simulation.inertia);

@@ -145,8 +145,8 @@ double positive_number(const std::string& option, const std::string& text) {
   return option_number(option, text, positive_number("s"));
 }
 
-void set_clock(SimulationDescription& simulation, const std::string& step,
-               const std::string& duration) {
+void set_time_options(SimulationDescription& simulation, const std::string& step,
+                      const std::string& duration) {
   if (!step.empty()) {
     simulation.step = positive_number("--step", step);
     simulation.given_by("--step", "step");

@@ -64,8 +64,8 @@ int whole_option_number(const std::string& option, const std::string& text,
 /// A positive number of seconds.
 double positive_number(const std::string& option, const std::string& text);
 /// What --step and --duration say, where they are given.
-void set_clock(SimulationDescription& simulation, const std::string& step,
-               const std::string& duration);
+void set_time_options(SimulationDescription& simulation, const std::string& step,
+                      const std::string& duration);
 /// What --coordinates and --inertia say, likewise.
 void set_formulation(SimulationDescription& simulation, const std::string& coordinates,
                      const std::string& inertia);

@@ -143,7 +143,7 @@ int run_paced(const RealTimeArguments& arguments) {
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, false, &used);
   set_formulation(description.simulation, arguments.coordinates, arguments.inertia);
-  set_clock(description.simulation, arguments.step, arguments.duration);
+  set_time_options(description.simulation, arguments.step, arguments.duration);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   if (arguments.layout) {

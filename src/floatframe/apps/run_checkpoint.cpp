@@ -27,7 +27,7 @@ std::string list_text(const std::vector<std::string>& settings) {
 }
 
 template <class Stream, class Checkpoint>
-void walk_file(Stream& s, Checkpoint& c) {
+void serialize_file(Stream& s, Checkpoint& c) {
   s(c.origin.program);
   s(c.every);
   s(c.results.file.bytes);
@@ -64,7 +64,7 @@ std::string checkpoint_bytes(const CheckpointFile& c) {
   StateWriter out;
   out.raw(checkpoint_magic);
   out(checkpoint_version);
-  walk_file(out, c);
+  serialize_file(out, c);
   out(static_cast<std::uint64_t>(c.origin.files.size()));
   for (const auto& [file, hash] : c.origin.files) {
     out(file);
@@ -103,7 +103,7 @@ CheckpointFile read_checkpoint(const std::string& path) {
     refuse(ErrorCode::damaged, "is damaged: its checksum does not fit its content");
   StateReader in(bytes.subspan(head, end - head), "the checkpoint");
   CheckpointFile c;
-  walk_file(in, c);
+  serialize_file(in, c);
   std::uint64_t n = 0;
   std::string name, value;
   for (in(n); n > 0; --n) {

@@ -37,7 +37,7 @@ struct RunArguments {
 
 void apply(const RunArguments& arguments, SimulationDescription& simulation) {
   set_formulation(simulation, arguments.coordinates, arguments.inertia);
-  set_clock(simulation, arguments.step, arguments.duration);
+  set_time_options(simulation, arguments.step, arguments.duration);
   using States = RecordDescription::States;
   if (!arguments.record.empty())
     simulation.record.states = arguments.record == "none" ? States::none : States::states;

@@ -64,7 +64,7 @@ class Histogram {
 
   /// What a run keeps elsewhere; `holds` says whether what was read back can be one.
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     for (std::uint64_t& n : counts_) s(n);
     for (std::uint64_t* n : {&count_, &smallest_, &largest_}) s(*n);
     s(sum_);

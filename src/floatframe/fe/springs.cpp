@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_tied = 1200;
 
 /// Of each node: whether springs alone use it, and the axes of dofs that springs alone hold.
-struct LooseNodes {
+struct SpringOnlyNodes {
   std::vector<char> alone;
   std::vector<unsigned> mask;
   bool has(const Dof& dof) const { return (mask[dof.node] >> dof.axis & 1u) != 0; }
@@ -28,10 +28,10 @@ bool is_named(const FeModel& model, int node) {
   return k < model.node_names.size() && !model.node_names[k].empty();
 }
 
-LooseNodes loose_nodes(const FeModel& model) {
+SpringOnlyNodes spring_only_nodes(const FeModel& model) {
   const std::vector<int> others = dofs_without_springs(model);
   const std::size_t n = model.positions.size();
-  LooseNodes loose{std::vector<char>(n, 0), std::vector<unsigned>(n, 0)};
+  SpringOnlyNodes loose{std::vector<char>(n, 0), std::vector<unsigned>(n, 0)};
   for (int k = 0; k < model.nodes(); ++k) {
     const int count = others[k + 1];
     loose.alone[k] = count == 0;
@@ -53,10 +53,10 @@ unsigned axes_of(const Spring& s, int end) {
   return mask;
 }
 
-/// Joins of numbered things.
-class Joins {
+/// Sets of numbered things that grow together.
+class UnionFind {
  public:
-  explicit Joins(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
   int root(int k) {
     while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
     return k;
@@ -74,9 +74,10 @@ struct DofOrder {
 };
 
 /// Springs that share condensed dofs, as one stiffness.
-class Gathered {
+class CondensedSprings {
  public:
-  Gathered(const FeModel& model, const LooseNodes& loose) : model_(model), loose_(loose) {}
+  CondensedSprings(const FeModel& model, const SpringOnlyNodes& loose)
+      : model_(model), loose_(loose) {}
 
   void add(const Spring& s) { springs_.push_back(&s); }
 
@@ -149,7 +150,7 @@ class Gathered {
   }
 
   const FeModel& model_;
-  const LooseNodes& loose_;
+  const SpringOnlyNodes& loose_;
   std::vector<const Spring*> springs_;
   Places inner_, outer_;
 };
@@ -188,19 +189,19 @@ void add_bushing(FeModel& model, int a, int b, const Vec3& at, const Mat3& axes,
 SpringSystem spring_system(const FeModel& model, const DofTable& table) {
   SpringSystem out;
   if (model.springs.empty()) return out;
-  const LooseNodes loose = loose_nodes(model);
-  Joins joins(model.nodes());
+  const SpringOnlyNodes loose = spring_only_nodes(model);
+  UnionFind joins(model.nodes());
   const auto is_loose = [&](const Spring& s, int end) {
     const int node = s.nodes[end];
     return node >= 0 && (loose.mask[node] & axes_of(s, end)) != 0;
   };
   for (const Spring& s : model.springs)
     if (is_loose(s, 0) && is_loose(s, 1)) joins.join(s.nodes[0], s.nodes[1]);
-  std::map<int, Gathered> groups;
+  std::map<int, CondensedSprings> groups;
   for (const Spring& s : model.springs) {
     const int end = is_loose(s, 0) ? 0 : 1;
     if (!is_loose(s, end)) {
-      Gathered alone(model, loose);
+      CondensedSprings alone(model, loose);
       alone.add(s);
       alone.finish(out);
       continue;
@@ -221,7 +222,7 @@ SpringSystem spring_system(const FeModel& model, const DofTable& table) {
 }
 
 void add_spring_dofs(const FeModel& model, std::vector<int>& count) {
-  const LooseNodes loose = loose_nodes(model);
+  const SpringOnlyNodes loose = spring_only_nodes(model);
   for (const Spring& s : model.springs) {
     for (int end = 0; end < 2; ++end) {
       const int node = s.nodes[end];
@@ -263,7 +264,7 @@ std::vector<SpringError> spring_errors(const FeModel& model) {
 std::vector<int> nodes_on_springs(const FeModel& model) {
   std::vector<int> out;
   if (model.springs.empty()) return out;
-  const LooseNodes loose = loose_nodes(model);
+  const SpringOnlyNodes loose = spring_only_nodes(model);
   for (const Spring& s : model.springs)
     for (const int node : s.nodes)
       if (node >= 0 && loose.alone[node] != 0 && loose.mask[node] == 63u) out.push_back(node);

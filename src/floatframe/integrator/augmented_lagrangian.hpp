@@ -70,9 +70,9 @@ class AugmentedLagrangian {
 
   const StepOptions& options() const noexcept { return options_; }
 
-  /// With the same state and experience the next step is the same, bit for bit.
-  const IntegratorExperience& experience() const noexcept { return experience_; }
-  void set_experience(const IntegratorExperience& e) noexcept { experience_ = e; }
+  /// With the same state and the same record of reuse the next step is the same, bit for bit.
+  const TangentReuse& tangent_reuse() const noexcept { return reuse_; }
+  void set_tangent_reuse(const TangentReuse& e) noexcept { reuse_ = e; }
 
   /// Multipliers that go with the projected accelerations of the last accepted step. Those of the
   /// state belong to the accelerations before their projection, which are off by O(h).
@@ -94,36 +94,36 @@ class AugmentedLagrangian {
   /// What holds a freedom without mass is its stiffness times s, which next to the penalty may be
   /// less than round-off. A matrix with a vanishing pivot is made again with so much of the
   /// penalty, so often; the iterations that correct for a penalty that is finite see to the rest.
-  static constexpr double softer = 1e-2;
-  static constexpr int most_softer = 3;
-  static constexpr double stiffer = 100.0;
+  static constexpr double penalty_reduction = 1e-2;
+  static constexpr int max_penalty_reductions = 3;
+  static constexpr double retry_penalty_factor = 100.0;
   /// An acceleration that moves a rigid coordinate further than this in a step [m, rad] may not be
   /// that of the whole step: a second try leaves it out of its first guess.
-  static constexpr double farthest = 0.1;
+  static constexpr double max_predictor_step = 0.1;
   /// Passes of the projections end with one that leaves more than this: next to singular positions
   /// more of them would turn round-off of nearly dependent constraints into velocities.
-  static constexpr double slow = 0.5;
+  static constexpr double min_projection_rate = 0.5;
 
   StepAttempt advance(State& state, double h) noexcept {
     Scheme k(options_, h);
     StepAttempt report;
     report.size = h;
     // Experience from another run must not matter (the caller may round t).
-    if (!(std::abs(state.t - experience_.continues_at) < 1e-6 * h)) {
-      experience_.reuse_rate = 0.1;
+    if (!(std::abs(state.t - reuse_.valid_at) < 1e-6 * h)) {
+      reuse_.contraction = 0.1;
     }
     predict(state, k, false);
     newton(state, k, report);
     if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
       try_again(state, k, report);
     if (!report.accepted()) {
-      experience_.continues_at = std::numeric_limits<double>::quiet_NaN();
+      reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
-    experience_.continues_at = state.t;
+    reuse_.valid_at = state.t;
     state.q.swap(q_);
     state.v.swap(v_);
     state.a.swap(a_);
@@ -152,7 +152,7 @@ class AugmentedLagrangian {
       // trapezoidal rule turns them over in each step.
       const double steady = h * state.v[i];
       if (omega2[i] == no_inertia ||
-          (careful && omega2[i] == 0.0 && std::abs(x_[i] - steady) > farthest))
+          (careful && omega2[i] == 0.0 && std::abs(x_[i] - steady) > max_predictor_step))
         x_[i] = steady;
     }
     f_.settle(state.q, x_);
@@ -163,8 +163,8 @@ class AugmentedLagrangian {
   /// shorter step is no cure; and a body light beside its forces may have been thrown far off. The
   /// same step once more with a stiffer penalty and a careful first guess.
   void try_again(const State& state, Scheme& k, StepAttempt& report) noexcept {
-    k.penalty *= stiffer;
-    k.alpha *= stiffer;
+    k.penalty *= retry_penalty_factor;
+    k.alpha *= retry_penalty_factor;
     StepAttempt again;
     predict(state, k, true);
     newton(state, k, again);
@@ -246,20 +246,21 @@ class AugmentedLagrangian {
   /// Would a fresh tangent get there sooner than the one at hand? A rate above 0.9 hardly
   /// converges; else iterations left at that rate against one with its factorisation.
   void choose_tangent(Iterate& it) noexcept {
-    it.renew = experience_.reuse_rate > 0.9 ||
-               std::log(options_.tolerance / it.increment) / std::log(experience_.reuse_rate) >
+    it.renew = reuse_.contraction > 0.9 ||
+               std::log(options_.tolerance / it.increment) / std::log(reuse_.contraction) >
                    1.0 + F::factorization_cost;
-    // An old experience is trusted less and less: in time reuse is tried again.
-    if (it.renew) experience_.reuse_rate *= 0.8;
+    // Confidence in an old tangent decays, so that reuse is tried again after some steps.
+    if (it.renew) reuse_.contraction *= 0.8;
   }
 
   /// (g). False if it is singular, also with a softer penalty.
   bool renew_tangent(const Scheme& k, Iterate& it, StepAttempt& report) noexcept {
     int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
     ++report.factorizations;
-    for (int retry = 0; f_.constraints() > 0 && pivot >= 0 && retry < most_softer; ++retry) {
-      it.penalty *= softer;
-      it.alpha *= softer;
+    for (int retry = 0; f_.constraints() > 0 && pivot >= 0 && retry < max_penalty_reductions;
+         ++retry) {
+      it.penalty *= penalty_reduction;
+      it.alpha *= penalty_reduction;
       pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
       ++report.factorizations;
     }
@@ -293,8 +294,7 @@ class AugmentedLagrangian {
     ++report.iterations;
     const double rate = report.iterations > 1 && last > 0.0 ? it.increment / last : 1.0;
     it.error = rate < 0.5 ? it.increment * rate / (1.0 - rate) : it.increment;
-    if (report.iterations > 1 && last > 0.0 && !it.renew)
-      experience_.reuse_rate = std::min(rate, 1.0);
+    if (report.iterations > 1 && last > 0.0 && !it.renew) reuse_.contraction = std::min(rate, 1.0);
   }
 
   bool good_enough(const StepAttempt& report, double error) const noexcept {
@@ -311,8 +311,8 @@ class AugmentedLagrangian {
     double penalty = metric_penalty * k.penalty;
     int pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
     ++report.factorizations;
-    for (int retry = 0; pivot >= 0 && retry < most_softer; ++retry) {
-      penalty *= softer;
+    for (int retry = 0; pivot >= 0 && retry < max_penalty_reductions; ++retry) {
+      penalty *= penalty_reduction;
       pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
       ++report.factorizations;
     }
@@ -354,7 +354,7 @@ class AugmentedLagrangian {
       correct(v_, penalty);
       if (keeps_impulses_) impulses_ += penalty * work_;
       report.velocity_violation = largest(rate_);
-      if (report.velocity_violation > slow * before) break;
+      if (report.velocity_violation > min_projection_rate * before) break;
     }
   }
 
@@ -386,7 +386,7 @@ class AugmentedLagrangian {
   F& f_;
   StepOptions options_;
   const double spectral_radius_;  ///< that was asked for
-  IntegratorExperience experience_;
+  TangentReuse reuse_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, reactions_, rate_, work_, increments_, impulses_;
   bool keeps_impulses_ = false;

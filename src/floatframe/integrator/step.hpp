@@ -55,9 +55,9 @@ struct StepAttempt {
 };
 
 /// What the next step takes over from the last one beside the state.
-struct IntegratorExperience {
-  double continues_at = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step [s]
-  double reuse_rate = 0.1;  ///< convergence with a tangent that was not new
+struct TangentReuse {
+  double valid_at = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step [s]
+  double contraction = 0.1;  ///< convergence with a tangent that was not new
 };
 
 }  // namespace floatframe

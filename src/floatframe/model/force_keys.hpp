@@ -98,9 +98,9 @@ constexpr ForceMember access(T S::*) {
 }
 }  // namespace force_member
 
-/// `.member = kept_in<&SpringDamperDescription::spring>`
+/// `.member = described_by<&SpringDamperDescription::spring>`
 template <auto member>
-inline constexpr ForceMember kept_in = force_member::access<member>(member);
+inline constexpr ForceMember described_by = force_member::access<member>(member);
 
 /// The keys of a type.
 std::span<const ForceKey> force_keys(ForceType type) noexcept;

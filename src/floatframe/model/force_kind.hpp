@@ -83,7 +83,7 @@ struct ForceKind {
   const char* about;  ///< what it does: the documentation, a phrase in Markdown
   std::span<const ForceKey> keys;
   ForceMarkers markers = ForceMarkers::two;
-  ForceAccount account = ForceAccount::springs;
+  EnergyCategory energy = EnergyCategory::springs;
   /// The units of its results.
   ForceAxis axis = ForceAxis::along;
   /// It has a length and a rate.
@@ -131,24 +131,24 @@ constexpr std::array<ForceKey, 4> load_keys(ForceAxis axis) {
             .kind = ForceKeyKind::own_place,
             .about = "where it acts",
             .required = true,
-            .member = kept_in<&L::at>},
+            .member = described_by<&L::at>},
            {.name = "direction",
             .kind = ForceKeyKind::vector,
             .about = "used as given, not normalised",
             .required = true,
             .vector = {1.0, 0.0, 0.0},
             .axial = axis == ForceAxis::about,
-            .member = kept_in<&L::direction>},
+            .member = described_by<&L::direction>},
            {.name = "magnitude",
             .kind = ForceKeyKind::load,
             .about = "times the direction",
             .required = true,
             .axis = axis,
-            .member = kept_in<&L::magnitude>},
+            .member = described_by<&L::magnitude>},
            {.name = "follows",
             .kind = ForceKeyKind::flag,
             .about = "the direction turns with the body",
-            .member = kept_in<&L::follows>}}};
+            .member = described_by<&L::follows>}}};
 }
 
 /// A law at x on the branch that is held: the stretch of the spring and that of the damper.

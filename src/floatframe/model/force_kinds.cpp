@@ -28,7 +28,7 @@ using Types = std::make_index_sequence<std::size(force_types)>;
 
 const ForceKind& force_kind(ForceType type) noexcept { return *force_list[index_of(type)]; }
 
-ForceAccount force_account(ForceType type) noexcept { return force_kind(type).account; }
+EnergyCategory energy_category(ForceType type) noexcept { return force_kind(type).energy; }
 
 bool ends_at_half_turn(const Force& force) noexcept {
   const auto ends = force_kind(force.type).ends_at_half_turn;

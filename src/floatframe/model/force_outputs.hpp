@@ -13,13 +13,13 @@ const char* force_output_unit(const Force& force, ForceQuantity quantity) noexce
 bool force_has(ForceType type, ForceQuantity quantity) noexcept;
 
 /// Where the energy that an element exchanges is booked (simulation/energy_balance.hpp).
-enum class ForceAccount {
+enum class EnergyCategory {
   springs,  ///< it keeps ForceState::energy (zero if it only damps); ForceState::damping is of
             ///< dampers, the rest of actuators and targets
   tyres,    ///< the same, but its energy may jump
   loads     ///< it keeps nothing
 };
-ForceAccount force_account(ForceType type) noexcept;
+EnergyCategory energy_category(ForceType type) noexcept;
 
 /// A law of the element is one of a rotation vector, which jumps at half a turn.
 bool ends_at_half_turn(const Force& force) noexcept;

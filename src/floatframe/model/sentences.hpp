@@ -63,7 +63,7 @@ Complaint speed_table(const MatX& rows);
 Complaint bearing_stiffness(const MatX& K);
 std::string target_without_law();
 std::string motion_and_start_value();
-std::string keep_alone();
+std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);
 /// The piece from which the law jumps, and the sentence.

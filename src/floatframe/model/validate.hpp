@@ -24,7 +24,7 @@ void require_valid(const SimulationDescription& simulation);
 void require_valid_run(const SimulationDescription& simulation);
 /// Of a sentence about the step and the duration together: the option of the command line that gave
 /// one of them, else where the file says the step, the duration or the group.
-SourceMark place_of_clock(const SimulationDescription& simulation);
+SourceMark mark_of_time_settings(const SimulationDescription& simulation);
 
 namespace validation {
 

@@ -52,7 +52,7 @@ void joint_values(const JointDescription& j, const Entity& entity) {
   start_values(entity, "position", j.position, j.type);
   start_values(entity, "velocity", j.velocity, j.type);
   if (j.keep && j.position.empty() && j.velocity.empty())
-    entity.error(ErrorCode::incomplete, "keep", sentences::keep_alone());
+    entity.error(ErrorCode::incomplete, "keep", sentences::keep_without_start_value());
   if (!j.motion) return;
   if (!joint_has_one_coordinate(j.type)) {
     entity.error(ErrorCode::wrong_value, "motion",

@@ -63,10 +63,10 @@ void require_valid(const SimulationDescription& s) {
 void require_valid_run(const SimulationDescription& s) {
   require_valid(s);
   if (const auto complaint = sentences::steps(s.duration, s.step))
-    throw InputError(ErrorCode::out_of_range, place_of_clock(s), *complaint);
+    throw InputError(ErrorCode::out_of_range, mark_of_time_settings(s), *complaint);
 }
 
-SourceMark place_of_clock(const SimulationDescription& s) {
+SourceMark mark_of_time_settings(const SimulationDescription& s) {
   const SourceMark &step = s.origin.of("step"), &duration = s.origin.of("duration");
   // What the file says of one of them says little where the other came from elsewhere.
   const auto from_file = [&](const SourceMark& mark) {

@@ -215,7 +215,7 @@ std::string motion_and_start_value() {
   return "found with a prescribed motion, which decides it; remove this key";
 }
 
-std::string keep_alone() {
+std::string keep_without_start_value() {
   return "found without 'position' and 'velocity', expected one of them to keep";
 }
 

@@ -19,7 +19,7 @@ void check_clock(const RealTimeOptions& o, const SimulationDescription& s, Error
                            "step with the wall clock",
                            s.step));
   if (!o.endless && s.duration > rules::most_steps * s.step)
-    errors.add(ErrorCode::too_large, place_of_clock(s),
+    errors.add(ErrorCode::too_large, mark_of_time_settings(s),
                fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} steps",
                            s.duration, s.step, rules::most_steps));
 }

@@ -31,10 +31,10 @@ class BranchWatch {
 
   /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     s(highest_);
     s(first_ended_);
-    for (Dip* d : {&first_, &deepest_, &start_, &best_}) d->walk(s);
+    for (Dip* d : {&first_, &deepest_, &start_, &best_}) d->serialize(s);
   }
 
   /// The sentence about the first singular position, if there was one. Moves the formulation.
@@ -81,7 +81,7 @@ class BranchWatch {
       q = s.q;  // of the same size
     }
     template <class Stream>
-    void walk(Stream& s) {
+    void serialize(Stream& s) {
       for (double* x : {&found, &value, &t}) s(*x);
       s(q);
     }

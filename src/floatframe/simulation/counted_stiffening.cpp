@@ -143,7 +143,7 @@ class OperatingPoint {
 
  private:
   const Model& model_;
-  StartedModel<RelativeFormulation> start_;
+  InitialisedModel<RelativeFormulation> start_;
   std::optional<ModalStiffness> with_, without_;
 };
 

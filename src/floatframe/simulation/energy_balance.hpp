@@ -52,11 +52,11 @@ FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
     const MarkerState& a = force.a >= 0 ? f.marker(force.a) : b;
     // What the wrench does and the spring does not keep or give.
     const double rest = wrench_power(force, s.wrench, a, b) + s.energy_rate;
-    const ForceAccount account = force_account(force.type);
-    if (account == ForceAccount::tyres) {
+    const EnergyCategory category = energy_category(force.type);
+    if (category == EnergyCategory::tyres) {
       p[EnergyFlow::tyres] += rest;
       sample.tyres += s.energy;
-    } else if (account == ForceAccount::loads) {
+    } else if (category == EnergyCategory::loads) {
       p[EnergyFlow::loads] += rest;
     } else {
       p[EnergyFlow::dampers] -= s.damping;
@@ -163,7 +163,7 @@ class EnergyBalance {
 
   /// For a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     for (double* x :
          {&time_, &start_, &remainder_, &largest_, &largest_at_, &noise_, &last_.tyres,
           &last_.targeted, &present_, &growth_, &growth_from_, &growth_to_, &checked_at_})

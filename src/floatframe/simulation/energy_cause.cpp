@@ -112,7 +112,7 @@ std::string energy_cause(const Model& model, double from, double to, double step
   for (const Joint& j : model.joints)
     if (j.motion) finder.motion(j.name, *j.motion, joint_unit_name(j.type, 0));
   for (const Force& f : model.forces) {
-    const bool load = force_account(f.type) == ForceAccount::loads;
+    const bool load = energy_category(f.type) == EnergyCategory::loads;
     const std::string owner = fmt::format(" of force '{}'", f.name);
     if (load || f.driven)
       finder.sampled((load ? "the magnitude" : "the actuator") + owner, f.magnitude,

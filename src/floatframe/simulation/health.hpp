@@ -37,7 +37,7 @@ class HealthEffort {
   }
   /// For a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     for (double* x : {&position_, &velocity_}) s(*x);
     for (long& n : before_) s(n);
   }

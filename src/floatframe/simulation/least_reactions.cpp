@@ -158,8 +158,7 @@ void LeastReactions<F>::add_normal_equations(const Side& s, const Side& t, int r
   double* corner = &front(std::max(os, ot), std::min(os, ot));
   const double* u = rows_of_J_.data() + low.at;
   const double* v = rows_of_J_.data() + high.at;
-  if (low.size == 6 && high.size == 6)
-    return add_product(u, v, rows, corner, front.rows());
+  if (low.size == 6 && high.size == 6) return add_product(u, v, rows, corner, front.rows());
   for (int r = 0; r < rows; ++r)
     for (int j = 0; j < high.size; ++j)
       for (int i = 0; i < low.size; ++i)
@@ -263,7 +262,7 @@ bool LeastReactions<F>::solve_sparse() noexcept {
 }
 
 template <class F>
-void LeastReactions<F>::shorten(VecX& lambda) noexcept {
+void LeastReactions<F>::project_to_minimum_norm(VecX& lambda) noexcept {
   times_transpose(lambda, load_);
   if (solve_sparse())
     lambda = least_;
@@ -272,7 +271,7 @@ void LeastReactions<F>::shorten(VecX& lambda) noexcept {
 }
 
 template <class F>
-void LeastReactions<F>::shorten(const F& f, Reactions& reactions) noexcept {
+void LeastReactions<F>::project_to_minimum_norm(const F& f, Reactions& reactions) noexcept {
   find_load(f, reactions);
   if (!solve_sparse()) {
     multipliers(reactions, least_);

@@ -35,9 +35,9 @@ class LeastReactions {
   /// J at the present positions of f.
   void place(const F& f, double t) noexcept;
   /// The reactions of least norm with the same effect as these, in place, after `place`.
-  void shorten(const F& f, Reactions& reactions) noexcept;
+  void project_to_minimum_norm(const F& f, Reactions& reactions) noexcept;
   /// (1) of multipliers, in place.
-  void shorten(VecX& lambda) noexcept;
+  void project_to_minimum_norm(VecX& lambda) noexcept;
   /// The wrenches of lambda.
   void wrenches(const VecX& lambda, Reactions& reactions) const noexcept;
 

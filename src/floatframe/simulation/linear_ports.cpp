@@ -9,8 +9,8 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/simulation/excited_system.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
-#include "floatframe/simulation/shaken_system.hpp"
 #include "floatframe/simulation/simulation_options.hpp"
 
 namespace floatframe {
@@ -47,28 +47,29 @@ double step_along(const VecX& motion, const VecX& steps) {
 
 /// dy of a unit of what moves x, v and a by these columns.
 template <class F>
-VecX output_column(ShakenSystem<F>& shaken, double h, const VecX& x, const VecX& v, const VecX& a) {
+VecX output_column(ExcitedSystem<F>& excited, double h, const VecX& x, const VecX& v,
+                   const VecX& a) {
   return precise_differences(
              VecX::Constant(1, h), 0,
-             [&](const VecX& s) { return shaken.outputs(s[0] * x, s[0] * v, s[0] * a); })
+             [&](const VecX& s) { return excited.outputs(s[0] * x, s[0] * v, s[0] * a); })
       .columns;
 }
 
 template <class F>
-void find_output_columns(ShakenSystem<F>& shaken, const std::vector<double>& input_steps,
+void find_output_columns(ExcitedSystem<F>& excited, const std::vector<double>& input_steps,
                          const LinearInputs& moved, LinearModel& linear) {
   const LinearSystem& system = linear.system;
   const Eigen::Index nv = system.x_of.rows(), nz = system.A.rows(),
                      ny = linear.output_values.size(),
                      nu = static_cast<Eigen::Index>(linear.inputs.size());
-  F& f = shaken.formulation();
-  const VecX steps = motion_steps(f.model(), possible_masses(f, shaken.state()));
+  F& f = excited.formulation();
+  const VecX steps = motion_steps(f.model(), possible_masses(f, excited.state()));
   linear.C.resize(ny, nz);
   for (Eigen::Index z = 0; z < nz; ++z) {
     tell_progress("outputs", 1.0 * z / nz);
     const VecX x = system.x_of.col(z), v = system.v_of.col(z);
     const double h = std::min({step_along(x, steps), step_along(v, 10.0 * steps), 1e3});
-    linear.C.col(z) = output_column(shaken, h, x, v, VecX(system.a_of.col(z)));
+    linear.C.col(z) = output_column(excited, h, x, v, VecX(system.a_of.col(z)));
   }
   for (MatX& D : linear.D) D = MatX::Zero(ny, nu);
   const VecX still = VecX::Zero(nv);
@@ -80,11 +81,11 @@ void find_output_columns(ShakenSystem<F>& shaken, const std::vector<double>& inp
       const VecX v = k < 2 ? VecX(moved.v[k].col(j)) : still;
       const VecX a = moved.a[k].col(j);
       linear.D[k].col(j) = precise_differences(VecX::Constant(1, h), 0, [&](const VecX& s) {
-                             shaken.move(input, s[0] * Vec3::Unit(k));
-                             return shaken.outputs(s[0] * x, s[0] * v, s[0] * a);
+                             excited.move(input, s[0] * Vec3::Unit(k));
+                             return excited.outputs(s[0] * x, s[0] * v, s[0] * a);
                            }).columns;
     }
-    shaken.move(input, Vec3::Zero());
+    excited.move(input, Vec3::Zero());
   }
 }
 
@@ -95,9 +96,9 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   linear.inputs = chosen(linear_inputs(model), ports.inputs, "input");
   const std::vector<Output> outputs = chosen(model.outputs, ports.outputs, "output");
   for (const Output& output : outputs) linear.outputs.push_back({output.name, output.unit});
-  StartedModel<F> started(model, options);
-  ShakenSystem<F> shaken(started, outputs, options.step);
-  F& f = shaken.formulation();
+  InitialisedModel<F> started(model, options);
+  ExcitedSystem<F> excited(started, outputs, options.step);
+  F& f = excited.formulation();
   const Eigen::Index nv = f.velocities(), nc = f.constraints(),
                      nu = static_cast<Eigen::Index>(linear.inputs.size());
   InputMotions motions;
@@ -110,25 +111,25 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   linear.input_values.resize(nu);
   for (Eigen::Index j = 0; j < nu; ++j) {
     const LinearInput& input = linear.inputs[static_cast<std::size_t>(j)];
-    steps.push_back(shaken.step_of(input));
-    shaken.derivatives(input, steps.back(), j, motions);
-    linear.input_values[j] = shaken.value(input);
+    steps.push_back(excited.step_of(input));
+    excited.derivatives(input, steps.back(), j, motions);
+    linear.input_values[j] = excited.value(input);
   }
-  f.positions(shaken.state().t, shaken.state().q);
-  f.velocities(shaken.state().v);
+  f.positions(excited.state().t, excited.state().q);
+  f.velocities(excited.state().v);
   for (LinearInput& input : linear.inputs)
     if (input.wheels.size() == 1) {
       const Force& wheel = model.forces[static_cast<std::size_t>(input.wheels[0])];
       input.place = (f.marker(wheel.b).r + f.origin()).x();
     }
   LinearInputs moved;
-  linear.system = linear_system_at(f, shaken.state(), &motions, &moved);
-  linear.time = shaken.state().t;
+  linear.system = linear_system_at(f, excited.state(), &motions, &moved);
+  linear.time = excited.state().t;
   const VecX still = VecX::Zero(nv);
-  linear.output_values = shaken.outputs(still, still, still);
+  linear.output_values = excited.outputs(still, still, still);
   for (int k = 0; k < 3; ++k) linear.B[k] = moved.B[k];
-  find_output_columns(shaken, steps, moved, linear);
-  for (const std::string& name : shaken.open_outputs())
+  find_output_columns(excited, steps, moved, linear);
+  for (const std::string& name : excited.open_outputs())
     linear.system.notes.push_back(
         fmt::format("output {} is not unique, since constraints are redundant: of the reactions "
                     "that are possible those of least norm are given",

@@ -239,7 +239,7 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
 }
 
 /// "joint 'ball', coordinate 2" where several have one owner.
-std::vector<std::string> told_apart(const std::vector<std::string>& owners) {
+std::vector<std::string> disambiguated_names(const std::vector<std::string>& owners) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < owners.size(); ++k) {
     const auto same = std::count(owners.begin(), owners.end(), owners[k]);
@@ -330,7 +330,7 @@ LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int co
 
 LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
                             const InputMotions* inputs, LinearInputs* response, int slowest) {
-  const std::vector<std::string> coordinates = told_apart(owners);
+  const std::vector<std::string> coordinates = disambiguated_names(owners);
   const InputMotions none = no_inputs(m.M.rows(), m.J.rows());
   const InputMotions& u = inputs ? *inputs : none;
   const FreeCoordinates c = free_coordinates(m, u);

@@ -82,7 +82,7 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
 
 template <class F>
 LinearSystem system_of(const Model& model, const SimulationDescription& options, int slowest) {
-  StartedModel<F> started(model, options);
+  InitialisedModel<F> started(model, options);
   return linear_system_at(started.formulation(), started.state(), nullptr, nullptr, slowest);
 }
 

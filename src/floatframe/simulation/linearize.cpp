@@ -11,7 +11,7 @@ namespace {
 
 template <class F>
 Linearization linearized(const Model& model, const SimulationDescription& options) {
-  StartedModel<F> started(model, options);
+  InitialisedModel<F> started(model, options);
   F& f = started.formulation();
   SmallMotions terms = small_motions(f, started.state());
   Linearization l;

@@ -24,8 +24,8 @@ bool consistent(const SteppedMemory& m, double step) {
     return false;
   const double expected = m.base + static_cast<double>(m.since_base) * step;
   if (!(std::abs(expected - t) <= 1e-6 * step + 1e-12 * std::abs(t))) return false;
-  const IntegratorExperience& e = m.runner.experience;
-  if (!(e.reuse_rate >= 0.0 && e.reuse_rate <= 1.0) || std::isinf(e.continues_at)) return false;
+  const TangentReuse& e = m.runner.tangent_reuse;
+  if (!(e.contraction >= 0.0 && e.contraction <= 1.0) || std::isinf(e.valid_at)) return false;
   const StepCounters& c = m.runner.counters;
   for (const long n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short, c.edges,
                        c.edges_passed, c.corners})

@@ -32,8 +32,8 @@ class MotionWatch {
 
   const RangeWatch& range() const noexcept { return range_; }
   template <class Stream>
-  void walk(Stream& s) {
-    range_.walk(s);
+  void serialize(Stream& s) {
+    range_.serialize(s);
   }
 
   /// Deformation, spin and turn of all bodies.

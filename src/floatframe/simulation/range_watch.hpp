@@ -42,7 +42,7 @@ struct Largest {
     }
   }
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     std::int64_t n = node;
     for (double* x : {&value, &at, &first}) s(*x);
     s(n);
@@ -79,8 +79,8 @@ class BodyRange {
   std::string node_name(int node) const;
   /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
-  void walk(Stream& s) {
-    for (Largest* l : {&displacement_, &rotation_, &spin_, &turn_}) l->walk(s);
+  void serialize(Stream& s) {
+    for (Largest* l : {&displacement_, &rotation_, &spin_, &turn_}) l->serialize(s);
   }
 
  private:
@@ -120,7 +120,7 @@ class PhaseMeter {
   double speed() const noexcept;  ///< root mean square of what is not uniform [m/s, rad/s]
   long count() const noexcept { return count_; }
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     for (double* x : {&spread_, &changes_}) s(*x);
     s(count_);
     for (Vec3* v : {&previous_, &mean_}) s(*v);
@@ -152,11 +152,11 @@ class RangeWatch {
   std::vector<RangeWarning> warnings(const EnergySummary& energy, double spectral_radius,
                                      std::span<const TimeCorner> corners) const;
   template <class Stream>
-  void walk(Stream& s) {
-    for (BodyRange& body : bodies_) body.walk(s);
+  void serialize(Stream& s) {
+    for (BodyRange& body : bodies_) body.serialize(s);
     for (std::vector<PhaseMeter>& of_body : meters_)
-      for (PhaseMeter& meter : of_body) meter.walk(s);
-    turns_.walk(s);
+      for (PhaseMeter& meter : of_body) meter.serialize(s);
+    turns_.serialize(s);
   }
 
  private:

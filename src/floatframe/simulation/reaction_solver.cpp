@@ -96,7 +96,7 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   collect_wrenches();
   if (!least_) return;
   least_->place(f_, state.t);
-  least_->shorten(f_, reactions_);
+  least_->project_to_minimum_norm(f_, reactions_);
 }
 
 template <class F>
@@ -195,7 +195,7 @@ void ReactionSolver<F>::find_open_outputs(const State& start) {
       part[i] = output_value(view, o, nothing);
     }
     VecX held = part;
-    least_->shorten(held);
+    least_->project_to_minimum_norm(held);
     if ((part - held).norm() > left_open * part.norm()) open_.push_back(o.name);
   }
 }

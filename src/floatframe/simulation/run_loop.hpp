@@ -126,7 +126,7 @@ class Run {
     s.status = "interrupted";
     s.message = fmt::format("interrupted at t = {:.9g} s of {:.9g} s", steps_.state().t,
                             steps_.begin() + o_.duration);
-    if (checkpoint_every_ > 0) check_point();
+    if (checkpoint_every_ > 0) write_checkpoint();
     return false;
   }
 
@@ -161,12 +161,12 @@ class Run {
   /// Between steps. False: it cannot be written.
   bool flush_if_due() {
     if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
-      return check_point();
+      return write_checkpoint();
     const bool rows = block_ && block_->due(), states = state_block_ && state_block_->due();
     return (!rows && !states) || flush();
   }
 
-  bool check_point() {
+  bool write_checkpoint() {
     if (!flush()) return false;
     RunMemory m;
     m.made = made_;

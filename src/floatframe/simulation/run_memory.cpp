@@ -43,11 +43,11 @@ RunIdentity run_identity(const Model& model, const SimulationDescription& o,
 namespace {
 
 template <class Stream, class Memory>
-void walk_run(Stream& s, Memory& m) {
+void serialize_run(Stream& s, Memory& m) {
   s(m.made);
   s(m.cpu);
-  m.step_times.walk(s);
-  walk_steps(s, m.steps);
+  m.step_times.serialize(s);
+  serialize_steps(s, m.steps);
   s(m.joints);
 }
 
@@ -63,16 +63,16 @@ std::string difference(const RunIdentity& found, const RunIdentity& own) {
 
 }  // namespace
 
-void walk_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory) {
+void serialize_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory) {
   for (const auto& [name, value] : identity) {
     s(name);
     s(value);
   }
-  walk_run(s, memory);
+  serialize_run(s, memory);
 }
 
-RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
-                      double step, std::size_t joints, std::int64_t planned) {
+RunMemory serialize_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
+                           double step, std::size_t joints, std::int64_t planned) {
   RunIdentity found(identity.size());
   for (auto& [name, value] : found) {
     s(name);
@@ -84,7 +84,7 @@ RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const Stepped
   if (const std::string text = difference(found, identity); !text.empty())
     refuse(ErrorCode::mismatch, text);
   RunMemory memory;
-  walk_run(s, memory);
+  serialize_run(s, memory);
   if (const std::string text = memory_complaint(memory.steps, own, step); !text.empty())
     refuse(ErrorCode::mismatch, text);
   if (memory.made != memory.steps.since_base || memory.made >= planned ||

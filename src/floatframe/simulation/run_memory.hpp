@@ -35,11 +35,11 @@ struct RunMemory {
   std::vector<double> joints;  ///< followed for the state at the end
 };
 
-void walk_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory);
+void serialize_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory);
 /// Throws InputError if the identity is another one or the memory is not one of a run of `planned`
 /// steps of that size, with this memory and number of joint coordinates.
-RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
-                      double step, std::size_t joints, std::int64_t planned);
+RunMemory serialize_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
+                           double step, std::size_t joints, std::int64_t planned);
 
 inline constexpr const char* checkpoint_name = "the checkpoint";
 
@@ -48,8 +48,8 @@ template <class Watch>
 RunCheckpoint to_checkpoint(const RunIdentity& identity, RunMemory& memory,
                             std::optional<Watch>& watch) {
   StateWriter out;
-  walk_memory(out, identity, memory);
-  if (watch) watch->walk(out);
+  serialize_memory(out, identity, memory);
+  if (watch) watch->serialize(out);
   return {memory.steps.state.t, std::move(out.bytes)};
 }
 
@@ -59,8 +59,8 @@ RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& id
                           const SteppedMemory& own, double step, std::size_t joints,
                           std::int64_t planned, std::optional<Watch>& watch) {
   StateReader in(checkpoint.bytes, checkpoint_name);
-  RunMemory memory = walk_memory(in, identity, own, step, joints, planned);
-  if (watch) watch->walk(in);
+  RunMemory memory = serialize_memory(in, identity, own, step, joints, planned);
+  if (watch) watch->serialize(in);
   if (!in.at_end())
     throw InputError(ErrorCode::damaged,
                      std::string(checkpoint_name) + " is damaged: it goes on after its end");

@@ -83,11 +83,11 @@ class RunWatch {
 
   /// What was watched so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
-  void walk(Stream& s) {
-    balance_.walk(s);
-    motion_.walk(s);
-    branches_.walk(s);
-    effort_.walk(s);
+  void serialize(Stream& s) {
+    balance_.serialize(s);
+    motion_.serialize(s);
+    branches_.serialize(s);
+    effort_.serialize(s);
     s(records_);
   }
 
@@ -140,7 +140,7 @@ class RunWatch {
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
       const double energy = f_.force(static_cast<int>(k)).energy;
       e.potential += energy;
-      (force_account(f_.model().forces[k].type) == ForceAccount::tyres ? e.tyres : e.springs) +=
+      (energy_category(f_.model().forces[k].type) == EnergyCategory::tyres ? e.tyres : e.springs) +=
           energy;
     }
     e.elastic = f_.elastic_energy(s.q);

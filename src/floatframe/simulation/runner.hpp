@@ -26,7 +26,7 @@ namespace floatframe {
 /// What a runner has beside the state and the formulation: with it, the next steps and outputs are
 /// the same, bit for bit.
 struct RunnerMemory {
-  IntegratorExperience experience;
+  TangentReuse tangent_reuse;
   std::vector<FollowedOutput> outputs;
   std::vector<double> inputs;  ///< that the accelerations of the state belong to
   StepCounters counters;
@@ -81,13 +81,13 @@ class Runner {
 
   RunnerMemory memory() const {
     RunnerMemory m = memory_;
-    m.experience = integrator_.experience();
+    m.tangent_reuse = integrator_.tangent_reuse();
     return m;
   }
   /// `m.outputs` has one entry for each output of the model.
   void set_memory(const RunnerMemory& m) {
     memory_ = m;
-    integrator_.set_experience(m.experience);
+    integrator_.set_tangent_reuse(m.tangent_reuse);
   }
 
   /// Advances by h, in substeps if need be. False: the step did not converge at the smallest

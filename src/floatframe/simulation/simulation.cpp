@@ -17,7 +17,7 @@ namespace floatframe {
 void check_step(const SimulationDescription& o) {
   if (o.duration > 0.0 && !(o.step <= o.duration * (1.0 + 1e-9)))
     throw InputError(
-        ErrorCode::out_of_range, place_of_clock(o),
+        ErrorCode::out_of_range, mark_of_time_settings(o),
         fmt::format(
             "the step of {:g} s is longer than the duration of {:g} s: expected at least one step",
             o.step, o.duration));

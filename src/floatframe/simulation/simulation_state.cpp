@@ -24,14 +24,14 @@ std::string checksum(std::span<const std::byte> bytes) {
 
 /// The content in one order, for writing and for reading.
 template <class Stream, class Data>
-void walk(Stream& s, Data& d) {
+void serialize(Stream& s, Data& d) {
   s(d.fingerprint);
   for (auto* n : {&d.coordinates, &d.inertia, &d.max_iterations, &d.locate_edges, &d.input}) s(*n);
   for (auto* x : {&d.step, &d.spectral_radius, &d.tolerance, &d.min_step, &d.penalty,
                   &d.position_tolerance, &d.velocity_tolerance, &d.joints_time})
     s(*x);
   for (auto* v : {&d.inputs, &d.row, &d.joints}) s(*v);
-  walk_steps(s, d.steps);
+  serialize_steps(s, d.steps);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::vector<std::byte> SimulationState::to_bytes() const {
   StateWriter out;
   out.raw(state_magic);
   out(state_version);
-  walk(out, *data_);
+  serialize(out, *data_);
   out.raw(checksum(out.bytes));
   return std::move(out.bytes);
 }
@@ -69,7 +69,7 @@ SimulationState SimulationState::from_bytes(std::span<const std::byte> bytes) {
                      "the saved state is damaged: its checksum does not fit its content");
   auto data = std::make_shared<Data>();
   StateReader in(content.subspan(state_magic.size() + 8), saved_state);
-  walk(in, *data);
+  serialize(in, *data);
   if (!in.at_end())
     throw InputError(ErrorCode::damaged, "the saved state is damaged: it goes on after its end");
   return SimulationState(std::move(data));

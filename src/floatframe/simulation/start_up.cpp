@@ -48,7 +48,7 @@ const Model& movable(const Model& model) {
 }  // namespace
 
 template <class F>
-StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o)
+InitialisedModel<F>::InitialisedModel(const Model& given, const SimulationDescription& o)
     : given_(movable(built(given))),
       changed_(started_model(given, o)),
       inertia_(o.inertia),
@@ -75,7 +75,7 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
 }
 
 template <class F>
-StartedModel<F>::StartedModel(const StartedModel& found)
+InitialisedModel<F>::InitialisedModel(const InitialisedModel& found)
     : given_(found.model()),
       inertia_(found.inertia_),
       f_(model(), inertia_),
@@ -87,7 +87,7 @@ StartedModel<F>::StartedModel(const StartedModel& found)
   f_.set_spring_angles(spring_angles_);
 }
 
-template class StartedModel<RelativeFormulation>;
-template class StartedModel<AbsoluteFormulation>;
+template class InitialisedModel<RelativeFormulation>;
+template class InitialisedModel<AbsoluteFormulation>;
 
 }  // namespace floatframe

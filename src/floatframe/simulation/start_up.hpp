@@ -15,14 +15,14 @@ namespace floatframe {
 
 /// F: RelativeFormulation or AbsoluteFormulation, whatever the options say of coordinates.
 template <class F>
-class StartedModel {
+class InitialisedModel {
  public:
   /// The options must be valid (`require_valid`); the model must outlive this. Throws InputError
   /// for a state of another model, RunError if the start cannot be.
-  StartedModel(const Model& given, const SimulationDescription& options);
+  InitialisedModel(const Model& given, const SimulationDescription& options);
   /// Another system at the start of `found`, which must outlive it: nothing is searched for again.
-  StartedModel(const StartedModel& found);
-  StartedModel& operator=(const StartedModel&) = delete;
+  InitialisedModel(const InitialisedModel& found);
+  InitialisedModel& operator=(const InitialisedModel&) = delete;
 
   /// That of the formulation: with the start values of the state, if the run starts from one.
   const Model& model() const noexcept { return changed_ ? *changed_ : given_; }
@@ -48,7 +48,7 @@ class StartedModel {
   double min_step_;
 };
 
-extern template class StartedModel<RelativeFormulation>;
-extern template class StartedModel<AbsoluteFormulation>;
+extern template class InitialisedModel<RelativeFormulation>;
+extern template class InitialisedModel<AbsoluteFormulation>;
 
 }  // namespace floatframe

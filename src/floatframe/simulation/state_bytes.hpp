@@ -118,15 +118,15 @@ class StateReader {
 
 /// All that decides the next steps.
 template <class Stream, class Memory>
-void walk_steps(Stream& s, Memory& m) {
+void serialize_steps(Stream& s, Memory& m) {
   s(m.since_base);
   s(m.base);
   s(m.state.t);
   for (auto* v : {&m.state.q, &m.state.v, &m.state.a, &m.state.a_alg, &m.state.lambda}) s(*v);
   s(m.spring_angles);
   s(m.force_branches);
-  s(m.runner.experience.continues_at);
-  s(m.runner.experience.reuse_rate);
+  s(m.runner.tangent_reuse.valid_at);
+  s(m.runner.tangent_reuse.contraction);
   s(m.runner.outputs);
   s(m.runner.inputs);
   auto& c = m.runner.counters;

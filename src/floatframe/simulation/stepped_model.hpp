@@ -41,7 +41,7 @@ struct SteppedMemory {
 template <class F>
 class SteppedModel {
  public:
-  /// Finds the start; see StartedModel for what it asks and throws.
+  /// Finds the start; see InitialisedModel for what it asks and throws.
   SteppedModel(const Model& model, const SimulationDescription& options,
                const StepLimits& limits = {});
   /// Another system at the start of `found`, which must outlive it: nothing is searched for again.
@@ -101,7 +101,7 @@ class SteppedModel {
   void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void prepare_reactions();
 
-  StartedModel<F> start_;
+  InitialisedModel<F> start_;
   F& f_;
   StepOptions step_options_;
   double min_step_;  ///< [s]

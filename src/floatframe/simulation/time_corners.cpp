@@ -155,7 +155,7 @@ std::vector<Forcing> all_forcing(const Model& model) {
                      static_cast<int>(k)});
   }
   for (const Force& f : model.forces) {
-    const bool load = force_account(f.type) == ForceAccount::loads;
+    const bool load = energy_category(f.type) == EnergyCategory::loads;
     const std::string owner = " '" + f.name + "'";
     if (load || f.driven)
       out.push_back({Kind::load, (load ? "the load" : "the actuator of") + owner, &f.magnitude});

@@ -49,7 +49,7 @@ class TurnWatch {
 
   /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
-  void walk(Stream& s) {
+  void serialize(Stream& s) {
     for (Watched& x : watched_) {
       s(x.theta);
       for (double* number : {&x.first, &x.most}) s(*number);

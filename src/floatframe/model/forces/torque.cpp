@@ -35,7 +35,7 @@ ForceExample torque_example(std::size_t regime, ExampleNumbers& numbers) {
 constinit const ForceKind torque_element = {.about = "torque on a body",
                                             .keys = torque_keys,
                                             .markers = ForceMarkers::one,
-                                            .account = ForceAccount::loads,
+                                            .energy = EnergyCategory::loads,
                                             .axis = ForceAxis::about,
                                             .measured = false,
                                             .blank =

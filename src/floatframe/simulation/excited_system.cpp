@@ -1,4 +1,4 @@
-#include "floatframe/simulation/shaken_system.hpp"
+#include "floatframe/simulation/excited_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,8 @@ Model with_lifts(const Model& model, std::vector<Output> outputs) {
 }  // namespace
 
 template <class F>
-ShakenSystem<F>::ShakenSystem(StartedModel<F>& started, std::vector<Output> outputs, double step)
+ExcitedSystem<F>::ExcitedSystem(InitialisedModel<F>& started, std::vector<Output> outputs,
+                                double step)
     : model_(with_lifts(started.model(), std::move(outputs))),
       f_(model_, started.inertia()),
       state_(started.state()),
@@ -45,13 +46,13 @@ ShakenSystem<F>::ShakenSystem(StartedModel<F>& started, std::vector<Output> outp
 }
 
 template <class F>
-const std::vector<std::string>& ShakenSystem<F>::open_outputs() const noexcept {
+const std::vector<std::string>& ExcitedSystem<F>::open_outputs() const noexcept {
   static const std::vector<std::string> none;
   return reactions_ ? reactions_->open_outputs() : none;
 }
 
 template <class F>
-double ShakenSystem<F>::value(const LinearInput& input) const {
+double ExcitedSystem<F>::value(const LinearInput& input) const {
   const auto k = static_cast<std::size_t>(input.index);
   switch (input.kind) {
     case LinearInput::Kind::signal:
@@ -64,7 +65,7 @@ double ShakenSystem<F>::value(const LinearInput& input) const {
 }
 
 template <class F>
-void ShakenSystem<F>::move(const LinearInput& input, const Vec3& by) {
+void ExcitedSystem<F>::move(const LinearInput& input, const Vec3& by) {
   const auto k = static_cast<std::size_t>(input.index);
   if (input.kind == LinearInput::Kind::signal) {
     std::vector<double> moved = inputs_;
@@ -81,7 +82,7 @@ void ShakenSystem<F>::move(const LinearInput& input, const Vec3& by) {
 }
 
 template <class F>
-VecX ShakenSystem<F>::balance() {
+VecX ExcitedSystem<F>::balance() {
   const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
   VecX all(nv + 3 * nc), r(nv), rows(nc);
   f_.positions(state_.t, state_.q);
@@ -98,7 +99,7 @@ VecX ShakenSystem<F>::balance() {
 }
 
 template <class F>
-double ShakenSystem<F>::step_of(const LinearInput& input) {
+double ExcitedSystem<F>::step_of(const LinearInput& input) {
   if (input.kind == LinearInput::Kind::road) return 1e-4;
   if (input.kind == LinearInput::Kind::motion) return 1e-3;  // constraints are linear in it
   const double first = 1e-3 * std::max(1.0, std::abs(value(input)));
@@ -111,8 +112,8 @@ double ShakenSystem<F>::step_of(const LinearInput& input) {
 }
 
 template <class F>
-void ShakenSystem<F>::derivatives(const LinearInput& input, double step, Eigen::Index column,
-                                  InputMotions& out) {
+void ExcitedSystem<F>::derivatives(const LinearInput& input, double step, Eigen::Index column,
+                                   InputMotions& out) {
   const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
   for (int k = 0; k <= input.order(); ++k) {
     const VecX size = VecX::Constant(1, step * std::pow(10.0, k));
@@ -129,7 +130,7 @@ void ShakenSystem<F>::derivatives(const LinearInput& input, double step, Eigen::
 }
 
 template <class F>
-VecX ShakenSystem<F>::outputs(const VecX& x, const VecX& dv, const VecX& da) {
+VecX ExcitedSystem<F>::outputs(const VecX& x, const VecX& dv, const VecX& da) {
   State s = state_;
   f_.retract(state_.q, x, s.q);
   s.v = state_.v + dv;
@@ -150,7 +151,7 @@ VecX ShakenSystem<F>::outputs(const VecX& x, const VecX& dv, const VecX& da) {
   return y;
 }
 
-template class ShakenSystem<RelativeFormulation>;
-template class ShakenSystem<AbsoluteFormulation>;
+template class ExcitedSystem<RelativeFormulation>;
+template class ExcitedSystem<AbsoluteFormulation>;
 
 }  // namespace floatframe

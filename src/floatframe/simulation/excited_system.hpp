@@ -16,12 +16,12 @@
 namespace floatframe {
 
 template <class F>
-class ShakenSystem {
+class ExcitedSystem {
  public:
   /// At the start that was found, with these outputs alone.
-  ShakenSystem(StartedModel<F>& started, std::vector<Output> outputs, double step);
-  ShakenSystem(const ShakenSystem&) = delete;
-  ShakenSystem& operator=(const ShakenSystem&) = delete;
+  ExcitedSystem(InitialisedModel<F>& started, std::vector<Output> outputs, double step);
+  ExcitedSystem(const ExcitedSystem&) = delete;
+  ExcitedSystem& operator=(const ExcitedSystem&) = delete;
 
   F& formulation() noexcept { return f_; }
   const State& state() const noexcept { return state_; }
@@ -49,7 +49,7 @@ class ShakenSystem {
   std::vector<FollowedOutput> followed_;
 };
 
-extern template class ShakenSystem<RelativeFormulation>;
-extern template class ShakenSystem<AbsoluteFormulation>;
+extern template class ExcitedSystem<RelativeFormulation>;
+extern template class ExcitedSystem<AbsoluteFormulation>;
 
 }  // namespace floatframe
