@@ -165,7 +165,7 @@ class Misuse(CommandLine):
                 (("run", "pendulum.yaml", "--step", "nan"), "--step: found 'nan', expected a positive number [s]"),
                 (("run", "pendulum.yaml", "--step", "1ms"), "--step: found '1ms', expected a positive number [s]"),
                 (("run", "pendulum.yaml", "--duration", "inf"), "--duration: found 'inf'"),
-                (("run", "pendulum.yaml", "--step", "1e-300"), "takes more than 1e+09 steps"),
+                (("run", "pendulum.yaml", "--step", "1e-300"), "1e+09 steps"),
                 (("run", "pendulum.yaml", "--set", "mass"), "--set: found 'mass', expected NAME=VALUE"),
                 (("check", "pendulum.yaml", "--set", "=3"), "--set: found '=3', expected NAME=VALUE"),
                 (("bench",), "a command is required: iltis, chain, scaling, start or step"),
@@ -370,8 +370,7 @@ class CheckAndStatics(CommandLine):
     def test_mass_models_that_do_not_go_with_the_inertia_method_have_a_place(self):
         pathlib.Path(self.folder, "bar.yaml").write_text(BAR)
         for command in ("check", "statics", "run", "advise", "mass"):
-            self.expect(2, command, "bar.yaml", err="bar.yaml:10:19: bodies.bar.flexible.mass_model: found six_dof with inertia "
-                        "terms by preprocessing, expected isoparametric or hermite (or projection)")
+            self.expect(2, command, "bar.yaml", err="bar.yaml:10:19: bodies.bar.flexible.mass_model: found six_dof")
 
     def test_statics(self):
         result = json.loads(self.expect(0, "statics", "pendulum.yaml", "--json").stdout)
@@ -390,7 +389,7 @@ class CheckAndStatics(CommandLine):
                 self.assertAlmostEqual(value, wanted, 14)
         self.assertEqual([body["name"] for body in result["bodies"]], ["rod"])
         self.expect(0, "mass", "pendulum.yaml", out="pendulum: mass 2 kg, t = 0 s\n")
-        self.expect(2, "mass", "pendulum.yaml", "--set", "mass=0", err="found bodies without mass, expected one with mass")
+        self.expect(2, "mass", "pendulum.yaml", "--set", "mass=0", err="bodies without mass")
 
 
 class Bench(CommandLine):

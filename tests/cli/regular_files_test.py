@@ -41,7 +41,7 @@ class RegularFiles(unittest.TestCase):
     def tearDown(self):
         self.holder.cleanup()
 
-    def refused(self, *arguments, message="this is not a regular file"):
+    def refused(self, *arguments, message="regular file"):
         done = subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
                               timeout=120, check=False, preexec_fn=limit_memory)
         self.assertEqual(done.returncode, 2, done.stderr + done.stdout)

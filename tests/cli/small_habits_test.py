@@ -44,7 +44,7 @@ class SmallHabits(RunCase):
     def test_settings_that_are_refused(self):
         for setting, message in (("step=-1", "--set: step: found '-1', expected "), ("stepp=1", "stepp"),
                                  ("coordinates=polar", "--set: coordinates: found 'polar', expected relative or absolute"),
-                                 ("simulation.nothing=1", "simulation.nothing"), ("step=1e-300", "takes more than 1e+09 steps")):
+                                 ("simulation.nothing=1", "simulation.nothing"), ("step=1e-300", "1e+09 steps")):
             done = self.program("run", "m.yaml", "--set", setting, "--out", "run", code=2)
             self.assertIn(message, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -101,7 +101,7 @@ class SmallHabits(RunCase):
                 archive.writestr(info, content)
         again = self.program("check", "part.yaml").stderr
         self.assertIn("what was kept cannot be read: ", again)
-        self.assertIn("its content is not what was written", again)
+        self.assertIn("content is not", again)
         self.assertIn("reduced to", again)
         self.assertIn("from the cache", self.program("check", "part.yaml").stderr)
 

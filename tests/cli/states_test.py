@@ -240,7 +240,7 @@ class States(RunCase):
                       refused("out", "--add", "z: {position: slidr, axis: x}"))
         self.assertIn("--add:1:1: outputs: the column 'tip.x' exists already", refused("out", "--add", "tip: {position: slider}"))
         self.assertIn("--add:1:", refused("out", "--add", "z: {position: [slider"))
-        self.assertIn("impulses of projections are not in the states of a run",
+        self.assertIn("impulses of projections",
                       refused("out", "--add", "z: {projection_impulse: guide, axis: y}"))
         self.assertIn("out/report.html: this is not a result file of a run", refused("out/report.html", *add))
         self.assertIn("No such file", refused("nothing.ffr", *add))

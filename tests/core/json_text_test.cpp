@@ -35,7 +35,7 @@ TEST(JsonText, WhatIsNotJson) {
   for (const char* text : {"", "[", "]", "{\"a\" 1}", "[1e999]", "\"\xff\"", "1 2"}) {
     std::string why;
     EXPECT_TRUE(read_json(text, why).is_discarded()) << text;
-    EXPECT_EQ(why, "damaged, or not JSON") << text;
+    EXPECT_TRUE(why.starts_with("damaged")) << text << ": " << why;
   }
 }
 
