@@ -148,17 +148,17 @@ std::string linearize_csv(const LinearizeResult& r) {
   const StateSpace& s = r.space;
   std::string text = "of";
   for (const std::string& state : s.states) text += "," + csv_field(state);
-  for (const Column& c : s.inputs) text += "," + csv_field(csv_title(c.name, c.unit));
+  for (const Column& c : s.inputs) text += "," + csv_title(c.name, c.unit);
   text += "\n";
-  const auto row = [&](const std::string& name, const MatX& left, const MatX& right,
+  const auto row = [&](const std::string& title, const MatX& left, const MatX& right,
                        Eigen::Index k) {
-    text += csv_field(name);
+    text += title;
     for (Eigen::Index j = 0; j < left.cols(); ++j) text += fmt::format(",{:.17g}", left(k, j));
     for (Eigen::Index j = 0; j < right.cols(); ++j) text += fmt::format(",{:.17g}", right(k, j));
     text += "\n";
   };
   for (std::size_t k = 0; k < s.states.size(); ++k)
-    row("derivative of " + s.states[k], s.A, s.B, static_cast<Eigen::Index>(k));
+    row(csv_field("derivative of " + s.states[k]), s.A, s.B, static_cast<Eigen::Index>(k));
   for (std::size_t k = 0; k < s.outputs.size(); ++k)
     row(csv_title(s.outputs[k].name, s.outputs[k].unit), s.C, s.D, static_cast<Eigen::Index>(k));
   return text;

@@ -155,7 +155,7 @@ std::string response_csv(const ResponseResult& r) {
       columns.emplace_back(csv_title(o.output.name + " density", density_unit(o.output)),
                            o.density);
   std::string text;
-  for (const auto& [title, values] : columns) text += (text.empty() ? "" : ",") + csv_field(title);
+  for (const auto& [title, values] : columns) text += (text.empty() ? "" : ",") + title;
   text += "\n";
   for (std::size_t k = 0; k < r.frequencies.size(); ++k) {
     for (std::size_t c = 0; c < columns.size(); ++c)

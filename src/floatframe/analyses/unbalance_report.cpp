@@ -111,8 +111,8 @@ std::string unbalance_json(const std::string& model, const UnbalanceOptions& o,
 std::string unbalance_csv(const UnbalanceResponse& r) {
   std::string text = "speed [rad/s]";
   for (const UnbalanceCurve& c : r.curves)
-    text += "," + csv_field(csv_title(c.output.name + " amplitude", c.output.unit)) + "," +
-            csv_field(csv_title(c.output.name + " phase", "deg"));
+    text += "," + csv_title(c.output.name + " amplitude", c.output.unit) + "," +
+            csv_title(c.output.name + " phase", "deg");
   text += "\n";
   std::vector<ComplexParts> curves;
   for (const UnbalanceCurve& c : r.curves) curves.push_back(parts_over_speed(c));
