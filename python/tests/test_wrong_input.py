@@ -122,7 +122,7 @@ def test_code_and_path_say_what_and_where(tmp_path):
     file = tmp_path / "pendulum.yaml"
     file.write_text(PENDULUM.replace("mass: 1", "mass: -1").replace("child: arm", "child: arms").replace("axis: y", "axis: y, colour: red"))
     found = {(error.line, error.path, error.code) for error in refused(lambda: ff.Model.load(file)).errors}
-    assert found == {(4, "bodies.arm.rigid.mass", "out_of_range"), (6, "joints.pin.child", "not_found"), (6, "", "unknown_key")}
+    assert found == {(4, "bodies.arm.rigid.mass", "out_of_range"), (6, "joints.pin.child", "not_found"), (6, "joints.pin.colour", "unknown_key")}
 
 
 def test_a_start_that_cannot_be_has_a_code(tmp_path):

@@ -278,7 +278,8 @@ TEST(Bushing, SaysWhatIsWrong) {
   EXPECT_EQ(error(ends + "}"), "model.yaml:5:3: forces.mount: missing");
   EXPECT_EQ(error(ends + ", axis: y, axis_2: [0, -2, 0], spring_x: 1}"),
             "model.yaml:5:116: forces.mount.axis_2: geometry");
-  EXPECT_EQ(error(ends + ", spring_w: 1, spring_x: 1}"), "model.yaml:5:99: unknown_key");
+  EXPECT_EQ(error(ends + ", spring_w: 1, spring_x: 1}"),
+            "model.yaml:5:99: forces.mount.spring_w: unknown_key");
   EXPECT_EQ(error(ends + ", damper_rx: 1, rotation_rate: angular}"),
             "model.yaml:5:128: forces.mount.rotation_rate: wrong_value");
   EXPECT_EQ(

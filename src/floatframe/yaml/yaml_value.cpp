@@ -246,7 +246,7 @@ std::optional<YamlValue> YamlSection::get(const char* key) {
   asked_.emplace_back(key);
   const YamlEntry* e = find(key);
   if (!e) return std::nullopt;
-  return YamlValue(value_.context(), *e, path().empty() ? std::string(key) : path() + "." + key);
+  return YamlValue(value_.context(), *e, path_of(key));
 }
 
 std::optional<YamlValue> YamlSection::require(const char* key) {
@@ -277,14 +277,15 @@ void YamlSection::finish(const std::vector<std::string>& elsewhere) {
       const std::string* best = errors.suggest() ? nearest(e.key, last) : nullptr;
       if (best) hint = ", did you mean '" + elsewhere[best - last.data()] + "'?";
     }
-    errors.add(ErrorCode::unknown_key, place(e),
-               path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
+    errors.add({place(e), ErrorCode::unknown_key,
+                path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint, 1,
+                path_of(shortened(e.key))});
   }
   if (const std::size_t more = unknown.size() - shown; more > 0)
-    errors.add(ErrorCode::unknown_key, place(*unknown[shown]),
-               path_prefix() + "... and " + std::to_string(more) +
-                   (more == 1 ? " more unknown key" : " more unknown keys"),
-               more);
+    errors.add({place(*unknown[shown]), ErrorCode::unknown_key,
+                path_prefix() + "... and " + std::to_string(more) +
+                    (more == 1 ? " more unknown key" : " more unknown keys"),
+                more, path()});
 }
 
 Origin YamlSection::origin() const {

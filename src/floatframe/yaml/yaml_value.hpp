@@ -170,6 +170,9 @@ class YamlSection {
  private:
   const YamlEntry* find(const char* key) const;
   std::string path_prefix() const { return path().empty() ? std::string() : path() + ": "; }
+  std::string path_of(const std::string& key) const {
+    return path().empty() ? key : path() + "." + key;
+  }
   YamlValue value_;
   SourceMark mark_;
   std::vector<std::string> asked_;
