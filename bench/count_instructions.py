@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Instructions of one step, by room: what callgrind counts does not depend on the load of the machine.
+"""Instructions of one step, by room: counts of callgrind are independent of the load of the machine.
 
 usage: bench/count_instructions.py [--json FILE] [--case NAME ...] [--growth] [--build DIR] [--jobs N]
 
-Builds the program with line tables in a folder of its own (build-profile, AVX2), runs `floatframe bench step` under
-callgrind, which counts only inside the function that makes the steps, and adds up by the source file of each
-function. Looks besides for what a step must not do: take memory from the heap, copy memory by library calls, call
-through a pointer (virtual dispatch). Exit code 1 if it does any of these, 2 if a tool is missing.
+Builds the program with line tables in a separate folder (build-profile, AVX2), runs `floatframe bench step` under callgrind,
+which counts only inside the function that makes the steps, and sums up by the source file of each function. Also detects
+operations that a step must not do: allocate from the heap, copy memory by library calls, call through a pointer (virtual
+dispatch). Exit code 1 if there are any, 2 if a tool is missing.
 
---growth adds full Newton iterations of chains with other numbers of elements, interface nodes, modes and links.
+--growth adds full Newton iterations of chains with different numbers of elements, interface nodes, modes and links.
 """
 import argparse
 import collections
@@ -56,7 +56,7 @@ def need(*tools):
 
 
 def build(folder, jobs):
-    """The program with line tables; returns its path."""
+    """Builds the program with line tables; returns its path."""
     configure = ["cmake", "-S", str(ROOT), "-B", str(folder), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                  "-DFLOATFRAME_HWCAPS=OFF", "-DFLOATFRAME_TESTS=OFF", "-DFLOATFRAME_BENCHMARKS=OFF",
                  "-DCMAKE_CXX_FLAGS=-march=x86-64-v3 -g1"]
@@ -102,7 +102,7 @@ def room_of(path, obj):
 
 
 class Profile:
-    """What a callgrind output file (strings and positions not compressed) says."""
+    """Parsed callgrind output file (strings and positions not compressed)."""
 
     def __init__(self, path, library):
         self.rooms = collections.Counter()
@@ -155,10 +155,10 @@ class Profile:
                             self.switches += cost
 
     def callers(self, pattern):
-        """Who calls functions of this name how often."""
+        """Callers of functions with this name, with counts."""
         found = collections.Counter()
         for (caller, called), n in self.calls.items():
-            # What the allocator calls inside itself is one call of the allocator.
+            # Calls inside the allocator count as one call of the allocator.
             if pattern.search(called) and not HEAP.search(caller):
                 found[caller] += n
         return found

@@ -1,5 +1,5 @@
-// What a gauge costs at an instant: von Mises stress of a bar in motion against its modes, with and
-// without what its own inertia and weight add. The accelerations are there already.
+// Cost of a gauge per instant: von Mises stress of a moving bar against its number of modes, with
+// and without the contribution of its own inertia and weight. The accelerations are given.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>

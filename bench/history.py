@@ -5,10 +5,10 @@ usage: bench/history.py record [--program FILE] [--no-counts] [--no-scaling] [--
        bench/history.py compare [NEW [OLD]] [--program FILE] [--no-counts] [--fail-above RATIO]
        bench/history.py list
 
-record   runs `floatframe bench chain`, `bench iltis`, `bench scaling`, floatframe_benchmarks (if it is built beside
+record   runs `floatframe bench chain`, `bench iltis`, `bench scaling`, floatframe_benchmarks (if it is built next to
          the program) and bench/count_instructions.py and writes
          bench/history/<date>_<commit>.json
-compare  prints new/old for every figure both have. NEW and OLD are recorded files, or parts of their names; without
+compare  prints new/old for every figure that both have. NEW and OLD are recorded files, or parts of their names; without
          them the newest is compared with the one before it. NEW = `run` measures now and writes nothing.
 
 Times are compared in units of one dense Cholesky factorisation (98 x 98) measured in the same run, because seconds of

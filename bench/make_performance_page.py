@@ -3,8 +3,8 @@
 
 usage: bench/make_performance_page.py [RUN]
 
-RUN is a file of bench/history (or a part of its name); without it the newest one. Everything between the marks
-<!-- BEGIN name --> and <!-- END name --> is replaced, and the plots in docs/figures are drawn anew.
+RUN is a file of bench/history (or a part of its name); without it the newest one. Everything between the marks <!-- BEGIN name
+--> and <!-- END name --> is replaced, and the plots in docs/figures are redrawn.
 """
 import json
 import pathlib
@@ -288,8 +288,8 @@ BLOCKS = {
     "modes": lambda run: sweep_table(run, "modes", ["modes"]),
     "bodies": lambda run: sweep_table(run, "bodies", ["links"]),
     "iltis": iltis, "preprocessing": preprocessing, "instructions": instructions, "kernels": kernels,
-    "starts": start_table.block,  # from its own record: bench/starts.json
-    "race": race_table.block,  # from its own record: bench/peers/record.json
+    "starts": start_table.block,  # from the record bench/starts.json
+    "race": race_table.block,  # from the record bench/peers/record.json
 }
 
 

@@ -5,7 +5,7 @@ usage: bench/paper_figures.py [5] [6] [7] [--program FILE] [--recorded] [--out F
 
 5  height of the chassis over time, absolute and relative coordinates
 6  height of the left front wheel, the same
-7  processor seconds of the manoeuvre against the number of finite elements, the four combinations, beside the paper's;
+7  processor seconds of the manoeuvre against the number of finite elements, the four combinations, with those of the paper;
    --recorded takes the newest recorded run of bench/history instead of measuring
 Without a number all three are drawn.
 """

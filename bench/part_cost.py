@@ -3,9 +3,9 @@
 
     bench/part_cost.py [--program build/floatframe] [--sizes 17,9,6] [--repeat 5] [--arm-modes 4]
 
-Meshes the front A-arm of examples/iltis_solid with Gmsh (must be installed) at several element sizes [mm], reduces each once (the
-cache keeps it) and runs the vehicle with each in turn, `--repeat` times; every size has the same number of modes. The
-figure is processor time over Newton iterations, the least of the repetitions, relative to the first size.
+Meshes the front A-arm of examples/iltis_solid with Gmsh (must be installed) at several element sizes [mm], reduces each once
+(results are cached) and runs the vehicle with each in turn, `--repeat` times; every size has the same number of modes. The
+figure is processor time over Newton iterations, the minimum of the repetitions, relative to the first size.
 """
 import argparse
 import gzip

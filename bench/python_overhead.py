@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What Python costs: a step, a callback, an output, an input; processor time, the least of fifteen rounds. The model is so
-small that its steps are not the larger part: in C++ the same step takes about 0.95 us where this prints 1.16 us.
+"""Cost of Python: a step, a callback, an output, an input; processor time, the minimum of fifteen rounds. The model is so small
+that its steps do not dominate: in C++ the same step takes about 0.95 us where this prints 1.16 us.
 
 Usage: PYTHONPATH=build/python python3 bench/python_overhead.py
 """

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What outputs of reactions cost: the flexible Iltis with the forces and torques of its 24 joints in every row, and without; then
-six legs of Jansen on one crank, whose constraints are redundant, with the force of the crank's joint.
+"""Cost of reaction outputs: the flexible Iltis with the forces and torques of its 24 joints in every row, and without; then six
+legs of Jansen on one crank, whose constraints are redundant, with the force of the crank's joint.
 
     bench/reactions.py [--program build/floatframe] [--repeat 5]
 
-Every step is a row. Printed is what a row of reactions takes beyond one without, as a part of a step: processor times
-of the steps, least of the repeated runs, taken in turns."""
+Every step is a row. Prints the additional cost of a row with reactions over one without, as a fraction of a step: processor
+times of the steps, minimum of the repeated runs, taken in turns."""
 import argparse
 import json
 import pathlib

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What it costs that results go to disk while a run goes on, and the memory that a long run needs.
+"""Cost of writing results to disk during a run, and the memory use of a long run.
 
     bench/streaming.py [--program build/floatframe] [--repeat 5] [--long 600]
 
 Each run is made twice: into `results.csv`, and with `results.csv` a link to /dev/null. A device cannot be read back, so the
-rows are then kept in memory and written at the end, as one text. Printed are the processor time of the whole program and of
-its steps alone (least of the repeated runs, taken in turns) and the largest resident memory (VmHWM)."""
+rows are then kept in memory and written at the end, as one text. Prints the processor time of the whole program and of its
+steps alone (minimum of the repeated runs, taken in turns) and the largest resident memory (VmHWM)."""
 import argparse
 import json
 import os
@@ -37,7 +37,7 @@ def measured(program, folder, arguments, streamed):
     if not streamed:
         results.symlink_to("/dev/null")
     process = subprocess.Popen([program, "run", *arguments, "--out", str(out), "--quiet"])
-    peak = 0  # of the system's own figure for a child that has ended, this program's memory would be a part
+    peak = 0  # polled: the system's figure for an ended child includes memory of this program
     while (ended := os.wait4(process.pid, os.WNOHANG))[0] == 0:
         peak = max(peak, peak_memory(process.pid))
         time.sleep(0.005)

@@ -1,8 +1,8 @@
-"""Small charts as SVG text: curves on logarithmic axes and stacked bars. Nothing but the standard library."""
+"""Small charts as SVG text: curves on logarithmic axes and stacked bars. Uses only the standard library."""
 import html
 import math
 
-# Colours that colour-blind readers can tell apart (Okabe and Ito), and a dash pattern each for print in grey.
+# Colours that colour-blind readers can distinguish (Okabe and Ito), and a dash pattern each for grey print.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999", "#8c564b", "#f0e442"]
 DASHES = ["", "6 3", "2 3", "8 3 2 3", "1 2", "10 4"]
 FONT = 'font-family="sans-serif" font-size="12"'
@@ -32,8 +32,8 @@ def _ticks(low, high, logarithmic):
 
 
 def curves(title, x_label, y_label, series, x_log=True, y_log=True, y_range=None):
-    """series: list of (name, [(x, y), ...]) or (name, points, colour, dashes), the last two by their number; a name that
-    ends in * is drawn without markers (a reference line)."""
+    """series: list of (name, [(x, y), ...]) or (name, points, colour, dashes), the last two as indices; a name that ends in *
+    is drawn without markers (a reference line)."""
     series = [(s[0], s[1], *(s[2:] or (k, k))) for k, s in enumerate(series)]
     rows = max(2, (len(series) + 2) // 3)
     width, left, right, top, bottom = 640, 66, 20, 34, 56 + 18 * rows

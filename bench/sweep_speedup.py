@@ -1,24 +1,24 @@
 #!/usr/bin/env python3
-"""How much faster a study is with two runs at a time than with one, with two independent studies as calibration.
+"""Speed-up of a study by two runs at a time over one, with two independent studies as calibration.
 
     bench/sweep_speedup.py [--program build/floatframe] [--runs 64] [--repeat 3] [--duration S] [--mpi]
                            [--against PROGRAM]
 
-Each repetition times, one after the other: all runs one at a time; two at a time; two studies side by side with half
-of the runs each, one at a time (what the machine can give to two programs that share nothing); with --mpi all runs in
-two MPI processes. The ratios are those of the wall times to that of one at a time. `processors` is the processor time
-divided by the wall time: below 2 in the parallel columns the machine had other work to do, and the ratio says as much
-about that as about the program. "per processor" is the ratio of processor times, which shows what workers cost each
-other whatever the load: 1 if nothing. The tables of all variants are compared byte for byte.
+Each repetition times, in sequence: all runs one at a time; two at a time; two simultaneous studies with half of the runs each,
+one at a time (the capacity of the machine for two programs that share nothing); with --mpi all runs in two MPI processes. The
+ratios are those of the wall times to that of one at a time. `processors` is the processor time divided by the wall time: below
+2 in the parallel columns the machine was loaded by other work, and the ratio partly reflects that load. "per processor" is the
+ratio of processor times, which shows the mutual slowdown of workers independent of the load: 1 if there is none. The tables of
+all variants are compared byte for byte.
 
---against times another build of the program beside this one, one run at a time, in turn: what a change costs. With
---duration 1.3 a run of the Iltis takes about 0.05 s, so that what is done for every run counts.
+--against times another build of the program in turn with this one, one run at a time: the effect of a change. With --duration
+1.3 a run of the Iltis takes about 0.05 s, so that the overhead per run becomes visible.
 
-At last one study with two runs at a time is watched from outside (/proc/<pid>/schedstat): for the program and every
-process that it makes the time it ran, the time it was ready but had no processor, which is the machine's, and the
-rest, in which it waited for another. The estimate for two free processors is the sum of all processor times over the
-time of all but the workers, half of that of the two workers (runs are handed out one by one, so that both get the
-same), and the longest waiting of a worker, less the time for which those that it waits for had no processor.
+Finally a study with two runs at a time is monitored externally (/proc/<pid>/schedstat): for the program and each of its
+processes the time it ran, the time it was ready without a processor, which is due to the machine, and the remaining time, in
+which it waited for another process. The estimate for two free processors is the sum of all processor times over the time of all
+but the workers, half of that of the two workers (runs are distributed one by one, so that both get the same), and the longest
+waiting of a worker, less the time for which the processes it waited for had no processor.
 """
 import argparse
 import os
@@ -53,7 +53,7 @@ def timed(commands, environment=None):
 def descendants(pid):
     try:
         children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    except OSError:  # it has just ended
+    except OSError:  # the process has just ended
         return []
     return [pid] + [found for child in children for found in descendants(int(child))]
 

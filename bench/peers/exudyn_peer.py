@@ -1,6 +1,6 @@
 """Exudyn: flexible chains (floating frame, Hurty-Craig-Bampton modes of the mesh of models.py) and rigid ones.
 
-The plane of motion is x-y here, so that the hinges are about z; y stands for z of models.py.
+The plane of motion is x-y here, so that the hinges are about z; y corresponds to z of models.py.
 """
 import sys
 import time
@@ -25,13 +25,13 @@ def reduced_link():
     fem.massMatrix, fem.stiffnessMatrix = models.link_matrices()
     ends = models.faces(positions)
     fem.ComputeHurtyCraigBamptonModes(ends, models.NORMAL_MODES, computationMode=FEM.HCBstaticModeSelection.RBE2)
-    # All nodes of a face move as one rigid body: its four corners give the same marker as all eight, sooner.
+    # All nodes of a face move as one rigid body: its four corners give the same marker as all eight, in less time.
     corners = [[n for n in end if np.abs(positions[n, 1:]).min() > 0.4 * models.SIDE] for end in ends]
     return fem, corners
 
 
 def check(times):
-    """One link by pendulum_check.py, with the modes of Exudyn."""
+    """One link integrated by pendulum_check.py with the modes of Exudyn."""
     fem, _ = reduced_link()
     return pendulum_check.tip(fem.modeBasis["matrix"], fem.massMatrix, fem.stiffnessMatrix, times)
 
@@ -39,8 +39,8 @@ def check(times):
 class FlexibleChain:
     """A chain that can be run again and again; options: see `settings`.
 
-    Gravity on all nodes acts where the deformed link has its centre of mass. The load that Exudyn has for it (on the
-    body) is several times cheaper and leaves the deformation out of the torque on the floating frame.
+    Gravity on all nodes acts at the centre of mass of the deformed link. The corresponding load of Exudyn (on the body) is
+    several times cheaper and omits the deformation in the torque on the floating frame.
     """
 
     def __init__(self, links, rotation="RotationRxyz", gravity_on_nodes=False):

@@ -28,6 +28,6 @@ class Chain:
 
 
 def build(program):
-    """What `floatframe --version` says first, and the processor's name."""
+    """First line of `floatframe --version`, and the name of the processor."""
     text = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=True).stdout
     return text.strip().splitlines()[0]

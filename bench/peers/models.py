@@ -1,4 +1,4 @@
-"""The physics of the race as numbers, and the same as model files of Floatframe.
+"""Data of the models of the race, and the same as model files of Floatframe.
 
 Chain: N steel links of 1 m with a square section of 20 mm, hung from the ground and from each other by hinges about y,
 level, straight and at rest when they are released under gravity along -z.
@@ -10,14 +10,14 @@ LENGTH, SIDE = 1.0, 0.02                         # [m] of a link
 YOUNG, POISSON, DENSITY = 2.0e11, 0.3, 7500.0    # steel [Pa], [-], [kg/m3]
 MASS = DENSITY * LENGTH * SIDE**2                # [kg] of a link
 ALONG = 20                                       # brick elements of 20 nodes along a link, one across
-NORMAL_MODES = 2                                 # beside the six static modes of the far end
+NORMAL_MODES = 2                                 # in addition to the six static modes of the far end
 
 # Rigid link: a solid box, about its centre of mass [kg m2].
 LINK_INERTIA = (MASS * SIDE**2 / 6, MASS * (LENGTH**2 + SIDE**2) / 12, MASS * (LENGTH**2 + SIDE**2) / 12)
 
 CORNERS = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1),
                     (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)])
-# Nodes 9 to 20 lie in the middle of these edges: the order of Abaqus and CalculiX (C3D20).
+# Nodes 9 to 20 are the midpoints of these edges: the order of Abaqus and CalculiX (C3D20).
 EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 LOCAL = np.vstack([CORNERS, [(CORNERS[a] + CORNERS[b]) // 2 for a, b in EDGES]])
 
@@ -80,7 +80,7 @@ def shapes(point):
 
 
 def link_matrices():
-    """Mass and stiffness of the mesh (sparse); three displacements a node, 3 x 3 x 3 points of Gauss: exact here."""
+    """Mass and stiffness of the mesh (sparse); three displacements per node, 3 x 3 x 3 Gauss points: exact here."""
     from scipy.sparse import coo_matrix
     positions, bricks = link_mesh()
     half = np.array([LENGTH / ALONG, SIDE, SIDE]) / 2

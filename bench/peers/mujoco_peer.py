@@ -8,11 +8,11 @@ import models
 
 VERSION = mujoco.__version__
 INTEGRATORS = {"Euler": mujoco.mjtIntegrator.mjINT_EULER, "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
-               "RK4": mujoco.mjtIntegrator.mjINT_RK4}  # the most exact one last
+               "RK4": mujoco.mjtIntegrator.mjINT_RK4}  # the most accurate one last
 
 
 class Rigid:
-    """A model whose site "tip" is followed."""
+    """A model with a site "tip" whose path is recorded."""
 
     def __init__(self, text):
         self.model = mujoco.MjModel.from_xml_string(text)

@@ -1,8 +1,8 @@
-"""One flexible link of the race, integrated without any of the programs.
+"""One flexible link of the race, integrated independently of all programs.
 
-Lagrange's equations of a body that turns about its clamped end, with the full mass matrix of the mesh: angle a and the
-amplitudes q of the eight modes of models.py, by an explicit method of order eight with step control (scipy). With
-u = x + Phi q in the body frame and S the turn by 90 degrees in the plane,
+Lagrange's equations of a body that rotates about its clamped end, with the full mass matrix of the mesh: angle a and the
+amplitudes q of the eight modes of models.py, by an explicit method of order eight with step control (scipy). With u = x + Phi q
+in the body frame and S the rotation by 90 degrees in the plane,
   T = (u' S' M S u w^2 + 2 w q.' Phi' M S u + q.' Phi' M Phi q.) / 2,   w the rate of a.
 """
 import numpy as np
@@ -12,7 +12,7 @@ import models
 
 
 def tip(modes, mass, stiffness, times):
-    """Rows (time, x, y) of the tip, gravity along -y; modes: displacements of all nodes, one column a mode."""
+    """Rows (time, x, y) of the tip, gravity along -y; modes: displacements of all nodes, one column per mode."""
     positions, _ = models.link_mesh()
     x, n, k = positions.ravel(), len(positions), modes.shape[1]
 

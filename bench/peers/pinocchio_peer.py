@@ -1,7 +1,7 @@
-"""Pinocchio: rigid chains. It has algorithms and no integrator: the steps of Runge and Kutta are written here, in Python.
+"""Pinocchio: rigid chains. It has algorithms but no integrator: the Runge-Kutta steps are implemented here, in Python.
 
-What counts as time is that of four calls of `aba` (the accelerations by the articulated-body algorithm) a step, along the
-motion that is compared. The loop of Python around them, measured with a model of one joint, is taken off; the price of adding the stages is not
+The time is that of four calls of `aba` (the accelerations by the articulated-body algorithm) per step, along the compared
+motion. The loop of Python around them, measured with a model of one joint, is subtracted; the cost of adding the stages is not
 counted.
 """
 import time

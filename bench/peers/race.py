@@ -3,10 +3,10 @@
 
 usage: bench/peers/race.py [--program FILE] [--rounds N] [--links LIST] [--rigid LIST] [--no-vehicle] [--no-write]
 
-Makes its own environment from requirements.txt (build/race-environment), runs everything on one thread, checks that the
-programs agree before it compares times, writes bench/peers/record.json and fills the table of docs/performance.md, each
-model as soon as it is done; what is not run again stays as it was.
-With --no-write nothing is kept: the table is only printed. --links 1,4 --rigid 4: only these chains.
+Creates an environment from requirements.txt (build/race-environment), runs everything on one thread, checks that the programs
+agree before it compares times, writes bench/peers/record.json and fills the table of docs/performance.md, each model as soon as
+it is done; records of models that are not run are kept.
+With --no-write the table is only printed. --links 1,4 --rigid 4: only these chains.
 """
 import argparse
 import datetime
@@ -63,7 +63,7 @@ def distance(a, b):
 
 
 def least(runners, rounds):
-    """Least processor seconds of each, one run of each in turn; the first round is warm-up and does not count."""
+    """Minimum processor time of each [s], one run of each in turn; the first round is a warm-up and is not counted."""
     times = [[] for _ in runners]
     for k in range(rounds + 1):
         for i, run in enumerate(runners):
@@ -180,7 +180,7 @@ def main():
 
 
 def keep(record, done):
-    """Writes the record with this model in the place that it had, the others as they were."""
+    """Writes the record with this model at its previous position and the others unchanged."""
     file = HERE / "record.json"
     models = json.loads(file.read_text())["models"] if file.is_file() else []
     places = [k for k, model in enumerate(models) if model["model"] == done["model"]] or [len(models)]

@@ -1,4 +1,4 @@
-"""The rigid models of the race: the same in all programs, in coordinates of joints."""
+"""The rigid models of the race: the same in all programs, in joint coordinates."""
 import sys
 
 import race
@@ -10,7 +10,7 @@ REFERENCE = {"step": 1e-4}
 
 
 def peers(links):
-    """(name, model, settings to try besides the step)"""
+    """(name, model, settings to try in addition to the step)"""
     import exudyn_peer
     import mujoco_peer
     import pinocchio_peer
@@ -45,7 +45,7 @@ def cheapest(name, chain, options, exact, wanted):
             try:
                 error = race.distance(tip(chain.run(record=race.SAMPLES, **o)[1]), exact)
                 seconds = min(chain.run(**o)[0] for _ in range(2))
-            except Exception as problem:  # not a candidate: it did not get to the end
+            except Exception as problem:  # not a candidate: the run failed
                 print(f"  {name} {o}: {str(problem)[:80]}", file=sys.stderr)
                 continue
             if error <= wanted:
@@ -67,7 +67,7 @@ def vehicle(program, rounds):
 
 
 def compare(title, name, text, racers, program, rounds):
-    """One model: all motions against that of Floatframe, then the times; the last of a racer's settings is its most exact."""
+    """One model: all motions against that of Floatframe, then the times; the last settings are the most accurate."""
     import floatframe_peer
     print(f"{title} ...", file=sys.stderr, flush=True)
     own = floatframe_peer.Chain(program, race.WORK, name, text)
@@ -96,7 +96,7 @@ def compare(title, name, text, racers, program, rounds):
             same = {**o, "step": 1e-3}
             try:
                 error = race.distance(chain.run(record=race.SAMPLES, **same)[1], exact)
-            except Exception as problem:  # it did not get to the end
+            except Exception as problem:  # the run failed
                 print(f"  {name} {same}: {str(problem)[:80]}", file=sys.stderr)
                 continue
             rows.append(row(name, chain, error, same, ", at 1 ms"))

@@ -1,7 +1,7 @@
 """One call, one result: counts, equilibrium, mass, linear systems, modes, responses, rotors, advice.
 
-Results are plain objects; their arrays share the memory of the result, cannot be written to, and keep it alive. Options are
-those of `Options`. All raise InputError for what is not valid and RunError where a start or a result cannot be found.
+Results are plain objects; their arrays share the memory of the result, are read-only, and keep it alive. Options are those of
+`Options`. All raise InputError for invalid input and RunError if a start or a result cannot be found.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ def check(model: Model) -> _core.ModelCounts:
 
 
 def statics(model: Model) -> _core.StaticsResult:
-    """The static equilibrium: forces, reactions, places; `state` of it starts runs."""
+    """The static equilibrium: forces, reactions, positions; runs can start from its `state`."""
     return _core.statics(built(model))
 
 
 def mass_properties(model: Model, **options: Unpack[Options]) -> _core.ModelMass:
-    """Mass [kg], centre of mass [m] and inertia [kg m2] of the whole model and of its bodies, where it starts."""
+    """Mass [kg], centre of mass [m] and inertia [kg m2] of the whole model and of its bodies, at the start."""
     return _core.mass_properties(built(model), as_dict(options))
 
 
@@ -42,19 +42,19 @@ def linearize(model: Model, **options: Unpack[Options]) -> _core.Linearization:
 
 
 def linear_system(model: Model, **options: Unpack[Options]) -> _core.LinearSystem:
-    """zdot = A z near the start, also where it moves, with as many z as there are degrees of freedom."""
+    """zdot = A z near the start, also for a moving model, with as many z as there are degrees of freedom."""
     return _core.linear_system(built(model), as_dict(options))
 
 
 def modes(model: Model, *, number: int | None = None, **options: Unpack[Options]) -> list[_core.Mode]:
-    """Vibrations near the start, ascending by |eigenvalue|, pairs once: all, or so many. Some of a model of more than
-    400 degrees of freedom take seconds, all of them minutes; `z` of these has no meaning of its own."""
+    """Vibrations near the start, ascending by |eigenvalue|, pairs once: all, or the given number. A few modes of a model of
+    more than 400 degrees of freedom take seconds, all of them minutes; their `z` has no physical meaning."""
     count = 0 if number is None else whole("number", number, 1, 1000)
     return _core.modes(built(model), count, as_dict(options))
 
 
 def linear_inputs(model: Model) -> list[str]:
-    """What `linear_model` can be driven by: inputs, prescribed motions, roads."""
+    """Possible inputs of `linear_model`: inputs, prescribed motions, roads."""
     return _core.linear_inputs(built(model))
 
 
@@ -84,7 +84,7 @@ def road_response(
     band: tuple[float, float] = (0.1, 50.0),
     **options: Unpack[Options],
 ) -> _core.RoadResponse:
-    """Spectral densities of outputs at frequencies [Hz], and effective values in the band [Hz], on a random road at a speed
+    """Spectral densities of outputs at frequencies [Hz], and rms values in the band [Hz], on a random road at a speed
     [m/s]. roughness: G0 at 0.1 cycles/m [m3] (class C)."""
     low, high = array("band", band, 2)
     road = number("speed", speed), number("roughness", roughness), number("waviness", waviness), (float(low), float(high))
@@ -102,8 +102,8 @@ def campbell(
     orders: Sequence[float] = (1.0,),
     modes: int = 12,
 ) -> _core.CampbellDiagram:
-    """Vibrations over the speed of a rotor [rad/s] that turns in `joint`; critical speeds of the orders; onset of
-    instability. axis: of a free joint, shape (3,); None: the one about which the rotor is symmetric, or that of its bearings."""
+    """Vibrations over the speed of a rotor [rad/s] that rotates in `joint`; critical speeds of the orders; onset of
+    instability. axis: of a free joint, shape (3,); None: the symmetry axis of the rotor, or the axis of its bearings."""
     along = None if axis is None else tuple(float(c) for c in array("axis", axis, 3))
     speeds = number("from_", from_), number("to", to), number("step", step)
     multiples = [float(n) for n in array("orders", orders, "orders")]
@@ -121,17 +121,17 @@ def advise(
     coordinates: Coordinates | None = None,
     inertia: Inertia | None = None,
 ) -> _core.ModeAdviceReport:
-    """Which modes the model could do without, verified by runs. tolerance: of the range of every output."""
+    """Modes that the model does not need, verified by runs. tolerance: of the range of every output."""
     options: dict[str, object] = {"step": step, "coordinates": coordinates, "inertia": inertia}
     limits = number("drop_share", drop_share), number("static_ratio", static_ratio), number("tolerance", tolerance)
     return _core.advise(built(model), options, *limits, whole("repeat", repeat, 1, 10**6))
 
 
 def model_order(model: Model, below: float, tolerance: float = 0.01) -> _core.ModelOrder:
-    """How many modes of each body the vibrations below a frequency [Hz] need, verified; tolerance: of frequencies."""
+    """Number of modes of each body needed for the vibrations below a frequency [Hz], verified; tolerance: of frequencies."""
     return _core.model_order(built(model), number("below", below), number("tolerance", tolerance))
 
 
 def numbers(values: npt.ArrayLike) -> Array:
-    """Frequencies as an array of one dimension; one number is one of them."""
+    """Frequencies as an array of one dimension; a single number becomes one element."""
     return array("frequencies", [values] if np.ndim(values) == 0 else values, "frequencies")

@@ -1,4 +1,4 @@
-"""What is given, as arrays for the C++ library: shape, type and finite numbers, or InputError."""
+"""Converts arguments to arrays for the C++ library: checks shape, type and finite numbers, or raises InputError."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def numbers(name: str, value: object, *shape: int | str) -> Array:
 
 
 def whole_numbers(name: str, value: object, *shape: int | str) -> Whole:
-    """The same of whole numbers."""
+    """The same for whole numbers."""
     a = _plain(name, value, "an array of whole numbers")
     if a.size and a.dtype.kind not in "iu":
         raise InputError(f"{name}: found numbers of {a.dtype}, expected whole numbers")
@@ -53,7 +53,7 @@ def whole_numbers(name: str, value: object, *shape: int | str) -> Whole:
 
 
 def truths(value: object) -> npt.NDArray[np.bool_] | None:
-    """A mask; None if it is something else."""
+    """A mask; None for any other value."""
     try:
         a = np.asarray(value)
     except (TypeError, ValueError):
@@ -103,7 +103,7 @@ def whole(name: str, value: object, low: int, high: int) -> int:
 
 
 def path(name: str, value: object) -> str:
-    """Of a file or folder."""
+    """Path of a file or folder."""
     try:
         given = os.fspath(value)  # type: ignore[call-overload]
     except TypeError:

@@ -1,5 +1,5 @@
-"""Bodies as the equations of motion see them: inertia integrals, modal stiffness, and mass matrix and velocity forces of a
-moving body by both methods. Arrays look at the memory of the C++ library, keep it alive and cannot be written to."""
+"""Bodies for the equations of motion: inertia integrals, modal stiffness, and mass matrix and velocity forces of a moving body
+by both methods. Arrays share the memory of the C++ library, keep it alive and are read-only."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ class Invariants:
     m: int dm [kg]. m_u: int r_u dm, shape (3,) [kg m]. P_u: int r_ui r_uj dm, shape (3, 3) [kg m2]. S: int X dm, shape
     (3, modes). Si[i]: int r_ui X dm, shape (3, modes). Sij[i][j]: int X_i^T X_j dm, shape (modes, modes).
 
-    `Invariants(m, m_u, P_u, S, Si, Sij)` takes them as they come from elsewhere, Si with the shape (3, 3, modes) and Sij with
-    (3, 3, modes, modes); without modes S, Si and Sij are left out.
+    `Invariants(m, m_u, P_u, S, Si, Sij)` accepts integrals from other sources, Si with the shape (3, 3, modes) and Sij with (3,
+    3, modes, modes); without modes S, Si and Sij are omitted.
     """
 
     __slots__ = ("_core", "__weakref__")
@@ -60,7 +60,7 @@ class Invariants:
 
     @classmethod
     def rigid(cls, mass: float, centre: npt.ArrayLike, inertia: npt.ArrayLike) -> Invariants:
-        """Of a rigid body: mass [kg], centre of mass, shape (3,) [m], inertia tensor about it, shape (3, 3) [kg m2]."""
+        """For a rigid body: mass [kg], centre of mass, shape (3,) [m], inertia tensor about it, shape (3, 3) [kg m2]."""
         J = numbers("inertia", inertia, 3, 3)
         return cls._of(_core.rigid_invariants(number("mass", mass, positive=True), numbers("centre", centre, 3), J))
 
@@ -74,7 +74,7 @@ class Invariants:
         thickness: float | None = None,
         section: BeamSection | None = None,
     ) -> Invariants:
-        """Of the elements of a mesh in SI units with any modes, shape (nodes, 3, modes): exact for linear elements."""
+        """Integrals of the elements of a mesh in SI units, any modes, shape (nodes, 3, modes): exact for linear elements."""
         return cls._of(_core.invariants_of_mesh(fe_model(mesh, material, thickness, section), _shapes(X)))
 
     @property
@@ -114,7 +114,7 @@ class Invariants:
 
     @property
     def centre_of_mass(self) -> Array:
-        """Of the undeformed body, shape (3,) [m]."""
+        """Centre of mass of the undeformed body, shape (3,) [m]."""
         return self._core.centre_of_mass
 
     @property
@@ -145,7 +145,7 @@ def _shapes(X: npt.ArrayLike) -> Array:
 
 
 class Projection:
-    """Nodes, their modes and their mass matrix: what the projection method works on.
+    """Nodes, their modes and their mass matrix: the data of the projection method.
 
     p: positions, shape (nodes, 3) [m]. X: modal translations, shape (nodes, 3, modes). M_s: scalar mass matrix of the
     elements, shape (nodes, nodes) [kg], symmetric; a sparse matrix of scipy or an array.
@@ -183,7 +183,7 @@ class Projection:
         thickness: float | None = None,
         section: BeamSection | None = None,
     ) -> Projection:
-        """Of the elements of a mesh in SI units with any modes, shape (nodes, 3, modes)."""
+        """Projection data of the elements of a mesh in SI units with any modes, shape (nodes, 3, modes)."""
         return cls._of(_core.projection_of_mesh(fe_model(mesh, material, thickness, section), _shapes(X)))
 
     @property
@@ -198,12 +198,12 @@ class Projection:
 
     @property
     def mass_rows(self) -> tuple[Array, npt.NDArray[np.int32], npt.NDArray[np.int32]]:
-        """The mass matrix as scipy takes it: `scipy.sparse.csr_array(projection.mass_rows)`: values [kg], columns, beginnings of
-        rows. Of nodes; of bodies whose nodes have rotations six rows a node (ux uy uz rx ry rz)."""
+        """The mass matrix in the form accepted by scipy: `scipy.sparse.csr_array(projection.mass_rows)`: values [kg], columns,
+        row offsets. One row per node; for bodies whose nodes have rotations six rows per node (ux uy uz rx ry rz)."""
         return self._core.mass_rows
 
     def invariants(self) -> Invariants:
-        """The 16 integrals of these nodes. Not of bodies whose nodes have rotations."""
+        """The 16 integrals of these nodes. Not available for bodies whose nodes have rotations."""
         return Invariants._of(_core.invariants_of_projection(self._core))
 
     def __copy__(self) -> Projection:
@@ -230,10 +230,10 @@ class Node(NamedTuple):
 
 
 class Body:
-    """A rigid or flexible body. Of a reduced part it is `part.body`.
+    """A rigid or flexible body. The body of a reduced part is `part.body`.
 
-    `Body(invariants, K=, D=, projection=)`: of one's own integrals, with modal stiffness and damping, shape (modes, modes);
-    `projection` makes the projection method possible. Integrals that no body can have are InputError.
+    `Body(invariants, K=, D=, projection=)`: from given integrals, with modal stiffness and damping, shape (modes, modes);
+    `projection` enables the projection method. Integrals that no physical body can have raise InputError.
     """
 
     __slots__ = ("_core", "_part", "_frequencies", "__weakref__")
@@ -289,8 +289,8 @@ class Body:
         return self._core.D
 
     def damped_modes(self, reference: Literal["frame", "free", "mounted"] = "free") -> Array:
-        """Frequencies [Hz] and fractions of critical damping, shape (n, 2), of the body's own modes: with its frame held, free,
-        or mounted, which is with its interfaces held (none where they are not known)."""
+        """Frequencies [Hz] and fractions of critical damping, shape (n, 2), of the body's own modes: with its frame fixed,
+        free, or mounted, i.e. with its interfaces fixed (empty if these are unknown)."""
         return np.array(self._core.damped_modes(reference), dtype=float).reshape(-1, 2)
 
     @property
@@ -304,12 +304,12 @@ class Body:
 
     @property
     def mass_model(self) -> str:
-        """How the mass of the elements enters: "isoparametric", "six_dof" or "hermite"."""
+        """Mass formulation of the elements: "isoparametric", "six_dof" or "hermite"."""
         return self._core.mass_model
 
     @property
     def frequencies(self) -> Array:
-        """Of each mode alone, sqrt(K_kk / M_kk) / 2 pi, shape (modes,) [Hz]."""
+        """Frequency of each mode alone, sqrt(K_kk / M_kk) / 2 pi, shape (modes,) [Hz]."""
         try:
             return self._frequencies
         except AttributeError:
@@ -318,7 +318,7 @@ class Body:
 
     @property
     def nodes(self) -> Mapping[str, Node]:
-        """Interfaces, then markers, by their names."""
+        """Interfaces, then markers, by name."""
         return MappingProxyType({name: Node(p, X, X_theta) for name, p, X, X_theta in self._core.nodes})
 
     def inertia(
@@ -333,9 +333,9 @@ class Body:
         coordinates: Coordinates = "relative",
         geometric_stiffening: bool = False,
     ) -> tuple[Array, Array]:
-        """Mass matrix M and forces Qv that depend on velocities: what a formulation computes in each step.
+        """Mass matrix M and velocity-dependent forces Qv, as computed by a formulation in each step.
 
-        A: orientation, columns are the axes of the body in the world, shape (3, 3). y, ydot: modal amplitudes and their rates,
+        A: orientation, columns are the body axes in the world, shape (3, 3). y, ydot: modal amplitudes and their rates,
         shape (modes,). omega: angular velocity, world, shape (3,) [rad/s]. r0: origin of the body frame, world, shape (3,) [m];
         only "relative" depends on it. method: "preprocessing" or "projection" (needs `projection`). coordinates:
 

@@ -1,4 +1,4 @@
-"""What this package is and what came with it."""
+"""Version of this package, and files installed with it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import _core
 from .errors import InputError
 
 _HERE = Path(__file__).resolve().parent
-# In a wheel everything is below the package; in the source tree beside it.
+# In a wheel everything is below the package; in the source tree next to it.
 _PLACES = (Path(_core.__file__).parent, _HERE, _HERE.parents[1])
 
 
@@ -25,8 +25,8 @@ class BuildInfo(TypedDict):
 
 
 def build_info() -> BuildInfo:
-    """Version, build and what runs: `instruction_set` is that of the copy of the library that was loaded ("x86-64" or
-    "x86-64-v3"), `library` its file; `mumps` says whether MUMPS factors large sparse matrices (else Eigen does)."""
+    """Version, build and loaded library: `instruction_set` is that of the loaded copy of the library ("x86-64" or "x86-64-v3"),
+    `library` its file; `mumps`: MUMPS factorises large sparse matrices (otherwise Eigen)."""
     info = _core.build_info()
     return {**info, "library": _library()}  # type: ignore[typeddict-item]
 
@@ -40,7 +40,7 @@ def _library() -> str:
 
 
 def program() -> str:
-    """Path of the command line `floatframe` that came with the package."""
+    """Path of the command line program `floatframe` installed with the package."""
     for folder in (_PLACES[0] / "bin", _PLACES[0].parents[1]):
         if (folder / "floatframe").is_file():
             return str(folder / "floatframe")

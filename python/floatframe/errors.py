@@ -1,4 +1,4 @@
-"""What Floatframe raises. All are `floatframe.Error`."""
+"""Exceptions of Floatframe. All are `floatframe.Error`."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from typing import Any, NamedTuple
 
 
 class ErrorEntry(NamedTuple):
-    """One error of an input: a sentence, and where it was found."""
+    """One error of an input: a sentence, and its location."""
 
     file: str
-    """Model file, or a file that it refers to; empty where there is none."""
+    """Model file, or a file that it refers to; empty if there is none."""
     line: int
-    """From 1; 0: not known."""
+    """From 1; 0: unknown."""
     column: int
-    """From 1; 0: not known."""
+    """From 1; 0: unknown."""
     message: str
     code: str = "wrong_value"
-    """What is wrong, whatever the words: those of `floatframe::ErrorCode`, as "unknown_key"."""
+    """Code of the error, independent of the wording, as in `floatframe::ErrorCode`: "unknown_key"."""
     path: str = ""
-    """Of the entity and key in the model, as "joints.knee.axis"; empty where there is none."""
+    """Path of the entity and key in the model, as "joints.knee.axis"; empty if there is none."""
 
     def __str__(self) -> str:
         place = ":".join(str(part) for part in self[:3] if part)
@@ -28,11 +28,11 @@ class ErrorEntry(NamedTuple):
 
 
 class Error(Exception):
-    """Of any kind."""
+    """Base class of all errors."""
 
 
 class InputError(Error, ValueError):
-    """What was given is not valid: every error of it, with its place, in `errors`."""
+    """The input is invalid: all its errors, with locations, are in `errors`."""
 
     errors: list[ErrorEntry]
 
@@ -47,11 +47,11 @@ class InputError(Error, ValueError):
 
 
 class UnknownNameError(InputError, KeyError):
-    """A name that nothing has: of an input, an output, a column, an entity."""
+    """An unknown name of an input, an output, a column or an entity."""
 
 
 class RunError(Error, RuntimeError):
-    """What was asked for cannot be started, in one sentence; `code` as in `ErrorEntry`."""
+    """A run or computation cannot be started, in one sentence; `code` as in `ErrorEntry`."""
 
     def __init__(self, message: str, code: str = "") -> None:
         super().__init__(message, code)
@@ -66,7 +66,7 @@ class OutputError(Error):
 
 
 class StepError(Error, RuntimeError):
-    """A step of a simulation failed; `status`, `where` and `time` [s] say how, where and when."""
+    """A step of a simulation failed; `status`, `where` and `time` [s] give kind, location and time."""
 
     def __init__(self, message: str, status: str = "", where: str = "", time: float = 0.0) -> None:
         super().__init__(message, status, where, time)
@@ -78,14 +78,14 @@ class StepError(Error, RuntimeError):
         return str(self.args[0])
 
 
-# Sentences of the command line speak of its options: here they are arguments.
+# Sentences of the command line mention its options: here these are arguments.
 _OPTION = re.compile(r"(?<![\w/.'\"-])--([a-z]+(?:-[a-z]+)*)\b")
 _HELP = re.compile(r" \(see floatframe \w+ --help\)")
 _NAMES = {"threads": "processes", "out": "folder", "vary": "vary", "interface": "interfaces", "marker": "markers"}
 
 
 def worded(message: str) -> str:
-    """A sentence of the C++ library in words of Python."""
+    """A sentence of the C++ library in terms of Python."""
     message = re.sub(r"^--set(?:\.|: )", "", _HELP.sub("", message))
     message = re.sub(r"^--speed: ", "", message)
     message = re.sub(r"^--speed ([^:]+): ", r"joint '\1': ", message)

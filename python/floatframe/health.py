@@ -1,4 +1,4 @@
-"""The health report of a reduction: what an engineer wants to know before trusting a reduced body. SI units."""
+"""The health report of a reduction: figures to check before using a reduced body. SI units."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class InterfaceHealth:
     p: Array
     """Reference point, shape (3,) [m]."""
     condition: float
-    """Of the geometry of its nodes: largest over smallest singular value of their rigid motions, scaled by their size."""
+    """Condition of the node geometry: largest over smallest singular value of their rigid motions, scaled by their size."""
     static_error: float
     """Largest displacement error under its six unit loads, relative to the largest displacement."""
 
@@ -50,7 +50,7 @@ class ModeHealth:
 @dataclass(frozen=True)
 class FrequencyPair:
     full: float
-    """Of the full model [Hz]; nan if they were not computed."""
+    """Frequency of the full model [Hz]; nan if not computed."""
     reduced: float
     """[Hz]"""
 
@@ -60,7 +60,7 @@ class FrequencyPair:
 
 
 class Report:
-    """What `floatframe reduce` prints; `print(report)` gives the same tables."""
+    """The report printed by `floatframe reduce`; `print(report)` gives the same tables."""
 
     nodes: int
     elements: int
@@ -75,7 +75,7 @@ class Report:
     solver: str
     notes: list[str]
     warnings: list[str]
-    """One sentence each: anything suspicious."""
+    """Warnings, one sentence each."""
 
     def __init__(self, text: str, content: str) -> None:
         d: dict[str, Any] = json.loads(content)
@@ -112,7 +112,7 @@ class Report:
             for i in d["interfaces"]
         ]
         self.seconds: dict[str, float] = {s["stage"]: s["seconds"] for s in d["seconds"]}
-        """Of each stage."""
+        """Duration of each stage."""
 
     def __str__(self) -> str:
         return self._text

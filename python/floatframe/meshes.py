@@ -1,5 +1,5 @@
-"""Meshes from other programs: arrays of points, cells and sets into a finite-element model. `meshio.Mesh` and
-`pyvista.UnstructuredGrid` are taken as they are; neither is imported here."""
+"""Meshes from other programs: converts arrays of points, cells and sets to a finite-element model. `meshio.Mesh` and
+`pyvista.UnstructuredGrid` are accepted directly; neither is imported here."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Material:
 @dataclass(frozen=True)
 class BeamSection:
     """Section of beams: area A [m2], second moments Iy, Iz [m4] about the local y and z, torsion constant J [m4], in the units
-    of the part. `reference`, shape (3,): the local y lies in the plane of the axis and this vector."""
+    of the part. `reference`, shape (3,): the local y is in the plane of the axis and this vector."""
 
     A: float
     Iy: float
@@ -48,8 +48,8 @@ class BeamSection:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Points, shape (nodes, 3); cells: pairs of an element type and indices of points from 0, shape (cells, nodes of the
-    type), corners first as VTK and Abaqus have them; node sets by their names, indices or masks.
+    """Points, shape (nodes, 3); cells: pairs of an element type and indices of points from 0, shape (cells, nodes of the type),
+    corners first as in VTK and Abaqus; node sets by name, indices or masks.
 
     Types: tet4, tet10, hex8, hex8i, hex8r, hex20, hex20r, wedge6, wedge15, pyramid5, pyramid13 (solids), tri3, quad4, tri6,
     quad8 (shells: with `thickness`), beam2, beam3 (with `section`).
@@ -95,20 +95,20 @@ _MESHIO = {
     "pyramid": "pyramid5",
     "pyramid13": "pyramid13",
 }
-# Cells that bound others and may carry names: their dimension. Nothing is made of them.
+# Cells that bound others and may have names: their dimension. They are not elements.
 _MESHIO_OTHERS = {"vertex": 0, "line3": 1, "triangle7": 2, "quad9": 2}
 _VTK = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge"}
 _VTK |= {14: "pyramid", 22: "triangle6", 23: "quad8", 24: "tetra10", 25: "hexahedron20", 26: "wedge15", 27: "pyramid13"}
 _VTK_OTHERS = {1: "vertex", 21: "line3", 28: "quad9", 34: "triangle7"}
 # A brick along the axes, in the order of its coordinates.
 _VOXEL, _VOXEL_CORNERS = 11, (0, 1, 3, 2, 4, 5, 7, 6)
-# A wedge of VTK looks the other way than everyone else's; writers disagree, so each is turned as it lies.
+# A wedge of VTK has the opposite orientation to other programs; writers disagree, so each is oriented by its geometry.
 _MIRRORED = {"wedge6": (0, 2, 1, 3, 5, 4), "wedge15": (0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13)}
 
 
 @dataclass
 class _Cells:
-    """Elements of one type; `word` is empty for those that only carry names."""
+    """Elements of one type; `word` is empty for those that only have names."""
 
     word: str
     name: str
@@ -125,12 +125,12 @@ def _is_pyvista(mesh: object) -> bool:
 
 
 def _is_grid(mesh: object) -> bool:
-    """Of pyvista, with points in rows or a surface, which become cells."""
+    """A structured grid or surface of pyvista, which is converted to cells."""
     return hasattr(mesh, "cast_to_unstructured_grid") and not _is_pyvista(mesh)
 
 
 def is_mesh(mesh: object) -> bool:
-    """A mesh of one of the kinds that are known?"""
+    """True for a mesh of a supported kind."""
     return isinstance(mesh, Mesh) or _is_pyvista(mesh) or _is_grid(mesh) or _is_meshio(mesh)
 
 
@@ -218,7 +218,7 @@ def _sets(mesh: Any, cells: list[_Cells], count: int) -> dict[str, Whole]:
 
 
 def _used(cells: list[_Cells], thickness: float | None, section: BeamSection | None) -> list[_Cells]:
-    """What elements are made of: surfaces and lines of a solid are elements only where they have a section."""
+    """Cells that become elements: surfaces and lines of a solid only if they have a section."""
     full = [c for c in cells if len(c.nodes)]
     highest = max((c.dimension for c in full), default=0)
     out = []

@@ -1,4 +1,4 @@
-"""Models: from files, texts, data of Python, or filled in step by step."""
+"""Models: from files, texts, Python data, or built step by step."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 def parameter_text(value: object) -> str:
-    """A value as the reader of model files takes it."""
+    """A value as accepted by the reader of model files."""
     if isinstance(value, bool) or type(value).__name__ == "bool":
         return "true" if value else "false"
     if isinstance(value, str):
@@ -27,7 +27,7 @@ def parameter_text(value: object) -> str:
     if hasattr(value, "__float__"):
         try:
             number = float(value)
-            # As studies write it: 3 for 3.0.
+            # In the notation of studies: 3 for 3.0.
             whole = number.is_integer() and abs(number) < 1e15 and str(number) != "-0.0"
             return str(int(number)) if whole else repr(number)
         except (TypeError, ValueError, OverflowError):
@@ -36,7 +36,7 @@ def parameter_text(value: object) -> str:
 
 
 class Section(MutableMapping[str, Any]):
-    """The entities of one kind, by their names: `model.bodies["arm"]`, `model.bodies.add("arm", rigid={...})`."""
+    """The entities of one kind, by name: `model.bodies["arm"]`, `model.bodies.add("arm", rigid={...})`."""
 
     def __init__(self, model: Model, key: str) -> None:
         self._model = model
@@ -49,8 +49,8 @@ class Section(MutableMapping[str, Any]):
         return entities
 
     def add(self, name: str, /, value: Any = None, **values: Any) -> str:
-        """A new entity with the keys of model files; a trailing underscore avoids words of Python (`from_`). What is no map
-        (a point, a parameter) is given as `value`. Returns the name."""
+        """Adds an entity with the keys of model files; a trailing underscore avoids Python keywords (`from_`). A value that is
+        not a map (a point, a parameter) is given as `value`. Returns the name."""
         if not isinstance(name, str):
             raise InputError(f"{self._key}: found the name {name!r}, expected a text")
         if name in self._entities():
@@ -70,7 +70,7 @@ class Section(MutableMapping[str, Any]):
         self._entities()[name] = plain(value, f"{self._key}.{name}")
 
     def __delitem__(self, name: str) -> None:
-        self[name]  # says which there are
+        self[name]  # the error lists the existing ones
         del self._entities()[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -84,20 +84,20 @@ class Section(MutableMapping[str, Any]):
 
 
 class Model:
-    """A multibody system: what a model file says (docs/model-file.md), checked and built by the C++ library when it is used.
+    """A multibody system: the content of a model file (docs/model-file.md), checked and built by the C++ library on use.
 
     From a file:    `Model.load("iltis.yaml", road="bump", speed=10)`
     From its text:  `Model.from_yaml(text)`
     From data:      `Model.from_dict({"bodies": {...}, ...})`
     Step by step:   `model = Model("pendulum"); model.bodies.add("arm", rigid={...}); ...`
 
-    A model that is filled in holds its description in `data`, nested maps and lists with the names of model files; sections
-    (`bodies`, `joints`, ...) are views of it. It is built anew when the description has changed. Errors name the entity, and
+    A model built step by step has its description in `data`, nested maps and lists with the names of model files; sections
+    (`bodies`, `joints`, ...) are views of it. It is built again when the description has changed. Errors name the entity, and
     lines and columns are those of `to_yaml()`.
     """
 
     def __init__(self, name: str = "model", *, folder: PathLike | None = None) -> None:
-        """folder: from which files that the model names are read; the working folder if none is given."""
+        """folder: base of relative file names in the model; the working folder if not given."""
         self.data: dict[str, Any] = {"floatframe": 1, "name": name}
         self._path: str | None = None  # of a model file
         self._home = ""  # working folder at that time
@@ -108,7 +108,7 @@ class Model:
 
     @classmethod
     def load(cls, path: PathLike, /, **parameters: Any) -> Model:
-        """The model of a file, with other values of its parameters. Raises InputError with every error of the file: file,
+        """The model of a file, with changed values of its parameters. Raises InputError with every error of the file: file,
         line, column, sentence."""
         model = cls()
         model._path = path_of("path", path)
@@ -135,12 +135,12 @@ class Model:
 
     def _with(self, parameters: Mapping[str, Any]) -> Model:
         self._parameters = {name: parameter_text(value) for name, value in parameters.items()}
-        self.core  # errors are those of this call
+        self.core  # raises errors in this call
         return self
 
     @property
     def filled_in(self) -> bool:
-        """It has `data`: it is not from a file or a text."""
+        """True if it has `data`, i.e. it is not from a file or a text."""
         return self._path is None and self._text is None
 
     @property
@@ -158,19 +158,19 @@ class Model:
 
     @property
     def file(self) -> str:
-        """The model file, or what stands for it in messages."""
+        """The model file, or its substitute in messages."""
         if self._path is None:
             return os.path.join(self._folder, "<model>")
         return self._path if os.getcwd() == self._home else os.path.join(self._home, self._path)
 
     @property
     def parameters(self) -> dict[str, str]:
-        """Values that were given when it was loaded."""
+        """Parameter values given when it was loaded."""
         return dict(self._parameters)
 
     def to_yaml(self) -> str:
-        """The text of its model file, which `floatframe run` reads; for a model that was loaded, the text
-        of the file, in which parameters have its own values (those that were given are `parameters`)."""
+        """The text of its model file, which `floatframe run` reads; for a loaded model, the text of the file, in which
+        parameters have the values of the file (given values are in `parameters`)."""
         if self._path is not None:
             return Path(self.file).read_text(encoding="utf-8")
         return self._text if self._text is not None else to_yaml(self.data)
@@ -232,7 +232,7 @@ class Model:
 
     @property
     def units(self) -> dict[str, str]:
-        """Units by the names of outputs of the built model."""
+        """Units of the outputs of the built model, by name."""
         return dict(self.core.output_units)
 
     def __repr__(self) -> str:
@@ -245,7 +245,7 @@ class Model:
         return self.copy()
 
     def copy(self) -> Model:
-        """A model of its own with the same description; the built system is shared."""
+        """An independent model with the same description; the built system is shared."""
         other = Model.__new__(type(self))
         other.__dict__.update(self.__dict__)
         other.data = plain(self.data)
@@ -257,7 +257,7 @@ class Model:
 
 
 def built(model: Model) -> _core.LoadedModel:
-    """The built model of the C++ library; InputError for what is no model."""
+    """The built model of the C++ library; InputError for other objects."""
     if not isinstance(model, Model):
         raise InputError(f"found {type(model).__name__}, expected a floatframe.Model")
     return model.core

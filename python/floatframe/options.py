@@ -18,7 +18,7 @@ InputUse = Literal["held", "ramp"]
 
 
 class Options(TypedDict, total=False):
-    """Each that is given replaces the one of the model (`simulation:` of the model file, docs/model-file.md)."""
+    """Each given option replaces that of the model (`simulation:` of the model file, docs/model-file.md)."""
 
     step: float | None
     """[s]"""
@@ -38,7 +38,7 @@ class Options(TypedDict, total=False):
     """[m/s]"""
     locate_edges: bool | None
     input: InputUse | None
-    """What inputs that are set do in the next step: held over its whole length, or a ramp from their last values."""
+    """Course of changed inputs in the next step: constant, or a ramp from their last values."""
 
 
 def as_dict(options: Any) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Parts: finite-element files and meshes, reduced to flexible bodies, with a report on their health."""
+"""Parts: finite-element files and meshes, reduced to flexible bodies, with a health report."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ Places = Mapping[str, Place]
 class Part:
     """A reduced part: the flexible body, its surface with its modes, and the report. It never changes.
 
-    Arrays look at the memory of the part, keep it alive and cannot be written to. SI units, part coordinates, which are the
-    body frame. Parts are copied (nothing is: they never change), and pickled as body files.
+    Arrays share the memory of the part, keep it alive and are read-only. SI units, part coordinates, which are the body frame.
+    Copies share the same data (parts never change); parts are pickled as body files.
     """
 
     __slots__ = ("_held", "_frequencies", "__weakref__")
@@ -62,7 +62,7 @@ class Part:
 
     @property
     def frequencies(self) -> Array:
-        """Of each mode alone, shape (modes,) [Hz]. Those of the free part are in `report.free_frequencies`."""
+        """Frequency of each mode alone, shape (modes,) [Hz]. Those of the free part are in `report.free_frequencies`."""
         try:
             return self._frequencies
         except AttributeError:
@@ -81,7 +81,7 @@ class Part:
 
     @property
     def node_indices(self) -> npt.NDArray[np.int32]:
-        """Of each point its node in the file or mesh, from 0, shape (points,)."""
+        """Node index of each point in the file or mesh, from 0, shape (points,)."""
         return self._held.node_indices
 
     @property
@@ -91,21 +91,21 @@ class Part:
 
     @property
     def triangles(self) -> npt.NDArray[np.int32]:
-        """Of the surface: indices into `nodes`, normals to the outside, shape (triangles, 3)."""
+        """Triangles of the surface: indices into `nodes`, outward normals, shape (triangles, 3)."""
         return self._held.triangles
 
     @property
     def lines(self) -> npt.NDArray[np.int32]:
-        """Of beams: indices into `nodes`, shape (lines, 2)."""
+        """Lines of beams: indices into `nodes`, shape (lines, 2)."""
         return self._held.lines
 
     @property
     def provenance(self) -> dict[str, Any]:
-        """Where it comes from: source, units, options as on the command line, date, version."""
+        """Origin: source, units, options as on the command line, date, version."""
         return self._held.provenance
 
     def save(self, path: Path) -> None:
-        """Writes a body file (.ffb), which model files take. Raises OutputError."""
+        """Writes a body file (.ffb) for use in model files. Raises OutputError."""
         self._held.save(path_text("path", path))
 
     def save_sid(self, path: Path) -> None:
@@ -113,8 +113,8 @@ class Part:
         _write(path_text("path", path), self._held.sid_text())
 
     def to_pyvista(self, mode: int | None = None, scale: float | None = None) -> pyvista.PolyData:
-        """The surface, deformed by a mode (from 0), for pictures; needs pyvista. scale: modal amplitude; without it the largest
-        displacement is a tenth of the part. Point data "displacement" [m] is that of the picture."""
+        """The surface, deformed by a mode (from 0), for pictures; needs pyvista. scale: modal amplitude; by default the largest
+        displacement is a tenth of the part size. Point data "displacement" [m] is the displacement shown."""
         import pyvista
 
         points = np.array(self.nodes)
@@ -156,7 +156,7 @@ def _part_of_bytes(content: bytes) -> Part:
 
 
 class FileInfo(dict[str, Any]):
-    """What is in a file; `print(info)` is what `floatframe info` prints."""
+    """Summary of a file; `print(info)` gives the output of `floatframe info`."""
 
     def __init__(self, text: str, content: dict[str, Any]) -> None:
         super().__init__(content)
@@ -208,7 +208,7 @@ def reduce(
 
     source: a file (Abaqus or CalculiX, Nastran, Gmsh, matrices), or a mesh: `floatframe.Mesh`, `meshio.Mesh` or
     one of pyvista, which need `material`, and `thickness` or `section` where surfaces are shells or lines are
-    beams. units: "mm-t-s", "m-kg-s", ...: required for files; of meshes SI if it is not given. interfaces: where the part is
+    beams. units: "mm-t-s", "m-kg-s", ...: required for files; SI by default for meshes. interfaces: where the part is
     held or driven; markers: where loads act or outputs are taken; lengths in the units of the part.
 
     modes: number of normal modes (20 if nothing selects them); fmax: all below this frequency [Hz]; effective_mass: until
@@ -218,16 +218,16 @@ def reduce(
     or "mounted": {"fraction": 0.02, "reference": "mounted"}. damping_matrix: of parts given as matrices.
     free_check=False: no free modes of the full model in the report (saves a factorisation). stresses=False: no stress.
     beam_shear, shell_shear: shear deformation of beams and shells of a file; mass_form: consistent or lumped mass.
-    grounded_springs="ignore": springs to the ground are left out.
-    projection=True: nodes and mass matrix are kept for the projection method.
+    grounded_springs="ignore": omits springs to the ground.
+    projection=True: stores nodes and mass matrix for the projection method.
 
-    material: of files that have none. density: of materials that have none in the file, a number or by their names,
-    {"STEEL": 7.85e-9}; temperature: of materials that depend on it; all in the units of the file.
-    thickness: of shells of a mesh; of surfaces of files without sections (Gmsh, UNV), which are shells then, a number or by
-    the names of groups, {"RIBS": 2.0}. contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
+    material: for files without one. density: for materials without one in the file, a number or by name, {"STEEL": 7.85e-9};
+    temperature: for temperature-dependent materials; all in the units of the file.
+    thickness: of shells of a mesh; of surfaces of files without sections (Gmsh, UNV), which then become shells, a number or by
+    group name, {"RIBS": 2.0}. contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
 
-    progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other threads of Python go on
-    meanwhile; Ctrl-C ends it when the stage that runs is done. Raises InputError.
+    progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other Python threads keep
+    running meanwhile; Ctrl-C ends the reduction after the current stage. Raises InputError.
     """
     mesh = is_mesh(source)
     options: dict[str, Any] = {
@@ -296,7 +296,7 @@ def info(
     dofs: Path | None = None,
     damping_matrix: Path | None = None,
 ) -> FileInfo:
-    """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON.
+    """Summary of a finite-element file, a body file or a SID_FEM file: the output of `floatframe info`, as a dict of its JSON.
     Options as those of `reduce`."""
     options = reading_options(format, dialect, contact, temperature, density, thickness, nodes, mass, dofs, damping_matrix) | material_option(material)
     text, content = _core.file_info(path_text("path", path), options)
@@ -316,9 +316,9 @@ def convert(
     temperature: float | None = None,
     thickness: Thickness | None = None,
 ) -> str:
-    """Writes what was understood of a finite-element file for another program, as `floatframe convert` does: a CalculiX deck
-    (.inp, with a step of `modes` free modes unless it is 0), a Gmsh mesh (.msh) or a VTU file (.vtu). Returns what the command
-    prints. Options as those of `reduce`. Raises InputError, OutputError."""
+    """Writes a finite-element file in the format of another program, as `floatframe convert` does: a CalculiX deck (.inp, with
+    a step of `modes` free modes unless it is 0), a Gmsh mesh (.msh) or a VTU file (.vtu). Returns the output of the command.
+    Options as those of `reduce`. Raises InputError, OutputError."""
     count = plain(modes)
     if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count <= 100000:
         raise InputError(f"modes: found {modes!r}, expected a whole number from 0 to 100000")
@@ -327,7 +327,7 @@ def convert(
 
 
 def _places(key: str, places: object, mesh: bool, chosen: dict[str, object]) -> dict[str, Any]:
-    """Places by their names for the C++ library. Those that are indices of nodes of a mesh become sets, in `chosen`."""
+    """Places by name for the C++ library. Node indices of a mesh become sets, in `chosen`."""
     if not isinstance(places, Mapping):
         raise InputError(f"{key}: found {type(places).__name__}, expected a dict of names and places")
     out = {}
@@ -353,7 +353,7 @@ def _print_stage(stage: str, seconds: float) -> None:
 
 
 def _write(path: str, text: str) -> None:
-    """At once or not at all."""
+    """Writes the file atomically."""
     folder = os.path.dirname(os.path.abspath(path))
     try:
         handle, temporary = tempfile.mkstemp(dir=folder, prefix=".floatframe-")

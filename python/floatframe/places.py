@@ -1,4 +1,4 @@
-"""Places on parts: which nodes an interface or a marker has. Lengths are in the units of the part."""
+"""Places on parts: the nodes of an interface or a marker. Lengths are in the units of the part."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ Tie = Literal["rigid", "mean"]
 
 @dataclass(frozen=True)
 class Place:
-    """Nodes of a part and how an interface or a marker takes them. Made by `set`, `node`, `nodes`, `nearest`, `plane`,
-    `cylinder` and `sphere`, all of which take:
+    """Nodes of a part and their coupling to an interface or a marker. Made by `set`, `node`, `nodes`, `nearest`, `plane`,
+    `cylinder` and `sphere`, all of which accept:
 
     at: reference point, shape (3,); without it the centre of the nodes, the axis of a bore, the centre of a sphere.
-    type: "rigid" (the nodes follow as one piece, RBE2) or "mean" (it follows their mean motion, RBE3). Of interfaces.
-    dofs: "all", or directions such as "xyz", "x+z", "xyz+rz". Of interfaces.
-    residual: loads act here, so attachment modes are added. Of markers.
+    type: "rigid" (the nodes move as a rigid body, RBE2) or "mean" (it has their mean motion, RBE3). For interfaces.
+    dofs: "all", or directions such as "xyz", "x+z", "xyz+rz". For interfaces.
+    residual: loads act here, so attachment modes are added. For markers.
     """
 
     way: str
@@ -37,7 +37,7 @@ class Place:
     tolerance: float | None = None
 
     def as_dict(self, label: str, interface: bool) -> dict[str, Any]:
-        """For the C++ library; InputError names `label`."""
+        """Converted for the C++ library; InputError contains `label`."""
         if not isinstance(self.residual, bool) or (interface and self.residual):
             raise InputError(f"{label}: residual belongs to markers: found {self.residual!r}, expected False")
         if not interface and (self.type != "rigid" or self.dofs != "all"):
@@ -90,13 +90,13 @@ def _value(name: str, key: str, value: object) -> object:
 def set_(
     name: str, *, at: Vector | None = None, type: Tie = "rigid", dofs: str = "all", residual: bool = False
 ) -> Place:
-    """Nodes of a node set, a physical group, an element set or a surface of the file; of a mesh: of `point_sets` or
+    """Nodes of a node set, a physical group, an element set or a surface of the file; for a mesh: of `point_sets` or
     `cell_sets`."""
     return Place("set", {"set": name}, at, type, dofs, residual)
 
 
 def node(number: int, *, at: Vector | None = None, type: Tie = "rigid", dofs: str = "all", residual: bool = False) -> Place:
-    """One node, by its number in the file; of a mesh: by its index from 0."""
+    """One node, by its number in the file; for a mesh: by its index from 0."""
     return Place("node", {"node": number}, at, type, dofs, residual)
 
 
@@ -138,7 +138,7 @@ def cylinder(
     dofs: str = "all",
     residual: bool = False,
 ) -> Place:
-    """Nodes on a bore: a cylinder of `radius` with `axis` through `origin`; with `length` within half of it to both sides of
+    """Nodes on a bore: a cylinder of `radius` with `axis` through `origin`; with `length`, within half of it on both sides of
     `origin`. tolerance: largest distance from it; default 1e-3 of the radius."""
     values = {"point": origin, "axis": axis, "radius": radius, "length": length}
     return Place("cylinder", values, at, type, dofs, residual, tolerance)

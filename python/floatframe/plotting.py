@@ -1,4 +1,4 @@
-"""Pictures of results by matplotlib."""
+"""Plots of results by matplotlib."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def plot(res: Result, names: Sequence[str] | str | None, axes: Any) -> Any:
 
 
 def by_unit(units: Mapping[str, str]) -> dict[str, list[str]]:
-    """Names by their units, in their order."""
+    """Names grouped by unit, in their order."""
     groups: dict[str, list[str]] = {}
     for name, unit in units.items():
         groups.setdefault(unit, []).append(name)

@@ -1,4 +1,4 @@
-"""Bars of progress: tqdm's if it is installed, else a line of text."""
+"""Progress bars: tqdm's if it is installed, else a line of text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .arrays import function_or_flag
 
 
 class Bar:
-    """`show` takes the fraction done; None where nothing is to be shown."""
+    """`show` takes the fraction done; None if progress is not shown."""
 
     show: Callable[[float], object] | None
 

@@ -1,4 +1,4 @@
-"""How finite-element files are read: arguments of Python as options of the C++ library."""
+"""Reading of finite-element files: Python arguments as options of the C++ library."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def reading_options(
     dofs: object = None,
     damping_matrix: object = None,
 ) -> dict[str, Any]:
-    """How a file is read, as options of the C++ library."""
+    """Reading options of a file, for the C++ library."""
     options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None}
     expect_texts(options, ("format", "dialect", "contact"))
     for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs), ("damping_matrix", damping_matrix)):
@@ -52,7 +52,7 @@ def reading_options(
 
 
 def damping_text(damping: object) -> str | None:
-    """A damping by the keys of model files, as the text of the command line."""
+    """A damping given by the keys of model files, as text for the command line."""
     if damping is None:
         return None
 
@@ -100,7 +100,7 @@ def damping_text(damping: object) -> str | None:
 
 
 def named_numbers(name: str, value: object, expected: str) -> list[str] | None:
-    """A number for all, or numbers by names, as texts of the command line."""
+    """A number for all, or numbers by name, as texts for the command line."""
     if value is None:
         return None
     texts = []
@@ -121,7 +121,7 @@ def material_option(material: object) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """Numbers of numpy as those of Python; the C++ library judges them."""
+    """Converts numpy numbers to Python numbers; the C++ library checks them."""
     return value.item() if isinstance(value, np.generic) else value
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Result(Mapping[str, Array]):
-    """What is left of a run: samples of its outputs and a summary.
+    """Result of a run: samples of its outputs and a summary.
 
     `res["chassis.z"]` is the array of an output, shape (samples,), unit `res.units["chassis.z"]`. Arrays share the memory of
     the result and keep it alive.
@@ -33,15 +33,15 @@ class Result(Mapping[str, Array]):
         self._core = core
         self._model = model.copy()
         self.name = model.name
-        """Of the model."""
+        """Name of the model."""
         columns = core.columns
         self.units: dict[str, str] = dict(columns)
-        """Units by the names of columns; "time" is the first."""
+        """Units by column name; "time" is the first."""
         self.table: Array = core.table
         """All samples, shape (samples, columns): time, then the outputs in their order."""
         self._column = {name: k for k, (name, _) in enumerate(columns)}
         self.summary: dict[str, Any] = json.loads(core.summary_json)
-        """What `summary.json` of the command line says: status, steps, iterations, energies, violations, warnings."""
+        """Content of `summary.json` of the command line: status, steps, iterations, energies, violations, warnings."""
 
     @property
     def time(self) -> Array:
@@ -60,7 +60,7 @@ class Result(Mapping[str, Array]):
         return len(self._column)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table of pandas with the time as its index, in memory of its own."""
+        """A pandas table with the time as its index; a copy of the data."""
         import pandas
 
         names = list(self._column)
@@ -68,13 +68,13 @@ class Result(Mapping[str, Array]):
         return pandas.DataFrame(self.table[:, 1:].copy(), columns=names[1:], index=index)
 
     def to_csv(self) -> str:
-        """What `results.csv` of the command line holds: every number reads back to the same bits."""
+        """Content of `results.csv` of the command line: every number reads back to the same bits."""
         return self._core.results_csv
 
     def save(self, folder: str | os.PathLike[str]) -> str:
         """Writes results.csv, states.ffr, report.html and summary.json into a folder, as `floatframe run --out` does; all
-        commands that read results read these. A model that was made in Python is written beside them (model.yaml); if it names
-        files, commands need its place among these: `--model`. Returns the folder."""
+        commands for results can read these. A model made in Python is written to the same folder (model.yaml); if it refers to
+        files, commands need a copy of it next to them: `--model`. Returns the folder."""
         where = path("folder", folder)
         model, file = self._model.core, self._model.file
         if self._model.file.endswith("<model>"):
@@ -83,7 +83,7 @@ class Result(Mapping[str, Array]):
         return where
 
     def _written(self, folder: str, model: _core.LoadedModel) -> tuple[_core.LoadedModel, str]:
-        """The model file of a model that has none, beside the results; if it names no files, they are of this file."""
+        """Writes a model file next to the results for a model without one; if it names no files, the results refer to it."""
         file = os.path.join(folder, "model.yaml")
         try:
             os.makedirs(folder, exist_ok=True)
@@ -95,14 +95,14 @@ class Result(Mapping[str, Array]):
         return _core.load_model(file, list(self._model.parameters.items())), file
 
     def plot(self, names: Sequence[str] | str | None = None, *, axes: Any = None) -> Any:
-        """Curves of outputs over the time by matplotlib, one picture for each unit; returns its axes, shape (units,). names:
-        None for all. axes: of a figure of the caller, as many as there are units, or one for all."""
+        """Curves of outputs over the time by matplotlib, one plot per unit; returns the axes, shape (units,). names: None for
+        all. axes: existing axes, one per unit, or a single one for all."""
         from .plotting import plot
 
         return plot(self, names, axes)
 
     def view(self, height: int = 640) -> Any:
-        """The report of the run with its 3-D view, within a notebook; height [px]. Elsewhere `save` writes the same page."""
+        """The report of the run with its 3-D view, in a notebook; height [px]. Elsewhere `save` writes the same page."""
         from .notebook import Page
 
         with tempfile.TemporaryDirectory() as folder:
@@ -113,16 +113,16 @@ class Result(Mapping[str, Array]):
             return Page(page.read_text(encoding="utf-8"), height)
 
     def to_pyvista(self, time: float | None = None) -> pyvista.UnstructuredGrid:
-        """The bodies at the recorded instant that is nearest to `time` [s] (None: the last), where they are and as they are
-        bent, for pictures; needs pyvista. Point data "displacement" [m] from the design, "deformation", "velocity", and where
-        parts know their stress "von_mises" [Pa]; cell data "body" (docs/export.md)."""
+        """The bodies at the recorded instant nearest to `time` [s] (None: the last), with their positions and deformations, for
+        pictures; needs pyvista. Point data "displacement" [m] from the design, "deformation", "velocity", and for parts with
+        stress data "von_mises" [Pa]; cell data "body" (docs/export.md)."""
         from .scene import scene
 
         return scene(self, self._model, time)
 
     @property
     def state(self) -> _core.State | None:
-        """Where the run came to, for another one to start from: `ff.run(model, start=res.state)`."""
+        """State at the end of the run, as the start of another: `ff.run(model, start=res.state)`."""
         return self._core.state
 
     def __reduce_ex__(self, protocol: object) -> str:
@@ -139,14 +139,14 @@ def run(
     progress: bool | Callable[[float], object] = False,
     **options: Unpack[Options],
 ) -> Result:
-    """Runs a model; what is not given is as the model says. The result of a run that fails holds all up to there, and
-    `res.summary["status"]` says so.
+    """Runs a model; options not given are those of the model. The result of a run that fails contains all samples before the
+    failure, and `res.summary["status"]` shows it.
 
-    duration: [s]. progress: True for a bar (of tqdm, if there is one), or a function of the fraction done (0..1), called at
-    most 20 times a second. All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
+    duration: [s]. progress: True for a bar (of tqdm, if installed), or a function of the fraction done (0..1), called at most
+    20 times a second. All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
 
-    Other threads of Python go on meanwhile, and Ctrl-C ends it. Raises InputError for what is not valid, RunError where
-    the start cannot be found.
+    Other Python threads keep running meanwhile, and Ctrl-C ends the run. Raises InputError for invalid input, RunError if the
+    start cannot be found.
     """
     core = built(model)
     with Bar(progress) as bar:
@@ -155,7 +155,7 @@ def run(
 
 
 def state_again(text: str) -> _core.State:
-    """A state that was pickled."""
+    """Restores a pickled state."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "state.json")
         file.write_text(text, encoding="utf-8")

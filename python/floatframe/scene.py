@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def scene(result: Result, model: Model, time: float | None) -> pyvista.UnstructuredGrid:
-    """All bodies of a run at the recorded instant that is nearest to `time` [s]; None: the last."""
+    """All bodies of a run at the recorded instant nearest to `time` [s]; None: the last."""
     import pyvista
 
     instants = result.time
@@ -44,7 +44,7 @@ def scene(result: Result, model: Model, time: float | None) -> pyvista.Unstructu
 
 
 def _beside(model: Model, folder: str) -> str:
-    """The model file of a model that has none."""
+    """Writes a model file for a model without one."""
     path = Path(folder, "model.yaml")
     path.write_text(model.to_yaml(), encoding="utf-8")
     return str(path)

@@ -1,4 +1,4 @@
-"""Models that a program steps: controllers, co-simulation, learning."""
+"""Models stepped by a program: controllers, co-simulation, learning."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Outputs(Mapping[str, float]):
-    """Outputs at the end of the last step, by their names; `array` has them all, shape (outputs,), as a copy."""
+    """Outputs at the end of the last step, by name; `array` has them all, shape (outputs,), as a copy."""
 
     __slots__ = ("_simulation",)
 
@@ -41,7 +41,7 @@ class Outputs(Mapping[str, float]):
 
 
 class Inputs(MutableMapping[str, float]):
-    """Inputs by their names: what is set is held from the next step on. `array` has them all, shape (inputs,), as a copy.
+    """Inputs by name: a value set applies from the next step on. `array` has them all, shape (inputs,), as a copy.
 
     Setting raises InputError for a value that is not finite or outside of the limits of the input.
     """
@@ -83,12 +83,12 @@ class Simulation(_core.Simulation):
     ...     sim.step()
     ...     z = sim.outputs["chassis.z"]
 
-    Options are those of `Options`. `time` is the end of the last step [s], `counters` the sums over all steps, `notes` says
-    what became of the start. A simulation belongs to one thread at a time: calls from a second one while it steps raise
-    RuntimeError, as do calls from its own callbacks. Steps leave other threads of Python free. It is not copied or pickled;
-    its saved states are.
+    Options are those of `Options`. `time` is the end of the last step [s], `counters` the sums over all steps, `notes` reports
+    on the start values. A simulation belongs to one thread at a time: calls from a second one while it steps raise
+    RuntimeError, as do calls from its own callbacks. Steps leave other Python threads free. It cannot be copied or pickled; its
+    saved states can.
 
-    Raises InputError for options that are not valid, RunError if the start cannot be found.
+    Raises InputError for invalid options, RunError if the start cannot be found.
     """
 
     def __init__(self, model: Model, **options: Unpack[Options]) -> None:
@@ -97,7 +97,7 @@ class Simulation(_core.Simulation):
 
     @property
     def model(self) -> Model:
-        """What is simulated."""
+        """The simulated model."""
         return self._model
 
     @property
@@ -112,15 +112,15 @@ class Simulation(_core.Simulation):
 
     def on_step(self, function: Callable[[float, Array, Array], object] | None) -> None:
         """`function(time, outputs, inputs)` is called at the beginning of every step: time [s], outputs at this time, shape
-        (outputs,), and inputs, shape (inputs,), which it may change in place. They are held during the step. None removes
-        it. Price: 0.2 us a step, and what the function does."""
+        (outputs,), and inputs, shape (inputs,), which it may change in place. They are held during the step. None removes it.
+        Cost: 0.2 us per step, plus the function itself."""
         self.set_on_step(function)
 
     def law(self, input: str, function: Callable[..., float] | None, of: Sequence[str] = ()) -> None:
         """A force law: the input is set to `function(time, *values)` at the beginning of every step, with the values of the
-        outputs named in `of`. The input drives an actuator, a load or a target of the model. The value is held during the
-        step, so a stiff law needs small steps; laws of the model itself are evaluated in every iteration. None removes it.
-        Price: 0.35 us a step, and what the function does."""
+        outputs named in `of`. The input drives an actuator, a load or a target of the model. The value is held during the step,
+        so a stiff law needs small steps; laws of the model itself are evaluated in every iteration. None removes it. Cost: 0.35
+        us per step, plus the function itself."""
         self.set_law(input, function, texts("of", of))
 
     def __repr__(self) -> str:

@@ -38,20 +38,20 @@ def sweep(
     vary: Mapping[str, Iterable[Any]] | None = None,
     **variations: Iterable[Any],
 ) -> pandas.DataFrame:
-    """Runs a model with all combinations of values of parameters or of options of its simulation; the last one named changes
-    fastest. A table of pandas, one row for each run: values, "status", and figures of outputs such as "tip.x max [m]".
+    """Runs a model with all combinations of values of parameters or simulation options; the last one named changes fastest.
+    Returns a pandas table, one row per run: values, "status", and figures of outputs such as "tip.x max [m]".
 
     >>> ff.sweep(model, speed=np.linspace(3, 8, 11), processes=4)
 
-    vary: the same as a map, for names that Python does not take ("simulation.step"). runs: instead of all combinations, one
-    map of values for each run. measure: outputs in the table, "tip.x" or "tip.x:max"; none: all. processes: runs at a time,
-    each in a process of its own; None: as many as there are processors. folder: where sweep.csv and its journal stay, and
-    from where a study that was interrupted goes on; None: nothing stays. case_timeout [s]: a run that takes longer has
-    failed. A run that fails or crashes is a row whose "status" and "message" say so. Raises InputError for what is not valid.
+    vary: the same as a map, for names that are not Python identifiers ("simulation.step"). runs: instead of all combinations,
+    one map of values per run. measure: outputs in the table, "tip.x" or "tip.x:max"; none: all. processes: number of
+    simultaneous runs, each in a separate process; None: the number of processors. folder: location of sweep.csv and its
+    journal, from which an interrupted study continues; None: temporary. case_timeout [s]: longer runs are counted as failed. A
+    run that fails or crashes is a row whose "status" and "message" give the reason. Raises InputError for invalid input.
     """
     import pandas  # noqa: F401  before hours of computing
 
-    built(model)  # says what is wrong with it
+    built(model)  # raises its errors
     out_folder = None if folder is None else path("folder", folder)
     fixed = _options(processes, step, duration, coordinates, inertia, case_timeout)
     if vary is not None and not isinstance(vary, Mapping):
@@ -72,7 +72,7 @@ def sweep(
 def _options(
     processes: object, step: object, duration: object, coordinates: object, inertia: object, case_timeout: object
 ) -> list[str]:
-    """Of all runs, as the command takes them."""
+    """Settings of all runs, as accepted by the command."""
     given: dict[str, str] = {}
     if processes is not None:
         given["threads"] = str(whole("processes", processes, 1, 4096))
@@ -91,7 +91,7 @@ def _options(
 
 
 def _model_file(model: Model, folder: str) -> list[str]:
-    """A model that is not from a file is written into one; files that it names are found from its own folder."""
+    """Writes a model that is not from a file to a file; its relative file names refer to its folder."""
     if not model.file.endswith("<model>"):
         return [model.file]
     try:
@@ -107,7 +107,7 @@ def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]]
     if runs is None:
         if not vary:
             raise InputError("found nothing to vary, expected values of a parameter: sweep(model, speed=[3, 4, 5])")
-        # A table of all combinations holds any text; the last changes fastest.
+        # A table of all combinations may contain any text; the last name changes fastest.
         rows: list[dict[str, Any]] = [{}]
         for name, values in vary.items():
             if not isinstance(name, str):
@@ -153,7 +153,7 @@ def _run(arguments: Sequence[str], progress: bool) -> None:
     try:
         _, text = process.communicate()
     except BaseException:
-        process.send_signal(signal.SIGINT)  # it cancels its runs and keeps its journal
+        process.send_signal(signal.SIGINT)  # the command cancels its runs and keeps the journal
         process.wait()
         raise
     if process.returncode == 2:
@@ -163,7 +163,7 @@ def _run(arguments: Sequence[str], progress: bool) -> None:
 
 
 def _entry(line: str) -> ErrorEntry:
-    # Values come by a table of this package: its second line is the first run.
+    # Values are passed in a table made by this package: its second line is the first run.
     line = re.sub(r"\S*/runs\.csv: ", "", line.removeprefix("floatframe: "))
     line = re.sub(r"\S*/runs\.csv:(\d+)[.:] ?", lambda found: f"run {int(found[1]) - 1}: ", line)
     if place := re.match(r"(.+?):(\d+):(\d+): (.*)", line):
@@ -187,7 +187,7 @@ def _table(path: Path) -> pandas.DataFrame:
 
 
 def _numbers(texts: list[str]) -> list[Any]:
-    """A column as numbers if it holds nothing else; every number is read back to its bits."""
+    """A column as numbers if it contains only numbers; every number reads back to the same bits."""
     for kind in (int, float):
         try:
             return [kind(text) if text else math.nan for text in texts]

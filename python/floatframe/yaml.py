@@ -1,4 +1,4 @@
-"""Model files from nested data of Python: the same names as in docs/model-file.md."""
+"""Model files from nested Python data: the same names as in docs/model-file.md."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _DEEPEST = 50
 
 
 def to_yaml(data: Mapping[str, Any]) -> str:
-    """The text of a model file. Raises InputError for what such a file cannot hold, with the place of it in `data`."""
+    """The text of a model file. Raises InputError for values that it cannot contain, with their path in `data`."""
     return "".join(line + "\n" for line in _block(plain(data), ""))
 
 
 def plain(value: Any, path: str = "", depth: int = 0) -> Any:
-    """Maps, lists, texts, numbers and truth values: numpy's become Python's, copied."""
+    """Copies maps, lists, texts, numbers and booleans, converting numpy types to Python types."""
     if depth > _DEEPEST:
         raise InputError(f"{path}: found more than {_DEEPEST} levels (or a map within itself)")
     if hasattr(value, "tolist"):  # numpy
@@ -71,7 +71,7 @@ def _block(data: Mapping[str, Any], indent: str) -> Iterator[str]:
     for key, value in data.items():
         name = f"{indent}{_scalar(key)}:"
         line = f"{name} {_flow(value)}"
-        # A map of entities is a block, an entity a line where it fits.
+        # A map of entities is a block, an entity a single line if it fits.
         block = isinstance(value, Mapping) and value and (not indent or len(line) > _WIDTH)
         if block:
             yield name

@@ -1,4 +1,4 @@
-// What is asked of a model in one call: counts, equilibrium, mass, advice on modes, rotors.
+// Analyses of a model in one call: counts, equilibrium, mass, advice on modes, rotors.
 #include <array>
 
 #include "results.hpp"
@@ -7,15 +7,15 @@ namespace floatframe::python {
 namespace {
 
 void bind_start(nb::module_& m) {
-  nb::class_<StartReport> start(m, "StartReport", "What became of the start values of a model.");
-  value(start, "notes", &StartReport::notes, "All of it in sentences.");
+  nb::class_<StartReport> start(m, "StartReport", "Report on the start values of a model.");
+  value(start, "notes", &StartReport::notes, "The report in sentences.");
   start.def_prop_ro(
       "redundant", [](const StartReport& s) { return redundancy_text(s.redundant); },
-      "Directions that joints prescribe more than once; empty if there are none.");
+      "Directions constrained more than once by joints; empty if there are none.");
 }
 
 void bind_check(nb::module_& m) {
-  nb::class_<CoordinateCounts> counts(m, "CoordinateCounts", "Of one formulation.");
+  nb::class_<CoordinateCounts> counts(m, "CoordinateCounts", "Counts of one formulation.");
   value(counts, "rigid", &CoordinateCounts::rigid, "Coordinates of bodies or joints.");
   value(counts, "elastic", &CoordinateCounts::elastic, "Modal amplitudes.");
   value(counts, "total", &CoordinateCounts::total, "Both.");
@@ -24,7 +24,7 @@ void bind_check(nb::module_& m) {
   value(c, "bodies", &ModelCounts::bodies, "");
   value(c, "flexible_bodies", &ModelCounts::flexible_bodies, "");
   value(c, "joints", &ModelCounts::joints, "");
-  value(c, "cut_joints", &ModelCounts::cut_joints, "That close loops in relative coordinates.");
+  value(c, "cut_joints", &ModelCounts::cut_joints, "Loop joints, in relative coordinates.");
   value(c, "relative", &ModelCounts::relative, "");
   value(c, "absolute", &ModelCounts::absolute, "");
   value(c, "degrees_of_freedom", &ModelCounts::degrees_of_freedom, "");
@@ -43,13 +43,13 @@ void bind_statics(nb::module_& m) {
   value(force, "type", &StaticsForce::type, "");
   value(force, "force", &StaticsForce::force, "Tension positive [N]; torque [N m] about axes.");
   value(force, "length", &StaticsForce::length, "Length [m], deflection or angle [rad].");
-  value(force, "unique", &StaticsForce::unique, "False: one of many, of minimum norm.");
+  value(force, "unique", &StaticsForce::unique, "False: not unique, of minimum norm.");
   nb::class_<StaticsJoint> joint(m, "StaticsJoint", "The reaction of a joint in equilibrium.");
   value(joint, "name", &StaticsJoint::name, "");
   value(joint, "type", &StaticsJoint::type, "");
   array(joint, "force", &StaticsJoint::force, "On the child, world axes, shape (3,) [N].");
   array(joint, "torque", &StaticsJoint::torque, "About the joint point, shape (3,) [N m].");
-  joint.def_prop_ro("unique", &StaticsJoint::unique, "False: one of many, of minimum norm.");
+  joint.def_prop_ro("unique", &StaticsJoint::unique, "False: not unique, of minimum norm.");
   nb::class_<StaticsBody> body(m, "StaticsBody", "A body in equilibrium.");
   value(body, "name", &StaticsBody::name, "");
   array(body, "position", &StaticsBody::position, "Of its frame, world, shape (3,) [m].");
@@ -62,7 +62,7 @@ void bind_statics(nb::module_& m) {
   value(c, "forces", &StaticsResult::forces, "Of all force elements.");
   value(c, "joints", &StaticsResult::joints, "Reactions of all joints.");
   value(c, "bodies", &StaticsResult::bodies, "");
-  value(c, "notes", &StaticsResult::notes, "What else to know of it: that it is unstable.");
+  value(c, "notes", &StaticsResult::notes, "Remarks, e.g. that it is unstable.");
   c.def_prop_ro(
       "state", [](const StaticsResult& s) { return SystemState(*s.state); },
       "The equilibrium, at rest: a start for runs.");
@@ -73,13 +73,13 @@ void bind_statics(nb::module_& m) {
 }
 
 void bind_mass(nb::module_& m) {
-  nb::class_<BodyMass> body(m, "BodyMass", "Mass properties of a body, deformed as it starts.");
+  nb::class_<BodyMass> body(m, "BodyMass", "Mass properties of a body at the start.");
   value(body, "name", &BodyMass::name, "");
   value(body, "mass", &BodyMass::mass, "[kg]");
   array(body, "centre", &BodyMass::centre, "Centre of mass, world, shape (3,) [m].");
   array(body, "inertia", &BodyMass::inertia, "About it, world axes, shape (3, 3) [kg m2].");
-  nb::class_<ModelMass> c(m, "ModelMass", "Mass properties of a whole model where it starts.");
-  value(c, "time", &ModelMass::time, "At which the model is there [s].");
+  nb::class_<ModelMass> c(m, "ModelMass", "Mass properties of a whole model at the start.");
+  value(c, "time", &ModelMass::time, "Time of the configuration [s].");
   value(c, "mass", &ModelMass::mass, "[kg]");
   array(c, "centre", &ModelMass::centre, "Centre of mass, world, shape (3,) [m].");
   array(c, "inertia", &ModelMass::inertia, "About it, world axes, shape (3, 3) [kg m2].");
@@ -95,29 +95,29 @@ void bind_mass(nb::module_& m) {
 }
 
 void bind_differences(nb::module_& m) {
-  nb::class_<OutputDifference> d(m, "OutputDifference", "What fewer modes change of an output.");
+  nb::class_<OutputDifference> d(m, "OutputDifference", "Change of an output due to fewer modes.");
   value(d, "name", &OutputDifference::name, "");
   value(d, "unit", &OutputDifference::unit, "");
   value(d, "range", &OutputDifference::range, "Largest minus smallest sample.");
   value(d, "rms", &OutputDifference::rms, "Root mean square of the difference.");
   value(d, "largest", &OutputDifference::largest, "Largest difference.");
   value(d, "peaks", &OutputDifference::peaks, "Difference of the peaks.");
-  value(d, "relative", &OutputDifference::relative, "What is judged, in parts of the range.");
+  value(d, "relative", &OutputDifference::relative, "The criterion, as a fraction of the range.");
 }
 
 void bind_advice(nb::module_& m) {
   nb::class_<ModeAdvice> mode(m, "ModeAdvice", "Whether a mode of a body is needed.");
   value(mode, "mode", &ModeAdvice::mode, "From 0.");
   value(mode, "name", &ModeAdvice::name, "");
-  value(mode, "frequency", &ModeAdvice::frequency, "The body frame held [Hz].");
-  value(mode, "free_frequency", &ModeAdvice::free_frequency, "The body free to recoil [Hz].");
+  value(mode, "frequency", &ModeAdvice::frequency, "With the body frame fixed [Hz].");
+  value(mode, "free_frequency", &ModeAdvice::free_frequency, "With the body free [Hz].");
   value(mode, "step_phase", &ModeAdvice::step_phase, "omega times the step [rad].");
   value(mode, "static_share", &ModeAdvice::static_share, "Of the compliance.");
   value(mode, "dynamic_share", &ModeAdvice::dynamic_share, "Of the strain energy of the run.");
   value(mode, "kinetic_ratio", &ModeAdvice::kinetic_ratio, "");
   value(mode, "rms", &ModeAdvice::rms, "Of the amplitude in the run.");
   value(mode, "peak", &ModeAdvice::peak, "");
-  value(mode, "retained", &ModeAdvice::retained, "Small, but the verification was against it.");
+  value(mode, "retained", &ModeAdvice::retained, "Small, but needed by the verification.");
   mode.def_prop_ro(
       "action", [](const ModeAdvice& a) { return std::string(word(a.action)); },
       "'keep', 'quasi-static' or 'drop'.");
@@ -143,19 +143,19 @@ void bind_advice(nb::module_& m) {
 }
 
 void bind_order(nb::module_& m) {
-  nb::class_<BodyOrder> body(m, "BodyOrder", "Modes of a body that a range of frequencies needs.");
+  nb::class_<BodyOrder> body(m, "BodyOrder", "Modes of a body needed for a frequency range.");
   value(body, "name", &BodyOrder::name, "");
   value(body, "needed", &BodyOrder::needed, "Modes from 0, ascending.");
   numbers(body, "estimates", &BodyOrder::estimates, "Change of a frequency without each mode.");
-  value(body, "own", &BodyOrder::own, "Highest own frequency of its normal modes [Hz]; 0: none.");
-  nb::class_<ModelOrder> c(m, "ModelOrder", "How many modes a model needs below a frequency.");
+  value(body, "own", &BodyOrder::own, "Highest normal mode frequency [Hz]; 0: none.");
+  nb::class_<ModelOrder> c(m, "ModelOrder", "Number of modes needed below a frequency.");
   value(c, "bodies", &ModelOrder::bodies, "The flexible ones.");
   value(c, "modes", &ModelOrder::modes, "");
   value(c, "needed", &ModelOrder::needed, "");
   value(c, "trials", &ModelOrder::trials, "Linear systems of reduced models.");
   numbers(c, "full", &ModelOrder::full, "Undamped frequencies of the range [Hz].");
   numbers(c, "reduced", &ModelOrder::reduced, "With the modes needed [Hz].");
-  value(c, "change", &ModelOrder::change, "The largest, in parts.");
+  value(c, "change", &ModelOrder::change, "The largest relative change.");
   value(c, "differences", &ModelOrder::differences, "Of the runs, the largest first.");
   value(c, "warnings", &ModelOrder::warnings, "");
   m.def("model_order", [](const Model& model, double below, double tolerance) {
@@ -173,7 +173,7 @@ CampbellDiagram campbell_of(const Model& model, const std::string& joint, double
   return campbell(model, options);
 }
 
-/// lambda of a line over the speeds.
+/// Eigenvalues of a line over the speeds.
 ComplexArray eigenvalues(const CampbellLine& line) {
   Eigen::VectorXcd values(static_cast<Eigen::Index>(line.points.size()));
   for (std::size_t k = 0; k < line.points.size(); ++k)
@@ -187,9 +187,8 @@ void bind_campbell(nb::module_& m) {
         "'forward', 'backward', 'planar', 'axial or torsion', 'bending' or 'other bodies', by most "
         "of "
         "its points.");
-  line.def_prop_ro(
-      "eigenvalues", eigenvalues,
-      "At each speed, Im >= 0, NaN where the line is not known, shape (speeds,) [1/s].");
+  line.def_prop_ro("eigenvalues", eigenvalues,
+                   "At each speed, Im >= 0, NaN where the line is unknown, shape (speeds,) [1/s].");
   nb::class_<CriticalSpeed> critical(m, "CriticalSpeed", "Where a frequency crosses an order.");
   value(critical, "line", &CriticalSpeed::line, "From 0.");
   value(critical, "order", &CriticalSpeed::order, "");
@@ -197,17 +196,17 @@ void bind_campbell(nb::module_& m) {
   value(critical, "frequency", &CriticalSpeed::frequency, "[rad/s]");
   value(critical, "whirl", &CriticalSpeed::whirl, "");
   nb::class_<InstabilityOnset> onset(m, "InstabilityOnset", "Where damping becomes negative.");
-  value(onset, "line", &InstabilityOnset::line, "From 0; -1: of no line.");
+  value(onset, "line", &InstabilityOnset::line, "Line from 0; -1: none.");
   value(onset, "speed", &InstabilityOnset::speed, "[rad/s]");
   value(onset, "frequency", &InstabilityOnset::frequency, "[rad/s]");
   nb::class_<CampbellDiagram> c(m, "CampbellDiagram", "Vibrations of a rotor over its speed.");
   numbers(c, "speeds", &CampbellDiagram::speeds, "[rad/s]");
   value(c, "lines", &CampbellDiagram::lines, "Ascending by the frequency at the first speed.");
   value(c, "critical", &CampbellDiagram::critical, "");
-  value(c, "crossings", &CampbellDiagram::crossings, "Of order 1 that unbalance does not excite.");
+  value(c, "crossings", &CampbellDiagram::crossings, "Of order 1, not excited by unbalance.");
   value(c, "unstable", &CampbellDiagram::unstable, "");
   value(c, "rigid", &CampbellDiagram::rigid, "Modes of frequency zero at the first speed.");
-  value(c, "overdamped", &CampbellDiagram::overdamped, "Modes that swing at no speed.");
+  value(c, "overdamped", &CampbellDiagram::overdamped, "Modes that do not oscillate at any speed.");
   value(c, "notes", &CampbellDiagram::notes, "");
   m.def("campbell", campbell_of);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the sources of the module share. Each binds one subject: `bind_<subject>`.
+// Declarations shared by the sources of the module. Each binds one subject: `bind_<subject>`.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -17,7 +17,7 @@ namespace nb = nanobind;
 
 namespace floatframe::python {
 
-/// As Python has it.
+/// A loaded model, as a Python object.
 struct LoadedModel : Model {
   ModelSource source;
 };
@@ -35,7 +35,7 @@ void bind_mesh(nb::module_& m);
 void bind_part(nb::module_& m);
 
 inline bool is_array(PyObject* object) { return nb::ndarray_check(nb::handle(object)); }
-/// Objects by what stubs are to call them.
+/// Python objects, named by their type in stubs.
 struct RealArray : nb::object {
   NB_OBJECT_DEFAULT(RealArray, nb::object, "numpy.typing.NDArray[numpy.float64]", is_array)
 };
@@ -47,19 +47,19 @@ using Numbers = nb::typed<nb::dict, nb::str, double>;
 using Arrays = nb::typed<nb::dict, nb::str, RealArray>;
 using ArraysByName = nb::typed<nb::dict, nb::str, Arrays>;
 
-/// A copy as a numpy array of its own.
+/// A copy as an independent numpy array.
 RealArray array_of(const VecX& v);
 RealArray array_of(const MatX& a);
 RealArray array_of(const std::vector<double>& v);
 ComplexArray array_of(const Eigen::VectorXcd& v);
 ComplexArray array_of(const Eigen::MatrixXcd& a);
 
-/// A name that nothing has: also KeyError in Python.
+/// An unknown name: also KeyError in Python.
 struct UnknownName : InputError {
   using InputError::InputError;
 };
 
-/// The argument `name`, one of `words`. Throws InputError with what was found and expected.
+/// The argument `name`, one of `words`. Throws InputError with found and expected values.
 template <class T>
 T word_of(const char* name, const std::string& found,
           std::initializer_list<std::pair<const char*, T>> words) {
@@ -74,21 +74,21 @@ T word_of(const char* name, const std::string& found,
 
 Coordinates coordinates_of(const std::string& word);
 InertiaMethod inertia_of(const std::string& word);
-/// Arguments of Python as they are: InputError says what was found and what was expected.
+/// Python arguments of the given type: InputError contains the found and the expected type.
 double number(const std::string& name, nb::handle value);
 int whole(const std::string& name, nb::handle value);
 bool flag(const std::string& name, nb::handle value);
 std::string text(const std::string& name, nb::handle value);
-/// Name of the type of something.
+/// Name of the type of an object.
 std::string type_of(nb::handle value);
-/// A file or folder: a text or what `os.fspath` takes.
+/// A file or folder: a text or an object accepted by `os.fspath`.
 std::string path(const std::string& name, nb::handle value);
-/// Of keyword arguments; None is as if it was not given. Throws TypeError for other names.
+/// From keyword arguments; None is the same as not given. Throws TypeError for other names.
 SimulationOptions options_of(const Keywords& given);
 
-/// The lock of the interpreter given away, and taken back at the end of the scope. When the
-/// interpreter ends it stops the threads that ask for its lock, by an exception that C++ cannot
-/// hold: they wait here instead, for the end of the process (`bind_threads`).
+/// Releases the lock of the interpreter until the end of the scope. At its end the interpreter
+/// stops threads that request its lock, by an exception that must not pass through C++: they wait
+/// here instead until the process ends (`bind_threads`).
 class Unlocked {
  public:
   Unlocked();
@@ -99,7 +99,7 @@ class Unlocked {
  private:
   PyThreadState* state_;
 };
-/// The lock taken, in threads that do not hold it.
+/// Acquires the lock, in threads that do not hold it.
 class Locked {
  public:
   Locked();
@@ -110,11 +110,11 @@ class Locked {
  private:
   PyGILState_STATE state_;
 };
-/// Registers what happens to threads in C++ when the interpreter ends.
+/// Registers the handling of C++ threads at the end of the interpreter.
 void bind_threads();
 
-/// `run` in a thread of its own; this one, of Python, looks for signals meanwhile (Ctrl-C) and
-/// calls `watch` with the lock held. What either throws ends both: `stop` is set and waited for.
+/// Calls `run` in another thread; the calling one, of Python, checks for signals (Ctrl-C) and calls
+/// `watch` with the lock held. An exception of either ends both: sets `stop` and waits.
 void interruptible(std::atomic<bool>& stop, const std::function<void()>& run,
                    const std::function<void()>& watch);
 

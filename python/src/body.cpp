@@ -1,5 +1,5 @@
-// Bodies: inertia integrals, modes, and the inertia terms of a moving body by both methods. Arrays
-// come with the right types and finite numbers (bodies.py sees to it); sizes are checked here.
+// Bodies: inertia integrals, modes, and the inertia terms of a moving body by both methods.
+// bodies.py passes arrays of the right types with finite numbers; sizes are checked here.
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -134,7 +134,7 @@ std::pair<double, Vec3> mass_of(const ProjectionData& d) {
   return {mass, moment};
 }
 
-/// Nodes of the same body: mass and centre fit (lumped masses may move the centre a little).
+/// Nodes of the same body: checks mass and centre (lumped masses may move the centre a little).
 void require_same_body(const InertiaInvariants& v, const ProjectionData& d) {
   const auto [mass, moment] = mass_of(d);
   const auto text = [](double x) {
@@ -181,7 +181,7 @@ VecX amplitudes(const AnyNumbers& y) {
                       : VecX();
 }
 
-/// As the C++ library; but amplitudes that are empty are an error where there are modes.
+/// As in the C++ library, but empty amplitudes are an error for a body with modes.
 nb::typed<nb::tuple, RealArray, RealArray> inertia(const FlexibleBody& body, const Matrix3& A,
                                                    const AnyNumbers& y, const Vector3& omega,
                                                    const AnyNumbers& ydot, const Vector3& r0,
@@ -233,7 +233,7 @@ nb::typed<nb::tuple, View<double>, View<int>, View<int>> entries_of(const Projec
                         view(M.outerIndexPtr(), {rows + 1}, {1}, data));
 }
 
-/// What is shared is never changed: Python has no way to.
+/// Shared data is never changed: Python has no access for writing.
 BodyPtr shared(const std::shared_ptr<const FlexibleBody>& body) {
   return std::const_pointer_cast<FlexibleBody>(body);
 }

@@ -1,5 +1,5 @@
-// Exceptions: those of C++ become those of floatframe.errors, with every error of an input and its
-// place.
+// Exceptions: converts those of C++ to those of floatframe.errors, with every error of an input and
+// its location.
 #include <exception>
 
 #include "bindings.hpp"

@@ -17,9 +17,9 @@ void bind_linearization(nb::module_& m) {
   value(c, "coordinates", &Linearization::coordinates, "nv words: \"joint 'crank'\".");
   value(c, "constraints", &Linearization::constraints, "nc words: \"joint 'guide'\".");
   value(c, "state", &Linearization::state, "Where.");
-  value(c, "start", &Linearization::start, "What became of the start values.");
+  value(c, "start", &Linearization::start, "Report on the start values.");
   value(c, "stiffened", &Linearization::stiffened,
-        "Bodies whose geometric stiffening is counted in without being asked for.");
+        "Bodies with geometric stiffening included by default.");
   m.def("linearize", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     Unlocked released;
@@ -28,7 +28,7 @@ void bind_linearization(nb::module_& m) {
 }
 
 void bind_system(nb::module_& m) {
-  nb::class_<LinearSystem> c(m, "LinearSystem", "zdot = A z, as many z as there are freedoms.");
+  nb::class_<LinearSystem> c(m, "LinearSystem", "zdot = A z, one z per degree of freedom.");
   array(c, "A", &LinearSystem::A, "Shape (nz, nz) [1/s].");
   array(c, "x_of", &LinearSystem::x_of, "Increments of the coordinates of z, shape (nv, nz).");
   array(c, "v_of", &LinearSystem::v_of, "Their velocities, shape (nv, nz).");
@@ -36,9 +36,9 @@ void bind_system(nb::module_& m) {
   value(c, "states", &LinearSystem::states, "nz words: \"rate of joint 'crank'\".");
   value(c, "degrees", &LinearSystem::degrees, "Of freedom.");
   value(c, "massless", &LinearSystem::massless, "Of these.");
-  value(c, "notes", &LinearSystem::notes, "Where it holds less than one might think.");
+  value(c, "notes", &LinearSystem::notes, "Limits of validity.");
   value(c, "stiffened", &LinearSystem::stiffened,
-        "Bodies whose geometric stiffening is counted in without being asked for.");
+        "Bodies with geometric stiffening included by default.");
   m.def("linear_system", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     Unlocked released;
@@ -46,7 +46,7 @@ void bind_system(nb::module_& m) {
   });
 }
 
-/// A mode with those who take part in it.
+/// A mode with its participating bodies.
 struct Mode {
   LinearMode mode;
   ModeParts parts;
@@ -165,8 +165,8 @@ void bind_ports(nb::module_& m) {
   c.def_prop_ro("inputs", [](const LinearModel& l) { return names_of(l.inputs); });
   c.def_prop_ro("outputs", [](const LinearModel& l) { return names_of(l.outputs); });
   value(c, "time", &LinearModel::time, "Where it was linearised [s].");
-  array(c, "input_values", &LinearModel::input_values, "There, shape (inputs,).");
-  array(c, "output_values", &LinearModel::output_values, "There, shape (outputs,).");
+  array(c, "input_values", &LinearModel::input_values, "Inputs there, shape (inputs,).");
+  array(c, "output_values", &LinearModel::output_values, "Outputs there, shape (outputs,).");
   c.def("state_space", &state_space, "A, B, C, D; inputs that enter by derivatives as states.");
   c.def("response", response, nb::arg("frequencies"),
         "G at frequencies [Hz] of shape (n,), shape (n, outputs, inputs), complex.");
@@ -185,7 +185,7 @@ void bind_road(nb::module_& m) {
   spectrum.def_prop_ro("unit", [](const OutputSpectrum& s) { return s.output.unit; });
   numbers(spectrum, "density", &OutputSpectrum::density, "One-sided [unit^2/Hz].");
   value(spectrum, "rms", &OutputSpectrum::rms, "In the band, about the mean.");
-  nb::class_<RoadResponse> c(m, "RoadResponse", "What a random road does to a model.");
+  nb::class_<RoadResponse> c(m, "RoadResponse", "Response of a model to a random road.");
   numbers(c, "frequencies", &RoadResponse::frequencies, "[Hz]");
   value(c, "outputs", &RoadResponse::outputs, "");
   value(c, "road", &RoadResponse::road, "Effective height in the band [m].");

@@ -1,4 +1,4 @@
-// Finite-element models from arrays: what meshes.py has made of a mesh.
+// Finite-element models from arrays prepared by meshes.py.
 #include <nanobind/stl/tuple.h>
 
 #include <limits>

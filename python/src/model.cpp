@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, std::string>> units_of(const Model& model) {
   return units;
 }
 
-/// A model with what it was read from.
+/// A model with its source.
 LoadedModel loaded(const std::function<ModelDescription(ModelSource&)>& read) {
   ModelSource source;
   LoadedModel out;

@@ -1,11 +1,11 @@
-// The module floatframe._core: Python's view of the public C++ interface. What is pleasant about
-// the package - defaults, tables, pictures - is in Python beside it.
+// The module floatframe._core: the public C++ interface for Python. Convenience functions -
+// defaults, tables, pictures - are in the Python sources of the package.
 #include "bindings.hpp"
 
 NB_MODULE(_core, m) {
   using namespace floatframe::python;
   m.doc() = "The C++ library of Floatframe; use `floatframe`.";
-  nb::set_leak_warnings(false);  // of interpreters that end while views are alive
+  nb::set_leak_warnings(false);  // for interpreters that end while views exist
   bind_errors(m);
   bind_version(m);
   bind_model(m);

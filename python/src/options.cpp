@@ -121,7 +121,7 @@ SimulationOptions options_of(const Keywords& given) {
   SimulationOptions options;
   for (const auto& [key, value] : given) {
     const std::string name = nb::cast<std::string>(key);
-    if (value.is_none()) continue;  // as the model says
+    if (value.is_none()) continue;  // value of the model
     const auto& list = setters();
     const auto it =
         std::find_if(list.begin(), list.end(), [&](const auto& s) { return s.first == name; });

@@ -36,7 +36,7 @@ Vec3 vector_of(const nb::handle value) {
   return {x, y, z};
 }
 
-/// A place as places.py writes it: by the keys of model files.
+/// A place in the format of places.py: with the keys of model files.
 NodeChoice choice_of(const std::string& label, const nb::dict& place) {
   const auto word = field<std::string>(place, "way");
   const auto ways = node_ways();
@@ -102,7 +102,7 @@ void add_places(PartJob& job, const std::string& key, const nb::dict& places) {
   }
 }
 
-/// A value of the option `key` into the job.
+/// Sets the job's value of the option `key`.
 struct Given {
   using O = PartOption;
   PartJob& job;
@@ -145,7 +145,7 @@ struct Given {
   }
 };
 
-/// Options by the keys of model files; None is as if it was not given.
+/// Options by the keys of model files; None is the same as not given.
 PartJob job_of(const std::string& file, const Keywords& options) {
   PartJob job;
   job.file = file;
@@ -157,17 +157,17 @@ PartJob job_of(const std::string& file, const Keywords& options) {
   return job;
 }
 
-/// Ends a reduction when Python has been interrupted.
+/// Thrown to end a reduction when Python was interrupted.
 struct Interrupted {};
 
-/// The stages of a reduction on their way from its thread to Python.
+/// Queue of the stages of a reduction from its thread to Python.
 class StageQueue {
  public:
   void add(const std::string& stage, double seconds) {
     const std::lock_guard lock(mutex_);
     stages_.emplace_back(stage, seconds);
   }
-  void tell(const nb::object& progress) {
+  void report_stages(const nb::object& progress) {
     std::vector<std::pair<std::string, double>> stages;
     {
       const std::lock_guard lock(mutex_);
@@ -182,7 +182,7 @@ class StageQueue {
   std::vector<std::pair<std::string, double>> stages_;
 };
 
-/// What the numbers of a part or a damaged file make of the algorithms is an error of the input.
+/// Errors of algorithms caused by the numbers of a part or a damaged file become input errors.
 template <class Work>
 auto of_input(const std::string& name, const Work& work) {
   try {
@@ -208,8 +208,8 @@ FilePtr reduced(PartJob job, const std::function<BodyFile(const PartJob&)>& redu
   auto content = std::make_shared<BodyFile>();
   interruptible(
       stop, [&] { *content = of_input(job.file, [&] { return reduce(job); }); },
-      [&] { stages.tell(progress); });
-  stages.tell(progress);
+      [&] { stages.report_stages(progress); });
+  stages.report_stages(progress);
   return content;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Members of plain structs as attributes: matrices and vectors as arrays that look at the struct
-// and keep it alive.
+// Members of plain structs as attributes: matrices and vectors as arrays that share the memory of
+// the struct and keep it alive.
 #include "bindings.hpp"
 
 namespace floatframe::python {
@@ -24,7 +24,7 @@ void numbers(nb::class_<S>& c, const char* name, std::vector<double> S::*member,
       nb::rv_policy::reference, doc);
 }
 
-/// Numbers of a result as an array of numpy that keeps it alive and cannot be written to.
+/// Numbers of a result as a read-only numpy array that keeps it alive.
 template <class T>
 auto view_of(const T& a, const nb::handle owner) {
   using Scalar = typename T::Scalar;

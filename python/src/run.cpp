@@ -1,5 +1,4 @@
-// Runs and their results. Numbers stay where the run left them; arrays of Python look at them and
-// keep them alive.
+// Runs and their results. Python arrays share the memory of the run and keep it alive.
 
 #include "bindings.hpp"
 
@@ -36,7 +35,7 @@ std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& d
 
 using Table = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
 
-/// The table of a result, with its memory.
+/// The table of a result, sharing its memory.
 Table table_of(const std::shared_ptr<KeptRun>& result) {
   ResultTable& table = result->result.table;
   nb::capsule owner(new std::shared_ptr<KeptRun>(result),

@@ -1,6 +1,6 @@
-// Simulations that Python steps. A simulation belongs to one thread at a time: while it steps,
+// Simulations stepped by Python. A simulation belongs to one thread at a time: while it steps,
 // without the lock of the interpreter, calls from other threads and from its own callbacks are
-// refused.
+// rejected.
 #include <thread>
 #include <unordered_map>
 
@@ -35,13 +35,13 @@ struct Stepper {
   std::thread::id worker;
   nb::object on_step;
   std::vector<Law> laws;
-  /// What on_step gets: outputs and inputs. Arrays are views of numbers that live as long as the
+  /// Arguments of on_step: outputs and inputs. Arrays are views of numbers that live as long as the
   /// simulation and the last view, whatever is done to the arrays.
   std::shared_ptr<std::vector<double>> seen_numbers, changed_numbers;
   nb::object seen, changed;
   std::exception_ptr failed;
 
-  /// Throws where the simulation is at work.
+  /// Throws if the simulation is stepping.
   Simulation& idle() {
     if (!busy) return simulation;
     throw std::runtime_error(
@@ -78,7 +78,7 @@ nb::object view_of(const Kept& numbers) {
   return nb::cast(Line(numbers->data(), {numbers->size()}, owner));
 }
 
-/// The view again if its user has made another array of it.
+/// Replaces the view if the user has modified the array object.
 void keep_view(nb::object& array, const Kept& numbers) {
   Line line;
   if (!nb::try_cast(array, line) || line.data() != numbers->data() ||
@@ -110,7 +110,7 @@ void call_law(const Stepper& s, const Law& law, double time, std::span<const dou
   inputs[static_cast<std::size_t>(law.input)] = x;
 }
 
-/// What the library calls before each step while there are callbacks.
+/// The function called by the library before each step while there are callbacks.
 void set_callback(Stepper& s) {
   if (!s.on_step.is_valid() && s.laws.empty()) {
     s.simulation.on_force({});
@@ -156,7 +156,7 @@ void add_law(Stepper& s, const nb::object& input, const nb::object& function, co
   set_callback(s);
 }
 
-/// What a step reports, with words of its own.
+/// Report of a step, with its status as a word.
 struct Report {
   StepReport step;
   std::string where;
@@ -184,7 +184,7 @@ Report step(Stepper& s, const nb::object& given) {
   throw nb::python_error();
 }
 
-// Cycles of callbacks that hold their simulation are seen by Python's collector.
+// Lets Python's collector find cycles of callbacks that hold their simulation.
 int traverse(PyObject* self, visitproc visit, void* arg) {
   Py_VISIT(Py_TYPE(self));
   if (!nb::inst_ready(self)) return 0;
@@ -225,7 +225,7 @@ std::vector<double> copied(std::span<const double> numbers) {
 }
 
 void bind_reports(nb::module_& m) {
-  nb::class_<Report>(m, "StepReport", "What a step cost and how well it meets the constraints.")
+  nb::class_<Report>(m, "StepReport", "Cost of a step and its constraint violations.")
       .def_prop_ro(
           "time", [](const Report& r) { return r.step.time; }, "End of the step [s].")
       .def_prop_ro(
@@ -233,7 +233,7 @@ void bind_reports(nb::module_& m) {
       .def_prop_ro("factorizations", [](const Report& r) { return r.step.factorizations; })
       .def_prop_ro(
           "substeps", [](const Report& r) { return r.step.substeps; },
-          "That it was divided into; 0: made in one.")
+          "Number of substeps; 0: not divided.")
       .def_prop_ro(
           "position_violation", [](const Report& r) { return r.step.position_violation; }, "[m]")
       .def_prop_ro(
@@ -257,7 +257,7 @@ void bind_simulation(nb::module_& m) {
            nb::sig("def step(self, size: float | None = None) -> StepReport"),
            "One step of the size of the options, or of `size` [s]. Raises StepError if it fails: "
            "time and outputs stay those of the last good step, and further steps fail until "
-           "`restore`. What a callback raises comes through.")
+           "`restore`. Exceptions of callbacks pass through.")
       .def_prop_ro("time", [](Stepper& s) { return s.idle().time(); })
       .def_prop_ro("step_size", [](Stepper& s) { return s.simulation.options().step; })
       .def_prop_ro("counters", counters)
@@ -286,7 +286,7 @@ void bind_simulation(nb::module_& m) {
            nb::sig("def set_law(self, input: str, function: object | None, of: list[str]) -> None"))
       .def(
           "save", [](Stepper& s) { return s.idle().save(); },
-          "All that decides the next steps; may be pickled.")
+          "Complete state for the next steps; may be pickled.")
       .def(
           "restore",
           [](Stepper& s, const nb::object& state) {
@@ -297,12 +297,12 @@ void bind_simulation(nb::module_& m) {
             s.idle().restore(nb::cast<const SimulationState&>(state));
           },
           nb::arg("state"), nb::sig("def restore(self, state: SimulationState) -> None"),
-          "Back, or on, to a state of this simulation or of another one of the same model and "
+          "Sets a state of this simulation or of another one of the same model and "
           "options: the same steps follow, bit for bit. Raises InputError, and changes nothing, "
           "for any other state.")
       .def(
           "state", [](Stepper& s) { return s.idle().state(); },
-          "Where the model is, by the names of joints and bodies.");
+          "State of the model, by the names of joints and bodies.");
 }
 
 }  // namespace floatframe::python

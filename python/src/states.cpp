@@ -1,4 +1,4 @@
-// States: those that a simulation goes on from bit for bit (bytes), and those by the names of
+// States: those from which a simulation continues bit for bit (bytes), and those by the names of
 // joints and bodies (JSON).
 #include "bindings.hpp"
 
@@ -54,7 +54,7 @@ ArraysByName joints(const SystemState& s) {
 void bind_states(nb::module_& m) {
   nb::class_<SimulationState>(
       m, "SimulationState",
-      "All that decides the next steps of a simulation, bit for bit. May be pickled and copied.")
+      "Complete state for the next steps of a simulation, bit for bit. May be pickled and copied.")
       .def_prop_ro("time", &SimulationState::time, "[s]")
       .def("to_bytes", bytes_of)
       .def_static("from_bytes", from_bytes, nb::arg("data"),
@@ -65,7 +65,7 @@ void bind_states(nb::module_& m) {
       });
   nb::class_<SystemState>(
       m, "State",
-      "Where a model is at one instant, by the names of its joints and bodies. Runs in either "
+      "State of a model at one instant, by the names of its joints and bodies. Runs in either "
       "coordinates start from it (`start=`), not with the same bits.")
       .def_static(
           "load", [](const nb::object& file) { return read_state(path("path", file)); },
@@ -82,7 +82,7 @@ void bind_states(nb::module_& m) {
       .def("__copy__", [](const SystemState& s) { return s; })
       .def("__deepcopy__", [](const SystemState& s, const nb::object&) { return s; })
       .def_ro("time", &SystemState::time, "[s]")
-      .def_ro("model", &SystemState::model, "Name of the model it was taken of.")
+      .def_ro("model", &SystemState::model, "Name of the model it belongs to.")
       .def_prop_ro(
           "joints", joints,
           "By joint: `position` and `velocity` of its coordinates [m] or [rad], as in model files.")

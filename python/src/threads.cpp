@@ -1,4 +1,4 @@
-// Long work with Python alive beside it, and threads at the end of the interpreter.
+// Long work that leaves other Python threads free, and threads at the end of the interpreter.
 #include <unistd.h>
 
 #include <chrono>
@@ -11,26 +11,26 @@
 namespace floatframe::python {
 namespace {
 
-/// Python is about to end: nobody asks for its lock any more.
+/// Python is ending: threads no longer request its lock.
 std::atomic<bool> ending{false};
-std::atomic<std::thread::id> finisher;  // the thread that ends it, which may go on
-/// Threads that are asking for the lock, and callbacks from C++ that run in Python.
+std::atomic<std::thread::id> finisher;  // the thread that ends it, which may continue
+/// Number of threads requesting the lock, and of callbacks from C++ running in Python.
 std::atomic<int> asking{0}, called{0};
 
-[[noreturn]] void wait_for_the_end() {
+[[noreturn]] void wait_for_exit() {
   while (true) ::pause();
 }
 
-/// Counts who asks, before looking whether Python ends: after `ending` is set and the count is zero
-/// nobody is on the way to the lock.
-void ask(std::atomic<int>& count) {
+/// Counts a request before checking whether Python is ending: after `ending` is set and the count
+/// is zero, no thread is about to take the lock.
+void count_request(std::atomic<int>& count) {
   ++count;
   if (!ending || std::this_thread::get_id() == finisher) return;
   --count;
-  wait_for_the_end();
+  wait_for_exit();
 }
 
-/// Called by Python's atexit, with the lock.
+/// Called by Python's atexit, with the lock held.
 void end_threads() {
   finisher = std::this_thread::get_id();
   ending = true;
@@ -45,13 +45,13 @@ void end_threads() {
 Unlocked::Unlocked() : state_(PyEval_SaveThread()) {}
 
 Unlocked::~Unlocked() {
-  ask(asking);
+  count_request(asking);
   PyEval_RestoreThread(state_);
   --asking;
 }
 
 Locked::Locked() {
-  ask(called);
+  count_request(called);
   state_ = PyGILState_Ensure();
 }
 

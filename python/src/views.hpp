@@ -1,6 +1,6 @@
 #pragma once
-// Arrays of numpy that look at numbers of C++ and keep them alive. They cannot be written to: what
-// they show is shared and never changes.
+// Numpy arrays that share memory of C++ and keep it alive. They are read-only: the data is shared
+// and never changes.
 #include "bindings.hpp"
 
 namespace floatframe::python {
@@ -13,7 +13,7 @@ template <class T>
 using View = nb::ndarray<nb::numpy, const T>;
 using Numbers3 = nb::typed<nb::tuple, View<double>, View<double>, View<double>>;
 
-/// Strides count numbers, not bytes.
+/// Strides are in numbers, not bytes.
 template <class T>
 View<T> view(const T* data, const Sizes& sizes, const Strides& strides, Owner owner) {
   static const T nothing{};
@@ -29,7 +29,7 @@ View<double> matrix_view(const Matrix& a, Owner owner) {
               {1, static_cast<std::int64_t>(a.rows())}, std::move(owner));
 }
 
-/// Of a vector or a matrix that nothing else has.
+/// View of a vector or a matrix that has no other owner.
 inline View<double> kept(VecX v) {
   const auto owner = std::make_shared<const VecX>(std::move(v));
   return view(owner->data(), {static_cast<std::size_t>(owner->size())}, {1}, owner);
@@ -39,7 +39,7 @@ inline View<double> kept(MatX a) {
   return matrix_view(*owner, owner);
 }
 
-/// A property that looks at what `getter` gives.
+/// A property that is a view of the result of `getter`.
 template <class Class, class Getter>
 void def_view(Class& c, const char* name, Getter getter) {
   c.def_prop_ro(name, getter, nb::rv_policy::reference);

@@ -33,14 +33,14 @@ long tip_step(double step, long steps) {
 
 Vec3 tip_of(BenchStepper& stepper) { return stepper.sample().segment<3>(1); }
 
-/// Follows the run once, untimed in its results, for what it gives: tip and energies.
+/// Executes the run once, outside the timing, to record tip and energies.
 class CheckRun {
  public:
   CheckRun(BenchStepper& stepper, double step, long steps, double seconds) : stepper_(stepper) {
     note_energies();
     const long tip_at = tip_step(step, steps);
     double spent = 0.0;
-    long block = 1;  // the first step shows what the others cost
+    long block = 1;  // the first step gives the cost of the others
     while (done_ < steps) {
       long next = std::min(done_ + block, steps);
       if (tip_at > done_) next = std::min(next, tip_at);
@@ -58,8 +58,7 @@ class CheckRun {
       block =
           std::clamp(static_cast<long>(0.2 * seconds / std::max(each, 1e-9)), 1L, steps_a_block);
       if (spent + static_cast<double>(block) * each > seconds && done_ < steps) {
-        // So long a run is cut to a round number of steps, the same on machines of about this
-        // speed.
+        // Such a long run is cut to a round number of steps, the same on machines of similar speed.
         done_ = round_steps(done_);
         return;
       }
@@ -144,7 +143,7 @@ StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds,
   StepTime result;
   double spent = 0.0;
   while (result.runs < runs || (spent < seconds && result.runs < most_runs)) {
-    // A run that takes long is not repeated more than the noise of short ones deserves.
+    // Repetitions of a long run are limited: they would improve its accuracy little.
     if (result.runs >= 2 && spent > 2.0 * seconds) break;
     stepper.restart();
     for (std::size_t b = 0; b < blocks; ++b) {

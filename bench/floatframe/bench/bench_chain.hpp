@@ -1,7 +1,7 @@
 #pragma once
 // The chain of flexible links in the four combinations of coordinates and inertia method: processor
-// time per step, iterations and factorisations, the error at the tip, the drift of the energy;
-// beside a yardstick measured in the same process, one dense Cholesky factorisation.
+// time per step, iterations and factorisations, the error at the tip, the drift of the energy; with
+// a reference time measured in the same process, one dense Cholesky factorisation.
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,11 +18,11 @@ struct Combination {
   InertiaMethod inertia;
 };
 
-/// "Abs. + B" and so on, as the paper calls them (B: projection, P: preprocessing).
+/// "Abs. + B" and so on, as in the paper (B: projection, P: preprocessing).
 std::string short_name(const Combination& combination);
 
-/// Blocks of steps timed in several runs that do the same work: of each block the least and the
-/// median time over the runs, summed over the blocks. A disturbance spoils one block of one run.
+/// Blocks of steps timed in several identical runs: for each block the minimum and the median time
+/// over the runs, summed over the blocks. A disturbance affects one block of one run only.
 struct StepTime {
   double least = 0, median = 0;  ///< [s] of processor time per step
   long steps = 0;
@@ -33,8 +33,8 @@ struct StepTime {
 /// The largest of 1, 2, 5, 10, 20, ... that is not above n.
 long round_steps(long n) noexcept;
 
-/// Times `steps` steps from the start in `runs` runs at least, more while they take less than
-/// `seconds` together. Throws RunError with the stepper's words if a step fails.
+/// Times `steps` steps from the start in at least `runs` runs, more while their total is less than
+/// `seconds`. Throws RunError with the message of the stepper if a step fails.
 StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds,
                     int most_runs = 100);
 
@@ -43,10 +43,10 @@ struct ChainRow {
   Combination combination{Coordinates::relative, InertiaMethod::preprocessing};
   int freedoms = 0;  ///< velocities of the formulation
   StepTime time;
-  std::optional<double> tip_error;      ///< at 1 s, against our own run of a small step [m]
+  std::optional<double> tip_error;      ///< at 1 s, against a run with a small step [m]
   std::optional<double> tip_published;  ///< at 1 s, distance to the published tip [m]
   double energy_drift = 0;  ///< largest change of the total energy over the range of the potential
-  std::string failure;      ///< why the run ended early; empty if it did not
+  std::string failure;      ///< reason for an early end; else empty
 };
 
 struct ChainOptions {
@@ -58,9 +58,9 @@ struct ChainOptions {
   double spectral_radius = chain_spectral_radius;
   std::vector<Coordinates> coordinates{Coordinates::relative, Coordinates::absolute};
   std::vector<InertiaMethod> inertia{InertiaMethod::preprocessing, InertiaMethod::projection};
-  int runs = 5;  ///< timed runs of a row, at least
+  int runs = 5;  ///< minimum number of timed runs of a row
   int most_runs = 100;
-  double seconds = 2.0;  ///< processor time for the timed runs of a row, about
+  double seconds = 2.0;  ///< approximate processor time for the timed runs of a row
   std::function<void(double)> progress;
 };
 
@@ -71,11 +71,11 @@ struct ChainResult {
   double dense_llt = 0;           ///< [s], 98 x 98
 };
 
-/// Largest number of links for which the run of a small step is made.
+/// Largest number of links for the reference run with a small step.
 inline constexpr int largest_reference_chain = 16;
 
-/// A row whose run fails says so; the others go on. Throws InputError, RunError for models that
-/// cannot be built or started.
+/// A failed run is reported in its row; the others continue. Throws InputError, RunError for models
+/// that cannot be built or started.
 ChainResult bench_chain(const ChainOptions& options);
 
 std::string chain_text(const ChainResult& result);

@@ -1,4 +1,4 @@
-// How the benchmark of the chain is shown: a table for people, JSON for programs.
+// Output of the chain benchmark: a table for people, JSON for programs.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// floatframe bench: what its benchmarks share.
+// floatframe bench: functions shared by the benchmarks.
 #include "floatframe/bench/bench_command.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #pragma once
-// The benchmarks behind `floatframe bench`, and what they share.
+// The benchmarks of `floatframe bench`, and their shared functions.
 #include <string>
 
 #include "floatframe/apps/command.hpp"
@@ -15,11 +15,11 @@ Command bench_scaling_command();
 Command bench_start_command();
 Command bench_step_command();
 
-/// The Iltis example: in a build folder beside the examples, in the current folder, or where the
-/// program is installed. Throws InputError if it is not there.
+/// The Iltis example: in a build folder next to the examples, in the current folder, or in the
+/// installation. Throws InputError if it is not found.
 std::string find_iltis();
 
-/// The number in an option's text; InputError unless it lies in (low, high].
+/// The number in an option's text; InputError unless it is in (low, high].
 double number_within(const std::string& option, const std::string& text, double low, double high);
 
 }  // namespace floatframe

@@ -36,7 +36,7 @@ BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
   row.coordinates = combination.coordinates;
   row.inertia = combination.inertia;
   row.elements_per_bar = elements;
-  // One run for what it says about itself, then the same steps with nothing between them.
+  // One run for its summary, then the same steps without other work in between.
   RunOptions run_options;
   run_options.record = false;
   const RunSummary summary = run(model, simulation, run_options).summary;

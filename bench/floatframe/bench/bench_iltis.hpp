@@ -1,7 +1,7 @@
 #pragma once
 // Table 1 of the paper on this machine: processor time of the Iltis manoeuvre in the four
-// combinations of coordinates and inertia method against the number of elements per bar; what the
-// model's preparation costs; the error of several step sizes beside their cost; and two yardsticks
+// combinations of coordinates and inertia method against the number of elements per bar; the cost
+// of the model's preparation; the error and cost of several step sizes; and two reference times
 // measured in the same run, a dense Cholesky factorisation and one full Newton iteration.
 #include <functional>
 #include <string>
@@ -15,7 +15,7 @@ struct BenchRow {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
   int elements_per_bar = 0;
-  /// [s] of a whole run, without input and output: of every block of 20 steps the least and the
+  /// [s] of a whole run, without input and output: for every block of 20 steps the minimum and the
   /// median time over the runs, summed over the blocks.
   double cpu_min = 0, cpu_median = 0;
   long steps = 0, iterations = 0, factorizations = 0, substeps = 0;
@@ -30,12 +30,12 @@ struct BenchBuild {
          build = 0;  ///< [s] reading the model file; finite elements, modes and constant integrals
 };
 
-/// Cost beside error: in relative coordinates, preprocessing, at the largest number of elements.
+/// Cost against error: in relative coordinates, preprocessing, at the largest number of elements.
 struct BenchError {
   double step = 0, cpu_min = 0, real_time_factor = 0;  ///< as above
   double error = 0;  ///< largest error of an output in metres, against a hundredth of the step [m]
-  std::string channel;  ///< where
-  double time = 0;      ///< when [s]
+  std::string channel;  ///< channel of the largest error
+  double time = 0;      ///< time of the largest error [s]
 };
 
 struct BenchResult {
@@ -59,7 +59,7 @@ struct BenchOptions {
 /// Throws InputError for an invalid model, RunError when a run fails.
 BenchResult bench_iltis(const BenchOptions& options);
 
-/// Tables for the terminal, the paper's figures beside ours.
+/// Tables for the terminal, with the figures of the paper for comparison.
 std::string bench_text(const BenchResult& result);
 std::string bench_json(const BenchResult& result);
 

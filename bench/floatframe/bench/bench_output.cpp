@@ -1,4 +1,4 @@
-// How the benchmark is shown: tables for people, JSON for programs.
+// Output of the benchmark: tables for people, JSON for programs.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -41,13 +41,13 @@ Point solid_point(int across) {
   p.row.links = usual_links;
   p.row.modes = usual_modes;
   p.row.elements = across * across * bricks_along + 2 * face;
-  // Bricks have three per node; the centres and, through the beams, the face nodes have six.
+  // Bricks have three dofs per node; the centres and, through the beams, the face nodes have six.
   p.row.finite_element_dofs = 3 * face * (bricks_along + 1) + 3 * 2 * face + 2 * 6;
   p.description = solid_chain(usual_links, across);
   return p;
 }
 
-/// One point of a sweep is described at a time: a large mesh is a large description.
+/// Points are described one at a time: a large mesh needs a large description.
 std::vector<std::function<Point()>> points(Sweep sweep) {
   std::vector<std::function<Point()>> list;
   switch (sweep) {
@@ -77,7 +77,7 @@ void measure_part(const Model& model, const SimulationDescription& simulation,
   row.freedoms = stepper->freedoms();
   row.iteration = time_iteration(*stepper, 0.5 * options.seconds);
   try {
-    // Where a step takes long, fewer of them: a run should not take more than 5 times what it may.
+    // Fewer steps if a step takes long: a run should take at most 5 times the intended time.
     const double first = time_steps(*stepper, 1, 1, 0.0).least;
     const double most = std::clamp(5.0 * options.seconds / std::max(first, 1e-9), 1.0, 1e6);
     row.time = time_steps(*stepper, std::min<long>(options.steps, round_steps(std::lround(most))),
@@ -86,7 +86,7 @@ void measure_part(const Model& model, const SimulationDescription& simulation,
     row.failure = error.what();
     return;
   }
-  // Again, some time later: a disturbance may be longer than a measurement.
+  // Repeated some time later: a disturbance may last longer than a measurement.
   stepper->restart();
   row.iteration = std::min(row.iteration, time_iteration(*stepper, 0.5 * options.seconds));
 }

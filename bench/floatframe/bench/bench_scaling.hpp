@@ -1,6 +1,6 @@
 #pragma once
-// What the cost of a step depends on: chains of flexible links with more elements, more interface
-// nodes, more modes, more bodies.
+// Scaling of the cost of a step: chains of flexible links with more elements, more interface nodes,
+// more modes, more bodies.
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ const char* word(Sweep sweep) noexcept;
 
 struct ScalingRow {
   Sweep sweep = Sweep::elements;
-  /// Of what is varied: elements per link, nodes of an end face, modes per link, links.
+  /// Value of the varied quantity: elements per link, nodes of an end face, modes per link, links.
   int value = 0;
   int links = 0, modes = 0;
   int elements = 0;             ///< finite elements per link
@@ -36,8 +36,8 @@ struct ScalingOptions {
   std::vector<InertiaMethod> inertia{InertiaMethod::preprocessing};
   double step = 1e-3;    ///< [s]
   int steps = 100;       ///< of every run
-  int runs = 5;          ///< timed runs of a row, at least
-  double seconds = 0.5;  ///< processor time for the timed runs of a row, about
+  int runs = 5;          ///< minimum number of timed runs of a row
+  double seconds = 0.5;  ///< approximate processor time for the timed runs of a row
   std::function<void(double)> progress;
 };
 
@@ -50,7 +50,7 @@ struct ScalingResult {
 /// A chain whose links are `across` x `across` x 50 bricks, six static and two normal modes.
 ModelDescription solid_chain(int links, int across);
 
-/// A row whose run fails says so; the others go on.
+/// A failed run is reported in its row; the others continue.
 ScalingResult bench_scaling(const ScalingOptions& options);
 
 std::string scaling_text(const ScalingResult& result);

@@ -1,4 +1,4 @@
-// How the benchmark of growth is shown: a table a sweep for people, JSON for programs.
+// Output of the scaling benchmark: one table per sweep for people, JSON for programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ const char* title(Sweep sweep) {
   return "";
 }
 
-/// What the cost of a row is measured by: the row of 20 elements, 4 interface nodes, 8 modes or 8
-/// links of the same combination, or the first one if that is not there.
+/// Reference row for the cost of a row: the row of 20 elements, 4 interface nodes, 8 modes or 8
+/// links of the same combination, or the first one if there is none.
 const ScalingRow& base_row(const ScalingResult& result, const ScalingRow& row) {
   const int usual = row.sweep == Sweep::elements ? 20 : row.sweep == Sweep::interface_nodes ? 4 : 8;
   const ScalingRow* base = nullptr;

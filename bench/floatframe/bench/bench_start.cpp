@@ -48,7 +48,7 @@ StartRow measured(StartKind kind, bool flexible, Coordinates coordinates, int co
   return row;
 }
 
-/// Coordinates of one link, field or vehicle, about.
+/// Approximate number of coordinates of one link, field or vehicle.
 int coordinates_of_one(StartKind kind, bool flexible, Coordinates coordinates) {
   const Model model = build_model(start_model(kind, flexible, 1));
   SimulationDescription o = model.simulation;

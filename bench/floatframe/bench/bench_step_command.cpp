@@ -1,6 +1,6 @@
-// floatframe bench step: makes the steps of a run and nothing else, for tools that watch a program
-// while it steps (callgrind, perf). All steps are made inside one function with a fixed name,
-// floatframe_counted_steps, that a tool can switch its counting on and off by.
+// floatframe bench step: makes the steps of a run and nothing else, for profiling tools (callgrind,
+// perf). All steps are made inside one function with a fixed name, floatframe_counted_steps, by
+// which a tool can switch counting on and off.
 #include <fmt/format.h>
 
 #include <cmath>

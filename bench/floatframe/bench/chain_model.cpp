@@ -19,7 +19,7 @@ AttachmentDescription at(const std::string& body, const char* node, double x) {
 }
 
 /// Joints and outputs of links that have nodes "start" and "end".
-void hang_up(ModelDescription& d) {
+void add_joints_and_outputs(ModelDescription& d) {
   const int links = static_cast<int>(d.bodies.size());
   for (int i = 0; i < links; ++i) {
     JointDescription hinge;
@@ -77,7 +77,7 @@ ModelDescription chain_model(int links, int modes, int elements) {
     bar.section = Rectangle{side, side};
     beam.bars.push_back(bar);
     beam.clamped.push_back({"start", 63u});
-    // One entry a degree of freedom: the order of the modes is that of the entries.
+    // One entry per degree of freedom: the order of the modes is that of the entries.
     constexpr unsigned order[static_modes] = {1u << 2, 1u << 4, 1u << 1, 1u << 5, 1u << 0, 1u << 3};
     for (int k = 0; k < std::min(modes, static_modes); ++k)
       beam.interfaces.push_back({"end", order[k]});
@@ -86,7 +86,7 @@ ModelDescription chain_model(int links, int modes, int elements) {
     body.kind = beam;
     d.bodies.push_back(body);
   }
-  hang_up(d);
+  add_joints_and_outputs(d);
   return d;
 }
 
@@ -97,7 +97,7 @@ ModelDescription chain_model(int links, const FlexibleBody& link) {
     body.kind = link;
     d.bodies.push_back(body);
   }
-  hang_up(d);
+  add_joints_and_outputs(d);
   return d;
 }
 

@@ -17,7 +17,7 @@ class Builder {
     d_.simulation.spectral_radius = chain_spectral_radius;
   }
 
-  /// A rigid body of 1 kg with its centre of mass there.
+  /// A rigid body of 1 kg with its centre of mass at p.
   void block(const std::string& name, const Vec3& p, double inertia = 0.02) {
     BodyDescription b;
     b.name = name;
@@ -100,7 +100,7 @@ ModelDescription chain(bool flexible, int links) {
   return m.take("chain_" + std::to_string(links));
 }
 
-/// Posts on the ground, a rung from the top of each to the top of the next.
+/// Posts on the ground, with a rung from the top of each to the top of the next.
 ModelDescription ladder(bool flexible, int fields) {
   Builder m(flexible);
   const auto post = [](int k) { return "post_" + std::to_string(k); };

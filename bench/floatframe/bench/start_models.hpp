@@ -1,6 +1,6 @@
 #pragma once
-// Models of any size for the benchmark of starts: chains hang from one end, ladders close a loop
-// with every field, vehicles stand side by side, each with four wheels on closed suspensions.
+// Models of any size for the start benchmark: chains hanging from one end, ladders with one closed
+// loop per field, vehicles side by side, each with four wheels on closed suspensions.
 #include <string>
 
 #include "floatframe/model/description.hpp"

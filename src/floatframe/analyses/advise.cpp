@@ -1,4 +1,4 @@
-// Advice: which modes a model could do without at a given step, verified by a run.
+// Advice: modes that a model does not need at a given step, verified by a run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -111,7 +111,7 @@ nlohmann::ordered_json cost_json(const RunSummary& s, double flops) {
           {"warnings", sentences(s.warnings)}};
 }
 
-/// Infinite frequencies (modes without mass) become null.
+/// Infinite frequencies (massless modes) become null.
 std::string advice_json(const Model& model, const ModeAdviceReport& r,
                         const AdviceOptions& options) {
   using Json = nlohmann::ordered_json;

@@ -1,8 +1,8 @@
 #pragma once
 // All analyses: one call with a model, one plain struct. An analysis is the header with its result
 // and its function, included here, and one entry: the name of the source file analyses/<name>.cpp,
-// which ends in what makes a command of it, `Analysis <name>_analysis()`. The public header
-// floatframe/analysis.hpp and the program run over this list, in its order.
+// which ends with the function that makes a command of it, `Analysis <name>_analysis()`. The public
+// header floatframe/analysis.hpp and the program iterate over this list.
 #include "floatframe/analyses/mass_properties.hpp"
 #include "floatframe/simulation/campbell.hpp"
 #include "floatframe/simulation/frequency_response.hpp"

@@ -15,9 +15,9 @@
 namespace floatframe {
 namespace {
 
-/// Modes of a body that are shown, and vibrations of a model.
+/// Number of modes shown per body, and of vibrations of a model.
 constexpr std::size_t shown_modes = 5;
-/// `check` finds the vibrations of models up to this size: their cost grows with its cube.
+/// `check` computes the vibrations of models up to this size: the cost grows with its cube.
 constexpr int most_degrees = 150;
 
 struct DampedBodies {
@@ -79,7 +79,7 @@ std::string system_damping_text(const Model& model, int degrees_of_freedom) {
   std::vector<LinearMode> modes;
   try {
     modes = linear_modes(linear_system(model));
-  } catch (const std::exception&) {  // `modes` says why
+  } catch (const std::exception&) {  // `modes` reports the reason
     return later;
   }
   double largest = 0.0;

@@ -100,7 +100,7 @@ nlohmann::ordered_json speeds_json(const std::vector<CriticalSpeed>& speeds) {
   return list;
 }
 
-/// Null where the mode is not known.
+/// Null where the mode is unknown.
 nlohmann::ordered_json number_json(const CampbellPoint& p, double x) {
   return p.known() ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }

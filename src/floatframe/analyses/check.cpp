@@ -1,4 +1,4 @@
-// Check: a model that can be read, built and assembled; its coordinates in both formulations.
+// Check: reads, builds and assembles a model; its coordinates in both formulations.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -132,7 +132,7 @@ std::string check_json(const ModelCounts& c, const Model& model) {
                         {"damping", body_damping_json(model)}});
 }
 
-/// The page of the model where a run of it begins.
+/// The page of the model in its start configuration.
 std::string page_of_start(const Model& model, const ModelCounts& counts) {
   require_page("--report");
   InitialisedModel<RelativeFormulation> start(model, model.simulation);
@@ -154,7 +154,7 @@ std::string page_of_start(const Model& model, const ModelCounts& counts) {
   return check_page(model, {std::move(state), counts.start.notes, {facts}, std::move(tables), {}});
 }
 
-/// The page of a model that a run cannot start with.
+/// The page of a model that has no valid start.
 std::string page_of_failure(const Model& model, const std::string& why) {
   require_page("--report");
   return check_page(model, {{}, {}, {}, body_tables(model), why});

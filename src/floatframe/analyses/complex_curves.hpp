@@ -1,5 +1,5 @@
 #pragma once
-// Complex amplitudes over a frequency or a speed: their parts, and panels with size and phase.
+// Complex amplitudes over a frequency or a speed: components, and panels with magnitude and phase.
 #include <complex>
 #include <map>
 #include <string>
@@ -14,14 +14,14 @@ namespace floatframe {
 /// [deg]
 double phase_of(std::complex<double> value);
 
-/// Complex values over a frequency or a speed, as they are written.
+/// Complex values over a frequency or a speed, as written to files.
 struct ComplexParts {
   std::vector<double> size, phase, real, imaginary;  ///< phase: without jumps [deg]
 };
-/// Where they begin at rest there is no phase: it is that of the first that moves.
+/// The phase of leading zeros (`at_rest`) is undefined: that of the first nonzero value is used.
 ComplexParts parts_of(const std::vector<std::complex<double>>& values, bool at_rest = false);
 
-/// Curves of one unit share panels, a few of them each.
+/// Curves of one unit share panels, a few curves per panel.
 template <class Curve, class Unit>
 std::vector<std::vector<const Curve*>> panels_of(const std::vector<Curve>& curves,
                                                  const Unit& unit) {
@@ -40,7 +40,7 @@ std::vector<std::vector<const Curve*>> panels_of(const std::vector<Curve>& curve
   return panels;
 }
 
-/// Of each such group a panel with sizes and one with phases. `name` and `parts` of a curve.
+/// For each such group, a panel of magnitudes and one of phases. `name`, `parts`: of a curve.
 template <class Curve, class Unit, class Name, class Parts>
 std::vector<LogPanel> bode_panels(const char* title, const std::vector<Curve>& curves,
                                   const Unit& unit, const Name& name, const Parts& parts) {

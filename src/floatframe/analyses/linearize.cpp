@@ -1,5 +1,5 @@
-// Linearize: the model as zdot = A z + B u, y = C z + D u between named inputs and outputs, where
-// it starts, in equilibrium or after a time; A, B, C, D to files of NumPy, MATLAB and tables.
+// Linearize: the model as zdot = A z + B u, y = C z + D u between named inputs and outputs, at the
+// start, in equilibrium or after a time; A, B, C, D to files of NumPy, MATLAB and tables.
 #include <fmt/format.h>
 
 #include <memory>
@@ -24,7 +24,7 @@ struct LinearizeOptions {
   std::string at;
 };
 
-/// What the files hold.
+/// Data for the files.
 struct LinearizeResult {
   std::string model;
   LinearModel linear;
@@ -102,7 +102,7 @@ std::string linearize_json(const LinearizeResult& r) {
                         {"notes", r.linear.system.notes}});
 }
 
-/// All that the files of matrices hold, by name.
+/// All data for the files of matrices, by name.
 std::vector<MatVariable> linearize_variables(const LinearizeResult& r) {
   const StateSpace& s = r.space;
   const auto column = [](const VecX& v) { return MatX(v); };
@@ -143,7 +143,7 @@ std::string linearize_npz(const LinearizeResult& r) {
   return zip_archive(members);
 }
 
-/// [A B; C D] with names: a row for each state and output, a column for each state and input.
+/// [A B; C D] with names: one row per state and output, one column per state and input.
 std::string linearize_csv(const LinearizeResult& r) {
   const StateSpace& s = r.space;
   std::string text = "of";

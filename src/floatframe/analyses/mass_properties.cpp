@@ -26,7 +26,7 @@ Mat3 planar_of_inertia(const Mat3& J) { return 0.5 * J.trace() * Mat3::Identity(
 /// One body whose frame is at p_WB, R_WB.
 BodyMass mass_of_body(const Body& body, InertiaMethod method, const Vec3& p_WB, const Mat3& R_WB,
                       const VecX& y) {
-  BodyMotion motion;  // seen from the origin of its frame
+  BodyMotion motion;  // about the origin of its frame
   motion.A = R_WB;
   motion.y = y;
   const bool projected = method == InertiaMethod::projection && body.modes() > 0;
@@ -70,7 +70,7 @@ void add_up(ModelMass& whole) {
   A.col(2) = A.col(0).cross(A.col(1));
 }
 
-/// What rounds to zero beside `scale` is zero.
+/// Values that round to zero relative to `scale` are zero.
 std::string mass_number(double value, double scale) {
   return fmt::format("{:.6g}", std::abs(value) < 1e-12 * scale ? 0.0 : value);
 }

@@ -1,17 +1,16 @@
 #pragma once
-// Mass properties of a whole model where a run starts: mass, centre of mass, inertia about it.
+// Mass properties of a whole model at the start of a run: mass, centre of mass, inertia about it.
 //
-// Body i, deformed as it starts, has the mass m_i, its centre of mass at c_i and the planar inertia
-// tensor P_i about that point. The whole has
+// Body i, with its deformation at the start, has the mass m_i, its centre of mass at c_i and the
+// planar inertia tensor P_i about that point. The whole model has
 //   m = sum m_i,   c = sum m_i c_i / m,                                                       (1)
 //   P = sum P_i + m_i (c_i - c)(c_i - c)^T,   J = tr(P) I - P.                                (2)
-// m_i, c_i and P_i are those with which the body moves: its mass matrix for the velocity v of the
-// origin of its frame and the angular velocity omega, by the inertia method of the options,
-//   M = [ m_i I          -skew(s_i) ]    s_i: static moment about that origin                 (3)
+// m_i, c_i and P_i are the dynamic ones: from the mass matrix for the velocity v of the origin of
+// the body frame and the angular velocity omega, by the inertia method of the options,
 //       [ skew(s_i)         J_i     ]    J_i: inertia tensor about it
 // With preprocessing these are m_bar (29) and P_bar (33) of the paper. Symbols: p_WC position of a
-// centre of mass, all in world axes, SI units; off the diagonal of J stand the negative products of
-// inertia. Rods, springs and roads have no mass. Nothing is asked of accelerations.
+// centre of mass, all in world axes, SI units; the off-diagonal terms of J are the negative
+// products of inertia. Rods, springs and roads have no mass. Accelerations are not needed.
 #include <string>
 #include <vector>
 
@@ -30,7 +29,7 @@ struct BodyMass {
 };
 
 struct ModelMass {
-  double time = 0.0;                      ///< at which the model is there [s]
+  double time = 0.0;                      ///< time of the configuration [s]
   double mass = 0.0;                      ///< [kg]
   Vec3 centre = Vec3::Zero();             ///< centre of mass, world [m]
   Mat3 inertia = Mat3::Zero();            ///< about it, world axes [kg m2]
@@ -38,12 +37,11 @@ struct ModelMass {
   /// One per column, right-handed; the largest component of the first two is positive.
   Mat3 principal_axes = Mat3::Identity();
   std::vector<BodyMass> bodies;  ///< in the order of the model
-  StartReport start;             ///< what became of the start values
+  StartReport start;             ///< report on the start values
 };
 
-/// At the start that the options ask for, as `linearize`. Throws InputError for options that are
-/// not valid, for a state of another model and for a model without mass, RunError if the start
-/// cannot be.
+/// At the start given by the options, as `linearize`. Throws InputError for invalid options, for a
+/// state of another model and for a model without mass, RunError if the start cannot be found.
 ModelMass mass_properties(const Model& model, const SimulationOptions& options = {});
 
 }  // namespace floatframe

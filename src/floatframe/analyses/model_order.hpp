@@ -1,6 +1,6 @@
 #pragma once
-// How many modes each flexible body needs for a frequency range, as text and JSON: what
-// `advise --below` prints.
+// Number of modes that each flexible body needs for a frequency range, as text and JSON: the output
+// of `advise --below`.
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/simulation/model_order.hpp"
 

@@ -1,5 +1,5 @@
-// Modes: the natural vibrations of the whole model where a run of it starts, with damping and who
-// takes part; as a table, and as a page on which their shapes move.
+// Modes: the natural vibrations of the whole model at the start of a run, with damping and
+// participating bodies; as a table, and as a page with animated shapes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,12 +26,12 @@ namespace {
 
 struct ModesOptions {
   std::string at;
-  int number = 0;  ///< of motions, the slowest; 0: all, or `default_number` of a large model
+  int number = 0;  ///< number of slowest motions; 0: all, or `default_number` for a large model
 };
 constexpr int default_number = 40;
 constexpr std::size_t few_bodies = 100;  ///< for absolute coordinates
 
-/// The largest shares, at least 5 %, three at most.
+/// The largest shares, each at least 5 %, at most three.
 std::string shares_text(std::vector<EnergyShare> shares) {
   std::stable_sort(shares.begin(), shares.end(),
                    [](const EnergyShare& a, const EnergyShare& b) { return a.part > b.part; });
@@ -45,7 +45,7 @@ std::string shares_text(std::vector<EnergyShare> shares) {
   return text;
 }
 
-/// What a lambda is.
+/// Kind of an eigenvalue lambda.
 std::string kind_of(const LinearMode& m, double largest) {
   if (std::abs(m.lambda) <= zero_part * largest) return "rigid";
   const bool grows = m.lambda.real() > zero_part * std::abs(m.lambda);
@@ -73,9 +73,9 @@ std::string damping_text(double ratio) {
   return fmt::format("{:.4f}", std::abs(ratio) < 5e-5 ? 0.0 : ratio);
 }
 
-/// Motions that nothing holds, a column of states each: the independent increments among the modes
-/// of zero, of which place and speed have one each. In each motion one coordinate moves that does
-/// not in the others, by one: a free body's are its three directions and three turns.
+/// Unrestrained motions, one column of states each: the independent increments among the zero
+/// modes, in which position and velocity have one each. In each motion one coordinate moves by one
+/// that does not move in the others: for a free body, three translations and three rotations.
 MatX rigid_motions(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
   const Eigen::Index nz = system.A.rows();
   MatX z(nz, 0);
@@ -140,7 +140,7 @@ std::vector<std::vector<std::string>> vibration_rows(const std::vector<ShownMoti
   return rows;
 }
 
-/// Empty where all motions are listed.
+/// Empty if all motions are listed.
 std::string slowest_text(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
   if (lists_all(system, modes)) return "";
   return fmt::format("{}; --number N lists others",
@@ -235,8 +235,8 @@ SystemState linearised_state(const Model& model) {
   return state;
 }
 
-/// Rigid motions first, as they are when nothing else moves; then the modes of the table. Who moves
-/// in a rigid motion is who has kinetic energy when the model goes that way.
+/// Rigid motions first, as they are when nothing else moves; then the modes of the table. The
+/// participants of a rigid motion are the bodies with kinetic energy in it.
 std::vector<ShownMotion> motions_to_draw(const Model& model, const LinearSystem& system,
                                          const std::vector<ShownMotion>& modes, const MatX& rigid) {
   std::vector<ShownMotion> out;
@@ -305,17 +305,17 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
   return modes_page(model, system, motions_to_draw(model, system, modes, rigid), page);
 }
 
-/// In relative coordinates where natural ones, 12 and more a body, would be too many.
-Model in_few_coordinates(Model model) {
+/// In relative coordinates where absolute ones, 12 and more per body, would be too many.
+Model with_fewer_coordinates(Model model) {
   if (model.bodies.size() > few_bodies) model.simulation.coordinates = Coordinates::relative;
   return model;
 }
 
 AnalysisReport report_modes(const Model& given, const ModesOptions& options) {
   const std::string& at = options.at;
-  // The page moves the model that the system is of.
-  const auto model = std::make_shared<const Model>(
-      in_few_coordinates(counted_stiffening(counted_at_operating_point(given, at).model).model));
+  // The page shows the model that the linear system belongs to.
+  const auto model = std::make_shared<const Model>(with_fewer_coordinates(
+      counted_stiffening(counted_at_operating_point(given, at).model).model));
   const auto system = std::make_shared<const LinearSystem>(
       linear_system(*model, {}, options.number > 0 ? options.number : default_number));
   const std::vector<ShownMotion> modes = motions_of(*model, *system, options.number);

@@ -134,7 +134,7 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
   } else if (o.speed > 0.0) {
     throw InputError(ErrorCode::incomplete, "--speed is of --road-spectrum, which is not given");
   }
-  // Whoever asks for a road or a harmonic input has curves only of inputs that he names.
+  // With a road or a harmonic input, curves are computed only for explicitly named inputs.
   const bool others = r->road || !r->harmonics.empty();
   const LinearModel linear = linear_model(model, {o.ports.inputs, o.ports.outputs});
   r->time = linear.time;

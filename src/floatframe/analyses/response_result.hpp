@@ -1,5 +1,5 @@
 #pragma once
-// What the command `response` found, and how it is written: tables, JSON, CSV, plots.
+// Result of the command `response`, and its output: tables, JSON, CSV, plots.
 #include <complex>
 #include <optional>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace floatframe {
 
-/// From one input to one output, at all frequencies.
+/// Frequency response from one input to one output.
 struct ResponseCurve {
   Column output, input;
   std::vector<std::complex<double>> values;
   std::string unit() const;  ///< "m/s2 per m"
 };
 
-/// Outputs in steady motion where an input moves by amplitude cos(2 pi f t).
+/// Outputs in steady motion under an input amplitude cos(2 pi f t).
 struct HarmonicResponse {
   std::string input, unit;
   double amplitude = 0.0, frequency = 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// Options that analyses of rotors share.
+// Options shared by analyses of rotors.
 #include <optional>
 #include <string>
 
@@ -12,7 +12,7 @@ struct SpeedRange {
   double from = 0.0, to = 0.0, step = 0.0;  ///< [rad/s]
 };
 
-/// "motor=0:1200:40". Throws InputError, which names the option.
+/// "motor=0:1200:40". Throws InputError with the name of the option.
 SpeedRange speed_range(const std::string& option, const std::string& text);
 
 /// "x", "y", "z"; none: "".

@@ -16,14 +16,14 @@
 namespace floatframe {
 namespace {
 
-/// Fixed decimals; what rounds to zero has no sign.
+/// Fixed decimals; values that round to zero have no sign.
 std::string fixed(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text.front() == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
 }
 
-/// A value that is not unique has a star.
+/// Marks a value that is not unique with a star.
 std::string starred(const std::string& text, bool unique) { return unique ? text : text + "*"; }
 
 std::string forces_text(const Model& model, const StaticsResult& statics) {
@@ -129,7 +129,7 @@ std::string statics_json(const Model& model, const StaticsResult& statics,
 
 AnalysisReport report_statics(const Model& model) {
   const StaticsResult s = statics(model);
-  // Where the equilibrium leaves the range of the method.
+  // Range warnings of the equilibrium.
   const std::vector<std::string> warnings = sentences(equilibrium_warnings(model, s.bodies));
   return {
       .text = fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",

@@ -1,5 +1,5 @@
 #pragma once
-// Response to unbalance over the speed of a rotor, as the command `response` writes it: a table,
+// Response to unbalance over the speed of a rotor, as output by the command `response`: a table,
 // JSON, CSV, a picture.
 #include <string>
 #include <vector>

@@ -17,7 +17,7 @@ struct Call {
   int result = 0;
 };
 
-/// makecontext passes no pointers. The program is called once.
+/// Global because makecontext passes no pointers; the program is called once.
 Call* present_call = nullptr;
 
 void make_call() { present_call->result = (*present_call->act)(); }
@@ -40,7 +40,7 @@ void enlarge_later_threads() {
 
 int on_ample_stack(const std::function<int()>& act) {
   if (!stack_is_small()) return act();
-  // Pages are only taken when they are touched; the lowest one is never there, as below any stack.
+  // Pages are allocated on first access; the lowest one stays unmapped, as below any stack.
   constexpr std::size_t guard = 4096;
   void* const stack = ::mmap(nullptr, guard + ample_stack, PROT_READ | PROT_WRITE,
                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK | MAP_NORESERVE, -1, 0);

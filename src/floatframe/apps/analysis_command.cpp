@@ -1,4 +1,4 @@
-// A command for each analysis: reads and builds the model, runs the analysis, prints what it found.
+// A command for each analysis: reads and builds the model, runs the analysis, prints the result.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ struct AnalysisArguments {
   std::vector<std::string> files;  ///< their names, in the order of `Analysis::files`
 };
 
-/// Of an analysis that runs the model, perhaps many times.
+/// For analyses that run the model, perhaps many times.
 void require_steps(const SimulationDescription& simulation) {
   if (simulation.duration > 1e7 * simulation.step)
     throw InputError(ErrorCode::too_large, mark_of_time_settings(simulation),
@@ -43,7 +43,7 @@ std::vector<OutputFile> output_files(const Analysis& analysis, const AnalysisArg
   return files;
 }
 
-/// On a terminal, of what takes longer than a second or two.
+/// On a terminal, for work that takes longer than a second or two.
 ProgressListener progress_on_terminal() {
   using Clock = std::chrono::steady_clock;
   const auto bar = std::make_shared<ProgressBar>(true, 1.0, "");
@@ -55,7 +55,7 @@ ProgressListener progress_on_terminal() {
       };
 }
 
-/// Where it fails, files that say so take the place of older ones.
+/// After a failure, files with the error message replace older ones.
 AnalysisReport run_with_files(const Analysis& analysis, const Model& model,
                               const AnalysisArguments& a) {
   try {

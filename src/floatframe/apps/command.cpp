@@ -59,7 +59,7 @@ Option inertia_option(std::string& word, std::string help) {
 
 namespace {
 
-/// What --set sets: parameters of the model file, or else options of the simulation.
+/// Targets of --set: parameters of the model file, or options of the simulation.
 struct Settings {
   std::vector<ParameterOverride> parameters, options;
 };
@@ -71,7 +71,7 @@ Settings settings_of(const ModelArguments& arguments) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   Settings settings;
-  std::optional<std::vector<std::string>> parameters;  // read only where a name may be both
+  std::optional<std::vector<std::string>> parameters;  // read only where a name may mean either
   for (const std::string& setting : arguments.settings) {
     const auto [name, value] = setting_of(setting);
     if (name.starts_with(prefix) && is_among(known, name.substr(prefix.size()))) {
@@ -113,7 +113,7 @@ ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFi
 
 namespace {
 
-/// NaN, which no rule holds for, unless all of the text is one number.
+/// NaN, which violates every rule, unless the whole text is one number.
 double number_in(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);

@@ -1,5 +1,5 @@
 #pragma once
-// What a command is, and what the commands share.
+// The description of a command, and helpers shared by the commands.
 #include <functional>
 #include <string>
 #include <utility>
@@ -19,21 +19,21 @@ namespace exit_code {
 inline constexpr int done = 0, failed = 1, bad_input = 2;
 }
 
-/// A command of the program. The parser and the help are made of this table.
+/// A command of the program. Parser and help are generated from this table.
 struct Command {
   std::string name;
   std::string help;  ///< one line
   std::vector<Option> options{};
   std::string footer{};             ///< below the options in its help
-  std::function<int()> run{};       ///< returns the exit code; it owns what the options fill
+  std::function<int()> run{};       ///< returns the exit code; owns the option targets
   std::vector<Command> commands{};  ///< those of a group (bench), which has no `run`
 };
 
-/// MODEL and --set, as every command that reads a model takes them.
+/// MODEL and --set, as accepted by every command that reads a model.
 struct ModelArguments {
   std::string path;
   std::vector<std::string> settings;   ///< "name=value"
-  std::vector<std::string> outputs{};  ///< further ones, as model files write them
+  std::vector<std::string> outputs{};  ///< additional outputs, in model file syntax
 };
 std::vector<Option> model_options(ModelArguments& arguments);
 /// `first`, then `second`.
@@ -52,38 +52,38 @@ Option inertia_option(
 /// --step and --duration.
 std::vector<Option> clock_options(std::string& step, std::string& duration);
 
-/// Parts that are reduced meanwhile are named on standard error, unless `quiet`. `used`, if given,
-/// receives what was read. Throws InputError.
+/// Names reductions of parts in progress on standard error, unless `quiet`. `used`, if given,
+/// receives the files that were read. Throws InputError.
 ModelDescription read_model(const ModelArguments& arguments, bool quiet = false,
                             ModelFingerprint* used = nullptr);
 
-/// The number in an option's text; InputError unless it is finite and as the rule says.
+/// The number in an option's text; InputError unless it is finite and satisfies the rule.
 double option_number(const std::string& option, const std::string& text, const NumberRule& rule);
 int whole_option_number(const std::string& option, const std::string& text,
                         const WholeNumberRule& rule);
 /// A positive number of seconds.
 double positive_number(const std::string& option, const std::string& text);
-/// What --step and --duration say, where they are given.
+/// Applies --step and --duration where they are given.
 void set_time_options(SimulationDescription& simulation, const std::string& step,
                       const std::string& duration);
-/// What --coordinates and --inertia say, likewise.
+/// Applies --coordinates and --inertia where they are given.
 void set_formulation(SimulationDescription& simulation, const std::string& coordinates,
                      const std::string& inertia);
 
-/// Files that other programs have written are replaced only with --overwrite.
+/// Files written by other programs are replaced only with --overwrite.
 Option overwrite_option(bool& overwrite);
-/// Proves that files that are to be written at the end can be, that none is one of `inputs` or
-/// another output, and, unless `overwrite`, none a file of another program (own_file.hpp). Paths
-/// may be empty. Throws InputError.
+/// Checks that the output files can be written, that none is one of `inputs` or another output,
+/// and, unless `overwrite`, that none was written by another program (own_file.hpp). Paths may be
+/// empty. Throws InputError.
 void require_writable(const std::vector<OutputFile>& outputs,
                       const std::vector<std::string>& inputs, bool overwrite);
-/// The last of these alone.
+/// Only the last of these checks.
 void require_own(const OutputFile& output);
-/// Throws the InputError of such a file.
+/// Throws the InputError for a file of another program.
 [[noreturn]] void refuse_foreign(const std::string& option, const std::string& path);
-/// Makes a folder for files that are to be written. Throws InputError.
+/// Creates a folder for output files. Throws InputError.
 void require_folder(const std::string& path);
-/// A folder stands for the results.csv in it.
+/// For a folder, the path of the results.csv in it.
 std::string results_file(const std::string& path);
 /// The names of all files that were read.
 std::vector<std::string> files_of(const ModelFingerprint& used);
@@ -97,9 +97,9 @@ InertiaMethod inertia_from(const std::string& word);
 /// Writes to standard output; throws OutputError if that fails (a full disk).
 void print(const std::string& text);
 
-/// Writes "floatframe: message" or the bare line to standard error. Control characters are written
-/// out: names that came from files and arguments may hold anything, and a terminal is not to obey
-/// it. Whether that can be written makes no difference.
+/// Writes "floatframe: message" or the bare line to standard error. Control characters are escaped:
+/// names from files and arguments may contain any bytes, and a terminal must not interpret them.
+/// Write errors are ignored.
 void say(const std::string& message);
 void say_line(const std::string& line);
 

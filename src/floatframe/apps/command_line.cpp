@@ -45,16 +45,16 @@ int parse_and_act(int argc, char** argv, const std::vector<Command>& more) {
   return command.run ? command.run() : command.exit_code;
 }
 
-/// A program may be started with its standard files closed. The next file opened would take such a
-/// number, and messages would be written into a journal or a log. Here writing to it stays an
-/// error.
+/// A program may be started with its standard files closed. The next file opened would then get
+/// such a descriptor, and messages would be written into a journal or a log. This reserves the
+/// descriptors, so that writing to them remains an error.
 void occupy_standard_files() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(file, F_GETFD) < 0 && errno == EBADF)  // the lowest number that is free is this one
+    if (::fcntl(file, F_GETFD) < 0 && errno == EBADF)  // this is the lowest free descriptor
       static_cast<void>(::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-int act_or_say_why(int argc, char** argv, const std::vector<Command>& more) {
+int run_and_report_errors(int argc, char** argv, const std::vector<Command>& more) {
   try {
     return parse_and_act(argc, argv, more);
   } catch (const InputError& error) {
@@ -73,9 +73,9 @@ int act_or_say_why(int argc, char** argv, const std::vector<Command>& more) {
 
 int command_line_main(int argc, char** argv, const std::vector<Command>& more) {
   occupy_standard_files();
-  // A limit of the size of files is an error of the file that reaches it.
+  // Exceeding the file size limit is reported as a write error of the file.
   std::signal(SIGXFSZ, SIG_IGN);
-  return on_ample_stack([&] { return act_or_say_why(argc, argv, more); });
+  return on_ample_stack([&] { return run_and_report_errors(argc, argv, more); });
 }
 
 }  // namespace floatframe

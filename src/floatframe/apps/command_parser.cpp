@@ -1,4 +1,4 @@
-// The only place that sees CLI11.
+// The only file that uses CLI11.
 #include "floatframe/apps/command_parser.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ bool is_number(const Option& option) {
          std::holds_alternative<std::vector<double>*>(option.target);
 }
 
-/// What a value must be; empty if any will do.
+/// Expected form of a value; empty if any is allowed.
 std::string expectation(const Option& option) {
   if (!option.words.empty()) return alternatives_of(option.words);
   if (is_whole(option))
@@ -75,13 +75,13 @@ void add_option(CLI::App& app, const Option& option) {
   if (option.commas) {
     added->delimiter(',');
   } else if (repeated) {
-    // One value an occurrence: `--set a=1 model.yaml` must not swallow the model.
+    // One value per occurrence: `--set a=1 model.yaml` must not swallow the model.
     added->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false);
   }
   const auto check = [option](const std::string& text) {
-    if (option.required && text.empty())  // of a shell variable that is not set
+    if (option.required && text.empty())  // from an unset shell variable
       return std::string("found an empty name, expected a file");
     if (is_allowed(option, text)) return std::string();
     return fmt::format("found '{}', expected {}", text, expectation(option));
@@ -89,7 +89,7 @@ void add_option(CLI::App& app, const Option& option) {
   added->check(CLI::Validator(check, ""));
 }
 
-/// The command that is reached is put into `chosen`.
+/// Puts the selected command into `chosen`.
 void add_command(CLI::App& app, const Command& command, const Command*& chosen) {
   CLI::App* sub = app.add_subcommand(command.name, command.help);
   for (const Option& option : command.options) add_option(*sub, option);
@@ -101,14 +101,14 @@ void add_command(CLI::App& app, const Command& command, const Command*& chosen) 
     sub->require_subcommand(1);
 }
 
-/// The commands that were reached, for the hint which help to read.
+/// The commands that were parsed, for the hint which help to read.
 std::string path_of(const CLI::App& app) {
   std::string path = app.get_name();
   for (const CLI::App* sub : app.get_subcommands()) path += " " + path_of(*sub);
   return path;
 }
 
-/// The sentence about a command that is missing or unknown; empty if that is not what is wrong.
+/// The sentence about a missing or unknown command; empty if the command is valid.
 std::string command_complaint(const std::vector<Command>& commands, const CLI::App& app,
                               std::span<char*> words) {
   if (commands.empty()) return "";
@@ -124,7 +124,7 @@ std::string command_complaint(const std::vector<Command>& commands, const CLI::A
                      did_you_mean(words[0], names));
 }
 
-/// The sentence about the first word that no option and no position took; empty if there is none.
+/// The sentence about the first word that matches no option or position; empty if there is none.
 std::string extra_complaint(const CLI::App& app) {
   const CLI::App* last = &app;
   while (!last->get_subcommands().empty()) last = last->get_subcommands().back();

@@ -1,5 +1,5 @@
 #pragma once
-// Reads a command line by the tables of the commands and makes their help.
+// Parses a command line by the tables of the commands and generates their help.
 #include <functional>
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace floatframe {
 
-/// What a command line asks for: an action, or the exit code if there is nothing more to do (the
-/// help was printed, or a sentence that says what was wrong).
+/// Result of parsing: an action, or the exit code if there is nothing more to do (help or an error
+/// message was printed).
 struct ParsedCommand {
   std::function<int()> run;  ///< empty: nothing to do
   int exit_code = 0;

@@ -1,4 +1,4 @@
-// floatframe compare: how far two results are apart.
+// floatframe compare: differences of two results.
 
 #include <memory>
 
@@ -28,7 +28,7 @@ std::optional<ComparisonTolerance> tolerance_of(const CompareArguments& a) {
   return t;
 }
 
-/// Read once more, for the rows that the first reading has found.
+/// Second reading, for the rows found by the first.
 std::string report_of(const ComparedResults& results, const ResultsReader& a,
                       const ResultsReader& b) {
   ResultsReader first(a.file()), second(b.file());

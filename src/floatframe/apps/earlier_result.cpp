@@ -44,8 +44,8 @@ std::vector<SummaryJson> contents(const SummaryJson& summary) {
   return all;
 }
 
-bool same_duration(const SummaryJson& found, double asked) {
-  return found.is_number() && std::abs(found.get<double>() - asked) <= 1e-9 * asked;
+bool same_duration(const SummaryJson& found, double requested) {
+  return found.is_number() && std::abs(found.get<double>() - requested) <= 1e-9 * requested;
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ bool holds_completed_run(const RunPaths& paths) {
 
 void set_aside(const RunPaths& paths) {
   const std::filesystem::path folder(previous_folder(paths));
-  // The results are moved first: where they are gone, an earlier call was killed on its way.
+  // The results are moved first: if they are missing, an earlier call was killed midway.
   if (std::filesystem::exists(paths.results)) remove_set_aside(paths);
   make_output_folder(folder.string());
   for (const char* name : kept_names)
@@ -73,21 +73,21 @@ void set_aside(const RunPaths& paths) {
 void remove_set_aside(const RunPaths& paths) noexcept {
   const std::filesystem::path folder(previous_folder(paths));
   std::error_code ignored;
-  // The summary last: until then the others are known as those of this program.
+  // The summary last: it identifies the other files as written by this program.
   for (const char* name : kept_names) std::filesystem::remove(folder / name, ignored);
-  std::filesystem::remove(folder, ignored);  // only if nothing else is in it
+  std::filesystem::remove(folder, ignored);  // only if empty
 }
 
-EarlierRun earlier_run(const std::string& summary, const RunSummary& asked) {
+EarlierRun earlier_run(const std::string& summary, const RunSummary& requested) {
   std::string text;
   if (!read_regular_file(summary, largest_file_read, text).empty()) return EarlierRun::incomplete;
   const SummaryJson found = SummaryJson::parse(text, nullptr, false);
   if (!found.is_object() || found.value("status", SummaryJson()) != "completed")
     return EarlierRun::incomplete;
-  const SummaryJson own = SummaryJson::parse(summary_json(asked));
+  const SummaryJson own = SummaryJson::parse(summary_json(requested));
   for (const char* key : {"model", "coordinates", "inertia", "step_s", "settings"})
     if (found.value(key, SummaryJson()) != own.value(key, SummaryJson())) return EarlierRun::other;
-  return same_duration(found.value("duration_s", SummaryJson()), asked.duration) &&
+  return same_duration(found.value("duration_s", SummaryJson()), requested.duration) &&
                  contents(found) == contents(own)
              ? EarlierRun::completed
              : EarlierRun::other;

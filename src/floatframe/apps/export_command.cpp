@@ -18,7 +18,7 @@ struct ExportArguments {
   SelectionArguments selection;
 };
 
-/// The files that a series replaces.
+/// Refuses to replace files of a series that another program has written.
 void require_own_series(const std::string& folder) {
   std::error_code ignored;
   for (std::filesystem::directory_iterator it(folder, ignored), end; !ignored && it != end;
@@ -64,7 +64,7 @@ int export_motion(const ExportArguments& arguments) {
     }
     bar.clear();
     for (const auto& file : files) {
-      say_line(file->finish());  // the file itself may be standard output
+      say_line(file->finish());  // the file may be standard output
     }
   } catch (const RunError& error) {
     say(std::string("the model cannot be started: ") + error.what());

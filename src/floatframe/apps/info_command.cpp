@@ -1,4 +1,4 @@
-// floatframe info: what is in a finite-element file, a body file or a SID_FEM file.
+// floatframe info: summary of a finite-element file, a body file or a SID_FEM file.
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"

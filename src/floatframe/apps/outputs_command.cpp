@@ -1,4 +1,4 @@
-// floatframe outputs: new channels from the states of a run, without running again.
+// floatframe outputs: additional channels from the states of a run, without a new simulation.
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/recorded_run.hpp"
 #include "floatframe/core/atomic_file.hpp"

@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-constexpr std::size_t own_beginning = 16384;  ///< of a file, which is looked at [byte]
+constexpr std::size_t own_beginning = 16384;  ///< inspected beginning of a file [byte]
 constexpr std::string_view own_mark = "ritten by Floatframe";
 
 bool holds(std::string_view text, std::string_view word) {
@@ -25,10 +25,10 @@ bool holds_all(std::string_view text, std::initializer_list<std::string_view> wo
                      [&](std::string_view w) { return holds(text, w); });
 }
 
-/// Of a JSON object, by the keys it begins with.
+/// Recognises a JSON object by its first keys.
 bool is_own_json(std::string_view text) {
   return text.starts_with("{") &&
-         // Of a run that a study could not begin.
+         // A run of a study that could not start.
          (text.starts_with("{\n  \"status\": \"failed\",\n  \"message\": \"") ||
           holds_all(text, {"\"floatframe_state\""}) ||
           holds_all(text, {"\"model\"", "\"coordinates\"", "\"inertia\"", "\"step_s\""}) ||
@@ -38,7 +38,7 @@ bool is_own_json(std::string_view text) {
           holds_all(text, {"\"rows\"", "\"us_per_"}));
 }
 
-/// Of a table, by the titles it begins with.
+/// Recognises a table by its first titles.
 bool is_own_table(std::string_view text) {
   constexpr std::array beginnings{"time [s],",
                                   "run,",
@@ -69,7 +69,7 @@ bool is_picture(std::string_view text) {
          (holds(text, "aria-label=\"Campbell diagram\"") || holds(text, "class=\"sheet\""));
 }
 
-/// Grids and series for ParaView: as the writer of this program begins them.
+/// Grids and series for ParaView, as this program's writer begins them.
 bool is_grid(std::string_view text) {
   return text.starts_with("<?xml version=\"1.0\"?>\n<VTKFile") &&
          (holds(text,
@@ -78,9 +78,9 @@ bool is_grid(std::string_view text) {
           holds(text, "file=\"motion_0"));
 }
 
-/// `ending` of the name: a page is no table, whatever it holds.
+/// `ending` of the name: a page is never a table, whatever its content.
 bool is_own_text(std::string_view text, const std::string& ending) {
-  // A model file names the program too.
+  // A model file contains the program name too.
   if (text.starts_with("floatframe:") || holds(text, "\nfloatframe:")) return false;
   if (ending == ".csv") return is_own_table(text);
   if (ending == ".html") return is_page(text);
@@ -126,10 +126,10 @@ bool is_own_results(const std::string& path) {
   if (!std::filesystem::exists(path, error) || !is_replaceable(path)) return true;
   if (std::filesystem::file_size(path, error) == 0) return true;
   for (const char* name : {"summary.json", "states.ffr"}) {
-    const std::string beside = (std::filesystem::path(path).parent_path() / name).string();
-    if (std::filesystem::exists(beside, error) && is_own_file(beside)) return true;
+    const std::string sibling = (std::filesystem::path(path).parent_path() / name).string();
+    if (std::filesystem::exists(sibling, error) && is_own_file(sibling)) return true;
   }
-  // A run of a study that was killed before its summary was there: STUDY/runs/N.
+  // A run of a study that was killed before its summary was written: STUDY/runs/N.
   const std::filesystem::path study =
       std::filesystem::absolute(path, error).parent_path().parent_path().parent_path();
   const std::string journal = (study / "sweep.journal").string();

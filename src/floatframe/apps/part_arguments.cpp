@@ -9,7 +9,7 @@ namespace {
 
 using O = PartOption;
 
-/// A value of an option into the job.
+/// Sets the job's value from an option's text.
 struct Parsed {
   PartJob& job;
   const std::string option;
@@ -21,7 +21,7 @@ struct Parsed {
   void operator()(const O::Count& o) const {
     job.options.*o.at = whole_option_number(option, text, o.rule);
   }
-  void operator()(const O::Word& o) const {  // the parser has refused other words
+  void operator()(const O::Word& o) const {  // the parser has rejected other words
     const auto word = std::find(o.words.begin(), o.words.end(), text);
     o.set(job, o.first + static_cast<int>(word - o.words.begin()));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The options of parts on the command line, as the list of them says (parts/part_options.hpp).
+// The options of parts on the command line, generated from parts/part_options.hpp.
 #include <string>
 #include <vector>
 
@@ -8,16 +8,16 @@
 
 namespace floatframe {
 
-/// What the command line gives of each option. The table of options points into it.
+/// Values of the options on the command line. The table of options points into it.
 class PartArguments {
  public:
   PartArguments();
   PartArguments(const PartArguments&) = delete;
   PartArguments& operator=(const PartArguments&) = delete;
 
-  /// `reading`: only those that decide how a file is read.
+  /// `reading`: only those that affect how a file is read.
   std::vector<Option> table(bool reading);
-  /// Job of the options given. Throws InputError.
+  /// Job from the options given. Throws InputError.
   PartJob job() const;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace floatframe {
 
-ProgressBar::ProgressBar(bool wanted, double total, std::string unit)
-    : active_(wanted && ::isatty(STDERR_FILENO) == 1),
+ProgressBar::ProgressBar(bool enabled, double total, std::string unit)
+    : active_(enabled && ::isatty(STDERR_FILENO) == 1),
       total_(total),
       unit_(std::move(unit)),
       start_(std::chrono::steady_clock::now()) {}
@@ -28,7 +28,7 @@ void ProgressBar::show(double fraction, const std::string& text, double before) 
   const int full = static_cast<int>(fraction * cells);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
   std::string rest;
-  // An estimate of the time to go means nothing at the very start and is of no use in short runs.
+  // The estimated remaining time is meaningless at the very start and useless in short runs.
   if (fraction - before > 0.02 * (1.0 - before) && passed.count() > 1.0) {
     rest = fmt::format(", {:.0f} s to go", passed.count() * (1.0 - fraction) / (fraction - before));
   }

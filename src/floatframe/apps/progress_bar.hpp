@@ -8,16 +8,16 @@ namespace floatframe {
 
 class ProgressBar {
  public:
-  /// `total`: what is counted, for instance 8 with unit "s".
-  ProgressBar(bool wanted, double total, std::string unit);
+  /// `total`: amount of work in `unit`, for instance 8 with unit "s".
+  ProgressBar(bool enabled, double total, std::string unit);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   void show(double fraction);
-  /// With a text in place of "3 of 8 s". `before`: the fraction that was there at the start, which
-  /// says nothing about the time to go.
+  /// With a text in place of "3 of 8 s". `before`: the fraction done at the start, which is
+  /// excluded from the estimate of the remaining time.
   void show(double fraction, const std::string& text, double before = 0.0);
-  /// Wipes the line, so that what is printed next starts at its beginning.
+  /// Clears the line, so that the next text printed starts at its beginning.
   void clear();
 
  private:

@@ -1,4 +1,4 @@
-// floatframe rainflow: range pairs of channels of a run, and the ranges that do the same damage.
+// floatframe rainflow: range pairs of channels of a run, and the damage-equivalent ranges.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct CountedChannel {
   std::vector<RainflowCycle> cycles;
 };
 
-/// Indices of the columns that are asked for; all but the time if none is.
+/// Indices of the selected columns; all but the time if none is selected.
 std::vector<std::size_t> chosen(const ResultsReader& reader,
                                 const std::vector<std::string>& channels) {
   std::vector<std::size_t> out;
@@ -98,7 +98,7 @@ double largest_range(const CountedChannel& c) {
   return out;
 }
 
-/// Files of different channels must not be one.
+/// Checks that files of different channels have different names.
 std::vector<std::string> file_names(const std::vector<CountedChannel>& channels) {
   std::vector<std::string> out;
   std::map<std::string, int> taken;

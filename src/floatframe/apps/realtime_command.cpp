@@ -50,11 +50,11 @@ RealTimeOptions realtime_options(const RealTimeArguments& arguments) {
   options.priority = arguments.priority;
   options.lock_memory = arguments.lock_memory;
   options.strict = arguments.strict;
-  options.stop = &StopSignal::asked();
+  options.stop = &StopSignal::flag();
   return options;
 }
 
-/// Only the address of this machine that the partner reaches: other networks are not listened to.
+/// Only the local address that reaches the peer: other networks are not listened to.
 UdpAddress listen_address(const RealTimeArguments& arguments, const UdpPortOptions& options) {
   if (!arguments.listen.empty()) return parse_udp_address(arguments.listen, "--listen");
   UdpAddress address = options.outputs        ? local_address_towards(options.send, "--send")
@@ -64,9 +64,9 @@ UdpAddress listen_address(const RealTimeArguments& arguments, const UdpPortOptio
   return address;
 }
 
-/// An option without the one that it belongs to would do nothing.
-void refuse_alone(const char* option, const std::string& value, bool wanted, const char* other) {
-  if (!value.empty() && !wanted)
+/// Rejects an option without the one that it belongs to, since it would have no effect.
+void require_pair(const char* option, const std::string& value, bool paired, const char* other) {
+  if (!value.empty() && !paired)
     throw InputError(ErrorCode::incomplete,
                      fmt::format("{}: found without {}, expected both", option, other));
 }
@@ -76,19 +76,19 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   options.inputs = arguments.input == "udp";
   options.outputs = arguments.output == "udp";
   options.lock_step = arguments.lock_step;
-  options.stop = &StopSignal::asked();
+  options.stop = &StopSignal::flag();
   if (!arguments.timeout.empty())
     options.timeout = option_number("--timeout", arguments.timeout, realtime_rules::timeout);
   if (options.lock_step && !(options.inputs && options.outputs))
     throw InputError(ErrorCode::incomplete,
                      "--lockstep: found without --input udp and --output udp, expected both");
-  refuse_alone("--listen", arguments.listen, options.inputs || options.outputs,
+  require_pair("--listen", arguments.listen, options.inputs || options.outputs,
                "--input udp or --output udp");
-  refuse_alone("--send", arguments.send, options.outputs, "--output udp");
-  refuse_alone("--peer", arguments.peer, options.inputs, "--input udp");
-  refuse_alone("--timeout", arguments.timeout, options.lock_step, "--lockstep");
-  refuse_alone("--input-timeout", arguments.input_timeout, options.inputs, "--input udp");
-  refuse_alone("--fallback", arguments.fallback, options.inputs, "--input udp");
+  require_pair("--send", arguments.send, options.outputs, "--output udp");
+  require_pair("--peer", arguments.peer, options.inputs, "--input udp");
+  require_pair("--timeout", arguments.timeout, options.lock_step, "--lockstep");
+  require_pair("--input-timeout", arguments.input_timeout, options.inputs, "--input udp");
+  require_pair("--fallback", arguments.fallback, options.inputs, "--input udp");
   if (!options.inputs && !options.outputs) return nullptr;
   if (options.inputs && model.inputs.empty())
     throw InputError(
@@ -101,7 +101,7 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
     throw InputError(
         ErrorCode::out_of_range,
         fmt::format("--send: found '{}', expected a port from 1 to 65535", arguments.send));
-  // Heard is whom a name is given of; of those that are not named, who sends first.
+  // Accept packets from --peer; without it, from the first sender.
   if (!arguments.peer.empty())
     options.peer = parse_udp_peer(arguments.peer, "--peer");
   else if (options.outputs && !arguments.send.empty())
@@ -112,7 +112,7 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
         ErrorCode::exclusive,
         fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6",
                     options.listen.text(), options.send.text()));
-  // A socket that is open to all addresses of IPv6 hears IPv4 as well.
+  // A socket bound to the IPv6 wildcard address receives IPv4 as well.
   if (options.inputs && options.peer.known() && options.peer.family() != options.listen.family() &&
       !options.listen.text().starts_with("[::]"))
     throw InputError(ErrorCode::exclusive,
@@ -152,7 +152,7 @@ int run_paced(const RealTimeArguments& arguments) {
   }
   RealTimeOptions options = realtime_options(arguments);
   require_valid(options, description.simulation);
-  // The log is opened at the start and may be a pipe that somebody reads.
+  // The log is opened at the start and may be a pipe with a reader.
   require_distinct({{"--log", arguments.log}, {"--report", arguments.report}}, files_of(used));
   require_writable({{"--report", arguments.report}}, {}, arguments.overwrite);
   if (!arguments.log.empty() && !arguments.overwrite) require_own({"--log", arguments.log});

@@ -31,8 +31,8 @@ std::string percentiles(const Histogram& h) {
                      duration_text(h.percentile(0.999)), duration_text(h.max()));
 }
 
-/// Rows of half an octave; the bars grow with the logarithm of the count, or the few slow steps
-/// that matter would not be seen.
+/// Rows of half an octave; the bars grow with the logarithm of the count, since the few slow steps
+/// that matter would not be visible otherwise.
 std::string histogram_text(const Histogram& h) {
   constexpr std::size_t row = Histogram::parts / 2;
   std::string text;
@@ -53,7 +53,7 @@ std::string histogram_text(const Histogram& h) {
   return text;
 }
 
-/// How much of the processor time is work and how much the machine's mood.
+/// Iterations and processor time: the share of computation and the share of machine noise.
 std::string iterations_text(const RealTimeReport& r) {
   TextTable table({"Newton iterations", "steps", "mean", "largest"});
   const std::size_t n = r.by_iterations.size();

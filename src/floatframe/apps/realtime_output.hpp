@@ -1,5 +1,5 @@
 #pragma once
-// How a paced run is shown: text for people, JSON for programs.
+// Output of a paced run: text for people, JSON for programs.
 #include <string>
 
 #include "floatframe/model/model.hpp"

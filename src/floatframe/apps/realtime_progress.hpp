@@ -1,6 +1,6 @@
 #pragma once
-// Shows what a paced run is doing while it runs, from a thread of its own: the stepping thread only
-// writes two numbers.
+// Shows the progress of a paced run from a separate thread: the stepping thread only writes two
+// numbers.
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -12,8 +12,8 @@ namespace floatframe {
 
 class RealTimeProgress {
  public:
-  /// `duration` [s] of which a bar shows the progress; 0: no bar. `silences`: inputs that stay
-  /// away, and that come again, are reported on standard error.
+  /// `duration` [s] for the progress bar; 0: no bar. `silences`: the loss and return of inputs is
+  /// reported on standard error.
   RealTimeProgress(double duration, bool silences, SilenceFallback fallback);
   ~RealTimeProgress();
   RealTimeProgress(const RealTimeProgress&) = delete;
@@ -24,12 +24,12 @@ class RealTimeProgress {
 
  private:
   void loop(double duration);
-  /// One line when a silence begins or ends.
+  /// Prints one line when a silence begins or ends.
   void report_silence();
 
   bool silences_;
   SilenceFallback fallback_;
-  double shown_ = -1.0;  ///< the beginning of the silence that has been reported
+  double shown_ = -1.0;  ///< start of the silence already reported
   std::mutex mutex_;
   std::condition_variable ended_;
   bool end_ = false;

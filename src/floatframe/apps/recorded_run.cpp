@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-/// A run's folder stands for its states.
+/// Path of the states; for a run's folder, the file in it.
 std::string states_path(const std::string& given) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(given, ignored)) return given;
@@ -25,14 +25,14 @@ std::string states_path(const std::string& given) {
   return states.string();
 }
 
-/// Where the model file is: beside the result as it was when the run was made, or as it was given.
+/// Path of the model file: relative to the result as it was when the run was made, or as given.
 std::string model_path(const std::string& given, const StateHistory& history) {
   if (!given.empty()) return given;
   const HistoryOrigin& origin = history.header().origin;
-  const auto beside =
+  const auto local =
       (std::filesystem::path(history.name()).parent_path() / origin.from_here).lexically_normal();
   std::error_code ignored;
-  if (!origin.from_here.empty() && std::filesystem::exists(beside, ignored)) return beside.string();
+  if (!origin.from_here.empty() && std::filesystem::exists(local, ignored)) return local.string();
   if (std::filesystem::exists(origin.model_file, ignored)) return origin.model_file;
   throw InputError(ErrorCode::not_found, {history.name(), 0, 0},
                    fmt::format("found no model file '{}' any more, expected its place with --model",
@@ -43,7 +43,7 @@ void require_same_files(const StateHistory& history, const ModelFingerprint& use
                         const std::string& path) {
   const HistoryOrigin& origin = history.header().origin;
   const auto files = relative_to_model(path, used.files);
-  // The model file itself may have another name by now.
+  // The model file may have been renamed.
   const std::string before = std::filesystem::path(origin.model_file).filename().string();
   const std::string after = std::filesystem::path(path).filename().string();
   for (const auto& [file, hash] : origin.files) {
@@ -77,7 +77,7 @@ RecordedRun load_recorded_run(const RecordedRunArguments& arguments) {
   require_same_files(run.history, used, given.path);
   require_model(run.history, build_model(run.description));
   run.inputs = files_of(used);
-  // What the run wrote itself is no place for something else.
+  // Additional outputs must not overwrite files of the run.
   const RunPaths own(std::filesystem::path(run.history.name()).parent_path().string());
   for (const std::string& file : {run.history.name(), own.results, own.report, own.summary})
     if (std::error_code ignored; std::filesystem::exists(file, ignored)) run.inputs.push_back(file);

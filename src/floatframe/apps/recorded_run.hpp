@@ -1,6 +1,6 @@
 #pragma once
-// A result that was kept (states.ffr) with the model it is of: what commands load that show or
-// measure a run without running it again.
+// A recorded result (states.ffr) and its model, loaded by commands that show or evaluate a run
+// without running it again.
 #include <string>
 #include <vector>
 
@@ -11,11 +11,11 @@
 
 namespace floatframe {
 
-/// RESULT and --model, as the commands take them.
+/// RESULT and --model, as accepted by the commands.
 struct RecordedRunArguments {
   std::string result;                  ///< states.ffr of a run, or its folder
-  std::string model{};                 ///< the model file, if it is not where it was
-  std::vector<std::string> outputs{};  ///< further ones, as model files write them
+  std::string model{};                 ///< the model file, if it was moved
+  std::vector<std::string> outputs{};  ///< additional outputs, in model file syntax
 };
 
 Option recorded_model_option(RecordedRunArguments& arguments);
@@ -23,21 +23,21 @@ Option recorded_result_position(RecordedRunArguments& arguments);
 
 struct RecordedRun {
   StateHistory history;
-  ModelDescription description;     ///< with the further outputs
-  std::size_t added = 0;            ///< outputs
+  ModelDescription description;     ///< with the additional outputs
+  std::size_t added = 0;            ///< number of additional outputs
   std::vector<std::string> inputs;  ///< names of all files that were read
 };
 
-/// Proves that the model and all its files are those of the run. Notes on the states are said on
+/// Checks that the model and all its files are those of the run. Notes on the states are printed on
 /// standard error. Throws InputError.
 RecordedRun load_recorded_run(const RecordedRunArguments& arguments);
 
-/// Those the run was made with, in whose formulation its states are.
+/// The options of the run, including the formulation of its states.
 SimulationDescription recorded_options(const RecordedRun& run);
 
 struct SelectionArguments {
   std::string from{}, to{};
-  ExportSelection taken{};  ///< what the options fill directly
+  ExportSelection taken{};  ///< filled directly by the options
 
   std::vector<Option> table();
   /// Throws InputError.

@@ -1,4 +1,4 @@
-// floatframe reduce: from a finite-element file to a body file, with a report on its health.
+// floatframe reduce: from a finite-element file to a body file, with a health report.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct ReduceArguments {
   bool quiet = false, overwrite = false;
 };
 
-/// Nothing in most files says which units they are in; the material may give a hint.
+/// Most files do not state their units; the material may give a hint.
 [[noreturn]] void units_are_missing(const PartJob& job) {
   throw InputError(ErrorCode::missing,
                    fmt::format("--units is missing: the file does not state its units; known are "
@@ -53,7 +53,7 @@ int reduce_file(const ReduceArguments& a) {
   for (const std::filesystem::path& file : other_files(job)) inputs.push_back(file.string());
   require_writable(outputs, inputs, a.overwrite);
   const BodyFile content = reduce_part_file(job);
-  // Files that the part includes are known by now.
+  // Files included by the part are known at this point.
   for (const auto& [file, hash] : content.provenance.files)
     inputs.push_back((std::filesystem::path(a.part).parent_path() / file).string());
   require_distinct(outputs, inputs);

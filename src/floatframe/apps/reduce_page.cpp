@@ -96,7 +96,7 @@ Model model_of_part(const BodyFile& content, const std::string& name) {
   return model;
 }
 
-/// Of each interface the points of the surface that it moves as one piece.
+/// For each interface, the surface points that it moves rigidly.
 Json spiders(const ReducedPart& part, const Json& points, PageBuffer& buffer) {
   Json out = Json::array();
   const Eigen::Index n = part.surface_positions.cols();

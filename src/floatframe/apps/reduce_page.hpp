@@ -7,10 +7,10 @@
 
 namespace floatframe {
 
-/// A report is a page if its name ends so, else JSON.
+/// A report file with this name is a page; otherwise it is JSON.
 bool is_page_name(const std::string& file);
 
-/// Needs a program that was built with the viewer.
+/// Requires a program built with the viewer.
 std::string part_page(const BodyFile& content);
 
 }  // namespace floatframe

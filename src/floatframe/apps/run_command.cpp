@@ -114,7 +114,7 @@ RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFin
   o.resume = arguments.resume;
   o.overwrite = arguments.overwrite;
   if (!arguments.checkpoint_every.empty())
-    // None is due behind the end, however far.
+    // No checkpoint is due after the end of the run.
     o.checkpoint_every = std::min(positive_number("--checkpoint-every", arguments.checkpoint_every),
                                   2.0 * description.simulation.duration);
   o.summary = asked_summary(description.name, description.simulation);
@@ -127,12 +127,12 @@ RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFin
   return o;
 }
 
-/// The run with what leaves it on its way.
+/// The run, with its files written while it runs.
 RunResult run_with(RunFiles& files, const Model& model, const SimulationDescription& simulation,
                    const RunArguments& arguments) {
   RunOptions options;
   options.keep_state = !arguments.write_state.empty();
-  options.stop = &StopSignal::asked();
+  options.stop = &StopSignal::flag();
   options.resume = files.resumed();
   options.checkpoint_every = files.checkpoint_every();
   if (files.streams()) {
@@ -150,7 +150,7 @@ RunResult run_with(RunFiles& files, const Model& model, const SimulationDescript
   return run(model, simulation, options);
 }
 
-/// The last sentences, and the exit code.
+/// Prints the closing messages; returns the exit code.
 int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
            const std::vector<std::string>& unwritten, const RunFiles& files) {
   const std::optional<double> cut_at = files.cut_at();
@@ -163,7 +163,7 @@ int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
   if (summary.status != "completed" && has_table && !summary.strict)
     say(fmt::format("the results up to {:.9g} s are kept in {} and marked as partial",
                     cut_at.value_or(summary.duration), paths.folder));
-  // A step that fails would fail again.
+  // After a failed step there is no hint to resume: the step would fail again.
   if ((interrupted || cut_at) && std::filesystem::exists(paths.checkpoint))
     say("the same command with --resume continues the run");
   if (const std::string kept = files.kept_sentence(); !kept.empty()) say(kept);
@@ -172,7 +172,7 @@ int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
   return summary.status == "completed" && unwritten.empty() ? exit_code::done : exit_code::failed;
 }
 
-/// Of a run that was to be continued.
+/// For a run to be resumed that has already completed.
 int complete_before(const RunArguments& arguments, const RunPaths& paths) {
   const std::string text =
       fmt::format("the run in '{}' is complete, there is nothing to continue", paths.folder);
@@ -209,7 +209,7 @@ int run_model(const RunArguments& arguments) {
                     {"--out", paths.report},
                     {"--out", paths.summary},
                     {"--out", paths.checkpoint}},
-                   files_of(used), true);  // whose they are RunFiles looks at
+                   files_of(used), true);  // RunFiles checks who wrote them
   RunFiles files(paths, run_file_options(arguments, used, description, model, paths));
   if (files.complete()) return complete_before(arguments, paths);
   const StopSignal stop_signal;
@@ -219,7 +219,7 @@ int run_model(const RunArguments& arguments) {
   try {
     report.result = run_with(files, model, description.simulation, arguments);
   } catch (const RunError& error) {
-    // A summary and a report that say so, in place of older results.
+    // A summary and a report with the error replace older results.
     report.result.summary = failed_summary(description.name, description.simulation, error.what());
   }
   const WallClock::time_point computed = WallClock::now();

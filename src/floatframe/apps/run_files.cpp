@@ -22,7 +22,7 @@
 namespace floatframe {
 namespace {
 
-/// ", which has reached 1.25 s", or nothing if the checkpoint does not say.
+/// ", which has reached 1.25 s", or nothing if the checkpoint cannot be read.
 std::string progress_of(const std::string& checkpoint) {
   try {
     return fmt::format(", which has reached {:g} s", read_checkpoint(checkpoint).run.time);
@@ -65,7 +65,7 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
     resume();
     return;
   }
-  // Of a completed run a checkpoint is there only if it was killed before it could be removed.
+  // A completed run has a checkpoint only if it was killed before it could be removed.
   holds_checkpoint_ = !holds_completed_ && std::filesystem::exists(paths_.checkpoint);
   if (holds_checkpoint_ && !options_.overwrite) require_no_unfinished_run();
 }
@@ -79,7 +79,7 @@ void RunFiles::require_own_files() const {
   };
   for (const std::string& path : {paths_.summary, paths_.report, paths_.states})
     if (!is_own_file(path)) refuse(path);
-  // One that is to be resumed is read, and refused for what is wrong with it.
+  // A checkpoint to be resumed is read, and rejected if it is invalid.
   if (!options_.resume && !is_own_file(paths_.checkpoint)) refuse(paths_.checkpoint);
   if (!is_own_results(paths_.results)) refuse(paths_.results);
 }
@@ -94,7 +94,7 @@ void RunFiles::resume() {
   const EarlierRun earlier = earlier_run(paths_.summary, options_.summary);
   complete_ = earlier == EarlierRun::completed;
   if (complete_) {
-    // If the run was killed before it could.
+    // If the run was killed before it could do so.
     if (is_own_file(paths_.checkpoint)) remove_file(paths_.checkpoint);
     remove_set_aside(paths_);
     return;
@@ -112,7 +112,7 @@ void RunFiles::resume() {
   if (!(options_.checkpoint_every > 0.0)) options_.checkpoint_every = from_->every;
 }
 
-/// What a process that was killed while it wrote a file left of it.
+/// Removes temporary files of a process that was killed while it wrote them.
 void RunFiles::remove_remains() const {
   std::vector<std::filesystem::path> torn;
   std::error_code ignored;
@@ -128,7 +128,7 @@ void RunFiles::remove_remains() const {
 }
 
 void RunFiles::begin(const std::vector<Column>& columns) {
-  // Continued files are looked at before anything is changed.
+  // Files to be continued are checked before anything is changed.
   if (from_ && keeps_states()) GrowingFile::require(paths_.states, from_->states);
   if (from_) results_.emplace(paths_.results, columns, from_->results);
   if (!from_ && holds_completed_) set_aside(paths_);
@@ -171,7 +171,7 @@ void RunFiles::take_states(const StateLayout& layout, std::span<const double> nu
 
 void RunFiles::keep(const RunCheckpoint& checkpoint) {
   watched([&] {
-    results_->to_disk();  // a checkpoint is never ahead of its rows
+    results_->to_disk();  // rows must be on disk before the checkpoint
     if (states_) states_->to_disk();
     write_file(
         paths_.checkpoint,
@@ -194,7 +194,7 @@ void RunFiles::write_report(Report& report) const {
   auto page = run_page(report, curves, buffer);
   if (states_ && options_.model) {
     add_states(page, *options_.model, paths_.states, options_.simulation, buffer);
-  } else if (options_.model && report.result.table.columns.empty()) {  // it could not start
+  } else if (options_.model && report.result.table.columns.empty()) {  // the run could not start
     page["scene"] =
         scene_json(*options_.model, scene_frames(*options_.model, SystemState()), buffer);
     page["status"]["sentences"].push_back(
@@ -203,7 +203,7 @@ void RunFiles::write_report(Report& report) const {
   write_file(paths_.report, page_html(page_template(), page, buffer));
 }
 
-/// That the disk was full before has been reported.
+/// A full disk has already been reported.
 void RunFiles::finish_states(const RunSummary& summary, std::vector<std::string>& failed) {
   try {
     const bool good = summary.status == "completed" || summary.strict;
@@ -215,7 +215,7 @@ void RunFiles::finish_states(const RunSummary& summary, std::vector<std::string>
 }
 
 std::vector<std::string> RunFiles::finish(Report&& report) {
-  if (from_ && !results_) return {};  // not even begun: all is as it was
+  if (from_ && !results_) return {};  // not begun: nothing has changed
   const RunResult& result = report.result;
   untouched_ = !results_ && result.table.rows() == 0 && (holds_completed_ || holds_checkpoint_);
   if (untouched_) return {};
@@ -228,8 +228,8 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
       failed.emplace_back(error.what());
     }
   };
-  // The files of one run belong together: what this run does not write must not stay from an
-  // earlier one.
+  // The files of a run belong together: remove files of an earlier run that this run does not
+  // write.
   if (results_)
     attempt([&] { results_->to_disk(); });
   else if (result.table.rows() > 0)
@@ -242,7 +242,7 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
   lock_.release_space();
   if (states_) finish_states(result.summary, failed);
   attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });
-  // Last: a run that is killed before goes on from there.
+  // Last: a run killed before this point can be resumed.
   const bool completed = result.summary.status == "completed";
   if (completed || !results_) remove_file(paths_.checkpoint);
   if ((completed || result.summary.strict) && failed.empty()) remove_set_aside(paths_);

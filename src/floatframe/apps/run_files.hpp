@@ -1,7 +1,7 @@
 #pragma once
-// The files of one run as they come into being: results and states that grow, checkpoints, and at
-// its end the report and the summary. Until then the summary has the status "running", so that a
-// reader knows at any time what he has before him.
+// The files of one run while it runs: growing results and states, checkpoints, and at the end the
+// report and the summary. Until then the summary has the status "running", which tells readers that
+// the files are incomplete.
 #include <functional>
 #include <optional>
 #include <span>
@@ -28,23 +28,23 @@ class RunFiles {
     bool report = true;
     double checkpoint_every = 0.0;  ///< [s]; 0: none
     bool resume = false;
-    bool overwrite = false;  ///< an unfinished run, and files of other programs
+    bool overwrite = false;  ///< also an unfinished run and files of other programs
     RunOrigin origin;        ///< for checkpoints
-    RunSummary summary;      ///< of what was asked for, with its duration
-    /// What is written before the states, which are kept if it is there.
+    RunSummary summary;      ///< of the requested run, with its duration
+    /// Header of the states, which are recorded if this is set.
     std::function<HistoryContent(const StateLayout&)> history;
-    const Model* model = nullptr;                       ///< what the view of the report shows
-    const SimulationDescription* simulation = nullptr;  ///< how it runs
+    const Model* model = nullptr;                       ///< shown in the view of the report
+    const SimulationDescription* simulation = nullptr;  ///< options of the run
   };
 
-  /// Takes the folder for itself. Throws InputError if another run has it, if there is nothing to
-  /// go on from, or not with this run; if a run there is unfinished and is neither to be resumed
-  /// nor overwritten; if a file there is of another program.
+  /// Locks the folder. Throws InputError if another run has locked it, if there is no checkpoint to
+  /// resume or it is of another run, if an unfinished run is to be neither resumed nor overwritten,
+  /// or if a file there was written by another program.
   RunFiles(const RunPaths& paths, Options options);
 
-  /// False: results go to a device, at the end.
+  /// False: results go to a device, at the end of the run.
   bool streams() const noexcept { return streams_; }
-  /// True: a run that is to be continued has ended before, with all its files.
+  /// True: the run to be resumed has already completed, with all its files.
   bool complete() const noexcept { return complete_; }
   const RunCheckpoint* resumed() const noexcept { return from_ ? &from_->run : nullptr; }
   bool keeps_states() const noexcept { return streams_ && options_.history; }
@@ -55,16 +55,16 @@ class RunFiles {
   void take_states(const StateLayout& layout, std::span<const double> numbers);
   void keep(const RunCheckpoint& checkpoint);
 
-  /// True: the run could not start, and all in the folder is as it was.
+  /// True: the run could not start, and the folder is unchanged.
   bool untouched() const noexcept { return untouched_; }
-  /// What was there before and still is, as a sentence for the end: of a run that could not start
-  /// all is as it was, a completed one that was set aside stays until there is another. Or empty.
+  /// Sentence at the end about an earlier run that is still there: unchanged if this run could not
+  /// start; a completed run that was set aside is kept until another completes. Or empty.
   std::string kept_sentence() const;
 
-  /// Writes what is left to be written. What cannot be is said in a sentence each, in the result.
+  /// Writes all remaining files. Each failure is a sentence in the result.
   std::vector<std::string> finish(Report&& report);
 
-  /// Time of the last row [s], if something could not be written on the way.
+  /// Time of the last row [s], if writing failed during the run.
   std::optional<double> cut_at() const noexcept { return cut_at_; }
 
  private:
@@ -75,7 +75,7 @@ class RunFiles {
   void require_own_files() const;
   void require_no_unfinished_run() const;
   void resume();
-  /// The page of the viewer, where the program has it.
+  /// The page of the viewer, if the program contains the viewer.
   void write_report(Report& report) const;
   void finish_states(const RunSummary& summary, std::vector<std::string>& failed);
 
@@ -83,7 +83,7 @@ class RunFiles {
   Options options_;
   FolderLock lock_;
   bool streams_, complete_ = false;
-  /// Of the folder before: a completed run, a checkpoint that is to be overwritten.
+  /// Previous content of the folder: a completed run, a checkpoint that is to be overwritten.
   bool holds_completed_ = false, holds_checkpoint_ = false;
   bool untouched_ = false;
   std::optional<CheckpointFile> from_;

@@ -33,7 +33,7 @@ StopSignal::~StopSignal() {
   for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
 }
 
-const std::atomic<bool>& StopSignal::asked() noexcept { return signal_came; }
+const std::atomic<bool>& StopSignal::flag() noexcept { return signal_came; }
 int StopSignal::number() noexcept { return signal_number.load(std::memory_order_relaxed); }
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// SIGINT, SIGTERM, SIGHUP and SIGXCPU end a run between two steps: with its files, its summary and
+// SIGINT, SIGTERM, SIGHUP and SIGXCPU end a run between two steps, with its files, its summary and
 // its report.
 #include <array>
 #include <atomic>
@@ -7,19 +7,19 @@
 
 namespace floatframe {
 
-/// While it is there the first signal asks for the end, a second one ends the program; but the
-/// limit of processor time, which the system repeats every second, only asks. SIGHUP stays ignored
-/// where it was (nohup).
+/// While it exists, the first signal requests the end and a second one terminates the program; the
+/// processor time limit (SIGXCPU), which the system repeats every second, never terminates it.
+/// SIGHUP stays ignored if it was (nohup).
 class StopSignal {
  public:
-  /// `flags` beside those above, as of sigaction: SA_RESTART.
+  /// `flags`: additional sigaction flags (SA_RESTART).
   explicit StopSignal(int flags = 0);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  /// True once a signal has come.
-  static const std::atomic<bool>& asked() noexcept;
+  /// Set once a signal has arrived.
+  static const std::atomic<bool>& flag() noexcept;
   /// Its number; 0: none.
   static int number() noexcept;
 

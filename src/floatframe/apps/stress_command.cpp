@@ -1,4 +1,4 @@
-// floatframe stress: where and when the parts of a run were stressed most.
+// floatframe stress: locations and times of the largest stresses in the parts of a run.
 #include <filesystem>
 
 #include "floatframe/apps/commands.hpp"
@@ -21,19 +21,19 @@ struct StressArguments {
   bool json = false, overwrite = false;
 };
 
-bool knows_stress(const Body& body) {
+bool has_stress(const Body& body) {
   const auto& stress = body.data->stress;
   return stress && !(stress->places.empty() && stress->sections.empty());
 }
 
-/// Splits the chosen bodies into those that know their stress and flexible ones that do not.
+/// Splits the selected bodies into those with stress data and flexible ones without.
 StressReport bodies_of(const RecordedRun& run, const Model& model,
                        const ExportSelection& selection) {
   StressReport report;
   report.model = &model;
   for (const int b : selected_bodies(run.history, model, selection)) {
     const Body& body = model.bodies[static_cast<std::size_t>(b)];
-    if (knows_stress(body) && body.modes() > 0) {
+    if (has_stress(body) && body.modes() > 0) {
       report.bodies.push_back({b, {}, {}, {}});
     } else if (!selection.bodies.empty()) {
       throw InputError(ErrorCode::missing, "--body: body '" + body.name +
@@ -46,7 +46,7 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
   }
   if (!report.bodies.empty()) return report;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (knows_stress(model.bodies[b]) && run.history.header().bodies[b].pose < 0)
+    if (has_stress(model.bodies[b]) && run.history.header().bodies[b].pose < 0)
       throw InputError(ErrorCode::missing, {run.history.name(), 0, 0},
                        "found no states of a body that knows its stress, those of '" +
                            model.bodies[b].name + "' were not recorded (record)");

@@ -35,13 +35,13 @@ struct SweepArguments {
        overwrite = false;
 };
 
-/// Processors this process may use, shared with the other processes of the study on this machine.
+/// Processors available to this process, shared with other processes of the study on this host.
 int processors() {
   cpu_set_t set;
   CPU_ZERO(&set);
   int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
   if (count <= 0) count = static_cast<int>(std::thread::hardware_concurrency());
-  // Unless the launcher has bound each process to processors of its own.
+  // Unless the launcher has bound each process to specific processors.
   const int all = static_cast<int>(std::thread::hardware_concurrency());
   if (count == all) count /= ranks_on_this_machine();
   return std::max(1, count);
@@ -57,7 +57,7 @@ double megabytes(const std::string& text) {
   return value;
 }
 
-/// The files of a study, and of the runs that it keeps.
+/// The files of a study and of the runs it records.
 void require_own_study(const std::filesystem::path& folder) {
   for (const char* name : {"sweep.csv", "sweep.journal"})
     require_own({"--out", (folder / name).string()});
@@ -134,7 +134,7 @@ std::string report_text(const SweepReport& r, double seconds, int at_a_time, int
   return text;
 }
 
-/// How many runs left the range of the method, and the first sentence of each kind.
+/// The number of runs that left the range of the method, and the first sentence of each kind.
 void say_warnings(const SweepReport& r) {
   if (r.warned == 0) return;
   const std::string runs = plural(static_cast<long>(r.runs), "run");
@@ -144,14 +144,14 @@ void say_warnings(const SweepReport& r) {
                     w.runs > 1 ? fmt::format(" (and {} more)", w.runs - 1) : "", w.sentence));
 }
 
-int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWorkers& workers,
-         Ranks* ranks) {
+int lead_study(const SweepArguments& arguments, const SweepOptions& options, SweepWorkers& workers,
+               Ranks* ranks) {
   const auto start = std::chrono::steady_clock::now();
   SweepReport report;
   {
     ProgressBar bar(!arguments.quiet, 1.0, "");
     auto shown = start - std::chrono::seconds(1);
-    report = run_sweep(options, workers, ranks, StopSignal::asked(), [&](const SweepProgress& p) {
+    report = run_sweep(options, workers, ranks, StopSignal::flag(), [&](const SweepProgress& p) {
       const auto now = std::chrono::steady_clock::now();
       if (now - shown < std::chrono::milliseconds(100)) return;
       shown = now;
@@ -179,7 +179,7 @@ int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWork
 }
 
 int sweep(const SweepArguments& arguments) {
-  // Worker processes first: they are forks, and MPI brings threads and locks with it.
+  // Worker processes first: they are forked, and MPI creates threads and locks.
   std::optional<SweepOptions> options;
   std::optional<SweepWorkers> workers;
   std::exception_ptr error;
@@ -195,14 +195,14 @@ int sweep(const SweepArguments& arguments) {
   {
     const StopSignal signals(SA_RESTART);
     if (ranks && ranks->rank() > 0) {
-      // Process 0 says what is wrong with the arguments.
+      // Process 0 reports invalid arguments.
       serve_sweep(options ? *options : SweepOptions{}, workers ? &*workers : nullptr, *ranks,
-                  StopSignal::asked());
+                  StopSignal::flag());
       return 0;
     }
     try {
       if (error) std::rethrow_exception(error);
-      code = lead(arguments, *options, *workers, ranks.get());
+      code = lead_study(arguments, *options, *workers, ranks.get());
     } catch (...) {
       if (ranks) dismiss_ranks(*ranks);
       throw;
@@ -210,9 +210,8 @@ int sweep(const SweepArguments& arguments) {
     if (ranks) dismiss_ranks(*ranks);
   }
   workers.reset();
-  // The caller sees that a signal ended the program; under a launcher that would be taken for a
-  // crash.
-  if (StopSignal::asked().load() && code != 0 && !ranks) std::raise(StopSignal::number());
+  // Tells the caller that a signal ended the program; a launcher would take that for a crash.
+  if (StopSignal::flag().load() && code != 0 && !ranks) std::raise(StopSignal::number());
   return code;
 }
 

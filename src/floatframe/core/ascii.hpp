@@ -1,5 +1,5 @@
 #pragma once
-// Characters of the languages we read, whatever the locale of the process.
+// Character classes of the input languages, independent of the locale of the process.
 
 namespace floatframe {
 

@@ -20,7 +20,7 @@
 namespace floatframe {
 namespace {
 
-/// Holds back the signals that end a program; they are delivered when the object goes.
+/// Blocks the signals that end a program; they are delivered on destruction.
 class SignalHold {
  public:
   SignalHold() {
@@ -41,30 +41,30 @@ std::string cannot(const std::string& kind, const std::string& path, int error) 
   return kind + " '" + path + "' cannot be written: " + std::strerror(error);
 }
 
-/// One of its own for every process and every call: threads may write the same file.
+/// A different name for every process and every call: threads may write the same file.
 std::string temporary_name(const std::string& path) {
   static std::atomic<unsigned> calls = 0;
   return path + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(calls++);
 }
 
-/// What is not a regular file is written to in place, where that cannot wait for somebody without
-/// end or destroy a file system: a terminal, a null device, what this process already holds.
-enum class Way { replaced, in_place };
+/// Files that are not regular are written in place where that can neither block forever nor destroy
+/// a file system: a terminal, a null device, an open file of this process.
+enum class WriteMode { replaced, in_place };
 
-Way way_to(const std::string& name, const OutputPlace& place) {
-  if (place.descriptor >= 0) return Way::in_place;
+WriteMode write_mode(const std::string& name, const OutputPlace& place) {
+  if (place.descriptor >= 0) return WriteMode::in_place;
   struct stat status {};
   if (::stat(place.path.c_str(), &status) != 0)
-    return place.is_open ? Way::in_place : Way::replaced;
+    return place.is_open ? WriteMode::in_place : WriteMode::replaced;
   if (S_ISDIR(status.st_mode)) throw OutputError(cannot("the file", name, EISDIR));
-  if (S_ISREG(status.st_mode)) return place.is_open ? Way::in_place : Way::replaced;
+  if (S_ISREG(status.st_mode)) return place.is_open ? WriteMode::in_place : WriteMode::replaced;
   if (!S_ISCHR(status.st_mode) && !place.is_open)
     throw OutputError("the file '" + name + "' cannot be written: this is a " +
                       (S_ISFIFO(status.st_mode)  ? "named pipe"
                        : S_ISBLK(status.st_mode) ? "block device"
                                                  : "socket") +
                       ", expected a regular file");
-  return Way::in_place;
+  return WriteMode::in_place;
 }
 
 /// 0 or the system's error number.
@@ -74,7 +74,7 @@ int write_all(int file, std::string_view content) {
     if (written < 0) {
       if (errno == EINTR) continue;
       if (errno != EAGAIN) return errno;
-      pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};  // a pipe that does not block
+      pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};  // a non-blocking pipe
       static_cast<void>(::poll(&ready, 1, -1));
       continue;
     }
@@ -84,7 +84,7 @@ int write_all(int file, std::string_view content) {
 }
 
 int write_to(const std::string& path, int flags, std::string_view content, bool flush_to_disk) {
-  // Not blocking: what the name stands for may have become a pipe.
+  // Non-blocking: the file may have been replaced by a pipe.
   const int file = ::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
   if (file < 0) return errno;
   ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
@@ -95,8 +95,8 @@ int write_to(const std::string& path, int flags, std::string_view content, bool 
   return error;
 }
 
-/// Into what is open under a descriptor where that stands, after what has been written there;
-/// elsewhere a regular file is emptied first.
+/// Writes to an open descriptor at its present position; elsewhere a regular file is truncated
+/// first.
 int write_in_place(const OutputPlace& place, std::string_view content) {
   if (place.descriptor < 0)
     return write_to(place.path, content.empty() ? 0 : O_TRUNC, content, false);
@@ -106,8 +106,8 @@ int write_in_place(const OutputPlace& place, std::string_view content) {
   return write_all(place.descriptor, content);
 }
 
-/// Characters beyond ASCII that nobody sees, or that turn what stands around them: they make names
-/// that look alike.
+/// Characters beyond ASCII that are invisible or change the direction of text: they make different
+/// names look alike.
 bool is_blank_or_control(std::string_view character) {
   const char32_t code = code_points(character).front();
   return code < 0xA1 || code == 0xAD || code == 0x1680 || (code >= 0x2000 && code <= 0x200F) ||
@@ -133,7 +133,7 @@ void make_output_folder(const std::string& path) {
 
 void check_writable(const std::string& path) {
   const OutputPlace place = output_place(path);
-  if (way_to(path, place) == Way::in_place) {
+  if (write_mode(path, place) == WriteMode::in_place) {
     const int failed = write_in_place(place, "");
     if (failed != 0) throw OutputError(cannot("the file", path, failed));
     return;
@@ -147,7 +147,7 @@ void check_writable(const std::string& path) {
 
 void write_file(const std::string& path, std::string_view content, Flush flush) {
   const OutputPlace place = output_place(path);
-  if (way_to(path, place) == Way::in_place) {  // a slow reader can be interrupted
+  if (write_mode(path, place) == WriteMode::in_place) {  // a slow reader can be interrupted
     const int error = write_in_place(place, content);
     if (error != 0) throw OutputError(cannot("the file", path, error));
     return;
@@ -171,7 +171,7 @@ void flush_files(const std::string& folder) {
 
 void remove_file(const std::string& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return;  // also links in a circle
+  if (!std::filesystem::exists(path, ignored)) return;  // also for circular links
   const OutputPlace place = output_place(path);
   if (!place.is_open && std::filesystem::is_regular_file(place.path, ignored))
     std::filesystem::remove(place.path, ignored);

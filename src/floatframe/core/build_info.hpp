@@ -1,5 +1,5 @@
 #pragma once
-// What this library is and where it runs: for `floatframe --version`, reports and benchmark tables.
+// Version, build and machine of the running library: for `--version`, reports and benchmarks.
 #include <string>
 
 namespace floatframe {
@@ -15,7 +15,7 @@ std::string build_description();
 /// "generic". The dynamic linker loads the x86-64-v3 copy (AVX2, FMA) where the processor has it.
 std::string instruction_set();
 
-/// Model name of the processor as the system tells it, "unknown processor" if it does not.
+/// Model name of the processor as reported by the system, "unknown processor" if unavailable.
 std::string processor_name();
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// UTF-8 text as code points, for files that hold UTF-16 or UTF-32. Bytes that are no UTF-8 become
+// UTF-8 text as code points, for files in UTF-16 or UTF-32. Bytes that are not valid UTF-8 become
 // U+FFFD.
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
-// A fingerprint of data: two inputs with the same fingerprint are taken to be the same. 128-bit
-// FNV-1a: quick, the same on every machine, not meant against somebody who wants a collision.
+// A fingerprint of data: two inputs with the same fingerprint are assumed equal. 128-bit FNV-1a:
+// fast, the same on every machine, not secure against deliberate collisions.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ class ContentHash {
   /// Length and bytes, so that "ab", "c" and "a", "bc" differ.
   ContentHash& add(std::string_view bytes) noexcept;
   ContentHash& add(std::uint64_t number) noexcept;
-  /// Bytes alone: of a text that comes in pieces, wherever it is cut.
+  /// Bytes alone: for a text that arrives in pieces of any size.
   ContentHash& append(std::string_view bytes) noexcept;
   /// 32 hexadecimal digits.
   std::string text() const;

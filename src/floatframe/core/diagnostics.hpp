@@ -11,34 +11,34 @@
 
 namespace floatframe {
 
-/// What is wrong, whatever the words. Programs and tests compare these; sentences may change.
+/// Kind of error. Programs and tests compare these; sentences may change.
 enum class ErrorCode : unsigned char {
-  unknown_key,    ///< a key, keyword, card or option that nothing reads
-  not_found,      ///< a name or number of something that is not there
-  missing,        ///< a value, line or part that must be there
-  incomplete,     ///< given without another that belongs to it
-  exclusive,      ///< given together with another that excludes it
+  unknown_key,    ///< an unknown key, keyword, card or option
+  not_found,      ///< a reference to something that does not exist
+  missing,        ///< a value, line or part that is required
+  incomplete,     ///< given without another that it requires
+  exclusive,      ///< given together with another, which excludes it
   duplicate,      ///< given twice, or a name that is taken
-  wrong_value,    ///< not one of those that are possible here
+  wrong_value,    ///< not one of the allowed values
   not_a_number,   ///< a text where a number must be
-  not_finite,     ///< or so large that its square overflows
+  not_finite,     ///< or too large: its square overflows
   out_of_range,   ///< a number outside of its limits
   wrong_count,    ///< a list of another length
   contradiction,  ///< two values that cannot both hold
-  geometry,       ///< points, axes or sections that span nothing or do not fit
-  dependent,      ///< a degree of freedom that depends twice
-  cycle,          ///< what refers to itself
-  singular,       ///< nothing holds a motion, or a motion has no mass
-  unsupported,    ///< known and not read, written or computed
+  geometry,       ///< points, axes or sections that are degenerate or do not fit
+  dependent,      ///< a degree of freedom with two dependencies
+  cycle,          ///< a reference to itself
+  singular,       ///< an unrestrained or a massless motion
+  unsupported,    ///< known, but not read, written or computed
   unavailable,    ///< not part of this build or machine
   wrong_file,     ///< a file of another kind
-  damaged,        ///< a file whose content is not what was written
+  damaged,        ///< a file whose content was altered
   mismatch,       ///< of another model, study or version
   unreadable,     ///< a file or folder that cannot be opened
   too_large,      ///< more than memory or a stated limit allows
   in_use,         ///< a folder, file or address that another program uses
   exists,         ///< a file that is not overwritten
-  not_assembled,  ///< loops that do not close, velocities that do not fit
+  not_assembled,  ///< loops that do not close, inconsistent velocities
   no_equilibrium,
   no_convergence,
   step_failed,  ///< a run that ended early; StepStatus says more
@@ -49,18 +49,18 @@ enum class ErrorCode : unsigned char {
 /// "unknown_key", ...
 const char* error_code_name(ErrorCode code) noexcept;
 
-/// A place in a file; line and column count from 1, 0 means unknown. Or, as the file, the option of
-/// the command line that gave a value: "--step".
+/// A place in a file; line and column count from 1, 0 means unknown. Or, as the file, the command
+/// line option that gave a value: "--step".
 struct SourceMark {
   std::string file;
   int line = 0;
   int column = 0;
   bool is_option() const { return line == 0 && file.starts_with("--"); }
-  /// "file:line:column: " before the message, with what is known.
+  /// "file:line:column: " before the message, as far as known.
   std::string before(const std::string& message) const;
 };
 
-/// Where an entity and its keys were written. Empty for models made in C++.
+/// Source location of an entity and its keys. Empty for models made in C++.
 struct Origin {
   SourceMark mark;
   std::map<std::string, SourceMark> keys;
@@ -74,10 +74,10 @@ struct ErrorEntry {
   SourceMark mark;
   ErrorCode code{};
   std::string message;
-  std::size_t count = 1;  ///< of the errors it stands for: "... and 180 more unknown keys"
-  /// Of the entity and key, where the reader of it knows: "joints.a.axis".
+  std::size_t count = 1;  ///< number of errors it summarises: "... and 180 more unknown keys"
+  /// Path of the entity and key, if the reader knows it: "joints.a.axis".
   std::string path = {};
-  /// "file:line:column: message", with what is known of the mark.
+  /// "file:line:column: message", as far as the mark is known.
   std::string text() const { return mark.before(message); }
 };
 
@@ -89,7 +89,7 @@ class InputError : public std::exception {
   InputError(ErrorCode code, std::string message)
       : InputError(code, SourceMark{}, std::move(message)) {}
   const std::vector<ErrorEntry>& errors() const noexcept { return errors_; }
-  /// Of the errors that all messages stand for.
+  /// Number of errors that all messages summarise.
   std::size_t count() const noexcept {
     std::size_t sum = 0;
     for (const ErrorEntry& f : errors_) sum += f.count;
@@ -111,7 +111,7 @@ class InputError : public std::exception {
 /// Collects errors; `throw_if_any` ends a loading stage.
 class ErrorList {
  public:
-  /// `count`: of the errors that the message stands for.
+  /// `count`: number of errors that the message summarises.
   void add(ErrorCode code, const SourceMark& mark, std::string message, std::size_t count = 1) {
     add({mark, code, std::move(message), count});
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Enumerators as indices of tables in their order.
+// Enumerators as indices of tables in enumerator order.
 #include <cstddef>
 #include <type_traits>
 

@@ -25,7 +25,7 @@ bool is_file_at(int file, const std::string& path) {
          open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-/// "process 1234", as whoever holds the lock has written it.
+/// "process 1234", as written by the holder of the lock.
 std::string holder(int file) {
   char text[32] = {};
   const ssize_t n = ::pread(file, text, sizeof text - 1, 0);
@@ -35,8 +35,8 @@ std::string holder(int file) {
                                               : "process " + number.substr(0, end);
 }
 
-/// What FolderLock makes: a file with one name that holds a number, then zeros, or nothing.
-/// Anything else of this name belongs to somebody: it is not written into.
+/// A lock file contains a number, then zeros, or nothing, and has one link. Any other file of this
+/// name belongs to another program and is not written.
 bool is_lock(int file) {
   struct stat s {};
   if (::fstat(file, &s) != 0 || !S_ISREG(s.st_mode) || s.st_nlink > 1) return false;
@@ -45,7 +45,7 @@ bool is_lock(int file) {
   if (s.st_size > kept_space || ::pread(file, text, sizeof text - 1, 0) < 1) return false;
   const std::string found(text);
   const std::size_t end = found.find_first_not_of("0123456789");
-  // Zeros alone: killed between the space and the number.
+  // Zeros alone: killed between reserving space and writing the number.
   return found.empty() || (end != 0 && end != std::string::npos && found.substr(end) == "\n");
 }
 
@@ -76,7 +76,7 @@ FolderLock::FolderLock(const std::string& folder)
       ::close(file);
       refuse_foreign(path_);
     }
-    // Between the calls whoever had the lock may have removed the file.
+    // Between the calls the former holder may have removed the file.
     if (is_file_at(file, path_))
       file_ = file;
     else
@@ -86,14 +86,14 @@ FolderLock::FolderLock(const std::string& folder)
     throw OutputError("the file '" + path_ + "' cannot be kept: it is removed again and again");
   const std::string number = std::to_string(::getpid()) + '\n';
   std::ignore = ::ftruncate(file_, 0);
-  std::ignore = ::posix_fallocate(file_, 0, kept_space);  // without it nothing is kept
+  std::ignore = ::posix_fallocate(file_, 0, kept_space);  // optional
   std::ignore = ::pwrite(file_, number.data(), number.size(), 0);
 }
 
 void FolderLock::release_space() noexcept { std::ignore = ::ftruncate(file_, 0); }
 
 FolderLock::~FolderLock() {
-  ::unlink(path_.c_str());  // still locked: nobody else has made it his own
+  ::unlink(path_.c_str());  // still locked: no other process holds it
   ::close(file_);
 }
 

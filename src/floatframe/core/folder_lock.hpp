@@ -1,23 +1,22 @@
 #pragma once
-// A folder that one process at a time fills. The lock is of the system: it ends with the process,
-// however that ends, and the file that stays behind of one that was killed means nothing.
+// A folder that only one process at a time writes to. It is a system lock: it ends with the
+// process, however that ends; a lock file left behind by a killed process has no effect.
 #include <string>
 
 namespace floatframe {
 
 class FolderLock {
  public:
-  /// The file that is there meanwhile.
+  /// Name of the lock file.
   static constexpr const char* file_name = "run.lock";
 
-  /// Throws InputError if another process has the folder, OutputError if the file cannot be made.
+  /// Throws InputError if another process has the lock, OutputError if it cannot be created.
   explicit FolderLock(const std::string& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /// Gives back the space that the file has kept, so that a short file fits on a disk that became
-  /// full.
+  /// Releases the space reserved in the file, so that a short file fits on a disk that became full.
   void release_space() noexcept;
 
  private:

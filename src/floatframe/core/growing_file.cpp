@@ -29,13 +29,13 @@ GrowingFile::GrowingFile(const std::string& path, bool hashed) : path_(path), ha
   if (!is_replaceable(path))
     throw OutputError("the file '" + path + "' cannot be written: this is not a regular file");
   const std::string place = output_place(path).path;
-  // Whoever has the earlier file open keeps it.
+  // Readers of the earlier file keep it open.
   if (::unlink(place.c_str()) != 0 && errno != ENOENT) throw not_written(path, errno);
   file_ = ::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOCTTY, 0666);
   if (file_ < 0) throw not_written(path, errno);
 }
 
-/// What is before the position has been looked at.
+/// The content before the position has already been checked.
 GrowingFile::GrowingFile(const std::string& path, const Position& position, int flags)
     : path_(path), hashed_(true) {
   file_ = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -49,7 +49,7 @@ GrowingFile::GrowingFile(const std::string& path, const Position& position, int 
 }
 
 void GrowingFile::require(const std::string& path, const Position& position) {
-  const GrowingFile looked_at(path, position, O_RDONLY);
+  const GrowingFile checked(path, position, O_RDONLY);
 }
 
 GrowingFile::GrowingFile(const std::string& path, const Position& position)
@@ -90,7 +90,7 @@ void GrowingFile::read_up_to(const Position& position) {
   bytes_ = position.bytes;
 }
 
-/// How many of them could be written, and why not all.
+/// Number of bytes that could be written; `error`: why not all.
 std::size_t GrowingFile::write(std::string_view bytes, int& error) {
   std::size_t done = 0;
   while (done < bytes.size() && error == 0) {
@@ -103,7 +103,7 @@ std::size_t GrowingFile::write(std::string_view bytes, int& error) {
   return done;
 }
 
-/// Of what was written these bytes; with an error nothing else stays.
+/// Counts these bytes as written; after an error anything behind them is removed.
 void GrowingFile::keep(std::string_view bytes, int error) {
   if (hashed_) content_.append(bytes);
   bytes_ += bytes.size();
@@ -116,7 +116,7 @@ void GrowingFile::keep(std::string_view bytes, int error) {
 void GrowingFile::append(std::string_view lines) {
   int error = 0;
   std::size_t done = write(lines, error);
-  if (error != 0) {  // no torn line: readers would take it for a whole one
+  if (error != 0) {  // no partial line: readers would take it for a complete one
     const std::size_t end = lines.substr(0, done).rfind('\n');
     done = end == std::string_view::npos ? 0 : end + 1;
   }

@@ -1,8 +1,7 @@
 #pragma once
-// A file that grows on disk while it is made, by whole lines or whole blocks. What ends the program
-// later, be it SIGKILL, leaves all that was appended before; only a power failure may take what
-// `to_disk` has not confirmed. A disk that is full, or a limit that is reached, leaves whole ones
-// as well.
+// A file that grows by whole lines or whole blocks. Any end of the program, even SIGKILL, keeps
+// everything appended before; only a power failure may lose data that `to_disk` has not confirmed.
+// A full disk or a size limit leaves whole lines or blocks as well.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,34 +13,34 @@ namespace floatframe {
 
 class GrowingFile {
  public:
-  /// Where a file ends, and what is before.
+  /// Length of a file and fingerprint of its content.
   struct Position {
     std::uint64_t bytes = 0;
     std::string content;  ///< fingerprint
   };
 
-  /// A new and empty file, in place of one that is there. With `hashed` the position knows its
-  /// content, so that the file can be continued. Throws OutputError.
+  /// Creates an empty file and replaces an existing one. With `hashed` the position includes a
+  /// fingerprint of the content, so that the file can be continued. Throws OutputError.
   explicit GrowingFile(const std::string& path, bool hashed = false);
-  /// Continues the file from `position`; what is behind it goes. Throws InputError if there is no
-  /// such file or what is before the position is not what it was, OutputError if it cannot be
+  /// Continues the file from `position`; removes data behind it. Throws InputError if there is no
+  /// such file or if the content before the position has changed, OutputError if it cannot be
   /// written.
   GrowingFile(const std::string& path, const Position& position);
-  /// Throws InputError if the file cannot be continued from there. Changes nothing.
+  /// Throws InputError if the file cannot be continued from the position. Changes nothing.
   static void require(const std::string& path, const Position& position);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
-  /// Whole lines. Throws OutputError; of the lines those that fitted in are kept.
+  /// Whole lines. Throws OutputError; keeps the lines that could be written.
   void append(std::string_view lines);
   /// One block: all of it, or nothing. Throws OutputError.
   void append_whole(std::string_view block);
-  /// Waits until a power failure would leave all of it. Throws OutputError.
+  /// Waits until all data is safe against a power failure. Throws OutputError.
   void to_disk();
 
   std::uint64_t bytes() const noexcept { return bytes_; }
-  /// Of a file that is hashed.
+  /// For a hashed file.
   Position position() const { return {bytes_, content_.text()}; }
 
  private:

@@ -48,7 +48,7 @@ class Histogram {
     return max();
   }
 
-  /// Values in the bins that lie above `seconds` as a whole.
+  /// Number of values in bins entirely above `seconds`.
   std::uint64_t count_above(double seconds) const noexcept {
     std::uint64_t sum = 0;
     for (std::size_t k = bins; k-- > 0 && lower(k) >= seconds;) sum += counts_[k];
@@ -62,7 +62,7 @@ class Histogram {
     return 1e-9 * static_cast<double>(start(bin + 1));
   }
 
-  /// What a run keeps elsewhere; `holds` says whether what was read back can be one.
+  /// Writes or reads the state; `holds` tells whether data read back is valid.
   template <class Stream>
   void serialize(Stream& s) {
     for (std::uint64_t& n : counts_) s(n);

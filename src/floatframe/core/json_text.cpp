@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t longest_excerpt = 60;
 
-/// Brackets outside texts: what is counted is at least what the parser nests before it gives up.
+/// Counts brackets outside texts: at least the depth that the parser reaches before an error.
 bool nests_too_deep(std::string_view text) noexcept {
   int depth = 0;
   bool quoted = false;
@@ -42,7 +42,7 @@ nlohmann::ordered_json read_json(std::string_view text, std::string& why) {
 
 std::string excerpt(std::string_view text) {
   if (text.size() <= longest_excerpt) return std::string(text);
-  std::size_t end = longest_excerpt;  // not inside a character of several bytes
+  std::size_t end = longest_excerpt;  // not inside a multi-byte character
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
   return std::string(text.substr(0, end)) + "...";
 }

@@ -1,21 +1,21 @@
 #pragma once
-// JSON of files that others wrote, or that were damaged.
+// JSON of foreign or damaged files.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 namespace floatframe {
 
-/// Files of this program nest ten levels at most. Copies, comparisons and output of nested values
-/// take stack for each level.
+/// Files of this program nest at most ten levels. Copies, comparisons and output of nested values
+/// use stack for each level.
 inline constexpr int deepest_json = 64;
 
 /// The value; discarded, with the reason in `why`, if the text is not JSON or nests deeper.
 nlohmann::ordered_json read_json(std::string_view text, std::string& why);
 
-/// `text` for a sentence: its beginning and "..." if it is long.
+/// `text` for a sentence, truncated with "..." if it is long.
 std::string excerpt(std::string_view text);
-/// The value as JSON, as far as a sentence needs it.
+/// The value as JSON, truncated for a sentence.
 std::string json_excerpt(const nlohmann::ordered_json& value);
 
 }  // namespace floatframe

@@ -1,7 +1,7 @@
 #pragma once
-// What numbers, whole numbers and words of a description must be, and the sentence about one that
-// is not: "found -1, expected a positive number [s]". The readers of files use these rules on what
-// is written, `build_model` on what a C++ program hands over, so that both say the same.
+// Rules for numbers, whole numbers and words of a description, and the sentence about a violation:
+// "found -1, expected a positive number [s]". The readers of files apply these rules to the text,
+// `build_model` to descriptions made by C++ programs, so that both give the same messages.
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace floatframe {
 
-/// What a number must be. `what` completes "expected ...", `unit` is appended in brackets.
+/// Rule for a number. `what` completes "expected ...", `unit` is appended in brackets.
 struct NumberRule {
   const char* what = "a number";
   const char* unit = "";
@@ -21,7 +21,7 @@ struct NumberRule {
   bool high_open = false;  ///< high itself is excluded
   std::string expectation() const;
   bool holds(double x) const;
-  /// "found ..., expected ..."; nullopt if x is as it must be. Never true of NaN and infinity.
+  /// "found ..., expected ..."; nullopt if x satisfies the rule. NaN and infinity never do.
   std::optional<std::string> complaint(double x) const;
 };
 inline constexpr NumberRule any_number(const char* unit) { return {"a number", unit}; }
@@ -34,7 +34,7 @@ inline constexpr NumberRule non_negative_number(const char* unit) {
   return {"a number >= 0", unit, 0.0};
 }
 
-/// What a whole number must be.
+/// Rule for a whole number.
 struct WholeNumberRule {
   const char* what = "a number";
   int low = 0, high = std::numeric_limits<int>::max();
@@ -46,7 +46,7 @@ struct WholeNumberRule {
 
 /// "one, two or three"
 std::string alternatives(std::span<const char* const> words);
-/// The complaint about an enumerator that is none of those the words name.
+/// The complaint about an enumerator without a word.
 std::optional<std::string> word_complaint(int value, std::span<const char* const> words);
 
 /// Number as a user would write it: the shortest digits that read back as the same double.

@@ -1,5 +1,5 @@
 #pragma once
-// The options of a command as a table. The parser fills the targets, the help is made of the texts.
+// The options of a command as a table, used by the parser (targets) and the help (texts).
 #include <limits>
 #include <string>
 #include <variant>
@@ -21,10 +21,10 @@ struct Option {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();  ///< of numbers, both included
   bool commas = false;    ///< vectors: 1,2,3; otherwise one value per occurrence
-  bool required = false;  ///< a position that must be given, and not as an empty text
+  bool required = false;  ///< a position that must be given and not empty
 };
 
-/// The target's value is the default, and stays if the option is not given.
+/// The target's value is the default and is kept if the option is not given.
 Option flag(std::string name, bool& target, std::string help);
 Option text_option(std::string name, std::string& target, std::string type, std::string help);
 /// One of `words`.
@@ -38,7 +38,7 @@ Option word_list(std::string name, std::vector<std::string>& target, std::vector
                  std::string help);
 /// `option` with these values only.
 Option one_of(std::vector<std::string> words, Option option);
-/// Numbers of `low` to `high`, one or several separated by commas. `type`: what it is, "HERTZ".
+/// Numbers of `low` to `high`, one or several separated by commas. `type`: for the help, "HERTZ".
 Option number_option(std::string name, double& target, double low, double high, std::string type,
                      std::string help);
 Option number_list(std::string name, std::vector<double>& target, double low, double high,
@@ -48,9 +48,9 @@ Option fraction_option(std::string name, double& target, std::string help);
 /// May be repeated, one value each time.
 Option repeated_option(std::string name, std::vector<std::string>& target, std::string type,
                        std::string help);
-/// The file that a command is about.
+/// The main input file of a command.
 Option file_position(std::string name, std::string& target, std::string help);
-/// A text that may be left out.
+/// An optional text.
 Option text_position(std::string name, std::string& target, std::string help);
 
 }  // namespace floatframe

@@ -13,7 +13,7 @@ namespace {
 
 using Identity = std::tuple<dev_t, ino_t, std::string>;
 
-/// False for what is there but no regular file.
+/// False if it exists but is not a regular file.
 bool identity(const std::string& path, Identity& out) {
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0) {

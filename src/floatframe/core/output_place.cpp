@@ -17,13 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // as the system's own limit
+constexpr int most_links = 40;  // as the limit of the system
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The system shows open files as links in /proc; they lead on even where no name is left.
+/// The system shows open files as links in /proc; they work even if the file has no name any more.
 bool is_in_proc(const fs::path& folder) {
   struct statfs status {};
   return ::statfs(folder.c_str(), &status) == 0 && status.f_type == PROC_SUPER_MAGIC;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of things in sentences.
+// Counted nouns in sentences.
 #include <string>
 
 namespace floatframe {

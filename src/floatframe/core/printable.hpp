@@ -1,5 +1,5 @@
 #pragma once
-// Text for messages: what a terminal or a log file would take for a command is written out.
+// Text for messages: characters that terminals or log files would interpret are escaped.
 #include <string>
 #include <string_view>
 

@@ -18,7 +18,7 @@ constexpr std::uint64_t piece = std::uint64_t{1} << 20;
 
 class OpenFile {
  public:
-  // Not blocking: opening a pipe would wait for its other end.
+  // Non-blocking: opening a pipe would wait for its other end.
   explicit OpenFile(const std::filesystem::path& file)
       : number_(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
   ~OpenFile() {
@@ -44,12 +44,12 @@ std::string not_opened(int error) {
   return std::string("the file cannot be opened (") + std::strerror(error) + ")";
 }
 
-/// Reads the first `most` bytes of a regular file; empty or the reason. With `whole` it may not
-/// hold more.
+/// Reads the first `most` bytes of a regular file; returns empty or the reason. With `whole` a
+/// larger file is an error.
 std::string read_up_to(const std::filesystem::path& path, std::uint64_t most, bool whole,
                        std::string& content) {
   content.clear();
-  // The system would end the name there.
+  // The system would truncate the name there.
   if (path.native().find('\0') != std::string::npos) return "the name of the file holds a NUL";
   const OpenFile file(path);
   if (file.number() < 0) return not_opened(errno);
@@ -61,7 +61,7 @@ std::string read_up_to(const std::filesystem::path& path, std::uint64_t most, bo
       "the file is larger than " + size_text(most) + ", which is not read";
   if (whole && status.st_size > 0 && static_cast<std::uint64_t>(status.st_size) > most)
     return too_large;
-  if (whole) ++most;  // the size is a first guess only: files of /proc have none, others may grow
+  if (whole) ++most;  // the size is an estimate: files of /proc have none, others may grow
   content.reserve(std::min(static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0)), most));
   while (content.size() < most) {
     const std::size_t before = content.size();

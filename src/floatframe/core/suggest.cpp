@@ -5,7 +5,7 @@
 
 namespace floatframe {
 namespace {
-/// A suggestion is a courtesy: among very many names only the first are compared [letter pairs].
+/// Limits the time: among very many names only the first are compared [letter pairs].
 constexpr std::size_t most_comparisons = 2'000'000;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -43,7 +43,7 @@ const std::string* nearest(std::string_view name, const std::vector<std::string>
     if (d < distance) distance = d, best = &k;
   }
   if (best || name.size() < 3) return best;
-  // A word broken off: the shortest that goes on from there.
+  // An abbreviation: the shortest known name that starts with it.
   for (const std::string& k : known)
     if (std::string_view(k).substr(0, name.size()) == name && (!best || k.size() < best->size()))
       best = &k;

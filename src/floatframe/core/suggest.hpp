@@ -11,14 +11,14 @@ namespace floatframe {
 /// Number of single-letter edits between two names, case ignored.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The known name that is near (a third of the letters, at least one, are edited) or, if none is,
+/// The closest known name (at most a third of the letters, or one, edited) or, if none is close,
 /// the shortest that begins with `name` (three letters or more); null if nothing fits.
 const std::string* nearest(std::string_view name, const std::vector<std::string>& known);
 
-/// A longer list of names costs more than the suggestion is worth: only so many are looked at.
+/// Limit of names compared: longer lists would cost too much time.
 inline constexpr std::size_t most_known = 10'000;
 
-/// The keys of a map of names, to choose from.
+/// The keys of a map of names, as candidates.
 template <class Map>
 std::vector<std::string> keys_of(const Map& map) {
   std::vector<std::string> keys;
@@ -29,11 +29,11 @@ std::vector<std::string> keys_of(const Map& map) {
   return keys;
 }
 
-/// Suggestions of one reading: each takes up to some ten milliseconds, and who mistyped more names
-/// than that is helped by the first.
+/// Limit of suggestions per reading: each takes up to tens of milliseconds, and the first ones are
+/// enough to help.
 inline constexpr std::size_t most_suggestions = 100;
 
-/// ", did you mean 'name'?" with the nearest known name, or an empty text.
+/// ", did you mean 'name'?" with the closest known name, or an empty text.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace floatframe

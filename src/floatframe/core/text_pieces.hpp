@@ -1,5 +1,5 @@
 #pragma once
-// Texts of options taken apart, and lists of names in sentences.
+// Splitting texts of options, and lists of names in sentences.
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace floatframe {
 
-/// The text taken apart at a character.
+/// The text split at a character.
 std::vector<std::string> pieces_of(const std::string& text, char at);
-/// The number that all of the text is; nothing if it is none, or not finite.
+/// The number if the whole text is a finite number; else nothing.
 std::optional<double> finite_number(const std::string& text);
 /// "a, b, c and 7 more"
 std::string names_text(const std::vector<std::string>& names, std::size_t most);

@@ -1,5 +1,5 @@
 #pragma once
-// The processor time of the calling thread: it stands still while the host runs something else.
+// The processor time of the calling thread: it does not advance while the host runs other work.
 #include <time.h>
 
 #include <cstdint>

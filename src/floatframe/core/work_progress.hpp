@@ -1,18 +1,18 @@
 #pragma once
-// How far a long computation is, for whoever shows it; costs next to nothing where nobody does.
+// Progress of a long computation, for display; costs next to nothing without a listener.
 #include <functional>
 #include <utility>
 
 namespace floatframe {
 
-/// Shows what is being done and the part of it that is done, 0 to 1.
+/// Receives the name of the work and the fraction done, 0 to 1.
 using ProgressListener = std::function<void(const char* work, double done)>;
 
 namespace detail {
 inline thread_local const ProgressListener* progress_listener = nullptr;
 }
 
-/// As long as it lives, `listener` hears of the work of this thread.
+/// While it exists, `listener` receives the progress of this thread.
 class ListenToProgress {
  public:
   explicit ListenToProgress(ProgressListener listener)

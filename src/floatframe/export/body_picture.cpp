@@ -56,7 +56,7 @@ class PictureBuilder {
     picture_.bar_ends = mesh_.bar_ends;
   }
 
-  /// A cylinder, as wide as the wheels of cars: the model says nothing of it.
+  /// A cylinder as wide as a car wheel: the model does not give the width.
   void wheel(const Force& tyre) {
     constexpr int corners = 48;
     const Marker& m = model_.markers[tyre.b];
@@ -122,7 +122,7 @@ class PictureBuilder {
         ->nodes[static_cast<std::size_t>(picture_.nodes[static_cast<std::size_t>(point)])];
   }
 
-  /// A swept point goes with its node.
+  /// A swept point moves with its node.
   void second_order() {
     if (!body_.stiffens()) return;
     std::map<int, const SecondOrderNode*> known;

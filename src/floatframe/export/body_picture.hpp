@@ -1,14 +1,14 @@
 #pragma once
-// What files for other programs show of a body: its surface (body/surface_mesh), the wheel of a
-// tyre, a box of the same mass and inertia where there is nothing else; and its named nodes as
-// points. Body frame, SI units.
+// Geometry of a body in files for other programs: its surface (body/surface_mesh), the wheel of a
+// tyre, a box of the same mass and inertia if there is nothing else; and its named nodes as points.
+// Body frame, SI units.
 #include "floatframe/body/surface_mesh.hpp"
 #include "floatframe/export/body_motion.hpp"
 
 namespace floatframe {
 
 struct BodyPicture {
-  /// Where the shape of a point comes from.
+  /// Source of the shape of a point.
   enum class Origin {
     surface,  ///< of a part or of a geometry file
     bars,     ///< swept with the sections of bars
@@ -22,10 +22,10 @@ struct BodyPicture {
   std::vector<std::array<int, 3>> triangles;  ///< points, outward normals
   std::vector<std::array<int, 2>> lines;
   std::vector<Origin> origins;  ///< of each point
-  /// Of each point its node: in the finite-element file, of bars and named nodes in
+  /// Node of each point: in the finite-element file; for bars and named nodes, in
   /// FlexibleBody::nodes; -1: none.
   std::vector<int> nodes;
-  std::vector<SurfaceMesh::BarEnd> bar_ends;  ///< of the first points, if they are of bars
+  std::vector<SurfaceMesh::BarEnd> bar_ends;  ///< of the first points, if they belong to bars
   std::vector<std::string> names;             ///< of the named nodes, which are the last points
   std::string color;                          ///< "#rrggbb" or empty
 
@@ -33,7 +33,7 @@ struct BodyPicture {
     Eigen::Index point = 0;
     const SecondOrderNode* node = nullptr;
   };
-  std::vector<Bent> bent;  ///< points with a second order
+  std::vector<Bent> bent;  ///< points with second-order displacements
 
   Eigen::Index surface_points() const noexcept {
     return points.cols() - static_cast<Eigen::Index>(names.size());
@@ -42,7 +42,7 @@ struct BodyPicture {
 
 BodyPicture body_picture(const Model& model, int body);
 
-/// The same points, modes, faces, names and colour, to the bit.
+/// True for equal points, modes, faces, names and colour, to the bit.
 bool same_picture(const BodyPicture& a, const BodyPicture& b);
 
 /// 3 x n, body axes: u of all points [m] and du/dt [m/s].

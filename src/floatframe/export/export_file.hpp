@@ -1,6 +1,6 @@
 #pragma once
-// A motion in a file of another program (docs/export.md): it takes the instants one after the other
-// and is written when it is complete.
+// A motion in a file of another program (docs/export.md): receives the instants in sequence and is
+// written when it is complete.
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace floatframe {
 
-/// What is exported: bodies of the model, ascending, at so many instants.
+/// Exported bodies of the model, in ascending order, and the number of instants.
 struct ExportBodies {
   const Model* model = nullptr;
   std::vector<int> bodies;
-  std::size_t instants = 0;  ///< how many will be added
-  /// The i-th of them.
+  std::size_t instants = 0;  ///< number of instants that will be added
+  /// The i-th body.
   const Body& body(std::size_t i) const {
     return model->bodies[static_cast<std::size_t>(bodies[i])];
   }
@@ -23,26 +23,26 @@ struct ExportBodies {
 class ExportFile {
  public:
   virtual ~ExportFile() = default;
-  /// The next instant. Throws OutputError if what is written meanwhile cannot be.
+  /// Adds the next instant. Throws OutputError if data cannot be written meanwhile.
   virtual void add(const OutputView& view) = 0;
-  /// Writes the file; what was written, in a few words. Throws OutputError, or InputError if it
+  /// Writes the file; returns a short description of it. Throws OutputError, or InputError if it
   /// would be larger than its format allows.
   virtual std::string finish() = 0;
 };
 
-// Each file is written by `finish`, and nothing before, but for the grids of a series.
+// `finish` writes each file; only the grids of a series are written earlier.
 
 /// A glTF 2.0 scene in one file (.glb), y up: a node for each body with its translation and
-/// rotation animated, its modes as morph targets with animated weights (docs/export.md). glTF holds
-/// floats: a target is a mode times the largest amplitude of the motion, in metres (morph_targets),
-/// and a scene far from the origin of the world has one of its own. What bends as y^T h y
-/// (geometric stiffening) is exact too: a target for each product of two amplitudes that moves a
-/// point visibly.
+/// rotation animated, its modes as morph targets with animated weights (docs/export.md). glTF
+/// stores floats: a target is a mode times the largest amplitude of the motion, in metres
+/// (morph_targets), and a scene far from the origin of the world gets a local origin. Deformation
+/// y^T h y (geometric stiffening) is exact too: a target for each product of two amplitudes with a
+/// visible displacement.
 std::unique_ptr<ExportFile> glb_scene(const ExportBodies& bodies, const std::string& path);
 
 /// Arrays of NumPy (.npz): members "time", "bodies" and for each body "NAME/position" and so on.
-/// `stress`: also that of all places of bodies that know it. Throws InputError if the file would be
-/// larger than its format allows.
+/// `stress`: also that of all places of bodies with stress data. Throws InputError if the file
+/// would be larger than its format allows.
 std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std::string& path,
                                           bool stress);
 
@@ -50,10 +50,10 @@ std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std:
 std::unique_ptr<ExportFile> motion_table(const ExportBodies& bodies, const std::string& path);
 
 /// A series of .vtu files with a .pvd: a grid for each instant with all bodies, deformed, in world
-/// axes. Makes the folder. Files of an earlier series there are replaced or removed, its .pvd first
-/// and the new one written last: what it names is there. Throws OutputError.
+/// axes. Creates the folder. Files of an earlier series are replaced or removed, the .pvd first;
+/// the new one is written last, when all files that it names exist. Throws OutputError.
 std::unique_ptr<ExportFile> vtk_series(const ExportBodies& bodies, const std::string& folder);
-/// True for the names of the files of a series: those that another one replaces or removes.
+/// True for names of files of a series, which another series replaces or removes.
 bool is_file_of_series(const std::string& name);
 
 }  // namespace floatframe

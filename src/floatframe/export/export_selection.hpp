@@ -1,5 +1,5 @@
 #pragma once
-// Which instants and bodies of a recorded run are exported.
+// Selection of the instants and bodies of a recorded run for export.
 #include <limits>
 #include <string>
 #include <vector>
@@ -12,16 +12,16 @@ namespace floatframe {
 struct ExportSelection {
   double from = -std::numeric_limits<double>::infinity();  ///< [s]
   double to = std::numeric_limits<double>::infinity();     ///< [s]
-  int every = 1;                    ///< of the instants in this range, the first of them included
+  int every = 1;                    ///< every n-th instant in this range, from the first
   std::vector<std::string> bodies;  ///< names; empty: all that were recorded
 };
 
-/// Indices of the instants, ascending. Throws InputError if there is none.
+/// Indices of the instants, ascending. Throws InputError if the selection is empty.
 std::vector<std::size_t> selected_instants(const StateHistory& history,
                                            const ExportSelection& selection);
 
-/// Indices of the bodies, ascending. Throws InputError for a body that the model does not have, or
-/// whose states were not recorded.
+/// Indices of the bodies, ascending. Throws InputError for a body that is not in the model or was
+/// not recorded.
 std::vector<int> selected_bodies(const StateHistory& history, const Model& model,
                                  const ExportSelection& selection);
 

@@ -33,7 +33,7 @@ void append_word(std::string& out, std::uint32_t word) {
 int GlbFile::add(std::string_view content, GlbJson accessor, int target) {
   GlbJson view{{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", content.size()}};
   if (target != 0) view["target"] = target;
-  buffer_.append(content);  // of numbers of four bytes
+  buffer_.append(content);  // of four-byte numbers
   accessor["bufferView"] = views_.size();
   views_.push_back(std::move(view));
   accessors_.push_back(std::move(accessor));
@@ -51,7 +51,7 @@ int GlbFile::floats(std::span<const float> numbers, const char* type, bool bound
       low[k % n] = std::min(low[k % n], numbers[k]);
       high[k % n] = std::max(high[k % n], numbers[k]);
     }
-    // As doubles, which a reader turns into the same floats.
+    // As doubles, which readers convert to the same floats.
     accessor["min"] = std::vector<double>(low.begin(), low.end());
     accessor["max"] = std::vector<double>(high.begin(), high.end());
   }
@@ -68,7 +68,7 @@ std::string GlbFile::bytes(GlbJson document) {
   document["buffers"] = GlbJson::array({{{"byteLength", buffer_.size()}}});
   document["bufferViews"] = std::move(views_);
   document["accessors"] = std::move(accessors_);
-  // Names from files may hold bytes that are not UTF-8.
+  // Names from files may contain invalid UTF-8.
   std::string text = document.dump(-1, ' ', false, GlbJson::error_handler_t::replace);
   text.append((4 - text.size() % 4) % 4, ' ');
   buffer_.append((4 - buffer_.size() % 4) % 4, '\0');

@@ -1,6 +1,6 @@
 #pragma once
-// The binary container of glTF 2.0 (Khronos): one JSON object and one buffer, whose arrays the JSON
-// names as accessors. Little-endian.
+// The binary container of glTF 2.0 (Khronos): one JSON object and one buffer, whose arrays are
+// named as accessors in the JSON. Little-endian.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace floatframe {
 
-/// Numbers of accessors and buffers, as the standard gives them.
+/// Constants of accessors and buffers, from the standard.
 namespace gltf {
 inline constexpr int float_type = 5126, uint_type = 5125;
 inline constexpr int vertices = 34962, indices = 34963;  ///< targets of buffer views
@@ -19,11 +19,11 @@ inline constexpr int points = 0, lines = 1, triangles = 4;
 class GlbFile {
  public:
   /// Index of the accessor of `numbers`, in tuples of `type` ("SCALAR", "VEC3", "VEC4"). Bounds are
-  /// stated if `bounded`. `target`: 0: none.
+  /// written if `bounded`. `target`: 0: none.
   int floats(std::span<const float> numbers, const char* type, bool bounded, int target = 0);
   int indices(const std::vector<std::uint32_t>& numbers);
 
-  /// `document`: all but the arrays. Throws InputError if the file would be larger than 4 GB.
+  /// `document`: everything but the arrays. Throws InputError if the file would exceed 4 GB.
   std::string bytes(nlohmann::ordered_json document);
 
  private:

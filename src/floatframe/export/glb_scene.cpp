@@ -17,11 +17,11 @@ namespace {
 
 using SceneJson = nlohmann::ordered_json;
 
-/// Of bodies without a colour of their own, in turn.
+/// Used in turn for bodies without a colour.
 constexpr const char* gltf_colors[] = {"#8197ae", "#c7a777", "#8db08c", "#b791a8",
                                        "#7cb0b8", "#a3a0c9", "#c5957f", "#aab08a"};
 
-/// The parts of "#rrggbb", from 0 to 1 and linear in light, as glTF has them.
+/// The components of "#rrggbb", from 0 to 1 in linear RGB, as in glTF.
 std::vector<double> linear_color(const std::string& color) {
   std::vector<double> out;
   for (std::size_t k = 1; k < 7; k += 2) {
@@ -50,7 +50,7 @@ class GlbScene : public ExportFile {
   }
 
   void add(const OutputView& view) override {
-    // Times of floats ascend, too.
+    // Times must ascend as floats, too.
     const auto time = static_cast<float>(view.time() - first_time_.value_or(view.time()));
     if (!first_time_) first_time_ = view.time();
     if (!times_.empty() && !(time > times_.back())) return;
@@ -100,7 +100,7 @@ class GlbScene : public ExportFile {
  private:
   struct Mesh {
     BodyPicture picture;
-    int body = 0;                    ///< one that has it
+    int body = 0;                    ///< a body with this mesh
     std::vector<std::size_t> users;  ///< tracks
     std::vector<MorphTarget> targets;
   };
@@ -111,7 +111,7 @@ class GlbScene : public ExportFile {
     std::vector<double> amplitudes;
   };
 
-  /// A float's half digit is less than 4 um up to 128 m.
+  /// Half the last digit of a float is less than 4 um up to 128 m.
   void set_origin_of_scene() {
     constexpr double far = 100.0;  // [m]
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
@@ -139,7 +139,7 @@ class GlbScene : public ExportFile {
     return static_cast<int>(materials_.size()) - 1;
   }
 
-  /// The points from `first` on, and their part of each target.
+  /// The points from `first` on, with their displacements in each target.
   struct Vertices {
     SceneJson attributes, targets;
   };
@@ -152,7 +152,7 @@ class GlbScene : public ExportFile {
         zero = zero && floats[k] == 0.0F;
       }
       if (!zero) return file_.floats(floats, "VEC3", true, gltf::vertices);
-      // Of targets that move named nodes only: once for each size.
+      // For targets that move named nodes only: one array of zeros for each size.
       const auto known = zeros_.find(count);
       if (known != zeros_.end()) return known->second;
       return zeros_[count] = file_.floats(floats, "VEC3", true, gltf::vertices);
@@ -199,7 +199,7 @@ class GlbScene : public ExportFile {
     if (!mesh.targets.empty()) {
       SceneJson names = SceneJson::array();
       for (const MorphTarget& t : mesh.targets) names.push_back(t.name);
-      extras["targetNames"] = std::move(names);  // what Blender and others show
+      extras["targetNames"] = std::move(names);  // shown by Blender and others
     }
     if (!extras.empty()) out["extras"] = std::move(extras);
     mesh_list_.push_back(std::move(out));

@@ -14,7 +14,7 @@
 namespace floatframe {
 namespace {
 
-/// A node with the worst of its places, and those next to it.
+/// A node with the largest stress of its places, and its neighbours.
 struct HotNode {
   int place = -1;
   bool doubtful = false;
@@ -63,13 +63,13 @@ std::vector<HotSpot> hot_spots(const FlexibleBody& body, const StressEnvelope& e
   const VecX& vm = envelope.von_mises;
   std::map<int, HotNode> nodes = worst_places(*body.stress, vm);
   find_neighbours(body, nodes);
-  // Of equals the one that comes first.
+  // Of equal values, the first one.
   const auto hotter = [&](int a, int b) { return vm(a) > vm(b) || (vm(a) == vm(b) && a < b); };
   std::vector<int> peaks;
   for (const auto& [index, node] : nodes) {
     const bool hidden = std::any_of(node.next.begin(), node.next.end(), [&](int other) {
-      const HotNode& beside = nodes.at(other);
-      return (node.doubtful || !beside.doubtful) && hotter(beside.place, node.place);
+      const HotNode& neighbour = nodes.at(other);
+      return (node.doubtful || !neighbour.doubtful) && hotter(neighbour.place, node.place);
     });
     if (!hidden && vm(node.place) > 0.0) peaks.push_back(node.place);
   }

@@ -47,7 +47,7 @@ class MotionTable : public ExportFile {
     std::string body;
     std::vector<int> named;
     std::vector<std::string> names;
-    std::vector<Eigen::Quaterniond> turns;  ///< of the instant before
+    std::vector<Eigen::Quaterniond> turns;  ///< of the previous instant
   };
 
   void row(double time, const std::string& body, const std::string& node, const NodeMotion& m,

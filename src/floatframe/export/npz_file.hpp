@@ -11,7 +11,7 @@ namespace floatframe {
 
 class NpzFile {
  public:
-  /// The number of values is that of the shape.
+  /// The number of values must match the shape.
   template <class Number>
   void add(const std::string& name, std::vector<std::size_t> shape, std::vector<Number> values) {
     members_.emplace_back(name + ".npy", npy_bytes({std::move(shape), std::move(values)}));

@@ -7,7 +7,7 @@
 namespace floatframe {
 namespace {
 
-/// Of one product: its result (6 x 64 rows, 64 columns, 200 kB) stays in the cache.
+/// Size of one product: its result (6 x 64 rows, 64 columns, 200 kB) stays in the cache.
 constexpr Eigen::Index instants_at_once = 64, places_at_once = 64;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -88,7 +88,7 @@ void StressEnvelopeOf::flush_sections(Eigen::Index instants) {
   for (Eigen::Index k = 0; k < instants; ++k) {
     const double time = times_[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < F.rows(); ++i) {
-      // The places of a 6 x sections matrix follow each other as the rows of F do.
+      // The places of a 6 x sections matrix are in the order of the rows of F.
       if (F(i, k) < envelope_.least.data()[i]) {
         envelope_.least.data()[i] = F(i, k);
         envelope_.least_time.data()[i] = time;

@@ -1,7 +1,7 @@
 #pragma once
-// The largest von Mises stress that each place of a body (body_stress.hpp) has had over a run, when
-// it had it, and the whole stress of that instant; of beams the smallest and the largest section
-// forces. Instants are gathered and done together: of all of them at once
+// The largest von Mises stress at each place of a body (body_stress.hpp) over a run, its instant
+// and the stress tensor at that instant; for beams the smallest and the largest section forces.
+// Instants are collected and evaluated together:
 //   stress = modes Y + loads C,   a column of Y and C for each instant,
 // are two products of matrices, many places times many instants.
 #include <vector>
@@ -13,8 +13,8 @@ namespace floatframe {
 struct StressEnvelope {
   // Of each place.
   VecX von_mises;  ///< [Pa]
-  VecX time;       ///< [s] the first at which it was so large
-  Mat6X stress;    ///< xx yy zz xy yz zx then, body axes [Pa]
+  VecX time;       ///< [s] first instant of the largest value
+  Mat6X stress;    ///< xx yy zz xy yz zx at that instant, body axes [Pa]
 
   // Of each section of beams: N Vy Vz [N], T My Mz [Nm].
   Mat6X least, least_time, largest, largest_time;
@@ -22,11 +22,11 @@ struct StressEnvelope {
 
 class StressEnvelopeOf {
  public:
-  /// `stress` must outlive this. `modes`: of the body.
+  /// `stress` must outlive this. `modes`: number of modes of the body.
   StressEnvelopeOf(const BodyStress& stress, int modes);
   /// The next instant: amplitudes (nm) and load coefficients (12 + nm) of the body.
   void add(double time, const VecX& y, const VecX& c);
-  /// Of all instants so far.
+  /// Result over all instants so far.
   const StressEnvelope& result();
 
  private:
@@ -35,7 +35,7 @@ class StressEnvelopeOf {
   void flush_sections(Eigen::Index instants);
 
   const BodyStress& stress_;
-  MatX Y_, C_;  ///< amplitudes and load coefficients of the instants gathered, one per column
+  MatX Y_, C_;  ///< amplitudes and load coefficients of the collected instants, one per column
   std::vector<double> times_;
   MatX values_;
   VecX squares_;  ///< of the von Mises stresses so far

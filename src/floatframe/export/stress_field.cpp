@@ -55,7 +55,7 @@ void StressField::add_places(const BodyPicture& picture) {
     if (point >= 0 && point < picture.surface_points())
       of_point[static_cast<std::size_t>(point)].push_back(static_cast<int>(k));
   }
-  // A beam of a part is drawn as a line: its ends show the outer points of its sections.
+  // A beam of a part is drawn as a line: its ends show the stress of the outer section points.
   std::map<int, std::set<int>> line_ends;  // of each node
   for (const auto& line : picture.lines)
     for (const int p : line) line_ends[picture.nodes[static_cast<std::size_t>(p)]].insert(p);
@@ -65,7 +65,7 @@ void StressField::add_places(const BodyPicture& picture) {
     for (const int p : line_ends[place.node])
       of_point[static_cast<std::size_t>(p)].push_back(static_cast<int>(k));
   }
-  // A swept section shows at each corner the nearest of its outer points.
+  // Each corner of a swept section shows the stress of the nearest outer point.
   const auto sections = places_of_sections(*stress_);
   for (std::size_t v = 0; v < picture.bar_ends.size(); ++v) {
     const auto found = sections.find({picture.bar_ends[v].bar, picture.bar_ends[v].end});

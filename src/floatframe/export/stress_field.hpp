@@ -1,6 +1,6 @@
 #pragma once
-// Stress at the points of a picture at an instant, from what the body knows of it (BodyStress):
-//   stress = modes y + loads c,   c of the motion of the body (body_stress.hpp), as gauges see it.
+// Stress at the points of a picture at an instant, from the stress data of the body (BodyStress):
+//  stress = modes y + loads c,   c from the motion of the body (body_stress.hpp), as for gauges.
 // A point may have several places - top and bottom of a shell, two materials, outer points of a
 // section: it shows the one with the largest von Mises stress at this instant.
 #include "floatframe/body/body_stress.hpp"
@@ -16,13 +16,13 @@ Vec6 turned_stress(const Mat3& R, const Vec6& stress) noexcept;
 
 class StressField {
  public:
-  /// Nothing is known if the body does not know its stress, or only section forces.
+  /// Without values if the body has no stress data, or only section forces.
   StressField() = default;
   StressField(const BodyPicture& picture, const FlexibleBody& body);
 
   bool known() const noexcept { return stress_ != nullptr; }
   const BodyStress& stress() const noexcept { return *stress_; }
-  /// All places, 6 after the other, body axes [Pa].
+  /// All places, 6 values each, body axes [Pa].
   const VecX& at(const VecX& y, const VecX& c);
 
   struct Shown {
@@ -30,7 +30,7 @@ class StressField {
     double von_mises = 0.0;
     const StressPlace* place = nullptr;
   };
-  /// Of a point of the picture after `at`; false: not known there.
+  /// Stress at a point of the picture after `at`; false: unknown there.
   bool shown(Eigen::Index point, Shown& out) const noexcept;
 
  private:

@@ -29,7 +29,7 @@ const BeamSectionPlace& section_of(const Body& body, const SectionPeak& peak) {
   return body.data->stress->sections[static_cast<std::size_t>(peak.section)];
 }
 
-/// Rounding beside `largest` is nothing.
+/// Values that are rounding noise relative to `largest` are shown as zero.
 std::string mega(double pascal, double largest) {
   if (std::abs(pascal) < 1e-6 * largest) return "0";
   return fmt::format("{:.4g}", 1e-6 * pascal);
@@ -56,7 +56,7 @@ std::string hot_spot_table(const StressReport& report, const StressedBody& b) {
 std::string peak_table(const StressReport& report, const StressedBody& b) {
   const Body& body = body_of(report, b);
   TextTable table({"section force", "largest", "", "of", "end at node", "time [s]"}, {2, 3, 4});
-  double largest[2] = {0.0, 0.0};  // force, moment: what is 1e-9 of it is rounding
+  double largest[2] = {0.0, 0.0};  // force, moment: 1e-9 of it is rounding
   for (const SectionPeak& peak : b.peaks)
     largest[peak.component / 3] = std::max(largest[peak.component / 3], std::abs(peak.value));
   for (const SectionPeak& peak : b.peaks) {

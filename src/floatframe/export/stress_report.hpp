@@ -18,17 +18,17 @@ struct StressedBody {
 struct StressReport {
   const Model* model = nullptr;
   std::size_t instants = 0;
-  double from = 0.0, to = 0.0;  ///< [s] of the first and the last instant
+  double from = 0.0, to = 0.0;  ///< first and last instant [s]
   std::vector<StressedBody> bodies;
-  std::vector<std::string> without;  ///< flexible bodies that do not know their stress
+  std::vector<std::string> without;  ///< flexible bodies without stress data
 };
 
 std::string stress_text(const StressReport& report);
 std::string stress_json(const StressReport& report);
 std::string hot_spots_csv(const StressReport& report);
-/// Smallest and largest force of every section.
+/// Smallest and largest value of every section force.
 std::string section_forces_csv(const StressReport& report);
-/// The bytes of a .npz file. Throws InputError if its format has no room for them.
+/// The bytes of a .npz file. Throws InputError if they exceed its format.
 std::string envelope_npz(const StressReport& report);
 
 }  // namespace floatframe

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 4> kind_words{"HEAD", "DATA", "ROWS", "DO
 
 std::uint32_t crc_on(std::uint32_t crc, const char* bytes, std::size_t size) {
   uLong sum = crc;
-  while (size > 0) {  // zlib counts in 32 bits
+  while (size > 0) {  // zlib uses 32-bit sizes
     const std::size_t piece = std::min(size, std::size_t{1} << 30);
     sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes), static_cast<uInt>(piece));
     bytes += piece;
@@ -85,7 +85,7 @@ void HistoryWalk::refuse(ErrorCode code, const std::string& what) const {
   throw InputError(code, SourceMark{name_, 0, 0}, what);
 }
 
-/// What follows is not a block: the rest of one that was being written, if it is no more than that.
+/// Called where no valid block follows: true if the rest can be a block that was being written.
 bool HistoryWalk::torn(std::uint64_t longest) {
   const std::uint64_t left = size_ - at_;
   if (left > history_block_head + padded(longest))
@@ -105,7 +105,7 @@ bool HistoryWalk::next(HistoryBlock& block, std::uint64_t longest) {
   const auto kind = std::find(kind_words.begin(), kind_words.end(), std::string_view(head + 8, 4));
   if (kind == kind_words.end()) {
     const bool blank = std::all_of(head, head + sizeof head, [](char c) { return c == '\0'; });
-    if (blank) return torn(longest);  // room that a failure of power left without content
+    if (blank) return torn(longest);  // space left empty by a power failure
     refuse(ErrorCode::damaged,
            fmt::format("the block at byte {} is damaged: it is of no known kind", at_));
   }

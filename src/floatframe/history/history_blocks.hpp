@@ -11,9 +11,9 @@
 //     n bytes  content
 //     zeros up to the next multiple of 8
 //
-// HEAD comes first, once: JSON. Then one DATA block for each array the header lists, in its order.
-// Then any number of ROWS: whole rows of doubles. DONE, JSON, ends the file of a run that has
-// ended.
+// HEAD comes first, once: JSON. Then one DATA block for each array listed in the header, in its
+// order. Then any number of ROWS: whole rows of doubles. DONE, JSON, ends the file of a completed
+// or failed run.
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -29,35 +29,34 @@ inline constexpr std::uint64_t history_start = 16, history_block_head = 16;
 
 enum class HistoryBlockKind { head, data, rows, done };
 
-/// A block of ROWS holds no more bytes, or one row: what may be lost at the end of a file is small.
+/// A block of ROWS has at most this size, or one row, to limit the loss at the end of a file.
 inline constexpr std::uint64_t largest_rows_block = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t largest_history_head = std::uint64_t{64} << 20;
 inline constexpr std::uint64_t largest_history_end = std::uint64_t{64} << 10;
 
-/// The beginning of a file.
+/// The first bytes of a file.
 std::string history_beginning();
 std::string history_block(HistoryBlockKind kind, std::string_view content);
 
-/// Where a block stands.
+/// Location of a block.
 struct HistoryBlock {
   HistoryBlockKind kind = HistoryBlockKind::head;
   std::uint64_t at = 0, length = 0;  ///< of its content [byte]
 };
 
-/// Gives `size` bytes of a file from `at` on.
+/// Reads `size` bytes of a file from offset `at`.
 using HistoryBytes = std::function<void(std::uint64_t at, char* out, std::size_t size)>;
 
-/// Walks through the blocks of a file of `size` bytes and checks each against its checksum.
+/// Iterates over the blocks of a file of `size` bytes and verifies their checksums.
 class HistoryWalk {
  public:
-  /// `name` is for messages. Throws InputError if this is no result file, or one of another
-  /// version.
+  /// `name` is for messages. Throws InputError if this is not a result file, or of another version.
   HistoryWalk(HistoryBytes bytes, std::uint64_t size, std::string name);
 
-  /// False: there is no further one. `longest`: bytes that the content may have. Throws InputError
-  /// for a block that is damaged; one that is cut off at the end of the file is not one.
+  /// False: there are no more. `longest`: maximum size of the content. Throws InputError for a
+  /// damaged block; a block truncated at the end of the file is ignored.
   bool next(HistoryBlock& block, std::uint64_t longest);
-  /// What was left out at the end, in a sentence, or empty.
+  /// A sentence on data ignored at the end, or empty.
   const std::string& dropped() const noexcept { return dropped_; }
   [[noreturn]] void refuse(ErrorCode code, const std::string& what) const;
 

@@ -17,12 +17,12 @@
 namespace floatframe {
 namespace {
 
-/// Arrays on their way into a file, rows after rows.
+/// Arrays for a file, row by row.
 class ArrayList {
  public:
   explicit ArrayList(HistoryContent& content) : content_(content) {}
 
-  /// `number(k)`: the k-th of all, the last index runs fastest.
+  /// `number(k)`: the k-th number of the array, with the last index running fastest.
   template <class Number, class Get>
   void add(const std::string& name, const char* type, std::vector<std::uint64_t> shape,
            Get number) {

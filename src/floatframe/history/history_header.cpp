@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t most_coordinates = 10'000'000;
 
-// The fields of a header, each once: `f` writes them, or reads them.
+// The fields of a header, once each: `f` writes or reads them.
 
 constexpr auto origin_fields = [](auto& f, auto& o) {
   f("file", o.model_file);
@@ -77,7 +77,7 @@ constexpr auto header_fields = [](auto& f, auto& h) {
   f.objects("shapes", h.shapes, shape_fields);
   f.objects("arrays", h.arrays, array_fields);
   f.objects("bodies", h.bodies, body_fields);
-  // Files of runs that were not watched may do without the key.
+  // Files of runs without range checks may lack the key.
   if (f.has("health")) f.objects("health", h.health, health_fields);
 };
 
@@ -112,7 +112,7 @@ struct HeaderWriter {
   }
 };
 
-/// Values of a JSON object by key, each of the type that is asked for.
+/// Values of a JSON object by key, each with the requested type.
 class HeaderReader {
  public:
   explicit HeaderReader(const Json& object, std::string path = {})
@@ -135,7 +135,7 @@ class HeaderReader {
 
   void operator()(const char* key, std::string& text) const { text = get<std::string>(key); }
   void operator()(const char* key, double& number) const { number = get<double>(key); }
-  /// A whole number; -1 stands for none.
+  /// A whole number; -1 means none.
   void operator()(const char* key, int& number, int low = -1) const {
     number = whole(value(key), path_ + key, low, most_coordinates);
   }

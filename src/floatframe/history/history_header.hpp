@@ -1,6 +1,6 @@
 #pragma once
-// The header of a result file: what its rows hold, what they belong to, and what the run was made
-// from. docs/result-file.md has its keys.
+// The header of a result file: the content of its rows, the model, and the inputs of the run.
+// docs/result-file.md has its keys.
 #include <cstdint>
 #include <map>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace floatframe {
 
-/// What a run was made from.
+/// The inputs of a run.
 struct HistoryOrigin {
-  std::string program;                ///< version
-  std::string library;                ///< which copy of it: version, build, fingerprint of its file
-  std::string model_file;             ///< as it was given
-  std::string from_here;              ///< the same from the folder of the result file
-  std::vector<std::string> settings;  ///< "name=value"
-  std::map<std::string, std::string> files;  ///< read, from the model file, and their fingerprints
-  std::string text;                          ///< of the model files, with the values of parameters
+  std::string program;                       ///< version
+  std::string library;                       ///< its version, build, fingerprint of its file
+  std::string model_file;                    ///< as given
+  std::string from_here;                     ///< relative to the folder of the result file
+  std::vector<std::string> settings;         ///< "name=value"
+  std::map<std::string, std::string> files;  ///< files read, and their fingerprints
+  std::string text;                          ///< text of the model files with parameter values
 };
 
 struct HistoryGroup {
@@ -31,7 +31,7 @@ struct HistoryBody {
   std::vector<std::string> modes;              ///< names
   std::vector<double> frequencies;             ///< of each mode alone [Hz]; -1: not finite
   int pose = -1, amplitudes = -1, rates = -1;  ///< first columns; -1: not recorded
-  int shape = -1;                              ///< index; bodies that are alike share one
+  int shape = -1;                              ///< index; equal bodies share one
 };
 
 /// A column of the group "health".
@@ -41,7 +41,7 @@ struct HistoryHealth {
   double size = 0.0;  ///< of the body [m]
 };
 
-/// The names of the nodes of a shape and its colour; its arrays are "shapes/0/...".
+/// The names of the nodes of a shape, and its colour; its arrays are "shapes/0/...".
 struct HistoryShape {
   std::vector<std::string> nodes;
   std::string color = {};  ///< "#rrggbb" or empty
@@ -54,16 +54,16 @@ struct HistoryArray {
 
 struct HistoryHeader {
   HistoryOrigin origin;
-  std::string model, model_hash;  ///< name, and fingerprint of what decides the motion
+  std::string model, model_hash;  ///< name, and fingerprint of everything that affects the motion
   std::string coordinates, inertia;
   double step = 0.0, duration = 0.0, output_interval = 0.0;  ///< [s]
   std::size_t columns = 0;
   std::vector<HistoryGroup> groups;
   int configurations = 0, velocities = 0;  ///< coordinates of the model
-  std::vector<int> q, v;                   ///< those that are recorded, ascending
+  std::vector<int> q, v;                   ///< recorded coordinates, ascending
   std::vector<std::string> owners;         ///< of each recorded velocity
   std::vector<HistoryBody> bodies;
-  std::vector<HistoryHealth> health;  ///< empty: the run was not watched
+  std::vector<HistoryHealth> health;  ///< empty: the run had no range checks
   std::vector<HistoryShape> shapes;
   std::vector<HistoryArray> arrays;
 
@@ -78,7 +78,7 @@ struct HistoryHeader {
 std::uint64_t array_bytes(const HistoryArray& array) noexcept;
 
 std::string header_json(const HistoryHeader& header);
-/// Throws InputError, without a place, with what is wrong with it.
+/// Throws InputError with the error, without a location.
 HistoryHeader header_from_json(std::string_view text);
 
 }  // namespace floatframe

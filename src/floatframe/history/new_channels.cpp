@@ -15,7 +15,7 @@ namespace {
   throw InputError(code, SourceMark{history.name(), 0, 0}, what);
 }
 
-/// What of a model an output looks at must have been recorded.
+/// Checks that everything an output depends on was recorded.
 class RecordedParts {
  public:
   RecordedParts(const StateHistory& history, const Model& model)

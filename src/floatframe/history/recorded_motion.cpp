@@ -35,7 +35,7 @@ struct RecordedMotion::ReplayOf : Replay {
         h.header().velocities != f.velocities() || size_of("inputs") != f.inputs().size() ||
         size_of("spring_angles") != f.spring_angles().size())
       refuse_other_model(history);
-    // `a` of a step begins from what the integrator left; without it, it is solved for.
+    // A step starts from the integrator's `a`; if it was not recorded, it is solved for.
     if (!h.header().find("accelerations"))
       solver.emplace(steps.model(), options.inertia, memory.state,
                      ReactionOptions{steps.step_options().penalty_mass, steps.grid().step(),
@@ -62,7 +62,7 @@ struct RecordedMotion::ReplayOf : Replay {
     }
     steps.set_memory(memory);
     steps.sample(outputs.data());
-    memory.runner.outputs = steps.memory().runner.outputs;  // turns that outputs count
+    memory.runner.outputs = steps.memory().runner.outputs;  // turns counted by outputs
     return view.emplace(f, s.t, s.q);
   }
 

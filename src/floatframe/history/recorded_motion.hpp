@@ -1,8 +1,8 @@
 #pragma once
-// The motion of a run from its states: the formulation of the run is brought to a recorded instant
-// - coordinates, velocities, accelerations of the integrator, turns of springs, inputs - and is
-// there what it was in the run, to the bit. Where the file holds no accelerations they are solved
-// for (simulation/reaction_solver.hpp), and differ from those of the run within its tolerance.
+// The motion of a run from its states: the formulation of the run is set to a recorded instant -
+// coordinates, velocities, accelerations of the integrator, turns of springs, inputs - and
+// reproduces its values in the run to the bit. If the file has no accelerations they are solved for
+// (simulation/reaction_solver.hpp), and differ from those of the run within its tolerance.
 #include <memory>
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace floatframe {
 
 class RecordedMotion {
  public:
-  /// `options`: those of the run, in whose formulation the states are. All must outlive this.
+  /// `options`: those of the run, including the formulation of the states. All must outlive this.
   /// Throws InputError if the states are not of this model, RunError if the model cannot start.
   RecordedMotion(const StateHistory& history, const Model& model,
                  const SimulationDescription& options);
@@ -22,16 +22,16 @@ class RecordedMotion {
   RecordedMotion& operator=(const RecordedMotion&) = delete;
 
   std::size_t instants() const noexcept { return history_.instants(); }
-  /// False: the states of this body were not recorded, and the view shows nothing of it.
+  /// False: the states of this body were not recorded; the view has no motion of it.
   bool recorded(int body) const noexcept {
     return history_.header().bodies[static_cast<std::size_t>(body)].pose >= 0;
   }
   /// All bodies, markers and forces at an instant, in either formulation; valid until the next
-  /// call. Without reactions, and without energies unless an output of the model asks for them.
-  /// Throws InputError if there is no such instant or its numbers are not finite.
+  /// call. Without reactions, and without energies unless an output of the model needs them. Throws
+  /// InputError if there is no such instant or its numbers are not finite.
   const OutputView& at(std::size_t k);
   /// Time and all outputs of the model at the instant of the last `at`. Outputs that count turns
-  /// go on from the instant before it.
+  /// continue from the previous instant.
   const std::vector<double>& outputs() const noexcept { return outputs_; }
 
  private:

@@ -17,16 +17,16 @@
 
 namespace floatframe {
 
-/// The file, what its header says, and where its rows are.
+/// The file, its header, and the locations of its rows.
 struct StateHistory::Data {
   struct Rows {
-    std::uint64_t at = 0, rows = 0, before = 0;  ///< place, number, rows in blocks before
+    std::uint64_t at = 0, rows = 0, before = 0;  ///< offset, number of rows, rows in earlier blocks
   };
-  std::string name, bytes;  ///< of one in memory
+  std::string name, bytes;  ///< `bytes`: of a file in memory
   int file = -1;
   std::uint64_t size = 0;
   HistoryHeader header;
-  std::vector<std::uint64_t> arrays;  ///< places
+  std::vector<std::uint64_t> arrays;  ///< offsets
   std::vector<Rows> blocks;
   std::uint64_t instants = 0;
   std::string status = "running", message;
@@ -84,7 +84,7 @@ std::string StateHistory::Data::text(const HistoryBlock& block) const {
   return out;
 }
 
-/// Bytes that the content of the next block may have.
+/// Maximum size of the content of the next block.
 std::uint64_t StateHistory::Data::longest() const {
   if (arrays.size() < header.arrays.size()) return array_bytes(header.arrays[arrays.size()]);
   return std::max<std::uint64_t>(largest_rows_block, 8 * header.columns);

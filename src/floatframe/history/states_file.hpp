@@ -1,6 +1,6 @@
 #pragma once
-// The result file of a run while it grows (history_blocks.hpp has its layout). What ends the
-// program leaves all rows that were appended; a disk that is full leaves whole blocks.
+// The result file of a run while it grows (history_blocks.hpp has its layout). Any end of the
+// program keeps all rows appended before; a full disk leaves whole blocks.
 #include <span>
 #include <string>
 #include <vector>
@@ -10,26 +10,26 @@
 
 namespace floatframe {
 
-/// What is written before the first row.
+/// Content written before the first row.
 struct HistoryContent {
   HistoryHeader header;
-  std::vector<std::string> arrays;  ///< bytes of each that the header lists
+  std::vector<std::string> arrays;  ///< bytes of each array listed in the header
 };
 
-/// Of this program, for a model file and the folder of the result: both may be moved together.
+/// For this program, a model file and the folder of the result: both may be moved together.
 HistoryOrigin history_origin(const std::string& model_file, const std::string& folder);
 
 class StatesFile {
  public:
-  /// In place of a file that is there; `continuable`: positions are asked for. Throws OutputError.
+  /// Replaces an existing file; `continuable`: positions are used. Throws OutputError.
   StatesFile(const std::string& path, const HistoryContent& content, bool continuable);
-  /// Continues one, see GrowingFile.
+  /// Continues a file, see GrowingFile.
   StatesFile(const std::string& path, const GrowingFile::Position& position, std::size_t columns)
       : columns_(columns), file_(path, position) {}
 
-  /// Whole rows. Throws OutputError; what it has written by then are whole blocks.
+  /// Whole rows. Throws OutputError; blocks written before the error are complete.
   void append(std::span<const double> numbers);
-  /// How the run ended; nothing is appended afterwards.
+  /// Writes how the run ended; nothing may be appended afterwards.
   void finish(const std::string& status, const std::string& message);
   void to_disk() { file_.to_disk(); }
   GrowingFile::Position position() const { return file_.position(); }

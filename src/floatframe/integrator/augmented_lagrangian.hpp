@@ -1,7 +1,6 @@
 #pragma once
 // Index-3 augmented Lagrangian with mass-orthogonal projections (paper eqs (1), (2); theory section
-// 11), for any formulation that offers the equations of motion as
-// formulation/equations_of_motion.hpp asks for them.
+// 11), for any formulation that satisfies the concept in formulation/equations_of_motion.hpp.
 //
 // Unknown of a step of size h: the increment x of the configuration, q_n+1 = q_n (+) x (rotation
 // vectors for quaternions). With the generalised-alpha family (Chung and Hulbert 1993; Arnold and
@@ -19,17 +18,17 @@
 //   T dx = -s [M a + Phi_q^T (alpha Phi + lambda) - Q]                                          (f)
 //   T = M + (c1/c2) C + s (K + Phi_q^T alpha Phi_q)                                             (g)
 //   x (+)= dx,  lambda += alpha (Phi + Phi_q dx)                                                (h)
-// where (h) is alpha Phi(q) but for the curvature of the constraints. C and K hold modal damping
-// and stiffness, what the rows of forces have of their tangents (force_evaluation.hpp) and
-// geometric stiffness; derivatives of M and Q_v are left out of T, which costs iterations, not
-// accuracy. Multipliers act with -Phi_q^T lambda.
-// Projections, (2), with a metric of their own, factorised once per step with the Jacobian frozen:
+// where (h) is alpha Phi(q) up to the curvature of the constraints. C and K contain modal damping
+// and stiffness, the rows of force tangents (force_evaluation.hpp) and geometric stiffness; T omits
+// the derivatives of M and Q_v, which costs iterations, not accuracy. Multipliers act with -Phi_q^T
+// lambda.
+// Projections, (2), with a separate metric, factorised once per step with the Jacobian frozen:
 //   W = M + 0.01 s K,  T_p = W + 30 s Phi_q^T alpha Phi_q                                       (i)
 //   v -= T_p^-1 30 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 30 s Phi_q^T alpha Phi_ddot(a),     (j)
 // repeated until the tolerance.
 //
-// Nothing here allocates after construction, throws or prints. The state is untouched unless the
-// step is accepted.
+// Nothing here allocates after construction, throws or prints. The state changes only when the step
+// is accepted.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -61,24 +60,24 @@ class AugmentedLagrangian {
     return report;
   }
 
-  /// Where forces jump; see restart.hpp. h: the size of steps.
+  /// For discontinuities of forces; see restart.hpp. h: step size.
   void project_velocities(State& state, double h) noexcept;
   bool restart(State& state, double h) noexcept;
   bool restart_in_course(State& state, double h) noexcept;
-  /// The next steps by the trapezoidal rule, or by that of the options again.
+  /// Switches the next steps to the trapezoidal rule, or back to the scheme of the options.
   void trapezoidal(bool on) noexcept { options_.spectral_radius = on ? 1.0 : spectral_radius_; }
 
   const StepOptions& options() const noexcept { return options_; }
 
-  /// With the same state and the same record of reuse the next step is the same, bit for bit.
+  /// Equal states and equal reuse records give bit-identical next steps.
   const TangentReuse& tangent_reuse() const noexcept { return reuse_; }
   void set_tangent_reuse(const TangentReuse& e) noexcept { reuse_ = e; }
 
-  /// Multipliers that go with the projected accelerations of the last accepted step. Those of the
-  /// state belong to the accelerations before their projection, which are off by O(h).
+  /// Multipliers consistent with the projected accelerations of the last accepted step. Those of
+  /// the state belong to the accelerations before projection, which have an error of O(h).
   const VecX& reactions() const noexcept { return reactions_; }
-  /// If they are kept: impulses i of the constraints in the projection of velocities of the last
-  /// accepted step, W dv = -Phi_q^T i [N s].
+  /// If enabled: impulses i of the constraints in the velocity projection of the last accepted
+  /// step, W dv = -Phi_q^T i [N s].
   const VecX& impulses() const noexcept { return impulses_; }
   void keep_impulses() {
     keeps_impulses_ = true;
@@ -89,33 +88,33 @@ class AugmentedLagrangian {
   using Clock = std::chrono::steady_clock;
   using Scheme = StepScheme;
   static constexpr int newton_slot = 0, projection_slot = 1;
-  /// The projections are linear: a stiffer penalty saves passes, but makes more of round-off.
+  /// The projections are linear: a larger penalty saves passes, but amplifies round-off.
   static constexpr double metric_penalty = 30.0;
-  /// What holds a freedom without mass is its stiffness times s, which next to the penalty may be
-  /// less than round-off. A matrix with a vanishing pivot is made again with so much of the
-  /// penalty, so often; the iterations that correct for a penalty that is finite see to the rest.
+  /// The entry of a massless coordinate is its stiffness times s, which may be below the round-off
+  /// of the penalty. After a vanishing pivot the penalty is reduced by this factor, up to three
+  /// times; the multiplier update removes the remaining error of the finite penalty.
   static constexpr double penalty_reduction = 1e-2;
   static constexpr int max_penalty_reductions = 3;
   static constexpr double retry_penalty_factor = 100.0;
-  /// An acceleration that moves a rigid coordinate further than this in a step [m, rad] may not be
-  /// that of the whole step: a second try leaves it out of its first guess.
+  /// A predictor that moves a rigid coordinate further than this in a step [m, rad] is suspect: the
+  /// second attempt drops the acceleration from it.
   static constexpr double max_predictor_step = 0.1;
-  /// Passes of the projections end with one that leaves more than this: next to singular positions
-  /// more of them would turn round-off of nearly dependent constraints into velocities.
+  /// Passes stop at one that leaves more than this fraction: near singular configurations, more
+  /// would turn round-off of nearly dependent constraints into velocities.
   static constexpr double min_projection_rate = 0.5;
 
   StepAttempt advance(State& state, double h) noexcept {
     Scheme k(options_, h);
     StepAttempt report;
     report.size = h;
-    // Experience from another run must not matter (the caller may round t).
+    // A reuse record of another run must have no effect (the caller may round t).
     if (!(std::abs(state.t - reuse_.valid_at) < 1e-6 * h)) {
       reuse_.contraction = 0.1;
     }
     predict(state, k, false);
     newton(state, k, report);
     if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
-      try_again(state, k, report);
+      retry_step(state, k, report);
     if (!report.accepted()) {
       reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
       return report;
@@ -144,12 +143,12 @@ class AugmentedLagrangian {
       const double known = k.base * (from_v * state.v[i] + from_a * state.a_alg[i]);
       v_hat_[i] = state.v[i] + h * (1.0 - k.gamma) * state.a_alg[i] - h * k.gamma * known;
       a_hat_[i] = (k.am * state.a_alg[i] - k.af * state.a[i] - (1.0 - k.am) * known) / (1.0 - k.af);
-      // Each coordinate as an oscillator of its own (frequency 0 for rigid coordinates),
-      // a = f - omega^2 x under a constant load f. A Taylor step would throw modes with
-      // omega h >> 1 far away.
+      // Each coordinate as an uncoupled oscillator (frequency 0 for rigid coordinates), a = f -
+      // omega^2 x under a constant load f. A Taylor step would overshoot for modes with omega h >>
+      // 1.
       x_[i] = (state.a[i] - a_hat_[i]) / (k.c2 + omega2[i]);
-      // Accelerations of what has no mass mean nothing: they follow from positions, and the
-      // trapezoidal rule turns them over in each step.
+      // Accelerations of massless coordinates are undefined: they follow from positions, and the
+      // trapezoidal rule makes them oscillate with alternating sign.
       const double steady = h * state.v[i];
       if (omega2[i] == no_inertia ||
           (careful && omega2[i] == 0.0 && std::abs(x_[i] - steady) > max_predictor_step))
@@ -159,10 +158,10 @@ class AugmentedLagrangian {
     lambda_ = state.lambda;
   }
 
-  /// Near a singular position the penalty may be too soft for what a constraint still moves, and a
-  /// shorter step is no cure; and a body light beside its forces may have been thrown far off. The
-  /// same step once more with a stiffer penalty and a careful first guess.
-  void try_again(const State& state, Scheme& k, StepAttempt& report) noexcept {
+  /// Near a singular configuration the penalty may be too small, and a shorter step does not help;
+  /// or the predictor has moved a body of very small mass too far. Repeats the step with a larger
+  /// penalty and a predictor that ignores such accelerations.
+  void retry_step(const State& state, Scheme& k, StepAttempt& report) noexcept {
     k.penalty *= retry_penalty_factor;
     k.alpha *= retry_penalty_factor;
     StepAttempt again;
@@ -174,12 +173,12 @@ class AugmentedLagrangian {
     report = again;
   }
 
-  /// What one Newton iteration leaves for the next.
+  /// State of the Newton iteration between two passes.
   struct Iterate {
     double increment = 0.0;  ///< largest coordinate of the last dx
-    double error = 0.0;      ///< estimate of what is left
-    double penalty, alpha;   ///< those of the scheme, or softer
-    bool renew = true;       ///< the tangent is made anew
+    double error = 0.0;      ///< estimate of the remaining error
+    double penalty, alpha;   ///< of the scheme, or reduced
+    bool renew = true;       ///< the tangent is factorised again
     Clock::time_point begin;
   };
 
@@ -193,13 +192,13 @@ class AugmentedLagrangian {
       f_.retract(state.q, x_, q_);
       v_ = k.c1 * x_ + v_hat_;  // (d)
       a_ = k.c2 * x_ + a_hat_;  // (e)
-      // Without constraints nothing has to be known about the end of a converged step.
-      if (report.iterations == 0 || constrained || !good_enough(report, it.error)) {
+      // Without constraints the end state of a converged step need not be evaluated.
+      if (report.iterations == 0 || constrained || !is_converged(report, it.error)) {
         f_.positions(state.t + k.h, q_);
         f_.velocities(v_);
       }
       if (report.iterations > 0) {
-        if (ends(it, report)) return;
+        if (is_finished(it, report)) return;
         choose_tangent(it);
       }
       f_.dynamics();
@@ -212,14 +211,14 @@ class AugmentedLagrangian {
     }
   }
 
-  /// True if no further iteration is wanted: converged, failed, or out of iterations or time.
-  bool ends(const Iterate& it, StepAttempt& report) const noexcept {
+  /// True if the iteration is finished: converged, failed, or out of iterations or time.
+  bool is_finished(const Iterate& it, StepAttempt& report) const noexcept {
     if (f_.constraints() > 0) report.position_violation = largest(f_.constraint_values());
     if (!std::isfinite(it.increment) || !std::isfinite(report.position_violation)) {
       report.status = AttemptStatus::not_finite;
       return true;
     }
-    const bool converged = good_enough(report, it.error);
+    const bool converged = is_converged(report, it.error);
     if (options_.fixed_iterations > 0) {
       if (report.iterations >= options_.fixed_iterations) {
         if (!converged) report.status = AttemptStatus::cut_short;
@@ -243,17 +242,17 @@ class AugmentedLagrangian {
     return false;
   }
 
-  /// Would a fresh tangent get there sooner than the one at hand? A rate above 0.9 hardly
-  /// converges; else iterations left at that rate against one with its factorisation.
+  /// Decides whether a new tangent pays off: at a rate above 0.9 the old one hardly converges; else
+  /// compares the remaining iterations at that rate with one iteration plus its factorisation.
   void choose_tangent(Iterate& it) noexcept {
     it.renew = reuse_.contraction > 0.9 ||
                std::log(options_.tolerance / it.increment) / std::log(reuse_.contraction) >
                    1.0 + F::factorization_cost;
-    // Confidence in an old tangent decays, so that reuse is tried again after some steps.
+    // The recorded rate decays, so that reuse is tried again after some steps.
     if (it.renew) reuse_.contraction *= 0.8;
   }
 
-  /// (g). False if it is singular, also with a softer penalty.
+  /// (g). False if it is singular, even with a reduced penalty.
   bool renew_tangent(const Scheme& k, Iterate& it, StepAttempt& report) noexcept {
     int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
     ++report.factorizations;
@@ -272,7 +271,7 @@ class AugmentedLagrangian {
 
   /// (f) as (T + s alpha Phi_q^T Phi_q) dx = -s (M a + Phi_q^T lambda - Q) - s alpha Phi_q^T Phi.
   /// With the Phi_q of the factorisation on the penalty, an old factorisation converges like any
-  /// modified Newton iteration; with today's, it would not for stiff penalties.
+  /// modified Newton iteration; with the current Phi_q it would not for large penalties.
   void solve_increment(const Scheme& k, const Iterate& it) noexcept {
     delta_ = -k.s * rhs_;
     if (f_.constraints() == 0) {
@@ -281,13 +280,13 @@ class AugmentedLagrangian {
     }
     const VecX& phi = f_.constraint_values();
     f_.solve(delta_, phi, it.penalty, work_, newton_slot);
-    // (h), the multiplier that belongs to this solution. Taking Phi(q) after the update instead
-    // would feed the curvature of the constraints, alpha O(dx^2), into the multipliers.
+    // (h), the multiplier consistent with this solution. Evaluating Phi(q) after the update instead
+    // would add the curvature of the constraints, alpha O(dx^2), to the multipliers.
     lambda_ += it.alpha * work_;
   }
 
-  /// Geometric convergence: the error left is increment * rate / (1 - rate). Only a rate measured
-  /// in this very step is trusted: the next step may meet a stop or a contact.
+  /// Geometric convergence: the remaining error is increment * rate / (1 - rate). Only a rate
+  /// measured in this step is used: the next step may reach a stop or a contact.
   void measure(Iterate& it, StepAttempt& report) noexcept {
     const double last = it.increment;
     report.increment = it.increment = largest(delta_);
@@ -297,16 +296,16 @@ class AugmentedLagrangian {
     if (report.iterations > 1 && last > 0.0 && !it.renew) reuse_.contraction = std::min(rate, 1.0);
   }
 
-  bool good_enough(const StepAttempt& report, double error) const noexcept {
-    // An increment below the tolerance leaves an error far smaller; an error that is foreseen to be
-    // a fiftieth of it does not need the increment that shows it.
+  bool is_converged(const StepAttempt& report, double error) const noexcept {
+    // An increment below the tolerance leaves a much smaller error; a predicted error below a
+    // fiftieth of the tolerance needs no further increment to confirm it.
     const bool small = report.increment < options_.tolerance && error < options_.tolerance;
     return (small || error < 0.02 * options_.tolerance) &&
            report.position_violation < options_.position_tolerance;
   }
 
-  /// Velocities and accelerations onto the constraints, orthogonal in W = M + 0.01 s K (the Newton
-  /// tangent itself would feed energy into stiff modes). False if W is singular.
+  /// Projects velocities and accelerations onto the constraints, orthogonally in W = M + 0.01 s K
+  /// (the Newton tangent would feed energy into stiff modes). False if W is singular.
   bool project(const Scheme& k, StepAttempt& report) noexcept {
     double penalty = metric_penalty * k.penalty;
     int pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
@@ -329,8 +328,8 @@ class AugmentedLagrangian {
     double violation = first;
     reactions_ = lambda_;
     for (int pass = 0; pass < options_.max_projections; ++pass) {
-      // To 1e-6 m/s2 or nine digits. What four passes have not halved is round-off or constraints
-      // that contradict each other.
+      // To 1e-6 m/s2 or nine digits. A violation not halved after four passes is round-off or the
+      // result of contradicting constraints.
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
       correct(a_, penalty);
       violation = largest(rate_);
@@ -341,7 +340,7 @@ class AugmentedLagrangian {
   }
 
   bool solve_accelerations(const State&, const Scheme&, double penalty, double enough) noexcept;
-  bool settle_accelerations(double s, double penalty, double enough) noexcept;
+  bool iterate_accelerations(double s, double penalty, double enough) noexcept;
 
   void project_velocities(double penalty, StepAttempt& report) noexcept {
     if (keeps_impulses_) impulses_.setZero();
@@ -358,7 +357,7 @@ class AugmentedLagrangian {
     }
   }
 
-  /// One pass: z -= W^-1 Phi_q^T penalty rate, and the rate that is left.
+  /// One pass: z -= W^-1 Phi_q^T penalty rate, and the remaining rate.
   void correct(VecX& z, double penalty) noexcept {
     delta_.setZero();
     f_.solve(delta_, rate_, penalty, work_, projection_slot);
@@ -385,7 +384,7 @@ class AugmentedLagrangian {
 
   F& f_;
   StepOptions options_;
-  const double spectral_radius_;  ///< that was asked for
+  const double spectral_radius_;  ///< as given in the options
   TangentReuse reuse_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, reactions_, rate_, work_, increments_, impulses_;
@@ -394,4 +393,4 @@ class AugmentedLagrangian {
 
 }  // namespace floatframe
 
-#include "floatframe/integrator/restart.hpp"  // the members that are not defined here
+#include "floatframe/integrator/restart.hpp"  // the remaining member functions

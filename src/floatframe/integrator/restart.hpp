@@ -1,12 +1,12 @@
 #pragma once
-// A step of AugmentedLagrangian begins with velocities on the constraints and with the
-// accelerations of the forces there. Where steps are divided because forces jump, both are made
-// anew.
+// A step of AugmentedLagrangian starts from velocities that satisfy the constraints and
+// accelerations that satisfy the equations of motion. Both are computed again where steps are
+// divided at a discontinuity of forces.
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
 namespace floatframe {
 
-/// Velocities of a state that was moved otherwise than by a step of size h onto the constraints.
+/// Projects the velocities of a state that no step of size h has produced onto the constraints.
 template <EquationsOfMotion F>
 void AugmentedLagrangian<F>::project_velocities(State& state, double h) noexcept {
   if (f_.constraints() == 0) return;
@@ -24,9 +24,9 @@ void AugmentedLagrangian<F>::project_velocities(State& state, double h) noexcept
   }
 }
 
-/// Accelerations and multipliers of the forces at the state, where these have jumped; h: the size
-/// of steps. False, and the state is as it was, if the equations do not determine them: a freedom
-/// without mass. Leaves positions, velocities and `dynamics` of the state.
+/// Accelerations and multipliers at the state after a discontinuity of forces; h: step size.
+/// Returns false and leaves the state unchanged if the equations do not determine them (a massless
+/// coordinate). Evaluates positions, velocities and `dynamics` at the state.
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
   const Scheme k(options_, h);
@@ -39,11 +39,11 @@ bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
   return true;
 }
 
-/// The same between steps of one size, where forces may jump at each. What multipliers were is not
-/// far away, and what the algorithm's acceleration is ahead of the acceleration by, (alpha_m -
-/// alpha_f) h times its rate, is of the smooth part of the forces and stays: started anew at each
-/// step it would leave a scheme of first order. An error e of accelerations is one of h e/2 of
-/// velocities: seven digits are enough.
+/// The same between steps of equal size, where forces may jump at each step. The iteration starts
+/// from the old multipliers. The lead of the algorithm's acceleration, (alpha_m - alpha_f) h times
+/// its rate, comes from the smooth part of the forces and is kept: a reset at each step would leave
+/// a first-order scheme. An error e of the acceleration gives h e/2 in velocity: seven digits
+/// suffice.
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept {
   const Scheme k(options_, h);
@@ -56,25 +56,25 @@ bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept 
   return true;
 }
 
-/// Improves a_ and lambda_ to those of the forces at the state, but for the part `enough`.
+/// Iterates a_ and lambda_ to the solution at the state, with the tolerance `enough`.
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::solve_accelerations(const State& state, const Scheme& k,
                                                  double penalty, double enough) noexcept {
   f_.positions(state.t, state.q);
   f_.velocities(state.v);
   f_.dynamics();
-  // Without stiffness first: it would slow the passes down.
-  if (settle_accelerations(0.0, penalty, enough)) return true;
+  // First without stiffness, which would slow down convergence.
+  if (iterate_accelerations(0.0, penalty, enough)) return true;
   a_ = state.a;
   lambda_.setZero();
-  return settle_accelerations(0.01 * k.s, k.penalty, enough);
+  return iterate_accelerations(0.01 * k.s, k.penalty, enough);
 }
 
-/// M a + Phi_q^T lambda = Q, Phi_q a = gamma for a_ and lambda_, by passes with M + s K and a
-/// penalty. False if they do not settle.
+/// Solves M a + Phi_q^T lambda = Q, Phi_q a = gamma for a_ and lambda_, by passes with M + s K and
+/// a penalty. False if they do not converge.
 template <EquationsOfMotion F>
-bool AugmentedLagrangian<F>::settle_accelerations(double s, double penalty,
-                                                  double enough) noexcept {
+bool AugmentedLagrangian<F>::iterate_accelerations(double s, double penalty,
+                                                   double enough) noexcept {
   constexpr int most_passes = 40;
   constexpr double no_stiffness = 1e-30;
   if (f_.factorize_metric(s > 0.0 ? s : no_stiffness, penalty, projection_slot) >= 0) return false;

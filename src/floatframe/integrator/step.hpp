@@ -1,5 +1,5 @@
 #pragma once
-// What goes into a step of the integrator and what comes out of it.
+// State, options and result of an integrator step.
 #include <limits>
 
 #include "floatframe/math/types.hpp"
@@ -26,38 +26,38 @@ struct StepOptions {
   int max_projections = 12;
   /// > 0: exactly so many Newton iterations per step, accepted whatever their error (bounded work).
   int fixed_iterations = 0;
-  /// > 0: no iteration is begun later than this after the start of the step [s of wall clock]; the
-  /// step is accepted as it is then.
+  /// > 0: no iteration begins later than this after the start of the step [s of wall clock]; the
+  /// step is then accepted as it is.
   double time_budget = 0.0;
-  /// What lies beyond is of directions without mass, in a restart [m/s2, rad/s2, amplitudes/s2].
+  /// Larger accelerations in a restart belong to massless directions [m/s2, rad/s2, amplitudes/s2].
   double largest_acceleration = 1e7;
 };
 
-/// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.
+/// cut_short: accepted before convergence, because of `fixed_iterations` or `time_budget`.
 enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
 
-/// What came of one attempt at a step.
+/// Result of one attempt at a step.
 struct StepAttempt {
   AttemptStatus status = AttemptStatus::converged;
   int iterations = 0, factorizations = 0;
   double position_violation = 0.0, velocity_violation = 0.0;
   int coordinate = -1;     ///< with the vanishing pivot or the largest residual
-  int constraint = -1;     ///< with the largest violation, if that did not converge
+  int constraint = -1;     ///< with the largest violation, if the constraints did not converge
   double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
   double size = 0.0;       ///< of the step [s]
-  /// Sum of the logarithms of the pivots of the projections' metric with its usual penalty: it
-  /// falls where constraints become dependent. NaN: there are no projections.
+  /// Sum of the logarithms of the pivots of the projection metric with the full penalty: it drops
+  /// where constraints become dependent. NaN: there are no projections.
   double log_pivots = std::numeric_limits<double>::quiet_NaN();
-  /// The state was replaced by that of the end of the step.
+  /// True if the state was replaced by the state at the end of the step.
   bool accepted() const noexcept {
     return status == AttemptStatus::converged || status == AttemptStatus::cut_short;
   }
 };
 
-/// What the next step takes over from the last one beside the state.
+/// Data that the next step takes over from the last one in addition to the state.
 struct TangentReuse {
   double valid_at = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step [s]
-  double contraction = 0.1;  ///< convergence with a tangent that was not new
+  double contraction = 0.1;  ///< convergence rate with a reused tangent
 };
 
 }  // namespace floatframe

@@ -26,7 +26,7 @@ bool mentions(std::string_view text, std::string_view name) {
 }
 
 /// "speed, mass or length", the first of them, or that there are none.
-std::string parameters_there_are(const std::vector<std::string>& known) {
+std::string known_parameters_text(const std::vector<std::string>& known) {
   constexpr std::size_t most = 20;
   if (known.empty()) return "none: the file declares no parameters";
   std::vector<const char*> words;
@@ -133,7 +133,7 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
         else
           v = g.value;
       }
-      // A parameter that is wrong still exists, so that its uses are not errors too.
+      // An invalid parameter is still declared, so that its uses are not errors too.
       if (v && v->index() == 2 &&
           !errors.take_of("characters in the texts of all parameters",
                           std::get<std::string>(*v).size(), limits::parameter_text, value.mark(),
@@ -145,7 +145,7 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
   for (std::size_t i = 0; i < given.size(); ++i)
     if (!used[i]) {
       std::string hint = errors.suggestion(given[i].name, [&] { return known; });
-      if (hint.empty()) hint = ", expected " + parameters_there_are(known);
+      if (hint.empty()) hint = ", expected " + known_parameters_text(known);
       errors.add(ErrorCode::unknown_key, given[i].mark,
                  given[i].subject + ": unknown parameter '" + given[i].name + "'" + hint);
     }

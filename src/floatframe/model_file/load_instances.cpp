@@ -114,7 +114,7 @@ class Loader {
               "found more than " + std::to_string(most_instances) + " subsystems, expected fewer");
         continue;
       }
-      const std::string full = beside(self, *file);
+      const std::string full = sibling_path(self, *file);
       std::error_code ignored;
       const std::string canonical = std::filesystem::weakly_canonical(full, ignored).string();
       if (std::find(stack.begin(), stack.end(), canonical) != stack.end()) {
@@ -226,7 +226,7 @@ const YamlDocument* ModelFiles::parse(const std::string& file, const std::string
   const std::size_t before = errors_.size();
   auto document = parsed_ ? parsed_->get(file, text, errors_)
                           : std::make_shared<const YamlDocument>(parse_yaml(file, text, errors_));
-  // Nothing was understood: no second error about missing keys.
+  // The file could not be parsed: avoids further errors about missing keys.
   if (errors_.size() > before && document->root.line == 0) document.reset();
   documents_.emplace_back(file, std::move(document));
   return documents_.back().second.get();

@@ -11,16 +11,16 @@
 
 namespace floatframe {
 
-/// Files already parsed, each once.
+/// Files already parsed, once each.
 class ModelFiles {
  public:
-  /// `parsed`: files of earlier readings, if they are kept.
+  /// `parsed`: files kept from earlier readings, optional.
   explicit ModelFiles(ReadErrors& errors, ParsedFiles* parsed = nullptr)
       : errors_(errors), parsed_(parsed) {}
-  /// Read instead of a file.
+  /// Supplies a text to be used instead of a file.
   void give(const std::string& file, const std::string& text);
-  /// nullptr and an error if the file cannot be read. `where`, `subject`: the place that names the
-  /// file.
+  /// nullptr and an error if the file cannot be read. `where`, `subject`: location of the reference
+  /// to the file.
   const YamlDocument* load(const std::string& file, const SourceMark& where,
                            const std::string& subject);
   /// Position of the file in the order of loading (for sorting errors).

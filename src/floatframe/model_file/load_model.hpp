@@ -15,13 +15,13 @@ ModelDescription load_description(const std::string& path,
                                   const std::vector<ParameterOverride>& parameters = {},
                                   ModelSource* source = nullptr);
 
-/// The same of the text of a model file. `path` stands for it in messages, and files that it names
-/// are relative to the folder of `path`.
+/// The same for the text of a model file. `path` is its name in messages, and files that it refers
+/// to are relative to the folder of `path`.
 ModelDescription read_description(const std::string& text, const std::string& path,
                                   const std::vector<ParameterOverride>& parameters = {},
                                   ModelSource* source = nullptr);
 
-/// As `load_description`, built.
+/// As `load_description`, with the model built.
 Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters = {});
 
 }  // namespace floatframe

@@ -1,9 +1,9 @@
 #pragma once
-// Entities of a description in a subsystem that is shifted and mirrored (model/placement.hpp):
-// points, polar and axial vectors as their kind says, joints as their JointKind says. Body frames
-// turn as R' = P R P; a rigid body's data change to p_BC' = P p_BC, J' = P J P; a flexible body
-// keeps its description and gets `mirror` = P, its modes are mirrored and its modal amplitudes stay
-// equal.
+// Transforms entities of a description in a subsystem that is shifted and mirrored
+// (model/placement.hpp): points, polar and axial vectors by their kind, joints by their JointKind.
+// Body frames become R' = P R P; a rigid body's data become p_BC' = P p_BC, J' = P J P; a flexible
+// body keeps its description and gets `mirror` = P, its modes are mirrored and its modal amplitudes
+// stay equal.
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/placement.hpp"
 

@@ -22,7 +22,7 @@ void add(ContentHash& hash, const YamlNode& node, const ParameterScope& scope) {
       try {
         const ParameterValue value = substitute_parameters(node.text, scope, false);
         hash.add(static_cast<std::uint64_t>(value.index())).add(value_text(value));
-      } catch (const ExpressionError&) {  // a part that is switched off, or an error of its own
+      } catch (const ExpressionError&) {  // a disabled entity, or an error reported elsewhere
         hash.add(node.text);
       }
       return;

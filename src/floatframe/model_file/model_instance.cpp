@@ -113,7 +113,7 @@ std::optional<Vec3> ModelInstance::read_point(const YamlValue& value) const {
     value.not_known("unknown point '" + *name + "'", *name, [&] { return known_points(); });
     return std::nullopt;
   }
-  if (!p->allFinite()) return std::nullopt;  // a point that is wrong itself
+  if (!p->allFinite()) return std::nullopt;  // an invalid point
   return p;
 }
 

@@ -20,7 +20,7 @@ const char* const top_keys[] = {"floatframe", "parameters", "points",  "bodies",
                                 "rods",       "forces",     "roads",   "inputs", "outputs",
                                 "initial",    "subsystems", "external"};
 
-/// Keys of the model file alone.
+/// Keys allowed only in the model file itself.
 constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};
 
 /// snap: false, or {angle: 3e-3, distance: 1e-3}

@@ -15,35 +15,34 @@ namespace floatframe {
 
 class ParsedFiles;  // parsed_files.hpp
 
-/// What takes time while a model is read, and what is remembered of it.
+/// Options of reading: messages about slow work, and caching.
 struct ReadOptions {
-  /// Receives in one line what is going on: parts that are reduced or taken from the cache, what
-  /// their health reports warn of.
+  /// Receives a line about work in progress: parts that are reduced or taken from the cache, and
+  /// warnings of their health reports.
   std::function<void(const std::string& line)> say;
-  /// Gives `ModelFingerprint::text`, too.
+  /// Also fills `ModelFingerprint::text`.
   bool keep_text = false;
-  /// Further outputs, as a model file writes them: "tip: {position: {body: arm, node: BALL}}". They
-  /// come last.
+  /// Additional outputs in model file syntax: "tip: {position: {body: arm, node: BALL}}". They come
+  /// last.
   std::vector<std::string> outputs = {};
-  /// Read instead of the file, whose name stands for it in messages and says where the files are
-  /// that it names.
+  /// Read instead of the file, whose name is used in messages and as the origin of relative paths.
   const std::string* text = nullptr;
-  /// Keeps what was parsed, for the next reading.
+  /// Caches parsed files for the next reading.
   std::shared_ptr<ParsedFiles> parsed = nullptr;
 };
 
-/// Throws InputError with every error found (file:line:column: sentence). `path` may hold subsystem
-/// references, which are read relative to its folder. `used`, if given, receives what was read, as
-/// far as the reading came.
+/// Throws InputError with every error found (file:line:column: sentence). `path` may contain
+/// subsystem references, which are read relative to its folder. `used`, if given, receives what was
+/// read, up to an error.
 ModelDescription read_model(const std::string& path,
                             const std::vector<ParameterOverride>& overrides = {},
                             ModelFingerprint* used = nullptr, const ReadOptions& options = {});
 
-/// The names of the parameters of a model file, without reading what they are for: few, if it
+/// The names of the parameters of a model file, without reading the rest; possibly incomplete if it
 /// cannot be read.
 std::vector<std::string> model_parameters(const std::string& path);
 
-/// The numbers of the section `simulation`: a key of the file, or an option by that name.
+/// The numbers of the section `simulation`: a key of the file, or an option of that name.
 struct SimulationNumber {
   const char* name;
   double SimulationDescription::*at;

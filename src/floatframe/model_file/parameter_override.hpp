@@ -3,8 +3,8 @@
 
 namespace floatframe {
 
-/// A parameter of a model file with another value than the file gives it: {"speed", "10"}. The
-/// value is text, as after --set of the command line.
+/// A parameter of a model file with a value that replaces the one in the file: {"speed", "10"}. The
+/// value is text, as after --set on the command line.
 struct ParameterOverride {
   std::string name, value;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// Model files that were parsed before, for studies: as long as their text is the same they are not
-// parsed again.
+// Cache of parsed model files, for studies: files with unchanged text are not parsed again.
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,7 +11,7 @@ namespace floatframe {
 
 class ParsedFiles {
  public:
-  /// The document of `text`, parsed now if it is not known. One with errors is not kept.
+  /// The document of `text`, parsed now if it is not cached. One with errors is not cached.
   std::shared_ptr<const YamlDocument> get(const std::string& file, const std::string& text,
                                           ReadErrors& errors);
 

@@ -1,4 +1,4 @@
-// The motion that brings markers of a part to points of the model: least squares over rotations.
+// The rigid motion that maps markers of a part to points of the model, by least squares:
 //   H = sum_k (p_k - p_mean) (w_k - w_mean)^T = U S V^T,  R = V diag(1, 1, det(V U^T)) U^T
 #include <Eigen/SVD>
 
@@ -9,7 +9,7 @@ namespace {
 
 using Points = Mat3X;
 
-/// Points on a line (or in one place) leave a rotation about it open.
+/// Points on a line (or at one place) leave a rotation undetermined.
 bool on_a_line(const Points& centred) {
   const Vec3 s = Eigen::JacobiSVD<Mat3>(centred * centred.transpose()).singularValues();
   return !(s[1] > 1e-10 * s[0]);  // squares: 1e-5 of the length

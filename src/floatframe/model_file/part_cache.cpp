@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Size and time of the program: another build may reduce otherwise.
+/// Size and time of the program file: another build may give different results.
 std::string program_stamp() {
   static const std::string stamp = [] {
     std::error_code error;
@@ -30,8 +30,8 @@ std::string program_stamp() {
   return stamp;
 }
 
-/// The body file if it is of this job and all files that it was made from are as they were then.
-/// `damage`: why a file that is there cannot be read.
+/// The body file if it belongs to this job and all files that it was made from are unchanged.
+/// `damage`: the reason if the file exists but cannot be read.
 std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job, std::string& damage) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
@@ -59,7 +59,7 @@ fs::path part_cache_file(const PartJob& job, const fs::path& cache) {
   key.add(program_stamp()).add(file_hash(job.file)).add(job.file.filename().string());
   for (const auto& [option, value] : option_list(job)) key.add(option).add(value);
   for (const fs::path& p : other_files(job)) key.add(file_hash(p));
-  // It need not be there, so what a body was made from does not name it before it is.
+  // An optional file, listed in the origin of a body only if it existed.
   if (const fs::path damping = damping_beside(job.file); !damping.empty())
     key.add(file_hash(damping));
   return cache / fmt::format("{}-{}.ffb", file_name_from(job.file.stem().string()),
@@ -81,7 +81,7 @@ fs::path part_cache_folder(const fs::path& folder) {
 
 BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::string& who,
                      const std::function<void(const std::string&)>& say) {
-  const auto tell = [&](const std::string& line) {
+  const auto report = [&](const std::string& line) {
     if (say) say(who + ": " + line);
   };
   const std::string source = job.file.string();
@@ -90,15 +90,15 @@ BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::strin
   if (!file.empty())
     if (auto found = fresh(file, job, damage)) {
       const std::size_t warnings = found->part.health.warnings.size();
-      tell(fmt::format("'{}' with {} modes from the cache, {}{}", source, found->part.body.modes(),
-                       file.string(),
-                       warnings > 0 ? fmt::format(" ({} warning{} in its health report)", warnings,
-                                                  warnings == 1 ? "" : "s")
-                                    : ""));
+      report(fmt::format("'{}' with {} modes from the cache, {}{}", source,
+                         found->part.body.modes(), file.string(),
+                         warnings > 0 ? fmt::format(" ({} warning{} in its health report)",
+                                                    warnings, warnings == 1 ? "" : "s")
+                                      : ""));
       return std::move(*found);
     }
-  if (!damage.empty()) tell("what was kept cannot be read: " + damage);
-  tell(fmt::format("reducing '{}' ...", source));
+  if (!damage.empty()) report("what was kept cannot be read: " + damage);
+  report(fmt::format("reducing '{}' ...", source));
   const auto start = std::chrono::steady_clock::now();
   BodyFile made = reduce_part_file(job);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -112,9 +112,9 @@ BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::strin
       kept += fmt::format(" ({})", error.what());
     }
   }
-  tell(fmt::format("'{}' reduced to {} modes in {:.1f} s, {}", source, made.part.body.modes(),
-                   seconds.count(), kept));
-  for (const std::string& warning : made.part.health.warnings) tell("warning: " + warning);
+  report(fmt::format("'{}' reduced to {} modes in {:.1f} s, {}", source, made.part.body.modes(),
+                     seconds.count(), kept));
+  for (const std::string& warning : made.part.health.warnings) report("warning: " + warning);
   return made;
 }
 

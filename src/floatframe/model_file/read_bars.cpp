@@ -1,5 +1,5 @@
-// The bars of a flexible body: sections, points, branches; which nodes they make and whether they
-// hang together.
+// The bars of a flexible body: sections, points, branches; the nodes generated for them, and the
+// check that they are connected.
 #include <algorithm>
 #include <cmath>
 
@@ -52,8 +52,8 @@ class BarReader {
       if (d) result = Rectangle{(*d)[0], (*d)[1]};
     }
     constexpr const char* constants[] = {"area", "Iy", "Iz", "J"};
-    const auto is_there = [&](const char* key) { return s->has(key); };
-    const bool explicit_form = std::any_of(std::begin(constants), std::end(constants), is_there);
+    const auto is_given = [&](const char* key) { return s->has(key); };
+    const bool explicit_form = std::any_of(std::begin(constants), std::end(constants), is_given);
     if (explicit_form) {
       SectionConstants c;
       c.A = s->required_number("area", rules::section_area, 1.0);
@@ -211,7 +211,7 @@ class BarReader {
            number_text(std::round(k / n * 1e6) / 1e6);
   }
 
-  // Which nodes hang together.
+  // Groups of connected nodes.
   void graph(std::size_t node) {
     while (parent_.size() <= node) parent_.push_back(parent_.size());
   }

@@ -77,10 +77,10 @@ RigidRead read_rigid(const ModelInstance& self, YamlSection s) {
   return r;
 }
 
-/// Which part, and whether it bends.
+/// The part of a body, and whether it is flexible.
 struct PartChoice {
   std::optional<YamlValue> value;  ///< of `part`, or of `flexible` alone
-  bool on = true;                  ///< flexible: true or false beside `part`
+  bool on = true;                  ///< flexible: true or false in addition to `part`
   bool valid = true;
 };
 
@@ -117,7 +117,7 @@ PartChoice read_choice(YamlSection& s) {
   return out;
 }
 
-/// The design pose of a part and, with it, the world places of its nodes.
+/// The design pose of a part, which also gives the world positions of its nodes.
 void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
                 const std::optional<Vec3>& position, const std::optional<YamlValue>& align,
                 double tolerance, BodyDescription& body) {
@@ -142,7 +142,7 @@ void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
   for (Vec3& p : part.nodes) p = body.X_WB * p;
 }
 
-/// Which group describes the body where both are given: 0 rigid, 1 flexible.
+/// The group that describes the body if both are given: 0 rigid, 1 flexible.
 std::optional<std::size_t> read_use(YamlSection& s, bool rigid, bool part) {
   const auto v = s.get("use");
   if (!v) {
@@ -158,7 +158,7 @@ std::optional<std::size_t> read_use(YamlSection& s, bool rigid, bool part) {
   return use;
 }
 
-/// Puts a rigid body at its position, or at its centre of mass without one.
+/// Puts a rigid body at its position, or at its centre of mass if none is given.
 void place_rigid(YamlSection& s, const YamlValue& group, RigidRead& rigid,
                  const std::optional<Vec3>& position, const std::optional<YamlValue>& align,
                  BodyDescription& body) {
@@ -177,13 +177,13 @@ void place_rigid(YamlSection& s, const YamlValue& group, RigidRead& rigid,
   body.kind = rigid.description;
 }
 
-/// Places of the keys of a group, for what is found when the body is built.
+/// Locations of the keys of a group, for errors found when the body is built.
 void note_keys(const YamlSection& group, Origin& origin) {
   for (const auto& [key, mark] : group.origin().keys) origin.keys.emplace(key, mark);
 }
 
-/// What a body looks like by its own data goes before the file that it was given.
-void dress(BodyDescription& body, std::shared_ptr<const BodyShape> shape) {
+/// The appearance given for a body has priority over that of its file.
+void set_shape(BodyDescription& body, std::shared_ptr<const BodyShape> shape) {
   if (auto* rigid = std::get_if<RigidDescription>(&body.kind))
     rigid->shape = std::move(shape);
   else if (auto* part = std::get_if<FlexibleBody>(&body.kind))
@@ -257,7 +257,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     known.valid = false;
     body.kind = RigidDescription{};
   }
-  if (geometry) dress(body, read_body_geometry(self, *geometry));
+  if (geometry) set_shape(body, read_body_geometry(self, *geometry));
   body.X_WT = body.X_WB;
   place(body, self.world);
   known.origin = body.X_WB.p;

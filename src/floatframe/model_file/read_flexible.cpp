@@ -180,7 +180,7 @@ class FlexibleReader {
   void read_basis(const YamlValue& value) {
     const auto name = value.text("the name of a CSV file");
     if (!name) return;
-    const std::string file = beside(self_, *name);
+    const std::string file = sibling_path(self_, *name);
     std::string text;
     if (!read_text_file(file, text, *value.context().errors, value.mark(), value.path())) return;
     std::vector<std::vector<double>> rows;

@@ -12,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-/// The keys of one force element, as the table of its type says.
+/// The keys of one force element, according to the table of its type.
 class ForceReader {
  public:
   ForceReader(const ModelInstance& self, ReadModel& model, YamlSection& s, ForceDescription& f)
@@ -51,7 +51,7 @@ class ForceReader {
     return force_axis_units(turning);
   }
 
-  /// The value that a law has where it is written as a number.
+  /// The free value of a law that is written as a number.
   double free_value(const ForceKey& key) const {
     const auto free = force_kind(f_.type()).free_value;
     return free && check_.wrong.empty() ? free(check_, key) : 0.0;
@@ -77,7 +77,7 @@ class ForceReader {
     return ForceValue(as_given ? *v : Vec3(v->stableNormalized()));
   }
 
-  /// The rows of a matrix, of so many numbers each.
+  /// The rows of a matrix, with the given count of numbers each.
   static std::optional<ForceValue> rows_of(const std::vector<YamlValue>& rows,
                                            std::size_t columns) {
     const std::string what = std::to_string(columns) + " numbers";

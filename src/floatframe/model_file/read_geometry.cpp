@@ -1,5 +1,4 @@
-// The key `geometry` of a body: a surface that another program drew. Nothing that moves depends on
-// it.
+// The key `geometry` of a body: a surface drawn by another program. It has no effect on the motion.
 #include <fmt/format.h>
 
 #include "floatframe/body/body_shape.hpp"
@@ -10,7 +9,7 @@
 namespace floatframe {
 namespace {
 
-constexpr double farthest_geometry = 1e6;  // [m]; numbers of pages are of single precision
+constexpr double farthest_geometry = 1e6;  // [m]; pages have single precision
 
 std::string read_color(const YamlValue& value) {
   const auto text = value.text("a colour \"#rrggbb\"");
@@ -40,7 +39,7 @@ std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
       file ? file->text("the name of a file (.stl, .obj, .gltf, .glb)") : std::nullopt;
   if (!name) return nullptr;
   try {
-    const std::string path = beside(self, *name);
+    const std::string path = sibling_path(self, *name);
     TriangleGeometry geometry = read_geometry(path);
     note_file_read(path, file_hash(path));
     for (const auto& other : geometry.others) note_file_read(other.string(), file_hash(other));

@@ -1,4 +1,4 @@
-// Inputs: numbers that come from outside while a model runs.
+// Inputs: numbers set externally while a model runs.
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {

@@ -1,4 +1,4 @@
-// Joints and rods, and the places on bodies that they and the forces use.
+// Joints and rods, and the attachment points on bodies used by them and by forces.
 #include <algorithm>
 
 #include "floatframe/model/joint_kind.hpp"
@@ -13,7 +13,7 @@ std::vector<double> start_values(YamlSection& s, const char* key, JointType type
   const auto v = s.get(key);
   if (!v) return {};
   const std::size_t n = joint_velocities(type);
-  if (n == 0) return {0.0};  // `joint_values` refuses it
+  if (n == 0) return {0.0};  // rejected by `joint_values`
   if (n == 1 && !v->is_list()) return {v->number(any_number("")).value_or(0.0)};
   const std::string what = n == 1 ? "a number"
                                   : "a list of " + std::to_string(n) + " numbers for a " +
@@ -50,14 +50,14 @@ std::optional<Vec3> read_node(const ModelInstance& self, const ReadModel& model,
   return self.local(body.nodes[body.named_nodes.at(*name)]);
 }
 
-/// The node that a key names for one side of a joint, likewise.
+/// The node given by a key for one side of a joint, likewise.
 std::optional<Vec3> joint_node(const ModelInstance& self, const ReadModel& model, YamlSection& s,
                                const char* key, AttachmentDescription& side) {
   const auto v = s.get(key);
   return v ? read_node(self, model, *v, side) : std::nullopt;
 }
 
-/// Which bodies the joint connects; nothing for one that is not known.
+/// The bodies connected by the joint; empty for one that is unknown.
 struct JointBodies {
   std::optional<std::string> parent, child;
 };
@@ -79,8 +79,8 @@ JointBodies read_sides(const ModelInstance& self, YamlSection& s, JointDescripti
   return out;
 }
 
-/// Where the joint is: `at`, its nodes, or the frame origin of the child of a free joint. `type` is
-/// nothing if it is not known.
+/// Location of the joint: `at`, its nodes, or the frame origin of the child of a free joint. `type`
+/// is null if it is unknown.
 void read_place(const ModelInstance& self, const ReadModel& model, YamlSection& s,
                 const JointBodies& bodies, std::optional<JointType> type, JointDescription& j) {
   const auto& [parent, child] = bodies;
@@ -225,7 +225,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
                      : point ? point
                              : frame_origin(self, model, *body);
   if (!place && !node)
-    s.error(ErrorCode::missing, "missing key 'at'");  // the ground has no frame origin of its own
+    s.error(ErrorCode::missing, "missing key 'at'");  // the ground has no frame origin
   if (!place || (point && !node && !check_node(self, model, *body, *point, *at)))
     return std::nullopt;
   a.point = *place;

@@ -49,14 +49,14 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
   return f;
 }
 
-/// What a table is a function of.
+/// The argument of a table.
 enum class TableOf {
   measure,  ///< a spring or a damper: continues along its tangents
   time,     ///< holds its end values, and may jump
-  motion    ///< of the time, but what moves does not jump
+  motion    ///< function of time without jumps, for motions
 };
 
-/// What is wrong with a point after those before it; empty: nothing.
+/// Error of a point relative to those before it; empty if there is none.
 std::string table_point_error(const std::vector<TablePoint>& before, double x, TableOf of,
                               const char* x_unit) {
   if (before.empty() || x > before.back().x) return {};

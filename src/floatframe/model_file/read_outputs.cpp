@@ -42,14 +42,14 @@ class OutputReader {
     s->finish();
   }
 
-  /// What was read, into its place; false if nothing was.
+  /// Stores a value that was read in its member; false if nothing was read.
   template <class Read, class Place>
   static bool put(std::optional<Read> read, Place& place) {
     if (read) place = std::move(*read);
     return read.has_value();
   }
 
-  /// What the output is of; false after an error.
+  /// The quantity of the output; false after an error.
   bool quantity(const OutputKind& kind, YamlSection& s, const YamlValue& what,
                 OutputDescription& o) {
     switch (kind.of) {
@@ -96,13 +96,13 @@ class OutputReader {
     for (const char* key : {"mode", "coordinate", "about", "in", "direction", "inertia_loads"})
       s.get(key);
     s.finish();
-    if (found == 0 && misspelt_quantity(s)) return;  // that has been said
+    if (found == 0 && misspelt_quantity(s)) return;  // already reported
     s.error(ErrorCode::wrong_count, "found " + std::to_string(found) +
                                         " quantities, expected one of " +
                                         alternatives(output_words));
   }
 
-  /// A key of an output is near to a quantity, and so its "unknown key" says what is wrong.
+  /// A key similar to a quantity: the error "unknown key" is sufficient.
   static bool misspelt_quantity(const YamlSection& s) {
     const std::vector<std::string> quantities(std::begin(output_words), std::end(output_words));
     for (const YamlEntry& e : s.value().node().entries)
@@ -110,7 +110,7 @@ class OutputReader {
     return false;
   }
 
-  /// One component, all of them, or one number that has no components.
+  /// One component, all of them, or a scalar quantity.
   void components(const std::string& name, YamlSection& s, OutputDescription o) {
     const auto [key, words] = output_kind(o.type).components;
     if (!key) {
@@ -139,7 +139,7 @@ class OutputReader {
     return body;
   }
 
-  /// A place on a body, or a body: the origin of its frame.
+  /// An attachment point on a body, or the origin of the frame of a body.
   std::optional<AttachmentDescription> point(const YamlValue& what) {
     if (what.is_map()) {
       auto place_section = what.section();
@@ -270,7 +270,7 @@ class OutputReader {
     return !value || put(read_direction(*value), out);
   }
 
-  /// A whole number is that of a node in the finite-element file.
+  /// A whole number is a node number in the finite-element file.
   static bool node_of_gauge(const YamlValue& value, OutputDescription& o) {
     if (value.looks_like_number())
       return put(value.integer(1, 2147483647, "the number of a node"), o.gauge.node);
@@ -312,7 +312,7 @@ void read_outputs(const ModelInstance& self, ReadModel& model) {
 void read_added_outputs(const ModelInstance& root, ReadModel& model) {
   for (const std::string& text : model.options.outputs) {
     const YamlDocument document = parse_yaml("--add", text, *root.context.errors);
-    if (document.root.line == 0) continue;  // nothing was understood, and that has been said
+    if (document.root.line == 0) continue;  // parse error, already reported
     const ReadContext context{&document.file, &root.scope, root.context.errors};
     const YamlValue value(context, document.root, "outputs");
     OutputReader(root, model).read_all(value);

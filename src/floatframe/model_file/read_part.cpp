@@ -1,5 +1,5 @@
 // Parts of flexible bodies: bars written in the model file, finite-element files that are reduced
-// when the model is loaded, and files with a part that is reduced already.
+// when the model is loaded, and files of reduced parts.
 #include <filesystem>
 #include <iterator>
 
@@ -12,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-/// What joints, forces and outputs need to know of a part from a file.
+/// The data of a part from a file that joints, forces and outputs need.
 FlexibleRead known_part(FlexibleBody body) {
   FlexibleRead out;
   for (std::size_t k = 0; k < body.nodes.size(); ++k) {
@@ -26,7 +26,7 @@ FlexibleRead known_part(FlexibleBody body) {
   return out;
 }
 
-/// The surface of the part is watched too, but nothing can sit on it.
+/// Includes the points of the surface, to which nothing can be attached.
 FlexibleRead known_part(ReducedPart part) {
   std::vector<ModalNode> points =
       surface_points(part.body, part.surface_positions, part.surface_modes);
@@ -47,7 +47,7 @@ FlexibleRead from_body_file(const ModelInstance& self, const ReadModel& model,
                             const std::string& who, const YamlValue& value) {
   const auto name = value.text("bars, a finite-element file or the name of a body file");
   if (!name) return {};
-  const std::string file = beside(self, *name);
+  const std::string file = sibling_path(self, *name);
   try {
     if (is_body_file(file) || std::filesystem::path(file).extension() == ".ffb") {
       BodyFile content = read_body_file(file);
@@ -75,7 +75,7 @@ FlexibleRead from_job(const ModelInstance& self, const ReadModel& model, const s
   auto section = value.section();
   const std::size_t before = self.context.errors->size();
   const auto job = read_part_job(self, *section);
-  // A model that cannot run need not wait for reductions.
+  // A model with errors need not wait for reductions.
   if (!job || before > 0) return {};
   const std::filesystem::path folder = std::filesystem::path(self.document->file).parent_path();
   try {
@@ -101,7 +101,7 @@ void add_errors(const YamlValue& value, const InputError& error) {
   }
 }
 
-std::string beside(const ModelInstance& self, const std::string& file) {
+std::string sibling_path(const ModelInstance& self, const std::string& file) {
   return (std::filesystem::path(self.document->file).parent_path() / file)
       .lexically_normal()
       .string();

@@ -88,7 +88,7 @@ class JobReader {
   std::filesystem::path path(const char* key) {
     const auto v = s_.get(key);
     const auto name = v ? v->text("the name of a file") : std::nullopt;
-    return name ? std::filesystem::path(beside(self_, *name)) : std::filesystem::path();
+    return name ? std::filesystem::path(sibling_path(self_, *name)) : std::filesystem::path();
   }
 
   void units(const char* key) {
@@ -147,7 +147,7 @@ class JobReader {
     }
   }
 
-  /// The one way of choosing nodes; an error at none or several.
+  /// The single method of selecting nodes; an error if there are none or several.
   void choice(YamlSection& s, NodeChoice& c) {
     int ways = 0;
     std::vector<const char*> words;
@@ -169,7 +169,7 @@ class JobReader {
                                           joined(words, ", "));
   }
 
-  /// The map of a way with several values.
+  /// The map of a method with several values.
   static void values(NodeChoice& c, const YamlValue& value, const NodeWay& way) {
     std::vector<const char*> keys;
     for (const NodeWayValue& v : way.values) keys.push_back(v.key);
@@ -208,20 +208,20 @@ class JobReader {
     return text;
   }
 
-  /// False and an error if the name is taken.
-  bool name_is_new(const std::string& name, const YamlValue& value) {
+  /// False and an error if the name is already used.
+  bool is_unused_name(const std::string& name, const YamlValue& value) {
     if (names_.insert(name).second) return true;
     value.error(ErrorCode::duplicate,
                 "found the name twice in interfaces and markers, expected once");
     return false;
   }
 
-  /// What interfaces and markers have in common.
+  /// The common keys of interfaces and markers.
   template <class Place>
   std::optional<YamlSection> begin(const std::string& name, const YamlValue& value,
                                    const char* what, Place& place) {
     auto s = value.section(what);
-    if (!s || !name_is_new(name, value)) return std::nullopt;
+    if (!s || !is_unused_name(name, value)) return std::nullopt;
     place.name = name;
     choice(*s, place.choice);
     if (const auto v = s->get("at")) place.at = v->vector("");

@@ -1,7 +1,7 @@
 #pragma once
-// The parts of the model reader, one subject a file. Each reads one key of a model file from one
-// instance, in the coordinates of that file, places the result in the world and appends it to the
-// description.
+// The parts of the model reader, one subject per file. Each reads one key of a model file from one
+// instance, in the coordinates of that file, transforms the result to the world and appends it to
+// the description.
 #include <functional>
 #include <map>
 #include <memory>
@@ -19,14 +19,14 @@ namespace floatframe {
 struct ModalDamping;
 struct PartJob;
 
-/// What joints, forces and outputs need to know of a body that has been read.
+/// The data of a body already read that joints, forces and outputs need.
 struct KnownBody {
   Vec3 origin = Vec3::Zero();  ///< of the body frame, world [m]
-  bool flexible = false;       ///< has modes; a rigid part has none and keeps its named nodes
+  bool flexible = false;       ///< has modes; a rigid part has only its named nodes
   bool valid = true;           ///< its nodes are known (no error in its bars or its file)
   std::vector<Vec3> nodes;     ///< world design positions [m]
   std::map<std::string, std::size_t> named_nodes;
-  int modes = 0;          ///< -1: decided by a frequency limit
+  int modes = 0;          ///< -1: depends on a frequency limit
   std::size_t index = 0;  ///< in the description
 };
 
@@ -47,21 +47,21 @@ void read_inputs(const ModelInstance& self, ReadModel& model);
 void read_forces(const ModelInstance& self, ReadModel& model);
 void read_initial(const ModelInstance& self, ReadModel& model);
 void read_outputs(const ModelInstance& self, ReadModel& model);
-/// Those of the options, by the names of the model file.
+/// Additional outputs of the options, with the names of the model file.
 void read_added_outputs(const ModelInstance& root, ReadModel& model);
 void read_simulation(const ModelInstance& self, ReadModel& model);
 /// x, y, z of every rigid body.
 void default_outputs(ReadModel& model);
 
-/// A flexible body as it is described: bars, or a part that is reduced already.
+/// A flexible body as described: bars, or a part that is already reduced.
 struct FlexibleRead {
   FlexibleDescription description;
-  std::optional<FlexibleBody> body;  ///< from a file: takes the place of the description
+  std::optional<FlexibleBody> body;  ///< from a file: replaces the description
   bool valid = false;
   Vec3 first_point = Vec3::Zero();  ///< of the first bar
   std::vector<Vec3> nodes;          ///< coordinates of this file; of `body`: of the part
   std::map<std::string, std::size_t> named_nodes;
-  int modes = 0;  ///< -1: decided by a frequency limit
+  int modes = 0;  ///< -1: depends on a frequency limit
 };
 /// A group of bars.
 FlexibleRead read_flexible(const ModelInstance& self, YamlSection section);
@@ -71,35 +71,35 @@ std::vector<unsigned> read_dofs(const YamlValue& value);
 ModalDamping read_damping(const YamlValue& value);
 /// The key `bars` of such a group: bars, points, nodes.
 void read_bars(const ModelInstance& self, YamlSection& section, FlexibleRead& out);
-/// What stands after `flexible` or `part`: a group of bars, a group with a finite-element file, the
-/// name of a body file. `body` is for messages.
+/// The value of `flexible` or `part`: a group of bars, a group with a finite-element file, the name
+/// of a body file. `body` is for messages.
 FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const std::string& body,
                        const YamlValue& value);
-/// A group with a finite-element file as a job. nullopt and errors if something in it is wrong.
+/// A group with a finite-element file as a job. nullopt and errors if it is invalid.
 std::optional<PartJob> read_part_job(const ModelInstance& self, YamlSection section);
-/// align: {marker: point}: the motion of the part that brings its markers to the points of this
-/// file, in the least-squares sense. nullopt and errors at markers that stay away from their
+/// align: {marker: point}: the rigid motion of the part that maps its markers to the points of this
+/// file, in the least-squares sense. nullopt and errors at markers with a distance from their
 /// points.
 std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& value,
                                    double tolerance, const FlexibleBody& part);
-/// Errors of a file keep their place; others belong to the value that names the file.
+/// Errors of a file keep their location; others get that of the value that names the file.
 void add_errors(const YamlValue& value, const InputError& error);
 /// A rotation vector, a unit quaternion or {roll, pitch, yaw}.
 Mat3 read_orientation(const YamlValue& value, double* largest_angle = nullptr);
 /// The key `geometry` of a body: the triangles of a file in the body's frame. nullptr and errors if
-/// it cannot be shown.
+/// they cannot be shown.
 std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
                                                     const YamlValue& value);
 /// `file` as written in a file of the model: relative to the folder of that file.
-std::string beside(const ModelInstance& self, const std::string& file);
+std::string sibling_path(const ModelInstance& self, const std::string& file);
 
-/// Entities of a kind that are not switched off, as sections with `when` already asked for.
+/// Enabled entities of a kind, as sections whose key `when` has been read.
 std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,
                                                                  EntityKind kind);
 
-/// What `check` (of model/validate.hpp) finds wrong with an entity that has been read, at the
-/// places of its keys. Values that could not be read are to stand in the entity as valid ones by
-/// then, so that nothing is said twice.
+/// Reports the errors that `check` (of model/validate.hpp) finds in an entity, at the locations of
+/// its keys. Values that could not be read must be replaced by valid ones in the entity before, so
+/// that no error is reported twice.
 void validate_entity(const YamlSection& section, const Origin& origin,
                      const std::function<void(const validation::Entity&)>& check);
 
@@ -108,8 +108,8 @@ void validate_entity(const YamlSection& section, const Origin& origin,
 std::optional<Vec3> read_direction(const YamlValue& value);
 
 enum class AttachedBy {
-  map,      ///< of its own, which is read to its end
-  own_keys  ///< among those of the entity, which has a body that moves
+  map,      ///< a separate map, which is read completely
+  own_keys  ///< keys of the entity; it has a moving body
 };
 /// {body: name, at: point} or {body: name, node: name}; without either it is the origin of the body
 /// frame. Points of flexible bodies are checked to be nodes. Coordinates of this file.
@@ -117,7 +117,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
                                                      const ReadModel& model, YamlSection& section,
                                                      AttachedBy by = AttachedBy::map);
 /// Origin of the frame of a body in coordinates of this file; nullopt for the ground. On a flexible
-/// body it need not be a node: a marker there belongs to the frame itself.
+/// body it need not be a node: a marker there moves with the frame itself.
 std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
                                  const std::string& body);
 /// Error at `value` if a flexible body has no node at `point` (coordinates of this file).
@@ -134,10 +134,10 @@ struct LawUnits {
 };
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
 /// A function of time: a number is a constant, tables hold their end values, `sine` may be added.
-/// Of the motion of a joint, which does not jump.
+/// For the motion of a joint, which has no jumps.
 TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table);
 /// The same with jumps (two points of a table with the same time), or {input: name}, or both in one
-/// map: then they add up.
+/// map, which are added.
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
                               Interpolation table);
 

@@ -1,4 +1,4 @@
-// How a model starts and is run: `simulation` and `initial`.
+// Start and options of a run: `simulation` and `initial`.
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/model_reader.hpp"
@@ -51,7 +51,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   if (const auto file = state ? state->text("the name of a state file") : std::nullopt) {
     d.start = Start::state;
     try {
-      d.state = std::make_shared<const SystemState>(read_state(beside(self, *file)));
+      d.state = std::make_shared<const SystemState>(read_state(sibling_path(self, *file)));
     } catch (const InputError& error) {
       for (const ErrorEntry& f : error.errors()) state->error(f.code, f.text(), f.count);
     }
@@ -104,7 +104,7 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
                              n < 0 ? "a list of amplitudes" : what.c_str());
     if (!a) continue;
     out[*body] = Eigen::Map<const VecX>(a->data(), static_cast<Eigen::Index>(a->size()));
-    // With normal modes below a frequency their number is known only when the body is reduced.
+    // With a frequency limit for normal modes their number is known only after the reduction.
     model.description.bodies[it->second.index].origin.keys[key] = v.mark();
   }
 }

@@ -7,7 +7,7 @@
 namespace floatframe {
 namespace {
 
-/// In quotes a text stays a text, whatever it looks like.
+/// In quotes a text stays a text, whatever its form.
 std::string quoted_text(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -18,7 +18,7 @@ std::string scalar_text(const YamlNode& node, const ParameterScope& scope) {
       const ParameterValue value = substitute_parameters(node.text, scope, false);
       const auto* text = std::get_if<std::string>(&value);
       return text ? quoted_text(*text) : value_text(value);
-    } catch (const ExpressionError&) {  // a part that is switched off
+    } catch (const ExpressionError&) {  // a disabled entity
       return quoted_text(node.text);
     }
   }
@@ -32,7 +32,7 @@ bool is_plain_key(const std::string& key) {
   return !key.empty() && std::isalpha(static_cast<unsigned char>(key[0]));
 }
 
-/// What stands after "key:" or "-": the rest of the line, or lines of their own below it.
+/// The text after "key:" or "-": the rest of the line, or indented lines below it.
 void append_node(std::string& out, const YamlNode& node, const ParameterScope& scope,
                  std::size_t indent) {
   switch (node.kind) {

@@ -21,7 +21,7 @@ Json array_of(const Numbers& v) {
   return array;
 }
 
-/// A file on its way to a state; complaints carry the path inside the file.
+/// Converts a file to a state; errors contain the path inside the file.
 class StateReader {
  public:
   explicit StateReader(std::string file) : file_(std::move(file)) {}

@@ -1,5 +1,5 @@
 #pragma once
-// States of a model as JSON files: written with as many digits as read back to the same numbers.
+// States of a model as JSON files, with enough digits to reproduce the same numbers.
 #include <string>
 
 #include "floatframe/model/system_state.hpp"
@@ -8,7 +8,7 @@ namespace floatframe {
 
 std::string state_json(const SystemState& state);
 
-/// Throws InputError with one sentence if the file is damaged or is no state.
+/// Throws InputError with one sentence if the file is damaged or is not a state file.
 SystemState read_state(const std::string& path);
 
 }  // namespace floatframe

@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Frequencies of the free modes with the body frame held: K x = w^2 M_ff x [Hz]; empty if the
-/// modal mass is singular.
+/// Frequencies of the modes with the body frame fixed: K x = w^2 M_ff x [Hz]; empty if the modal
+/// mass is singular.
 std::vector<double> frequencies(const FlexibleBody& body) {
   const MatX M = modal_mass(body.invariants);
   std::vector<double> out;

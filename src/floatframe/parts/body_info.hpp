@@ -1,5 +1,5 @@
 #pragma once
-// What is in a body file or in a SID_FEM file, for people and as JSON. SI units.
+// Summary of a body file or a SID_FEM file, for people and as JSON. SI units.
 #include <string>
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// How the command line and the provenance of a body write a damping:
+// Text form of a damping, on the command line and in the provenance of a body:
 //   0.02    0.02,reference=mounted    0.01,0.02,0.05    bands:usual    bands:100=0.01,1000=0.1,1
 //   rayleigh:0.5,1e-5
 // each with reference=frame, free or mounted, and of mounted with frequency=HZ.
@@ -11,8 +11,8 @@ namespace floatframe {
 
 /// Empty if there is none.
 std::string damping_text(const ModalDamping& damping);
-/// The text read again. Throws InputError with one sentence that names the option and what was
-/// expected.
+/// Parses the text. Throws InputError with one sentence that names the option and the expected
+/// form.
 ModalDamping damping_argument(const std::string& text);
 
 }  // namespace floatframe

@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Masses of the plies of a solid: its mass in proportion to their own, thickness times density.
+/// Masses of the plies of a solid: its mass in proportion to thickness times density of each ply.
 void share_plies(const FeModel& model, const Element& element, double mass, FeFacts& out) {
   const std::vector<ShellPly>& plies = model.layups[element.layup].plies;
   const auto weight = [&](const ShellPly& ply) {
@@ -36,8 +36,8 @@ void share_plies(const FeModel& model, const Element& element, double mass, FeFa
   for (const ShellPly& ply : plies) out.material_masses[ply.material] += mass * (weight(ply) / sum);
 }
 
-/// Masses of the materials of one element: shares by the thickness of plies, and what its section
-/// has besides.
+/// Masses of the materials of one element: shares by the thickness of plies, and the nonstructural
+/// mass of its section.
 void share(const FeModel& model, const Element& element, double volume, double mass, FeFacts& out) {
   if (element.layup >= 0) return share_plies(model, element, mass, out);
   const ShellSection* shell =
@@ -57,7 +57,7 @@ void share(const FeModel& model, const Element& element, double volume, double m
   out.other_mass += mass;
 }
 
-/// As a reduction says it; empty if the element is well formed.
+/// The message of a reduction; empty if the element is valid.
 std::string element_error(const FeModel& model, const Element& element, const ElementInput& input) {
   const auto last = element.nodes.begin() + element_nodes(element.type);
   for (auto node = element.nodes.begin(); node != last; ++node)
@@ -66,7 +66,7 @@ std::string element_error(const FeModel& model, const Element& element, const El
   return element_kernel(element.type).error(input);
 }
 
-/// Volume and mass: elements of unit density, so that they exist without a material too.
+/// Volume and mass: elements of unit density, so that they can be evaluated without a material.
 void measure(FeModel model, FeFacts& out) {
   const FeModel given = model;
   if (model.materials.empty()) model.materials.push_back({1.0, 0.3, 1.0});
@@ -101,7 +101,7 @@ void measure(FeModel model, FeFacts& out) {
   }
   for (const PointMass& m : model.masses) out.point_mass += m.mass;
   out.mass += out.point_mass;
-  // Rounding of the differences is no mass.
+  // Rounding errors of the difference are not mass.
   if (std::abs(out.other_mass) < 1e-9 * std::abs(out.mass)) out.other_mass = 0.0;
 }
 
@@ -133,7 +133,7 @@ void sets(const FeModel& model, FeFacts& out) {
   }
 }
 
-/// Of a model with nodes.
+/// For a model with nodes.
 std::pair<Vec3, Vec3> bounding_box(const FeModel& model) {
   Vec3 low = model.positions.front(), high = low;
   for (const Vec3& p : model.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -149,7 +149,7 @@ std::string way_of(const InterfaceDescription& d) {
   return interface_text(d).substr(d.name.size() + 1);
 }
 
-/// Where the first invalid element stands and why it is; empty if there is none.
+/// Location of the first invalid element and the reason; empty if there is none.
 std::string first_invalid(const FeFacts& f) {
   if (f.bad_elements.empty()) return "";
   return f.bad_mark.before(fmt::format("{} {}", f.bad_elements.front(), f.bad_reason));

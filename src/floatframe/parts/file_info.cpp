@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-/// A SID begins with a number and the block `part`.
+/// A SID file starts with a number and the block `part`.
 bool is_sid(const std::string& file) {
   const std::string text = read_beginning(file, 4096);
   return text.find("part") != std::string::npos && text.find("new modal") != std::string::npos;
@@ -46,7 +46,7 @@ std::string hint_of_units(const PartJob& job) {
   std::vector<std::string> likely;
   try {
     likely = likely_units(read_fe_file(job.file, job.read, job.format));
-  } catch (const InputError&) {  // its errors are reported when the units are known
+  } catch (const InputError&) {  // its errors are reported once units are given
   }
   return likely.empty() ? ""
                         : fmt::format(" (the material looks like {})", fmt::join(likely, " or "));

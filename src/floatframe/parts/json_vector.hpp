@@ -5,7 +5,7 @@
 
 namespace floatframe {
 
-/// A vector as JSON has it: three numbers.
+/// A vector in JSON: three numbers.
 inline std::array<double, 3> json_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace floatframe

@@ -1,6 +1,6 @@
 #pragma once
-// A body file that the program keeps for itself, sealed: what was changed since, packed again or
-// made by something else is not taken.
+// A body file kept by the program for its own use, with a seal: a file changed, repacked or made by
+// other means is rejected.
 #include <filesystem>
 
 #include "floatframe/formats/body_file/body_file.hpp"
@@ -10,7 +10,7 @@ namespace floatframe {
 /// Throws OutputError.
 void keep_part(const std::filesystem::path& file, const BodyFile& content);
 
-/// Throws InputError if the file cannot be read, or its content is not what was kept.
+/// Throws InputError if the file cannot be read, or its content has changed.
 BodyFile kept_part(const std::filesystem::path& file);
 
 }  // namespace floatframe

@@ -1,6 +1,6 @@
 #pragma once
-// The ways of choosing nodes of a part, each once: its word, its values and where a NodeChoice
-// keeps them. Model files, the command line and the provenance write a way as this list says:
+// The methods of selecting nodes of a part, once each: keyword, values and the members of
+// NodeChoice that store them. Used by model files, the command line and the provenance:
 //   model file     {node: 12}    {cylinder: {point: [0, 0, 0], axis: y, radius: 11}}
 //   command line   node:12       cylinder:0,0,0,axis=y,radius=11
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace floatframe {
 
-/// A value of a way. On the command line the first one stands after the colon; in a model file a
-/// way of one value is that value and others are maps.
+/// A value of a method. On the command line the first one follows the colon; in a model file a
+/// method with a single value is that value and others are maps.
 struct NodeWayValue {
   struct Name {
     std::string NodeChoice::*at;
@@ -41,7 +41,7 @@ struct NodeWay {
   const char* word;
   NodeChoice::By by;
   std::vector<NodeWayValue> values;
-  /// Whether nodes are taken by their distance from a surface, so that `tolerance` matters.
+  /// True if nodes are selected by their distance from a surface, so that `tolerance` applies.
   bool by_distance;
 };
 

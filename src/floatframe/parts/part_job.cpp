@@ -24,8 +24,8 @@ void scale(NodeChoice& choice, std::optional<Vec3>& at, double length) {
   if (at) *at *= length;
 }
 
-/// The files of the model and the others that the job names, relative to the folder of the job's
-/// file, each once, with their fingerprints.
+/// The files of the model and the other files of the job, relative to the folder of the job's file,
+/// each once, with their fingerprints.
 std::vector<std::pair<std::string, std::string>> files_of(const PartJob& job,
                                                           const FeModel& model) {
   namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 #pragma once
-// One reduction as a user asks for it, on the command line or in a model file: which file, in which
-// units, with which options; and the body file that comes of it.
+// One reduction as requested on the command line or in a model file: file, units and options; and
+// the resulting body file.
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -24,15 +24,15 @@ struct PartJob {
 
 /// Reads the file, converts it to SI units and reduces it. Throws InputError.
 BodyFile reduce_part_file(const PartJob& job);
-/// The same for a model that a program has made, in the units of the job, whose file is only the
-/// name that the body shows as its source; how to read is ignored.
+/// The same for a model made by a program, in the units of the job, whose file is only the name of
+/// the source in the body; reading options are ignored.
 BodyFile reduce_part_model(FeModel model, const PartJob& job);
 
-/// Everything that decides the result except the contents of files, as (option, value) in the words
-/// of the command line: equal lists and equal files give equal bodies.
+/// Everything that affects the result except the contents of files, as (option, value) in the
+/// notation of the command line: equal lists and equal files give equal bodies.
 std::vector<std::pair<std::string, std::string>> option_list(const PartJob& job);
 
-/// The unit system; InputError (without a place) that names those known, with did-you-mean.
+/// The unit system; InputError (without a location) with the known names and a suggestion.
 UnitSystem unit_system(const std::string& name);
 
 /// Fingerprint of a file's content; empty if it cannot be read.

@@ -14,7 +14,7 @@ using O = PartOption;
 using Special = O::Special;
 using Texts = std::vector<std::string>;
 
-/// An enumerator in a member of the job's options, or of how it is read.
+/// An enumerator in a member of the job's options or reading options.
 template <auto group, auto member>
 O::Word enumerator(std::vector<const char*> words, std::optional<int> unwritten = {},
                    int first = 0) {
@@ -27,7 +27,7 @@ O::Word enumerator(std::vector<const char*> words, std::optional<int> unwritten 
           unwritten};
 }
 
-/// One of how the file is read; the first is not shown.
+/// An enumerator of the reading options; the default is not shown.
 template <auto member>
 O::Word reading_word(std::vector<const char*> words) {
   return enumerator<&PartJob::read, member>(std::move(words), 0);
@@ -252,7 +252,7 @@ std::vector<PartOption> list() {
        "Modal damping: a fraction of critical, a list of them, bands:usual, bands:HZ=FRACTION,..., "
        "rayleigh:ALPHA,BETA; behind it ,reference=free or mounted; default 0",
        damping()},
-      // The solvers differ in rounding, and one that is asked for is to be used.
+      // The solvers differ in rounding, and an explicit choice must take effect.
       {"solver", "solver", "WORD", "auto (default), mumps or eigen",
        enumerator<&PartJob::options, &P::solver>({"auto", "mumps", "eigen"}, automatic)},
       {"free_check", "no-free-check", "",
@@ -265,14 +265,14 @@ std::vector<PartOption> list() {
        O::Switch{&P::keep_projection, true, false}}};
 }
 
-/// A new member does not compile here until it is named, and has its entry above.
+/// Does not compile after a new member is added until it is named here and has an entry above.
 [[maybe_unused]] void every_member_has_an_entry(const PartJob& job) {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
   [[maybe_unused]] const auto& [material, densities, thicknesses, nodes, mass, dofs, damping_matrix,
                                 dialect, beam_shear, shell_shear, mass_form, contact,
                                 contact_distance, grounded_springs, temperature] = read;
-  // `progress` decides nothing.
+  // `progress` has no effect on the result.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
                                 reference, integration, damping, check_free_modes, stresses,
                                 keep_projection, solver, progress] = options;

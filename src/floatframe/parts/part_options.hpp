@@ -1,10 +1,10 @@
 #pragma once
-// The options of a reduction, each once: its names, what its values are and where a job keeps it.
+// The options of a reduction, once each: their names, values and members of a job.
 //   model file            command line             provenance
 //   effective_mass: 0.9   --effective-mass 0.9     effective-mass = 0.9
 // The reader of model files, `floatframe reduce`, the provenance of a body and the key of the cache
-// run over this list, so that a new option of a known kind is one entry in part_options.cpp. That
-// file does not compile while a member of PartJob, FeReadOptions or PartOptions has none.
+// iterate over this list, so that a new option of a known kind is one entry in part_options.cpp.
+// That file does not compile while a member of PartJob, FeReadOptions or PartOptions has no entry.
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -23,7 +23,7 @@ struct PartOption {
     NumberRule rule;
     double PartOptions::*at;
   };
-  /// A whole number. `written`: what the provenance shows.
+  /// A whole number. `written`: the text in the provenance.
   struct Count {
     WholeNumberRule rule;
     std::optional<int> PartOptions::*at;
@@ -35,19 +35,19 @@ struct PartOption {
     int first;
     int (*get)(const PartJob&);
     void (*set)(PartJob&, int);
-    std::optional<int> unwritten{};  ///< the enumerator that the provenance does not show
+    std::optional<int> unwritten{};  ///< the enumerator omitted in the provenance
   };
-  /// On the command line a flag that is there or not.
+  /// On the command line a flag.
   struct Switch {
     bool PartOptions::*at;
-    bool flag;    ///< what the flag of the command line makes it
-    bool absent;  ///< without the key of the model file
+    bool flag;    ///< value set by the flag of the command line
+    bool absent;  ///< value if the key of the model file is absent
   };
-  /// A further file of the model.
+  /// An additional file of the model.
   struct File {
     std::filesystem::path FeReadOptions::*at;
   };
-  /// Values of a form of their own: each has a reader in model_file/read_part_job.cpp.
+  /// Values of a special form: each has a reader in model_file/read_part_job.cpp.
   struct Special {
     enum class What {
       units,
@@ -63,25 +63,25 @@ struct PartOption {
       reference
     } what;
     std::vector<std::string> (*texts)(const PartJob&);
-    /// One value of the command line. Throws InputError.
+    /// Parses one value of the command line. Throws InputError.
     void (*parse)(PartJob&, const std::string& text);
     bool repeated = false;
   };
 
-  const char* key;    ///< of model files
-  const char* name;   ///< on the command line, behind --, and in the provenance
-  const char* value;  ///< as the help shows it, "HZ"; "" of switches
+  const char* key;    ///< key in model files
+  const char* name;   ///< on the command line, after --, and in the provenance
+  const char* value;  ///< as shown in the help, "HZ"; "" for switches
   const char* help;
   std::variant<Number, Count, Word, Switch, File, Special> kind;
-  bool reading = false;  ///< decides how the file is read: `floatframe info` takes it too
+  bool reading = false;  ///< affects reading: `floatframe info` has it too
 };
 
 std::span<const PartOption> part_options();
 
-/// What the provenance shows of an option: nothing if it is not given, several if it is repeated.
+/// Texts of an option in the provenance: none if it is not given, several if it is repeated.
 std::vector<std::string> option_texts(const PartOption& option, const PartJob& job);
 
-/// The files that a job names besides the first.
+/// The files of a job in addition to the first.
 std::vector<std::filesystem::path> other_files(const PartJob& job);
 
 }  // namespace floatframe

@@ -20,11 +20,11 @@ constexpr const char* ways_text =
     "set:NAME, node:NUMBER, nearest:x,y,z, plane:x,y,z,normal=..., "
     "cylinder:x,y,z,axis=...,radius=... or sphere:x,y,z,radius=...";
 
-/// One occurrence of --interface or --marker, taken apart.
+/// One occurrence of --interface or --marker, split into its parts.
 class PlaceArgument {
  public:
   PlaceArgument(std::string option, const std::string& given) : option_(std::move(option)) {
-    const std::string text = utf8_text(given);  // as names of files are
+    const std::string text = utf8_text(given);  // as for file names
     const std::size_t equal = text.find('=');
     const std::size_t colon = text.find(':', equal == std::string::npos ? 0 : equal);
     if (equal == std::string::npos || equal == 0 || colon == std::string::npos)
@@ -48,7 +48,7 @@ class PlaceArgument {
 
   std::string name;
 
-  /// The value of a key, which is then taken; nullopt if it is not there.
+  /// Removes and returns the value of a key; nullopt if it is not given.
   std::optional<std::string> take(const std::string& key) {
     known_.push_back(key);
     std::optional<std::string> out;
@@ -291,7 +291,7 @@ Material material_argument(const std::string& text) {
 
 namespace {
 
-/// "number" or "NAME=number"; nothing if the text is something else.
+/// "number" or "NAME=number"; nullopt for any other text.
 std::optional<std::pair<std::string, double>> named_number(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   const bool named = equals != std::string::npos;

@@ -1,9 +1,9 @@
 #pragma once
-// How the command line and the provenance of a body write what describes a part. The grammar of a
-// place:
+// Text form of the description of a part, on the command line and in the provenance of a body. The
+// grammar of a place:
 //   NAME=WAY:VALUE[,KEY=VALUE ...]     BALL=set:BALL   EYE=cylinder:0,0,0,axis=z,radius=12,at=0,0,5
-// A piece between commas without '=' belongs to the value before it, so vectors need no brackets
-// and nothing needs quotes in a shell. Lengths are in the units of the file.
+// A piece between commas without '=' belongs to the value before it, so that vectors need no
+// brackets and nothing needs quotes in a shell. Lengths are in the units of the file.
 #include <optional>
 #include <string>
 
@@ -11,13 +11,13 @@
 
 namespace floatframe {
 
-/// How an interface holds its nodes: the words of Spider::Kind.
+/// How an interface is connected to its nodes: the words of Spider::Kind.
 inline constexpr const char* tie_words[] = {"rigid", "mean"};
-/// Body references but `node`: the words of BodyReference::Kind.
+/// Body references except `node`: the words of BodyReference::Kind.
 inline constexpr const char* reference_words[] = {"mean_axis", "buckens"};
 
-/// Directions "all", or pieces such as xyz, x+z or xyz+rz, as a mask: bit 0..5 = ux..rz; nothing if
-/// the text is something else.
+/// Directions "all", or pieces such as xyz, x+z or xyz+rz, as a mask: bit 0..5 = ux..rz; nullopt
+/// for any other text.
 std::optional<unsigned> dofs_of(const std::string& text);
 
 std::string interface_text(const InterfaceDescription& interface);
@@ -26,8 +26,8 @@ std::string material_text(const Material& material);
 /// A density or thickness: "number" or "NAME=number".
 std::string named_number_text(const std::string& name, double number);
 std::string reference_text(const BodyReference& reference);
-/// The texts read again. Each throws InputError with one sentence that names the option and what
-/// was expected.
+/// Parsers of the texts. Each throws InputError with one sentence that names the option and the
+/// expected form.
 InterfaceDescription interface_argument(const std::string& text);
 MarkerDescription marker_argument(const std::string& text);
 /// "young,poisson,density" in the units of the file.

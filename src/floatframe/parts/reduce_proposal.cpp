@@ -29,7 +29,7 @@ struct Candidate {
   std::size_t nodes = 0;
 };
 
-/// Letters, digits, `_` and `-`, so that models, results and shells take it as it is.
+/// Letters, digits, `_` and `-`, so that models, results and shells accept it unchanged.
 std::string plain_name(const std::string& name) {
   std::string out;
   for (const char c : name) {
@@ -50,7 +50,7 @@ InterfaceDescription at_set(const std::string& name) {
   return out;
 }
 
-/// Does the command line read what it shows?
+/// True if the command line can express the interface.
 bool can_be_written(const InterfaceDescription& d) {
   try {
     const InterfaceDescription again = interface_argument(interface_text(d));
@@ -61,11 +61,11 @@ bool can_be_written(const InterfaceDescription& d) {
   }
 }
 
-/// Candidates of the first group, then those of a second one.
+/// Candidates of the first group, then of the second.
 std::vector<Candidate> candidates(const FeModel& model, bool elements) {
   std::vector<Candidate> out;
   const DofTable table = dof_table(model);
-  std::size_t used = 0;  // nodes of the part
+  std::size_t used = 0;  // number of nodes of the part
   for (int k = 0; k < model.nodes(); ++k) used += table.count(k) > 0 ? 1 : 0;
   const auto add = [&](const std::string& name) {
     Candidate c{at_set(name)};
@@ -88,7 +88,7 @@ std::vector<Candidate> candidates(const FeModel& model, bool elements) {
   return out;
 }
 
-/// A copy of the model that gets the interfaces.
+/// A copy of the model to which the interfaces are added.
 class Trial {
  public:
   explicit Trial(const FeModel& model) : model_(model) {}
@@ -107,14 +107,14 @@ class Trial {
     }
     const bool added = model_.positions.size() > nodes;
     const auto known = std::find(nodes_.begin(), nodes_.end(), node);
-    if (known == nodes_.end() && have_own_dofs(node) && moves_something(node)) {
+    if (known == nodes_.end() && have_independent_dofs(node) && moves_something(node)) {
       accepted_.push_back(std::move(d));
       nodes_.push_back(node);
       return true;
     }
     if (added)
-      take_back();
-    else  // it goes on under the name of the first
+      undo();
+    else  // it continues under the name of the first
       model_.node_names[node] = known == nodes_.end() ? "" : accepted_[known - nodes_.begin()].name;
     return false;
   }
@@ -123,8 +123,8 @@ class Trial {
   const FeModel& model() const { return model_; }
 
  private:
-  /// The node, and those accepted before, which a spider of the new interface may have taken.
-  bool have_own_dofs(int node) const {
+  /// False if the spider of the new interface takes dofs of the node or of those accepted before.
+  bool have_independent_dofs(int node) const {
     const DofTable table = dof_table(model_);
     try {
       const DependentDofs dofs = resolve_dependences(model_, table);
@@ -139,7 +139,7 @@ class Trial {
     }
   }
 
-  /// Of the reference of a rigid spider: some node that follows resists every motion of it.
+  /// For the reference of a rigid spider: true if a dependent node resists each of its motions.
   bool moves_something(int node) const {
     const auto without = dofs_without_springs(model_);
     const auto own = [&](int k) { return without[static_cast<std::size_t>(k) + 1]; };
@@ -177,7 +177,7 @@ class Trial {
     });
   }
 
-  void take_back() {
+  void undo() {
     model_.positions.pop_back();
     model_.spiders.pop_back();
     const auto shorten = [&](auto& values) {
@@ -190,7 +190,7 @@ class Trial {
 
   FeModel model_;
   std::vector<InterfaceDescription> accepted_;
-  std::vector<int> nodes_;  ///< of the accepted ones
+  std::vector<int> nodes_;  ///< nodes of the accepted interfaces
   int trials_ = 0;
 };
 
@@ -203,7 +203,7 @@ InterfaceDescription at_node(const FeModel& model, int node, const std::string& 
   return out;
 }
 
-/// Nodes of given matrices that have rotations, if they are few: references of spiders.
+/// Nodes with rotations in given matrices, if they are few: references of spiders.
 std::vector<int> turning_nodes(const FeModel& model) {
   std::vector<int> out;
   if (!model.matrices) return out;
@@ -231,14 +231,14 @@ Trial trial_of(const FeModel& model) {
   return trial;
 }
 
-/// Degrees of freedom that are left for normal modes.
+/// Number of degrees of freedom available for normal modes.
 int inner_dofs(const FeModel& tied, std::size_t interfaces) {
   try {
     const DependentDofs dofs = resolve_dependences(tied, dof_table(tied));
     const auto count = std::count(dofs.dependent.begin(), dofs.dependent.end(), 0);
     return std::max(
         0, static_cast<int>(count) - 6 * static_cast<int>(std::max<std::size_t>(interfaces, 1)));
-  } catch (const InputError&) {  // the reduction says it
+  } catch (const InputError&) {  // reported by the reduction
     return 0;
   }
 }
@@ -254,7 +254,7 @@ std::string obstacle_of(const FeModel& tied) {
   return "";
 }
 
-/// As a shell takes it for one word.
+/// Quoted so that a shell takes it as one word.
 std::string shell_word(const std::string& text) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -293,11 +293,11 @@ std::string command_of(const PartJob& job, const FeModel& model,
   return text;
 }
 
-/// Large models are not tried: what a file holds is to be said before much is computed.
+/// Large models are not tried: the summary of a file must not need much computation.
 constexpr int most_tried_nodes = 600;
 
 /// Reduces a small model with the interfaces; with fewer normal modes if its mass allows no more.
-/// What refuses it for any number of modes; empty if it is accepted.
+/// Returns the error that remains for any number of modes; empty if it is accepted.
 std::string refusal_of(FeModel model, const PartJob& job, const std::string& units,
                        const std::vector<InterfaceDescription>& interfaces, int& modes) {
   if (model.nodes() > most_tried_nodes || (model.materials.empty() && !model.elements.empty()))

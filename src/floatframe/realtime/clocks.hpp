@@ -1,8 +1,8 @@
 #pragma once
-// The two clocks of a paced run, in nanoseconds: CLOCK_MONOTONIC, which nobody sets back, and the
-// processor time of the calling thread. The second one stands still while the host runs something
-// else, so their difference over a step tells preemption from computation. (On a virtual machine
-// time stolen by the hypervisor may count as processor time; only the host can tell.)
+// The two clocks of a paced run, in nanoseconds: CLOCK_MONOTONIC, which is never set back, and the
+// processor time of the calling thread. The latter does not advance while the host runs other work,
+// so their difference over a step separates preemption from computation. (On a virtual machine time
+// stolen by the hypervisor may count as processor time; only the host knows.)
 #include <time.h>
 
 #include "floatframe/core/thread_clock.hpp"

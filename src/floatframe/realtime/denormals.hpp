@@ -1,9 +1,9 @@
 #pragma once
 // Numbers below 2.2e-308 ("denormals") cost a hundred times more to add and multiply on most
-// processors: a decaying mode that reaches them would stall steps for no gain. While a
-// `FlushDenormals` lives, the calling thread takes such operands as zero and returns zero instead
-// of such results (x86-64: DAZ and FTZ; AArch64: FZ; elsewhere nothing happens). The mode belongs
-// to the thread and is put back at the end.
+// processors: a decaying mode that reaches them would slow down steps for no benefit. While a
+// `FlushDenormals` exists, the calling thread treats such operands and results as zero (x86-64: DAZ
+// and FTZ; AArch64: FZ; no effect elsewhere). The mode belongs to the thread and is restored at the
+// end.
 #include <cstdint>
 
 namespace floatframe {

@@ -1,7 +1,7 @@
 #pragma once
-// The values of a model's inputs in one run. A value that is not finite is refused, and so is one
-// outside of its input's limits, unless the input is to be clamped: then the nearer limit takes its
-// place. Of a refused value the last valid one stays. Both are counted by input. Nothing here
+// The values of a model's inputs in one run. A value that is not finite is rejected, and so is one
+// outside the limits of its input, unless the input is clamped: then the nearer limit replaces it.
+// A rejected value leaves the last valid one unchanged. Both are counted per input. Nothing here
 // allocates after construction.
 #include <cmath>
 #include <cstddef>
@@ -23,29 +23,29 @@ class InputBuffer {
   std::size_t size() const noexcept { return values_.size(); }
   std::span<const double> values() const noexcept { return values_; }
 
-  /// One value an input, in the order of the model. False: none of them was finite, as if nothing
-  /// had come.
-  bool accept(std::span<const double> wanted) noexcept {
+  /// One value per input, in the order of the model. False: no value was finite, as if none had
+  /// been received.
+  bool accept(std::span<const double> received) noexcept {
     bool any = values_.empty();
-    for (std::size_t i = 0; i < values_.size() && i < wanted.size(); ++i) {
-      any = any || std::isfinite(wanted[i]);
-      const std::optional<double> value = accepted_value(inputs_[i], wanted[i]);
+    for (std::size_t i = 0; i < values_.size() && i < received.size(); ++i) {
+      any = any || std::isfinite(received[i]);
+      const std::optional<double> value = accepted_value(inputs_[i], received[i]);
       if (!value) {
         ++refused_[i];
         continue;
       }
-      if (*value != wanted[i]) ++clamped_[i];
+      if (*value != received[i]) ++clamped_[i];
       values_[i] = *value;
     }
     return any;
   }
 
-  /// Back to the initial values.
+  /// Restores the initial values.
   void reset() noexcept {
     for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = inputs_[i].initial;
   }
 
-  /// Refused values of an input so far.
+  /// Rejected values of an input so far.
   long refused(std::size_t input) const noexcept { return refused_[input]; }
   /// Values of an input that were replaced by a limit so far.
   long clamped(std::size_t input) const noexcept { return clamped_[input]; }

@@ -8,7 +8,7 @@ InputFilter::InputFilter(std::size_t count, std::uint64_t layout, bool lock_step
                          const UdpAddress& peer)
     : layout_(layout), lock_step_(lock_step), peer_(peer), scratch_(count), newest_(count) {}
 
-bool InputFilter::heard(const UdpAddress& from) const noexcept {
+bool InputFilter::accepts(const UdpAddress& from) const noexcept {
   if (!peer_.known()) return true;
   return peer_.same_host(from) && (peer_.port() == 0 || peer_.port() == from.port());
 }
@@ -26,12 +26,12 @@ void InputFilter::count_other(const UdpAddress& from) noexcept {
 void InputFilter::take(std::span<const std::byte> bytes, std::size_t length,
                        const UdpAddress& from) noexcept {
   ++counts_.received;
-  if (!heard(from)) {
+  if (!accepts(from)) {
     count_other(from);
     return;
   }
   PacketHeader header;
-  // A packet longer than expected was cut: its header still tells whether it is one of ours.
+  // A packet longer than expected was truncated: its header still identifies the protocol.
   PacketError error = decode_packet(bytes, PacketKind::inputs, layout_, header, scratch_);
   if (error == PacketError::none && length > bytes.size()) error = PacketError::layout;
   if (error == PacketError::foreign) {

@@ -1,12 +1,12 @@
 #pragma once
-// Decides which of the packets that come in are inputs of the model, and counts all others. Pure
-// logic without a socket, so that it can be tested and fuzzed.
+// Decides which received packets are inputs of the model, and counts all others. Pure logic without
+// a socket, so that it can be tested and fuzzed.
 //
-// Only one partner is heard, the *peer*: the one that is named, or the sender of the first valid
-// packet. A packet of anybody else is counted with its sender and not looked at, whatever it holds.
+// Packets are accepted from a single address, the *peer*: the one given, or the sender of the first
+// valid packet. A packet from any other sender is counted per sender and not decoded.
 //
-// Free running: of all valid packets since the last step the newest one is used. In lock step only
-// the answer to the last outputs is.
+// Free running: the newest of all valid packets since the last step is used. In lock step only the
+// answer to the last outputs is used.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,19 +18,19 @@
 
 namespace floatframe {
 
-/// What came; every packet is in one of the six numbers below `received`.
+/// Counts of received packets; every packet is in one of the six numbers below `received`.
 struct InputCounts {
   long received = 0;
-  long used = 0;         ///< handed over
-  long superseded = 0;   ///< valid, but a newer one came before the step
-  long stale = 0;        ///< answers older outputs than one that was used before
+  long used = 0;         ///< passed to the model
+  long superseded = 0;   ///< valid, but a newer one arrived before the step
+  long stale = 0;        ///< answers older outputs than a packet already used
   long foreign = 0;      ///< not a packet of inputs in this protocol and version
   long mismatched = 0;   ///< another layout: hash, count or length
-  long other = 0;        ///< from somebody else than the peer
-  long largest_age = 0;  ///< steps between the outputs and the inputs that answer them
+  long other = 0;        ///< from a sender other than the peer
+  long largest_age = 0;  ///< steps between outputs and the inputs answering them
 };
 
-/// Somebody who is not the peer.
+/// A sender that is not the peer.
 struct OtherSender {
   UdpAddress address;
   long packets = 0;
@@ -38,30 +38,30 @@ struct OtherSender {
 
 class InputFilter {
  public:
-  /// Senders listed by address; packets of further ones are in `InputCounts::other` only.
+  /// Number of senders listed by address; packets of others count in `InputCounts::other` only.
   static constexpr std::size_t most_senders = 8;
 
-  /// `count` values in packets of the layout `layout`. `peer`: the one who is heard, any port if
-  /// its port is 0; without an address the sender of the first valid packet.
+  /// `count` values in packets of the layout `layout`. `peer`: the accepted sender, with any port
+  /// if its port is 0; without an address, the sender of the first valid packet.
   InputFilter(std::size_t count, std::uint64_t layout, bool lock_step, const UdpAddress& peer);
 
-  /// A packet of `length` bytes, of which `bytes` are the first ones (all, if it is not too long).
+  /// A packet of `length` bytes; `bytes` are the first ones (all, if it is not too long).
   void take(std::span<const std::byte> bytes, std::size_t length, const UdpAddress& from) noexcept;
 
-  /// True if there are inputs that have not been handed over yet.
+  /// True if there are inputs that were not yet passed to the model.
   bool fresh() const noexcept { return fresh_; }
-  /// The inputs to use; ends `fresh`.
+  /// The inputs to use; resets `fresh`.
   std::span<const double> hand_over() noexcept;
-  /// The outputs of step `step` have been sent: answers to them are the newest there can be.
+  /// The outputs of step `step` have been sent: inputs can answer these at the latest.
   void outputs_sent(std::uint64_t step) noexcept { last_sent_ = step; }
 
   const InputCounts& counts() const noexcept { return counts_; }
-  /// Without an address: nobody has been heard yet and nobody was named.
+  /// No address: none was given and no packet accepted yet.
   const UdpAddress& peer() const noexcept { return peer_; }
   std::span<const OtherSender> others() const noexcept { return std::span(others_).first(listed_); }
 
  private:
-  bool heard(const UdpAddress& from) const noexcept;
+  bool accepts(const UdpAddress& from) const noexcept;
   void count_other(const UdpAddress& from) noexcept;
 
   std::uint64_t layout_;

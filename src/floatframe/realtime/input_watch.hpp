@@ -1,6 +1,6 @@
 #pragma once
-// Watches whether inputs keep coming. A partner that falls silent is an event with a beginning, the
-// last step that took inputs, and an end; the first ones are kept for the report.
+// Detects interruptions of the inputs. A silence has a beginning, the last step that received
+// inputs, and an end; the first ones are recorded in the report.
 #include <cmath>
 #include <limits>
 
@@ -10,25 +10,25 @@ namespace floatframe {
 
 class InputWatch {
  public:
-  /// `step` [s]. `listening`: there are inputs and somebody who may send them.
+  /// `step` [s]. `listening`: there are inputs and a port that can receive them.
   InputWatch(const RealTimeOptions& options, double step, bool listening, RealTimeReport& report)
       : since_(options.silent_since),
-        patience_(listening && options.input_timeout > 0.0
-                      ? std::max(1L, std::lround(std::min(options.input_timeout / step, 1e15)))
-                      : std::numeric_limits<long>::max()),
+        timeout_(listening && options.input_timeout > 0.0
+                     ? std::max(1L, std::lround(std::min(options.input_timeout / step, 1e15)))
+                     : std::numeric_limits<long>::max()),
         report_(report) {}
 
-  /// Inputs came for the step that begins at `time` [s].
-  void came(double time) noexcept {
+  /// Inputs were received for the step that begins at `time` [s].
+  void received(double time) noexcept {
     if (silent_) end(time, true);
     without_ = 0;
     last_ = report_.last_inputs = time;
     report_.inputs_came = true;
   }
 
-  /// No inputs came for a step. True at the one with which the silence begins.
+  /// No inputs were received for a step. True at the one with which the silence begins.
   bool missed() noexcept {
-    if (++without_ != patience_) return false;
+    if (++without_ != timeout_) return false;
     silent_ = true;
     ++report_.input_timeouts;
     if (since_ != nullptr) since_->store(last_, std::memory_order_relaxed);
@@ -45,12 +45,12 @@ class InputWatch {
     const std::size_t k = report_.input_timeouts - 1;
     if (k < report_.silences.size()) report_.silences[k] = {last_, time, came_again};
     silent_ = false;
-    // A silence that lasts to the end is not over.
+    // A silence that lasts to the end of the run is not ended.
     if (came_again && since_ != nullptr) since_->store(-1.0, std::memory_order_relaxed);
   }
 
   std::atomic<double>* since_;
-  long patience_, without_ = 0;
+  long timeout_, without_ = 0;
   double last_ = 0.0;
   bool silent_ = false;
   RealTimeReport& report_;

@@ -11,7 +11,7 @@ namespace {
 constexpr char magic[4] = {'F', 'F', 'R', 'T'};
 constexpr std::uint16_t version = 1;
 
-// Byte by byte: the same on machines of either byte order; compilers make one move of it.
+// Byte by byte: independent of the byte order of the machine; compiles to a single move.
 template <class T>
 void put(std::byte* at, T value) noexcept {
   for (std::size_t i = 0; i < sizeof(T); ++i) at[i] = static_cast<std::byte>(value >> (8 * i));

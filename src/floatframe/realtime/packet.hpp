@@ -1,6 +1,6 @@
 #pragma once
 // The packets that a paced model exchanges with controllers and test rigs. All numbers are little
-// endian, whatever the machine:
+// endian on any machine:
 //
 //   offset  bytes  field
 //        0      4  magic "FFRT"
@@ -15,7 +15,7 @@
 //
 // A packet is exactly 40 + 8 count bytes long. Outputs: the sequence number is the number of the
 // step they follow (0: the start), the time is that of the model. Inputs: the sequence number is
-// that of the outputs they answer, or 0 if they answer none; their time is not looked at.
+// that of the outputs they answer, or 0 if they answer none; their time is ignored.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,7 +42,7 @@ SignalLayout output_layout(const Model& model);
 enum class PacketKind : std::uint16_t { inputs = 1, outputs = 2 };
 
 inline constexpr std::size_t packet_header_size = 40;
-inline constexpr std::size_t largest_packet = 65507;  ///< what UDP over IPv4 carries
+inline constexpr std::size_t largest_packet = 65507;  ///< limit of UDP over IPv4
 inline constexpr std::size_t largest_count = (largest_packet - packet_header_size) / 8;
 inline constexpr std::uint32_t last_packet_flag = 1;
 
@@ -57,16 +57,16 @@ struct PacketHeader {
   std::uint32_t flags = 0;
 };
 
-/// Writes packet_size(values.size()) bytes to `out`, which must hold them.
+/// Writes packet_size(values.size()) bytes to `out`, which must have that size.
 void encode_packet(const PacketHeader& header, std::span<const double> values,
                    std::span<std::byte> out) noexcept;
 
-/// foreign: not a packet of this protocol, version and direction. layout: it is one, but its hash,
-/// count or length is not that of this model.
+/// foreign: not a packet of this protocol, version and direction. layout: valid, but with a hash,
+/// count or length of another model.
 enum class PacketError { none, foreign, layout };
 
-/// Checks everything and reads the values; `values` sets the count that is expected and is
-/// untouched unless the packet is good.
+/// Checks everything and reads the values; the size of `values` is the expected count, and its
+/// contents change only if the packet is valid.
 PacketError decode_packet(std::span<const std::byte> bytes, PacketKind kind, std::uint64_t layout,
                           PacketHeader& header, std::span<double> values) noexcept;
 

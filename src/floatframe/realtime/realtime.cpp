@@ -14,7 +14,7 @@
 namespace floatframe {
 namespace {
 
-/// A step may be divided into few parts only, or into none: its work is bounded.
+/// A step may be divided into few parts only, or not at all, to bound its work.
 StepLimits limits(const SimulationDescription& d, const RealTimeOptions& options) {
   constexpr double smallest_part = 0.125;
   StepLimits l;
@@ -26,8 +26,8 @@ StepLimits limits(const SimulationDescription& d, const RealTimeOptions& options
   return l;
 }
 
-/// A few steps of a second system of the same kind: program pages are mapped, calls into libraries
-/// are resolved, caches and branch predictors know the code. Nothing of it touches the run.
+/// A few steps of a second system of the same kind, so that program pages are mapped, library calls
+/// are resolved, and caches and branch predictors are warm. The run itself is not affected.
 template <class F>
 void warm_up(const SteppedModel<F>& model) {
   SteppedModel<F> second(model, 20.0 * model.grid().step());
@@ -37,7 +37,7 @@ void warm_up(const SteppedModel<F>& model) {
   RealTimeRunner<F> runner(second, options, nullptr, report);
   runner.run();
   runner.sample();
-  // Inputs that jump ask for more: a step with others.
+  // Inputs that jump require more work: also one step with different inputs.
   const std::span<const double> inputs = second.formulation().inputs();
   std::vector<double> moved(inputs.begin(), inputs.end());
   if (moved.empty()) return;

@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// The step and the duration with a clock; they are valid by themselves.
+/// Checks step and duration against the range of the clock; both are valid by themselves.
 void check_clock(const RealTimeOptions& o, const SimulationDescription& s, ErrorList& errors) {
   namespace rules = realtime_rules;
   if (o.paced && !(s.step >= rules::shortest_step && s.step <= rules::longest_step))

@@ -1,6 +1,6 @@
 #pragma once
-// The loop of a paced run, for any formulation; see realtime.hpp for what it does. All memory is
-// taken by the constructor: `run` neither allocates, locks, prints nor throws.
+// The loop of a paced run, for any formulation; see realtime.hpp for its behaviour. The constructor
+// allocates all memory: `run` does not allocate, lock, print or throw.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace floatframe {
 template <class F>
 class RealTimeRunner {
  public:
-  /// Makes the steps of the grid of `model`; `report` is filled by `run`.
+  /// Steps the time grid of `model`; `report` is filled by `run`.
   RealTimeRunner(SteppedModel<F>& model, const RealTimeOptions& options, SignalPort* port,
                  RealTimeReport& report)
       : f_(model.formulation()),
@@ -32,11 +32,11 @@ class RealTimeRunner {
         row_(model.model().outputs.size() + 1, 0.0),
         report_(report) {}
 
-  /// Looks at the start and after every step whose end the formulation holds, else at two steps of
-  /// every `watch_every`. What it finds is read after `run`.
+  /// Checks the start and every step whose end state is already evaluated, else two steps of every
+  /// `watch_every`. The results are read after `run`.
   void watched_by(MotionWatch<F>& watch) noexcept { watch_ = &watch; }
   const InputBuffer& inputs() const noexcept { return inputs_; }
-  /// Time and outputs at the present state.
+  /// Time and outputs at the current state.
   std::span<const double> sample() noexcept {
     steps_.sample(row_.data());
     return row_;
@@ -63,8 +63,8 @@ class RealTimeRunner {
   }
 
  private:
-  /// Evaluating the end of a step once more costs some per cent of a step. A number of steps that
-  /// hardly any vibration of four or five steps fits into.
+  /// Evaluating the end of a step again costs a few per cent of a step. The number is not a
+  /// multiple of a vibration period of four or five steps.
   static constexpr long watch_every = 17;
 
   static rusage usage() noexcept {
@@ -133,7 +133,7 @@ class RealTimeRunner {
     due = base_ + std::llround(static_cast<double>(k) * h);
     const Nanoseconds lag = wall_clock() - due;
     if (lag < 0) {
-      // A signal ends the sleep early: it either stops the run or means nothing.
+      // A signal ends the sleep early: it either stops the run or is ignored.
       while (!sleep_until(due) && !stopped()) {
       }
       if (stopped()) return false;
@@ -147,10 +147,10 @@ class RealTimeRunner {
     return true;
   }
 
-  /// Inputs that have come, or what is done without. False: the run ends for it.
+  /// Applies received inputs, or the fallback. False: the fallback ends the run.
   bool take_inputs(InputWatch& watch) noexcept {
     if (port_ != nullptr && port_->receive(inputs_)) {
-      watch.came(steps_.state().t);
+      watch.received(steps_.state().t);
       f_.set_inputs(inputs_.values());
     } else if (watch.missed()) {
       if (options_.fallback == SilenceFallback::stop && report_.inputs_came) return false;
@@ -188,10 +188,10 @@ class RealTimeRunner {
     watch_->start(steps_.state());
   }
 
-  /// After the outputs are gone: nobody waits for it. Phases are those of one step.
+  /// Called after the outputs are sent, off the critical path. Phases are those of one step.
   void watch_step(long step, bool evaluated, bool full) noexcept {
     if (watch_ == nullptr) return;
-    // A step with constraints leaves positions and velocities of its end behind.
+    // A step with constraints leaves the positions and velocities of its end evaluated.
     const bool held = evaluated || f_.constraints() > 0;
     const long turn = held ? 1 : step % watch_every;
     if (turn > 1) return;
@@ -209,7 +209,7 @@ class RealTimeRunner {
     f_.velocities(state.v);
   }
 
-  /// Outputs to the port and, once for each state, inputs and outputs to the log. True: sampled.
+  /// Outputs to the port and, once per state, inputs and outputs to the log. True: sampled.
   bool send(std::uint64_t step, bool last) noexcept {
     const bool wanted = port_ != nullptr && port_->wants_outputs();
     const bool logged = options_.log != nullptr && step == next_logged_;

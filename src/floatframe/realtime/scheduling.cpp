@@ -14,7 +14,7 @@
 namespace floatframe {
 namespace {
 
-/// Pages of the stack that the steps will use are mapped now, not in the first step.
+/// Maps the stack pages used by the steps now instead of in the first step.
 void touch_stack() noexcept {
   volatile char stack[256 * 1024];
   for (std::size_t i = 0; i < sizeof stack; i += 1024) stack[i] = 0;

@@ -1,22 +1,22 @@
 #pragma once
-// How the operating system treats the stepping thread, asked for while a `RealTimeScheduling` lives
-// and put back at its end:
+// Scheduling of the stepping thread by the operating system, set while a `RealTimeScheduling`
+// exists and restored at its end:
 //   priority     SCHED_FIFO: nothing of normal priority runs on its processor while it computes
 //   lock_memory  all pages of the process stay in memory, and its stack is touched beforehand
 //   timer slack  1 ns instead of 50 us, so that a thread of normal priority wakes on time too
-// What the system does not permit is said in `refusals`, and the run goes on without.
+// Settings not permitted by the system are listed in `refusals`; the run continues without.
 #include <string>
 #include <vector>
 
 namespace floatframe {
 
 struct SchedulingRequest {
-  int priority = 0;  ///< 1 to 99: SCHED_FIFO; 0: as it is
+  int priority = 0;  ///< 1 to 99: SCHED_FIFO; 0: unchanged
   bool lock_memory = false;
 };
 
 /// Time that the host has taken from all processors of this virtual machine since it started [s]; 0
-/// if the system does not tell.
+/// if the system does not report it.
 double stolen_time();
 
 class RealTimeScheduling {
@@ -26,7 +26,7 @@ class RealTimeScheduling {
   RealTimeScheduling(const RealTimeScheduling&) = delete;
   RealTimeScheduling& operator=(const RealTimeScheduling&) = delete;
 
-  /// What was asked for and refused, a sentence each; empty if all was granted.
+  /// Settings that were not granted, one sentence each; empty if all were granted.
   const std::vector<std::string>& refusals() const noexcept { return refusals_; }
   bool has_priority() const noexcept { return priority_set_; }
   bool memory_locked() const noexcept { return locked_; }

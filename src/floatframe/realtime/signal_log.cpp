@@ -20,7 +20,7 @@
 namespace floatframe {
 namespace {
 
-/// Memory of the ring: seconds of a fast model, whatever the disk does meanwhile.
+/// Size of the ring: seconds of a fast model, to bridge delays of the disk.
 constexpr std::size_t ring_numbers = 1 << 20;
 constexpr std::size_t fewest_rows = 64;
 
@@ -39,8 +39,8 @@ SignalLog::SignalLog(const Model& model, const std::string& path, bool wait)
       width_(1 + model.inputs.size() + model.outputs.size()),
       capacity_(std::max(fewest_rows, ring_numbers / width_)),
       ring_(capacity_ * width_, 0.0) {
-  // A pipe that nobody reads is an error, not a wait without end. What is open already is written
-  // into where it stands; a log that is there stays until there is a first row of the new one.
+  // A pipe without a reader is an error instead of an endless wait. An open file is written at its
+  // current position; an existing log is kept until the first row of the new one.
   const OutputPlace place = output_place(path);
   descriptor_ = place.descriptor >= 0
                     ? fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0)
@@ -86,7 +86,7 @@ void SignalLog::finish() {
 }
 
 void SignalLog::loop() {
-  // A reader that goes away is an error of `write`, not the end of the program.
+  // A reader that closes the pipe is an error of `write`, not the end of the program.
   sigset_t pipe;
   sigemptyset(&pipe);
   sigaddset(&pipe, SIGPIPE);

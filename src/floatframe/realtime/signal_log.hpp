@@ -1,8 +1,8 @@
 #pragma once
 // Inputs and outputs of every step, written to a file while the model runs: comma-separated values
 // with one header line, `time [s],input.push [N],...,x [m],...`, 17 digits. The stepping thread
-// only puts a row into a ring; another thread writes it and hands it to the system every 50 ms, so
-// that the file can be followed, and all but the last rows survive if the program is killed.
+// only puts a row into a ring; another thread writes it to the system every 50 ms, so that the file
+// can be followed, and all but the last rows survive if the program is killed.
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -18,24 +18,24 @@ namespace floatframe {
 
 class SignalLog {
  public:
-  /// Opens the file and writes its header. `wait`: a full ring makes `push` wait (runs that nobody
-  /// paces), otherwise the row is lost and counted. Throws OutputError.
+  /// Opens the file and writes its header. `wait`: a full ring makes `push` wait (unpaced runs),
+  /// otherwise the row is lost and counted. Throws OutputError.
   SignalLog(const Model& model, const std::string& path, bool wait);
-  /// Writes what is there.
+  /// Writes the remaining rows.
   ~SignalLog();
   SignalLog(const SignalLog&) = delete;
   SignalLog& operator=(const SignalLog&) = delete;
 
-  /// The outputs at `time` [s] and the inputs of the step that led there. Neither allocates nor
-  /// locks; called by one thread.
+  /// The outputs at `time` [s] and the inputs of the step that led to them. Does not allocate or
+  /// lock; must be called from a single thread.
   void push(double time, std::span<const double> inputs, std::span<const double> outputs) noexcept;
 
   /// Writes all rows and closes the file.
   void finish();
 
   // After `finish`:
-  long rows() const noexcept { return rows_; }  ///< handed to the system
-  /// Rows that found no room, or that the system did not take.
+  long rows() const noexcept { return rows_; }  ///< written to the system
+  /// Rows lost because the ring was full or the system failed to write them.
   long lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
   /// The first error of the system while writing; 0: none.
   int error() const noexcept { return error_; }
@@ -54,7 +54,7 @@ class SignalLog {
   std::string text_;
   long rows_ = 0;
   int error_ = 0;
-  bool replaces_ = false;  ///< an earlier file, which the first row empties
+  bool replaces_ = false;  ///< an existing file, truncated by the first row
   std::mutex mutex_;
   std::condition_variable ended_;
   bool end_ = false;

@@ -22,7 +22,7 @@ const sockaddr_in6* ipv6(const UdpAddress& a) noexcept {
   return reinterpret_cast<const sockaddr_in6*>(&a.storage);
 }
 
-/// 16 bytes, IPv4 in its form within IPv6.
+/// 16 bytes, IPv4 as an IPv4-mapped IPv6 address.
 std::array<unsigned char, 16> host_bytes(const UdpAddress& a) noexcept {
   std::array<unsigned char, 16> bytes{};
   if (a.family() == AF_INET6) {
@@ -58,7 +58,7 @@ UdpAddress resolve(const std::string& host, const std::string& port, const std::
   return address;
 }
 
-/// "HOST:PORT" or "[HOST]:PORT" in its two parts; false if it is not of that form.
+/// Splits "HOST:PORT" or "[HOST]:PORT"; false for any other form.
 bool split(const std::string& text, std::string& host, std::string& port) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos) return false;
@@ -108,7 +108,7 @@ UdpAddress parse_udp_address(const std::string& text, const std::string& option)
 
 UdpAddress parse_udp_peer(const std::string& text, const std::string& option) {
   std::string host, port;
-  // A host alone is one that becomes right with any port.
+  // A host without a port is valid if it is valid with a port appended.
   if (!split(text, host, port) && !split(text + ":0", host, port))
     throw InputError(
         ErrorCode::wrong_value,
@@ -120,7 +120,7 @@ UdpAddress parse_udp_peer(const std::string& text, const std::string& option) {
 UdpAddress local_address_towards(const UdpAddress& to, const std::string& option) {
   UdpAddress local;
   local.size = sizeof local.storage;
-  // Connecting a UDP socket sends nothing: the system only looks for the way.
+  // Connecting a UDP socket sends nothing: the system only selects the route.
   const int probe = socket(to.family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
   const bool found =
       probe >= 0 && connect(probe, reinterpret_cast<const sockaddr*>(&to.storage), to.size) == 0 &&

@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-/// Packets looked at in one step at most: a flood must not stop the model.
+/// Limit of packets read in one step: a flood must not stop the model.
 constexpr int most_packets = 256;
 
 }  // namespace
@@ -62,7 +62,7 @@ bool UdpPort::wait() noexcept {
   Nanoseconds resend = wall_clock() + resend_after;
   while (!drain()) {
     const Nanoseconds now = wall_clock();
-    if (stopped()) return true;  // the runner sees it too
+    if (stopped()) return true;  // the runner checks it too
     if (now >= until) return false;
     if (now >= resend) {
       transmit();

@@ -1,13 +1,13 @@
 #pragma once
 // Inputs and outputs of a paced model as UDP packets (packet.hpp), through one socket, so that a
-// controller may simply answer the address that the outputs come from.
+// controller can simply reply to the source address of the outputs.
 //
-// Free running: of all packets that have come since the last step the newest counts; nothing ever
-// waits. In lock step the model waits before each step for the inputs that answer its last outputs,
-// and sends these again every 0.1 s: either side may be started first, no packet is lost for good,
-// and a run with a deterministic controller gives the same results each time.
+// Free running: the newest of all packets received since the last step is used; nothing ever waits.
+// In lock step the model waits before each step for the inputs that answer its last outputs, and
+// repeats these every 0.1 s: either side may be started first, lost packets are sent again, and a
+// run with a deterministic controller gives the same results each time.
 //
-// Which packets are inputs, and of whom, is decided by input_filter.hpp.
+// input_filter.hpp decides which packets are inputs, and from which sender.
 #include <atomic>
 #include <vector>
 
@@ -20,24 +20,24 @@ namespace floatframe {
 
 struct UdpPortOptions {
   bool inputs = false, outputs = false;
-  UdpAddress listen;  ///< where inputs come in
-  UdpAddress send;    ///< where outputs go to
-  /// The only one who is heard; port 0: whatever the port. Without an address: the sender of the
-  /// first valid packet.
+  UdpAddress listen;  ///< local address for inputs
+  UdpAddress send;    ///< destination of outputs
+  /// The only accepted sender; port 0: any port. Without an address: the sender of the first valid
+  /// packet.
   UdpAddress peer;
   bool lock_step = false;
   double timeout = 5.0;  ///< lock step: longest wait for the inputs of a step [s]
   const std::atomic<bool>* stop = nullptr;  ///< ends a wait
 };
 
-/// What came, and what went.
+/// Numbers of packets received and sent.
 struct UdpCounts : InputCounts {
   long sent = 0, send_errors = 0, repeated = 0;
 };
 
 class UdpPort final : public SignalPort {
  public:
-  /// Throws RunError if the address is taken, InputError if the packets would be too large.
+  /// Throws RunError if the address is in use, InputError if the packets would be too large.
   UdpPort(const Model& model, const UdpPortOptions& options);
 
   bool wait() noexcept override;
@@ -48,16 +48,16 @@ class UdpPort final : public SignalPort {
   bool gives_inputs() const noexcept override { return options_.inputs; }
 
   UdpCounts counts() const noexcept;
-  /// Who is heard; without an address if nobody was named and nobody has been heard yet.
+  /// The accepted sender; without an address if none was given and no packet accepted yet.
   const UdpAddress& peer() const noexcept { return filter_.peer(); }
-  /// Who else has sent something, the first of them.
+  /// The first other senders of packets.
   std::span<const OtherSender> other_senders() const noexcept { return filter_.others(); }
   UdpAddress local() const { return socket_.local(); }
-  /// The system's error of the last packet that could not be sent; 0: none.
+  /// The system's error for the last packet that could not be sent; 0: none.
   int send_error() const noexcept { return send_error_; }
 
  private:
-  /// Reads all packets that are there; true if there are inputs to use.
+  /// Reads all pending packets; true if there are inputs to use.
   bool drain() noexcept;
   bool stopped() const noexcept {
     return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);

@@ -49,8 +49,8 @@ long UdpSocket::receive(std::span<std::byte> out, UdpAddress& from) noexcept {
 }
 
 long UdpSocket::receive(std::span<std::byte> out) noexcept {
-  UdpAddress anybody;
-  return receive(out, anybody);
+  UdpAddress any_sender;
+  return receive(out, any_sender);
 }
 
 int UdpSocket::send(const UdpAddress& to, std::span<const std::byte> bytes) noexcept {

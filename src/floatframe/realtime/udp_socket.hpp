@@ -1,6 +1,6 @@
 #pragma once
-// A non-blocking UDP socket, IPv4 or IPv6. Making one may throw and allocate; sending and receiving
-// never do.
+// A non-blocking UDP socket, IPv4 or IPv6. Construction may throw and allocate; sending and
+// receiving never do.
 #include <cstddef>
 #include <span>
 
@@ -10,7 +10,7 @@ namespace floatframe {
 
 class UdpSocket {
  public:
-  /// Bound to `local`; port 0: the system chooses one. Throws RunError if it is taken.
+  /// Bound to `local`; port 0: the system chooses one. Throws RunError if it is in use.
   explicit UdpSocket(const UdpAddress& local);
   ~UdpSocket();
   UdpSocket(const UdpSocket&) = delete;
@@ -19,15 +19,15 @@ class UdpSocket {
   /// The address it is bound to.
   UdpAddress local() const;
 
-  /// Length of the next packet, even if it is longer than `out`, which then holds its beginning;
-  /// -1: there is none. `from`: who sent it.
+  /// Length of the next packet, even if it exceeds `out`, which then contains its beginning; -1:
+  /// there is none. `from`: the sender.
   long receive(std::span<std::byte> out, UdpAddress& from) noexcept;
   long receive(std::span<std::byte> out) noexcept;
 
   /// 0, or the system's error number.
   int send(const UdpAddress& to, std::span<const std::byte> bytes) noexcept;
 
-  /// Waits until there is a packet, at most so long. False: none came, or a signal did.
+  /// Waits for a packet, at most the given time. False: none arrived, or a signal did.
   bool wait(double seconds) noexcept;
 
  private:

@@ -20,7 +20,7 @@ struct WhirlStyle {
   const char* kind;
   const char* css;
 };
-/// Colours that colour-blind readers tell apart, and dashes.
+/// Colours that colour-blind readers can distinguish, and dash patterns.
 constexpr std::array<WhirlStyle, 6> whirl_styles{{
     {"forward", "stroke:#0072b2"},
     {"backward", "stroke:#d55e00;stroke-dasharray:9 4"},
@@ -48,7 +48,7 @@ struct CampbellFrame {
   }
 };
 
-/// Up to the fastest order or the lowest line, whichever is higher, with room above.
+/// The highest order or the lowest line, whichever is higher, plus a margin.
 double highest_frequency(const CampbellOptions& o, const CampbellDiagram& d) {
   const double order = *std::max_element(o.orders.begin(), o.orders.end());
   const double speed = std::max(std::abs(d.speeds.front()), std::abs(d.speeds.back()));
@@ -114,16 +114,16 @@ void draw_line(Out out, const CampbellFrame& f, const CampbellDiagram& d, std::s
   const CampbellLine& line = d.lines[index];
   fmt::format_to(out, "<path class=\"line\" clip-path=\"url(#inside)\" style=\"{}\" d=\"",
                  style_of(line.kind).css);
-  bool pen_down = false;
-  std::size_t last = 0;  // where it is known
+  bool connected = false;
+  std::size_t last = 0;  // last speed at which it is known
   for (std::size_t k = 0; k < d.speeds.size(); ++k) {
     const bool known = line.points[k].known();
     if (known) {
-      fmt::format_to(out, "{}{:.1f} {:.1f}", pen_down ? "L" : "M", f.x(d.speeds[k]),
+      fmt::format_to(out, "{}{:.1f} {:.1f}", connected ? "L" : "M", f.x(d.speeds[k]),
                      f.y(line.points[k].frequency()));
       last = k;
     }
-    pen_down = known;
+    connected = known;
   }
   fmt::format_to(out, "\"><title>mode {}, {}</title></path>\n", index + 1, line.kind);
   for (const InstabilityOnset& u : d.unstable) {

@@ -1,6 +1,6 @@
 #pragma once
-// A Campbell diagram as an SVG file: frequency over speed, lines by the way they whirl (colour and
-// dashes), the orders of the speed, circles at critical speeds, thick where unstable.
+// A Campbell diagram as an SVG file: frequency over speed, lines by whirl direction (colour and
+// dashes), the orders of the speed, circles at critical speeds, thick lines where unstable.
 #include <string>
 
 #include "floatframe/simulation/campbell.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// The page of a model before it is run, for the viewer (viewer/README.md): its bodies, joints, axes
-// and forces in the configuration that a run starts from.
+// The page of a model before a run, for the viewer (viewer/README.md): its bodies, joints, axes and
+// forces in the start configuration of a run.
 #include <string>
 #include <vector>
 
@@ -10,19 +10,19 @@
 
 namespace floatframe {
 
-/// Where a run of the model begins, and what is said of it.
+/// The start state of a run of the model, with notes.
 struct CheckedStart {
   SystemState state{};  ///< without bodies: the design configuration
   std::vector<std::string> notes;
   std::vector<FactTable> facts;
-  std::vector<PageTable> tables;  ///< of the model; those of joints and forces are added
-  std::string failure;            ///< why a run cannot start
+  std::vector<PageTable> tables;  ///< of the model; tables of joints and forces are added
+  std::string failure;            ///< reason why a run cannot start
 };
 
-/// Needs a program that was built with the viewer.
+/// Requires a program built with the viewer.
 std::string check_page(const Model& model, const CheckedStart& start);
 
-/// Throws InputError, which names the option, if the program was built without the viewer.
+/// Throws InputError with the name of the option if the program was built without the viewer.
 void require_page(const std::string& option);
 
 }  // namespace floatframe

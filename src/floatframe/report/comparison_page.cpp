@@ -18,13 +18,13 @@ Json by_name(const Json& curves) {
   return out;
 }
 
-/// A channel with its curves of both; a kind of its own gives it a plot of its own.
+/// A channel with the curves of both results; a distinct kind gives it a separate plot.
 Json both_curves(const ComparedResults& r, const ChannelDifference& d, Json channel,
                  const Json& other) {
   channel["kind"] = d.name;
   if (d.largest == 0.0 && channel["constant"].get<bool>()) return channel;
   channel["constant"] = false;
-  // Rounding in the one may be a signal in the other.
+  // A channel that is rounding noise in one result may be a signal in the other.
   channel["noise"] = channel["noise"].get<bool>() && other["noise"].get<bool>();
   channel["other"] = other["data"];
   channel["other_offset"] = other["offset"];

@@ -13,28 +13,27 @@ namespace floatframe {
 struct ComparedResults {
   std::string file_a, file_b;
   ResultsComparison comparison;
-  std::optional<ComparisonTolerance> tolerance;  ///< none: differences are shown, not judged
+  std::optional<ComparisonTolerance> tolerance;  ///< none: differences are shown without a verdict
   bool overlap = false;                          ///< spans may differ
 };
 
-/// What keeps two results from agreeing, a sentence each; nothing without a tolerance.
+/// The reasons why two results disagree, one sentence each; none without a tolerance.
 std::vector<std::string> disagreements(const ComparedResults& results);
 
-/// Beyond the tolerance, if there is one.
+/// True if the difference exceeds the tolerance; false without one.
 bool beyond(const ComparedResults& results, const ChannelDifference& difference);
-/// Largest difference for its size first. Channels that are rounding beside others of their unit
-/// would lead all others.
+/// Largest relative difference first, except channels that are rounding noise compared with others
+/// of the same unit, which would come first otherwise.
 std::vector<const ChannelDifference*> worst_first(const ResultsComparison& comparison);
 /// "2 of 31 channels at 801 instants beyond 1e-06 of the size"
 std::string comparison_verdict(const ComparedResults& results);
-/// What is not a difference but must be known to read the figures.
+/// Remarks needed to interpret the figures, apart from differences.
 std::vector<std::string> comparison_notes(const ComparedResults& results);
 
 std::string comparison_text(const ComparedResults& results);
 std::string comparison_json(const ComparedResults& results);
-/// The curves of both over each other, a plot for each channel that was compared, the largest
-/// difference for its size first. `a` and `b`: curves of the two files. Needs a template of the
-/// viewer.
+/// A page with one plot per compared channel, both curves superimposed, the largest relative
+/// difference first. `a` and `b`: curves of the two files. Requires the viewer template.
 std::string comparison_page(const ComparedResults& results, const PageCurves& a,
                             const PageCurves& b, const std::string& software);
 

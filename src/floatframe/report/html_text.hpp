@@ -1,5 +1,5 @@
 #pragma once
-// User text inside HTML and SVG: &, <, >, ", ' are escaped, control characters and broken UTF-8
+// User text inside HTML and SVG: &, <, >, ", ' are escaped, control characters and invalid UTF-8
 // become U+FFFD.
 #include <string>
 #include <string_view>

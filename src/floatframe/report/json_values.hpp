@@ -1,5 +1,5 @@
 #pragma once
-// What the JSON of several results shares (RFC 8259). SI units; the unit is in the key where it is
+// JSON helpers shared by several results (RFC 8259). SI units; the unit is in the key where it is
 // not obvious. A number that is not finite becomes null.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace floatframe {
 
-/// A document, with a line break at its end. Text from files may hold bytes that are not UTF-8:
-/// they are replaced, never an error.
+/// A document, with a line break at its end. Bytes that are not valid UTF-8 (text from files) are
+/// replaced and cause no error.
 std::string json_document(const nlohmann::ordered_json& value);
 
-/// [x, y, z]; of a matrix its rows.
+/// [x, y, z]; for a matrix its rows.
 nlohmann::ordered_json json_array(const VecX& v);
 nlohmann::ordered_json json_rows(const MatX& m);
 

@@ -14,8 +14,8 @@ namespace floatframe {
 namespace {
 
 constexpr double sheet_width = 900, sheet_left = 92, sheet_right = 24, sheet_top = 44;
-constexpr double tall = 270, flat = 170;  ///< heights of panels: logarithmic, degrees
-constexpr double above = 46, below = 44;  ///< of a panel: title and legend; x axis
+constexpr double log_height = 270, degree_height = 170;  ///< of panels
+constexpr double above = 46, below = 44;  ///< margins of a panel: title and legend; x axis
 constexpr const char* sheet_style = R"css(
 text { font: 13px system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; fill: #59636e; }
 .sheet { fill: #ffffff; } .name { font-size: 18px; fill: #1c2126; }
@@ -28,12 +28,12 @@ text { font: 13px system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; fill
 )css";
 
 struct Tick {
-  double at;  ///< on the axis: of the value, or of its logarithm
+  double at;  ///< axis coordinate: the value or its logarithm
   std::string label;
   bool fine = false;
 };
 
-/// Values to the picture.
+/// Maps axis coordinates to the picture.
 struct Span {
   double low, high, from, to;
   double operator()(double v) const { return from + (v - low) / (high - low) * (to - from); }
@@ -44,7 +44,7 @@ std::string power_label(int exponent) {
   return fmt::format("10<tspan dy=\"-5\" font-size=\"10\">{}</tspan>", exponent);
 }
 
-/// Of an axis from 10^low to 10^high: powers of ten, between them 2 to 9 as fine lines, which have
+/// Ticks from 10^low to 10^high: powers of ten, and 2 to 9 times these as fine lines, which have
 /// labels (2 and 5) where there are few powers.
 std::vector<Tick> logarithmic_ticks(double low, double high) {
   std::vector<Tick> ticks;
@@ -86,7 +86,7 @@ std::pair<double, double> panel_range(const LogPanel& panel) {
     }
   if (low > high) return {log ? -1.0 : 0.0, log ? 1.0 : 90.0};
   if (log) {
-    low = std::max(low, high - 8.0);  // what is next to nothing is not looked at
+    low = std::max(low, high - 8.0);  // limited to eight decades
     const double more = std::max(0.05 * (high - low), 0.1);
     return {low - more, high + more};
   }
@@ -142,23 +142,23 @@ void draw_log_legend(Out out, double left, double baseline, const std::vector<Lo
   }
 }
 
-/// `x`: as on the axis.
+/// `x`: axis coordinates.
 void draw_log_curves(Out out, const Span& x_axis, const Span& y_axis, const std::vector<double>& x,
                      const LogPanel& panel) {
   const bool log = panel.scale == LogPanel::Scale::logarithmic;
   for (std::size_t k = 0; k < panel.curves.size(); ++k) {
     std::string path;
-    bool pen_down = false;
+    bool connected = false;
     for (std::size_t i = 0; i < x.size() && i < panel.curves[k].values.size(); ++i) {
       const double v = panel.curves[k].values[i];
       const double at = log ? std::log10(v) : v;
       if (!std::isfinite(at)) {
-        pen_down = false;
+        connected = false;
         continue;
       }
-      path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", x_axis(x[i]),
+      path += fmt::format("{}{:.1f} {:.1f}", connected ? "L" : "M", x_axis(x[i]),
                           y_axis(std::max(at, y_axis.low)));
-      pen_down = true;
+      connected = true;
     }
     fmt::format_to(out, "<path class=\"curve c{}\" d=\"{}\"/>\n", k, path);
   }
@@ -171,7 +171,7 @@ std::string log_plots(const std::string& title, const std::string& x_title,
                       PlotAxis axis) {
   double height = sheet_top + 8;
   for (const LogPanel& p : panels)
-    height += above + below + (p.scale == LogPanel::Scale::degrees ? flat : tall);
+    height += above + below + (p.scale == LogPanel::Scale::degrees ? degree_height : log_height);
   fmt::memory_buffer svg;
   auto out = std::back_inserter(svg);
   fmt::format_to(out,
@@ -187,7 +187,7 @@ std::string log_plots(const std::string& title, const std::string& x_title,
   const Span x_axis{low, high > low ? high : low + 1.0, sheet_left, sheet_width - sheet_right};
   double top = sheet_top;
   for (const LogPanel& p : panels) {
-    const double size = p.scale == LogPanel::Scale::degrees ? flat : tall;
+    const double size = p.scale == LogPanel::Scale::degrees ? degree_height : log_height;
     const auto [bottom_value, top_value] = panel_range(p);
     const Span y_axis{bottom_value, top_value, top + above + size, top + above};
     fmt::format_to(out, "<text class=\"title\" x=\"{:g}\" y=\"{:.1f}\">{}</text>\n", sheet_left,

@@ -1,7 +1,7 @@
 #pragma once
-// Curves over a logarithmic axis, frequency most often, or a linear one, as one SVG file: panels
-// below each other, each with its title, legend and axes with units. Colours and dashes are those
-// of the report.
+// Curves over a logarithmic axis, usually frequency, or a linear one, as one SVG file: panels below
+// each other, each with its title, legend and axes with units. Colours and dashes are those of the
+// report.
 #include <string>
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace floatframe {
 
 struct LogCurve {
   std::string name;
-  std::vector<double> values;  ///< one for each x; what is not finite is left out
+  std::vector<double> values;  ///< one per x; values that are not finite are omitted
 };
 
 struct LogPanel {
@@ -22,7 +22,7 @@ struct LogPanel {
 
 enum class PlotAxis { logarithmic, linear };
 
-/// A document of its own. x: ascending, on a logarithmic axis positive.
+/// A standalone document. x: ascending, positive on a logarithmic axis.
 std::string log_plots(const std::string& title, const std::string& x_title,
                       const std::vector<double>& x, const std::vector<LogPanel>& panels,
                       PlotAxis axis = PlotAxis::logarithmic);

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The largest shares, a hundredth at least, five at most.
+/// The largest shares, each at least a hundredth, at most five.
 Json largest_shares(std::vector<EnergyShare> shares) {
   constexpr std::size_t most = 5;
   constexpr double least = 0.01;
@@ -24,7 +24,7 @@ Json largest_shares(std::vector<EnergyShare> shares) {
   return out;
 }
 
-/// Rows of `rows_of` in each motion: real parts, then imaginary ones.
+/// The rows `rows_of` of each motion: real parts, then imaginary ones.
 std::vector<float> parts_of(const MatX& rows_of, const std::vector<ShownMotion>& motions) {
   std::vector<float> out;
   for (const ShownMotion& m : motions)

@@ -1,10 +1,10 @@
 #pragma once
-// The page of the natural vibrations of a model, for the viewer (viewer/README.md): the state they
-// are of, and of each motion e^(lambda t) the complex shape s, so that the page can draw
+// The page of the natural vibrations of a model, for the viewer (viewer/README.md): the state and,
+// for each motion e^(lambda t), the complex shape s, so that the page can draw
 //   x(t) = Re(s e^(i phi)) = Re s cos phi - Im s sin phi
-// with Im lambda >= 0: shapes that travel or whirl go the way the model does. s is, of each body,
-// the displacement of its origin [m] and its rotation vector [rad] in axes of the world, then its
-// modal amplitudes.
+// with Im lambda >= 0: travelling or whirling shapes move in the right direction. For each body, s
+// is the displacement of its origin [m] and its rotation vector [rad] in world axes, then its modal
+// amplitudes.
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -16,18 +16,18 @@
 
 namespace floatframe {
 
-/// Part of an energy, of a body or a force element.
+/// Share of an energy in a body or a force element.
 struct EnergyShare {
   std::string name;
   double part;
 };
 
-/// A motion as it is listed and drawn.
+/// A motion in the table and in the scene.
 struct ShownMotion {
   LinearMode mode;
   std::string kind;                ///< "vibration", "rigid", "decay", "growth", "unstable"
   int number = 0;                  ///< in the table; 0: a rigid motion
-  std::vector<EnergyShare> moves;  ///< of the kinetic energy, by body
+  std::vector<EnergyShare> moves;  ///< shares of the kinetic energy, by body
   std::vector<EnergyShare> held;   ///< of the potential energy, by flexible body and force
 };
 
@@ -38,12 +38,12 @@ struct ModesPage {
   std::vector<PageTable> tables;
 };
 
-/// What the scene holds of the motions.
+/// The motions as part of the scene.
 nlohmann::ordered_json scene_vibrations(const LinearSystem& system,
                                         const std::vector<ShownMotion>& motions,
                                         PageBuffer& buffer);
 
-/// Needs a program that was built with the viewer.
+/// Requires a program built with the viewer.
 std::string modes_page(const Model& model, const LinearSystem& system,
                        const std::vector<ShownMotion>& motions, const ModesPage& page);
 

@@ -5,7 +5,7 @@
 
 namespace floatframe {
 
-/// One line a note, at most 20 of them; empty without notes.
+/// One line per note, at most 20 of them; empty without notes.
 std::string notes_text(const std::vector<std::string>& notes);
 
 }  // namespace floatframe

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Takes the rows one after the other.
+/// Collects the rows in sequence.
 class Collector {
  public:
   Collector(const std::vector<Column>& columns, std::size_t rows,
@@ -51,7 +51,7 @@ class Collector {
     std::size_t row = 0;
   };
 
-  /// One row behind the last of a stretch; the first and the last row are in none.
+  /// One row past the last of a stretch; the first and the last row are in none.
   std::size_t end_of(std::size_t stretch) const noexcept {
     return stretches_ > 0 ? 1 + (stretch + 1) * (out_.rows - 2) / stretches_ : 0;
   }
@@ -123,7 +123,7 @@ PageCurves page_curves(ResultsReader& in, std::size_t rows) {
 
 Json curves_json(const PageCurves& curves, const std::vector<ChannelSubject>& subjects,
                  PageBuffer& buffer) {
-  // What a run can tell from rounding: of the largest values of the same unit.
+  // Rounding level of a run, relative to the largest values of the same unit.
   constexpr double rounding = 1e-8;
   std::vector<Extent> extents;
   std::map<std::string, double> largest;  // by unit

@@ -1,7 +1,7 @@
 #pragma once
 // The curves of a page: all rows of all columns at common instants, or if those are too many the
-// smallest and the largest value of each column in equal stretches of rows, so that peaks survive.
-// Takes memory for what is shown, not for the rows.
+// smallest and the largest value of each column in equal stretches of rows, so that peaks are kept.
+// Memory use depends on the curves shown, not on the number of rows.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace floatframe {
 
 class ResultsReader;
 
-/// What a column shows, for the grouping of curves.
+/// Subject of a column, for the grouping of curves.
 struct ChannelSubject {
   std::string body;  ///< name of a body, joint, rod or force; empty: none
   std::string kind;  ///< "position", "joint_force", ...
@@ -43,22 +43,22 @@ struct Extent {
 };
 Extent extent_of(const std::vector<double>& values);
 
-/// Numbers in all that a page shows.
+/// Limit of numbers on a page.
 inline constexpr std::size_t most_numbers_of_curves = 1'000'000;
-/// Instants of one curve, however few curves there are: ten for each point of a wide screen.
+/// Limit of instants of a curve, even for few curves: ten per pixel of a wide screen.
 inline constexpr std::size_t most_instants_of_curves = 50'000;
 
-/// Of rows that `read` writes one after the other, time first.
+/// Of rows that `read` writes in sequence, time first.
 PageCurves page_curves(const std::vector<Column>& columns, std::size_t rows,
                        std::size_t most_numbers,
                        const std::function<void(std::size_t row, double* out)>& read);
 PageCurves page_curves(const ResultTable& table);
-/// Of the next rows of a file; there must be as many. Throws InputError.
+/// Of the next rows of a file, which must have that many. Throws InputError.
 PageCurves page_curves(ResultsReader& in, std::size_t rows);
 
-/// The "curves" of a page: {"time", "channels": [...]}. Constant columns and those that are
-/// rounding beside others of their unit are marked. `subjects`: for each column but the time, or
-/// empty.
+/// The "curves" of a page: {"time", "channels": [...]}. Columns that are constant, or rounding
+/// noise compared with others of the same unit, are marked. `subjects`: for each column but the
+/// time, or empty.
 nlohmann::ordered_json curves_json(const PageCurves& curves,
                                    const std::vector<ChannelSubject>& subjects, PageBuffer& buffer);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What all pages of the viewer have (viewer/README.md): their head, lists of names and values,
+// Parts common to all pages of the viewer (viewer/README.md): head, lists of names and values,
 // tables.
 #include <nlohmann/json_fwd.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// A page of a kind with its head and its status; nothing else yet. Pages of runs have a subtitle.
+/// A page of a kind with its head and status only. Pages of runs have a subtitle.
 nlohmann::ordered_json empty_page(const char* kind, const std::string& title,
                                   const std::string& software, nlohmann::ordered_json status,
                                   const std::string& subtitle = "");

@@ -18,7 +18,7 @@ const char* type_text(const FlexibleBody& data) {
   return "flexible, part";
 }
 
-/// How many modes, and of which kind as their names tell.
+/// Number of modes by kind, as given by their names.
 std::string modes_text(const FlexibleBody& data) {
   const int all = data.modes();
   if (all == 0) return "";

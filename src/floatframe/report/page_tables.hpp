@@ -1,6 +1,6 @@
 #pragma once
-// Tables of what a model consists of, for pages: bodies, modes with their frequencies, coordinates
-// of both formulations, joints that are cut in the relative one.
+// Tables of the components of a model, for pages: bodies, modes with their frequencies, coordinates
+// of both formulations, cut joints of the relative one.
 #include <string>
 #include <vector>
 
@@ -16,13 +16,13 @@ struct PageTable {
   std::string note{};  ///< may be empty
 };
 
-/// Of a marker; the ground where there is none.
+/// Name of the body of a marker; the ground if it has none.
 std::string body_name(const Model& model, int marker);
 
 /// Bodies, and modes if there are any.
 std::vector<PageTable> body_tables(const Model& model);
-/// How bars bend: E I along both axes of their sections, with their directions in space. No rows:
-/// no body has bars that bend.
+/// Bending stiffness of bars: E I along both axes of their sections, with their directions in
+/// space. No rows: no body has bars in bending.
 PageTable bending_table(const Model& model);
 /// Coordinates, and cut joints if there are any.
 std::vector<PageTable> coordinate_tables(const Model& model, const ModelCounts& counts);

@@ -1,4 +1,4 @@
-// The template of the viewer, put into the library by the assembler.
+// The template of the viewer, included into the library by the assembler.
 #include "floatframe/report/page_writer.hpp"
 
 asm(".pushsection .rodata\n"

@@ -23,8 +23,8 @@ struct TrustCurve {
   std::size_t column = 0;
   std::string name{}, label{}, unit{}, group{}, kind{};
   double start = 0.0, divisor = 1.0;
-  bool per_step = false;    ///< divided by the steps since the instant before
-  bool since_last = false;  ///< means nothing at the start
+  bool per_step = false;    ///< divided by the steps since the previous instant
+  bool since_last = false;  ///< undefined at the start
   double limit = 0.0;       ///< 0: none
 };
 
@@ -100,7 +100,7 @@ Json channel_json(const TrustCurve& c, const std::vector<double>& values, double
           {"noise", e.size() > 0.0 && e.size() <= noise}};
 }
 
-/// Terms of the balance below a part of the largest that rounding and tolerances leave.
+/// Noise level of the balance terms due to rounding and tolerances: 1e-9 of the largest.
 double energy_noise(const std::vector<TrustCurve>& curves, const PageCurves& values) {
   double most = 0.0;
   for (std::size_t k = 0; k < curves.size(); ++k)

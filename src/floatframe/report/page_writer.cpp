@@ -32,7 +32,7 @@ std::string deflated(const std::string& bytes) {
   return out;
 }
 
-/// No text of the object can end the element it stands in.
+/// Escapes texts so that none can end the enclosing element.
 std::string json_in_html(const Json& page) {
   const std::string text = page.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string out;

@@ -1,6 +1,6 @@
 #pragma once
-// Pages for the viewer (viewer/README.md): a template that the build has made of its sources, a
-// JSON object, and one buffer of numbers that the object refers to by views.
+// Pages for the viewer (viewer/README.md): a template built from the viewer's sources, a JSON
+// object, and one buffer of numbers that the object refers to by views.
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -10,11 +10,11 @@
 
 namespace floatframe {
 
-/// A half float (IEEE 754 binary16), rounded to nearest even; beyond its range infinite.
+/// A half float (IEEE 754 binary16), rounded to nearest even; infinite beyond its range.
 std::uint16_t half_of(float value) noexcept;
 
-/// Little-endian numbers one after the other; `add` returns their view,
-/// {"type", "offset", "shape"}. The product of the shape is the number of values.
+/// Little-endian numbers in sequence; `add` returns their view, {"type", "offset", "shape"}. The
+/// product of the shape is the number of values.
 class PageBuffer {
  public:
   using Shape = std::initializer_list<std::size_t>;
@@ -30,10 +30,10 @@ class PageBuffer {
   std::string bytes_;
 };
 
-/// The template the viewer was built to; empty in a program that was built without it.
+/// The template built from the viewer; empty in a program built without it.
 std::string_view page_template() noexcept;
 
-/// `page` and the buffer, compressed, in place of the mark in the template.
+/// The template with its placeholder replaced by `page` and the compressed buffer.
 std::string page_html(std::string_view page_template, const nlohmann::ordered_json& page,
                       const PageBuffer& buffer);
 

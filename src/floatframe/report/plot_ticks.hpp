@@ -1,5 +1,5 @@
 #pragma once
-// Tick positions of pictures.
+// Tick positions of plots.
 #include <cstddef>
 
 namespace floatframe {
@@ -12,7 +12,7 @@ struct Ticks {
   int count = 0;
   double at(int i) const { return first + i * step; }
 };
-/// About so many within [low, high].
+/// About the given number of ticks within [low, high].
 Ticks nice_ticks(double low, double high, int about);
 
 }  // namespace floatframe

@@ -14,12 +14,12 @@
 namespace floatframe {
 namespace {
 
-/// Two programs or step sizes write the same instant with other last digits.
+/// Two programs or step sizes write the same instant with different last digits.
 bool same_instant(double a, double b) noexcept {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
-/// Differences of one channel while rows come.
+/// Differences of one channel, accumulated row by row.
 struct Gathered {
   double largest = 0.0, at = 0.0, squares = 0.0;
   std::size_t numbers = 0;
@@ -42,7 +42,7 @@ struct Pair {
   std::size_t a, b;  ///< columns
 };
 
-/// Goes over both tables at once. Of B it knows the row that is next and the one before.
+/// Reads both tables in parallel, keeping the next row of B and the one before it.
 class Merge {
  public:
   Merge(ResultsReader& a, ResultsReader& b, const std::vector<Pair>& pairs)
@@ -86,7 +86,7 @@ class Merge {
     matched_ = false;
   }
 
-  /// Until the next row of B is at t or behind it.
+  /// Advances until the next row of B is at t or later.
   void advance_to(double t) {
     while (next_ && b_.time() < t && !same_instant(b_.time(), t)) {
       if (!matched_ && rows_a_ > 0) ++passed_;
@@ -145,10 +145,10 @@ class Merge {
   const std::vector<Pair>& pairs_;
   std::vector<Gathered> common_, all_;
   std::vector<double> size_;
-  std::vector<double> before_;  ///< the row of B before the next one; empty: there is none
+  std::vector<double> before_;  ///< the row of B before the next one, or empty
   bool next_ = true;
   bool matched_ = false;  ///< the next row of B is at an instant of A
-  /// In the span of both: rows of A and of B, rows of B that A has passed, instants of both.
+  /// In the common span: rows of A and of B, rows of B that A has passed, common instants.
   std::size_t rows_a_ = 0, rows_b_ = 0, passed_ = 0, both_ = 0;
   double first_ = 0.0, last_ = 0.0;
 };
@@ -175,8 +175,8 @@ std::string some_names(const std::vector<std::string>& names) {
   return names.empty() ? "none" : names_text(quoted, 4);
 }
 
-InputError nothing_in_common(const ResultsReader& a, const ResultsReader& b,
-                             const ResultsComparison& found) {
+InputError no_common_channels(const ResultsReader& a, const ResultsReader& b,
+                              const ResultsComparison& found) {
   const std::string units =
       found.other_units.empty() ? "" : "; of other units: " + some_names(found.other_units);
   return InputError(
@@ -200,7 +200,7 @@ ResultsComparison compare_results(ResultsReader& a, ResultsReader& b,
   require_channels(a, names);
   require_channels(b, names);
   const std::set<std::string> wanted(names.begin(), names.end());
-  const auto is_wanted = [&](const std::string& name) {
+  const auto is_selected = [&](const std::string& name) {
     return wanted.empty() || wanted.contains(name);
   };
   std::map<std::string, std::size_t> columns_b;
@@ -210,7 +210,7 @@ ResultsComparison compare_results(ResultsReader& a, ResultsReader& b,
   std::set<std::string> of_a;
   for (std::size_t c = 1; c < a.columns().size(); ++c) {
     const Column& column = a.columns()[c];
-    if (!is_wanted(column.name)) continue;
+    if (!is_selected(column.name)) continue;
     of_a.insert(column.name);
     const auto it = columns_b.find(column.name);
     if (it == columns_b.end())
@@ -222,9 +222,9 @@ ResultsComparison compare_results(ResultsReader& a, ResultsReader& b,
   }
   for (std::size_t c = 1; c < b.columns().size(); ++c) {
     const std::string& name = b.columns()[c].name;
-    if (is_wanted(name) && !of_a.contains(name)) out.only_b.push_back(name);
+    if (is_selected(name) && !of_a.contains(name)) out.only_b.push_back(name);
   }
-  if (pairs.empty()) throw nothing_in_common(a, b, out);
+  if (pairs.empty()) throw no_common_channels(a, b, out);
   Merge(a, b, pairs).run(out);
   return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How far two results are apart, channel by channel, read row by row in the memory of a few rows.
+// Differences of two results per channel, read row by row with memory for a few rows only.
 #include <limits>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ struct ComparisonTolerance {
 struct ChannelDifference {
   std::string name, unit;
   double largest = 0.0;  ///< |a - b|; infinite where only one of them is a number
-  double at = 0.0;       ///< when [s]
+  double at = 0.0;       ///< instant of the largest difference [s]
   double rms = 0.0;      ///< over the instants at which both are numbers
   double size = 0.0;     ///< largest magnitude in A
   /// largest / size; zero if both are zero
@@ -29,17 +29,17 @@ struct ChannelDifference {
 
 struct ResultsComparison {
   std::vector<ChannelDifference> channels;  ///< in the order of A
-  /// Names that only one has, or that have other units ("z [m] and z [mm]").
+  /// Names present in one result only, or with different units ("z [m] and z [mm]").
   std::vector<std::string> only_a, only_b, other_units;
-  /// Where both are: if one has all instants of the other in the span of both, these; else all of
-  /// A, between which B is linear.
+  /// Common instants: if one result has all instants of the other in the common span, these; else
+  /// all of A, with B interpolated linearly.
   std::size_t instants = 0;
   bool interpolated = false;
-  double from = 0.0, to = 0.0;  ///< the span that both have [s]
+  double from = 0.0, to = 0.0;  ///< common span [s]
   double start_a = 0.0, start_b = 0.0, end_a = 0.0, end_b = 0.0;
-  bool torn_a = false, torn_b = false;  ///< the last line was cut off
+  bool torn_a = false, torn_b = false;  ///< the last line is incomplete
 
-  /// Beginnings and ends differ, by more than rounding.
+  /// True if start or end differ by more than rounding.
   bool spans_differ() const noexcept;
   bool same_channels() const noexcept {
     return only_a.empty() && only_b.empty() && other_units.empty();
@@ -49,7 +49,7 @@ struct ResultsComparison {
 bool agrees(const ChannelDifference& d, const ComparisonTolerance& tolerance) noexcept;
 
 /// `names`: the channels to compare; empty: all. Throws InputError if a file cannot be read to its
-/// end, has no rows, misses a channel that is named, or if the spans do not meet.
+/// end, has no rows, lacks a channel in `names`, or if the spans do not overlap.
 ResultsComparison compare_results(ResultsReader& a, ResultsReader& b,
                                   const std::vector<std::string>& names = {});
 

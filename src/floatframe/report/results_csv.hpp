@@ -12,7 +12,7 @@ namespace floatframe {
 
 std::string results_csv(const ResultTable& table);
 
-/// The header line, nothing without columns.
+/// The header line; empty without columns.
 void append_csv_header(std::string& text, const std::vector<Column>& columns);
 /// One line for every `columns` numbers.
 void append_csv_rows(std::string& text, std::size_t columns, std::span<const double> numbers);

@@ -1,6 +1,6 @@
 #pragma once
-// `results.csv` while it grows: the bytes of `results_csv`, written as the rows come. What was
-// written is never held in memory.
+// `results.csv` while it grows: the bytes of `results_csv`, written row by row. Rows that were
+// written are not kept in memory.
 #include <cstdint>
 #include <span>
 #include <string>
@@ -19,13 +19,13 @@ class ResultsFile {
     double last_time = 0.0;  ///< of the last row [s]
   };
 
-  /// In place of a file that is there; `continuable`: positions are asked for. Throws OutputError.
+  /// Replaces an existing file; `continuable`: positions are used. Throws OutputError.
   ResultsFile(const std::string& path, const std::vector<Column>& columns, bool continuable);
-  /// Continues one, see GrowingFile.
+  /// Continues a file, see GrowingFile.
   ResultsFile(const std::string& path, const std::vector<Column>& columns,
               const Position& position);
 
-  /// Whole rows. Throws OutputError; `rows` counts what was kept.
+  /// Whole rows. Throws OutputError; `rows` counts the rows written.
   void append(std::span<const double> numbers);
   void to_disk() { file_.to_disk(); }
 
@@ -38,7 +38,7 @@ class ResultsFile {
   GrowingFile file_;
   std::uint64_t rows_ = 0;
   double last_time_ = 0.0;
-  std::string text_;  ///< of the rows that are being written
+  std::string text_;  ///< of the rows being written
 };
 
 }  // namespace floatframe

@@ -14,12 +14,12 @@
 namespace floatframe {
 namespace {
 
-/// A row of ten thousand channels takes a quarter of this.
+/// Four times the length of a row with ten thousand channels.
 constexpr std::size_t longest_line = std::size_t{1} << 20;  ///< [byte]
 
 bool blank(char c) noexcept { return c == ' ' || c == '\t'; }
 
-/// One field of a header from `at`, which is left at its end; false: a quote is not closed.
+/// Reads one field of a header and moves `at` to its end; false: a quote is not closed.
 bool read_title(const std::string& line, std::size_t& at, std::string& title) {
   title.clear();
   if (at < line.size() && line[at] == '"') {
@@ -52,7 +52,7 @@ bool read_number(const std::string& line, std::size_t& at, bool last, double& va
   const char* const begin = line.data() + at;
   const char* const end = line.data() + line.size();
   const auto [next, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::result_out_of_range)  // denormal numbers: strtod takes them
+  if (error == std::errc::result_out_of_range)  // denormal numbers: strtod accepts them
     value = std::strtod(begin, nullptr);
   else if (error != std::errc())
     return false;
@@ -97,7 +97,7 @@ void ResultsReader::read_header() {
   if (!read_line())
     throw InputError(ErrorCode::missing, {file_, 0, 0}, "the file is empty, expected results");
   std::set<std::string> names;
-  std::size_t at = line_.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the mark of spreadsheets
+  std::size_t at = line_.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // byte order mark
   while (true) {
     const std::size_t begin = at;
     std::string title;

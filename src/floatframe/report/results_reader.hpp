@@ -1,7 +1,6 @@
 #pragma once
-// `results.csv` read back row by row, in the memory of one row: files of this program, and of
-// others that write one header line and numbers (RFC 4180: quoted titles, CRLF; blanks around
-// numbers).
+// `results.csv` read row by row, with memory for one row: files of this program, and others with
+// one header line and numbers (RFC 4180: quoted titles, CRLF; blanks around numbers).
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -11,28 +10,28 @@
 
 namespace floatframe {
 
-/// Fills `row` with the numbers of a line. False if it does not hold as many and no more: `column`
-/// is the one without a number and `at` where it should stand.
+/// Fills `row` with the numbers of a line. False if their count differs: `column` is the one
+/// without a number and `at` its position in the line.
 bool read_numbers(const std::string& line, std::vector<double>& row, std::size_t& column,
                   std::size_t& at);
 
 class ResultsReader {
  public:
-  /// Reads the header. Throws InputError that names the file and what is not as expected: a regular
-  /// file, first column `time` (or `time [s]`), titles that differ from each other.
+  /// Reads the header. Throws InputError with the name of the file and the violation: expected are
+  /// a regular file, first column `time` (or `time [s]`), distinct titles.
   explicit ResultsReader(const std::string& file);
 
   const std::string& file() const noexcept { return file_; }
-  /// The first is the time. Units are what stands in brackets at the end of titles.
+  /// The first is the time. Units are the bracketed ends of titles.
   const std::vector<Column>& columns() const noexcept { return columns_; }
 
-  /// False at the end. Throws InputError at a line that does not hold a number for each column, or
-  /// a time that is not later than the one before.
+  /// False at the end. Throws InputError at a line that does not have one number per column, or a
+  /// time that is not later than the previous one.
   bool next();
   const std::vector<double>& row() const noexcept { return row_; }
   double time() const noexcept { return row_.front(); }
   std::size_t rows() const noexcept { return rows_; }  ///< read so far
-  /// The last line was begun and never ended, as a run that was killed leaves it; it is no row.
+  /// The last line is incomplete, as left by a killed run; it is not counted as a row.
   bool torn() const noexcept { return torn_; }
 
  private:
@@ -48,8 +47,8 @@ class ResultsReader {
   std::vector<Column> columns_;
   std::vector<double> row_;
   std::size_t rows_ = 0;
-  int number_ = 0;      ///< of the line
-  bool ended_ = false;  ///< the line has its line break
+  int number_ = 0;      ///< line number
+  bool ended_ = false;  ///< the line ends with a line break
   bool torn_ = false;
 };
 

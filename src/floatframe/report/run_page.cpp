@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 std::string joules(double value) { return fmt::format("{:.6g} J", value); }
 
-/// How the run ended, in sentences.
+/// Sentences on how the run ended.
 std::vector<std::string> ending(const Report& report) {
   const RunSummary& s = report.result.summary;
   std::vector<std::string> out;
@@ -66,7 +66,7 @@ Json energy_table(const EnergySummary& e) {
   return {{"heading", "Energy"}, {"columns", {"energy", "start", "end", "change"}}, {"rows", rows}};
 }
 
-/// Nothing of a run that made no step.
+/// Empty for a run without steps.
 Json page_tables(const Report& report) {
   Json out = tables_json(report.tables);
   const RunSummary& s = report.result.summary;

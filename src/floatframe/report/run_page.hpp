@@ -1,6 +1,6 @@
 #pragma once
-// The page of a run for the viewer (viewer/README.md): how it ended, warnings, curves, whether it
-// can be trusted, facts and cost.
+// The page of a run for the viewer (viewer/README.md): how it ended, warnings, curves, accuracy,
+// facts and cost.
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
@@ -10,10 +10,10 @@
 
 namespace floatframe {
 
-/// What the columns of results show, in the order of the outputs.
+/// The subjects of the result columns, in the order of the outputs.
 std::vector<ChannelSubject> channel_subjects(const Model& model);
 
-/// Into the page of a run what its states show: the scene, and curves of trust. Throws InputError.
+/// Adds the content of the states to the page of a run: scene and trust curves. Throws InputError.
 void add_states(nlohmann::ordered_json& page, const Model& model, const std::string& states_file,
                 const SimulationDescription* options, PageBuffer& buffer);
 

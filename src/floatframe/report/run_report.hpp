@@ -1,5 +1,5 @@
 #pragma once
-// What the page of a run is made of, beside its curves and its scene.
+// Content of the page of a run, in addition to its curves and its scene.
 #include <array>
 #include <optional>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace floatframe {
 
-/// A titled list of name-value lines; all text is the user's or the program's, escaped when
-/// written.
+/// A titled list of name-value lines; text is unescaped and may come from the user; it is escaped
+/// when written.
 struct FactTable {
   std::string title;
   std::vector<std::array<std::string, 2>> rows;
@@ -22,7 +22,7 @@ struct Report {
   RunResult result;
   std::vector<ChannelSubject>
       subjects;                    ///< of the columns but the time, for the grouping of curves
-  std::optional<double> rows_end;  ///< where rows that could not be written are missing [s]
+  std::optional<double> rows_end;  ///< end of the rows if writing failed [s]
   std::vector<FactTable> facts;    ///< model, settings
   std::vector<PageTable> tables;   ///< of the model, for the page of the viewer
   std::string software;            ///< version and build

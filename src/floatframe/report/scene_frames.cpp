@@ -17,16 +17,16 @@ std::size_t mode_count(const Model& model) {
   return n;
 }
 
-/// Where the design has a body.
+/// Pose of a body in the design configuration.
 void set_design_pose(const Body& body, double* pose) {
   const Eigen::Quaterniond q(body.X_WB.R);
   for (int k = 0; k < 3; ++k) pose[k] = body.X_WB.p[k];
   for (int k = 0; k < 4; ++k) pose[3 + k] = q.coeffs()[k];
 }
 
-/// Floats hold seven digits: a scene far from the origin of the world has one of its own.
+/// Floats have seven digits: a scene far from the origin of the world gets a local origin.
 void set_origin(SceneFrames& frames) {
-  constexpr double far = 1000.0;  // [m], where a float's digit is 0.1 mm
+  constexpr double far = 1000.0;  // [m], where the last digit of a float is 0.1 mm
   Vec3 first = Vec3::Zero();
   for (std::size_t b = 0; b < frames.known.size(); ++b)
     if (frames.known[b]) {
@@ -128,7 +128,7 @@ void add_load_coefficients(const Model& model, const StateHistory& history,
     frames.loads = std::move(loads);
     frames.first_load = std::move(first);
   } catch (const RunError&) {
-    // The page shows the stress of the amplitudes alone.
+    // The page shows the stress of the amplitudes only.
   }
 }
 

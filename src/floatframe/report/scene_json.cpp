@@ -73,7 +73,7 @@ class SceneWriter {
                               {count, model_.bodies.size(), 7});
     out["amplitudes"] = nullptr;
     if (modes == 0) return out;
-    // Behind the amplitudes the load coefficients that are shown.
+    // After the amplitudes, the load coefficients of the stress shown.
     std::vector<float> rows;
     for (std::size_t f = 0; f < count; ++f) {
       for (std::size_t m = 0; m < modes; ++m)
@@ -84,7 +84,7 @@ class SceneWriter {
     return out;
   }
 
-  // -- points: one for each marker that something holds
+  // -- points: one for each marker used by a joint or force
 
   int point(int marker) {
     if (marker < 0) return -1;
@@ -95,7 +95,7 @@ class SceneWriter {
     return index;
   }
 
-  /// What nothing holds yet can be picked, too.
+  /// Named nodes without a point, so that they can be picked, too.
   void named_nodes() {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const std::vector<ModalNode>& nodes = model_.bodies[b].data->nodes;
@@ -156,7 +156,7 @@ class SceneWriter {
 
   Json force(std::size_t index) {
     const Force& f = model_.forces[index];
-    // What acts at one point is given with it as the first.
+    // Elements acting at a single point name it as the first.
     Json out{{"name", f.name},
              {"type", force_words[index_of(f.type)]},
              {"a", point(f.a < 0 ? f.b : f.a)},
@@ -175,7 +175,7 @@ class SceneWriter {
     if (load) out["follows"] = f.follows;
     if (f.type == ForceType::tyre) {
       out["radius"] = f.radius;
-      out["width"] = 0.4 * f.radius;  // the model has none; what a car's wheel has
+      out["width"] = 0.4 * f.radius;  // not in the model; typical of a car's wheel
     }
     for (const Output& o : model_.outputs)
       if (o.type == OutputType::force && o.force == static_cast<int>(index))
@@ -207,7 +207,7 @@ class SceneWriter {
     return out;
   }
 
-  /// A wheel is its tyre, which is drawn; a box would stand out of it.
+  /// A wheel is drawn as its tyre; a box would extend beyond it.
   bool has_tyre(std::size_t body) const {
     for (const Force& f : model_.forces)
       if (f.type == ForceType::tyre && model_.markers[f.b].body == static_cast<int>(body))
@@ -243,7 +243,7 @@ class SceneWriter {
     SceneStressWriter::Shape stress;
   };
 
-  /// The views of bodies that are alike are the same.
+  /// Identical bodies share their views.
   Shape shape(const FlexibleBody& data) {
     const SceneMesh mesh = scene_mesh(data);
     if (mesh.triangles.empty()) return {};
@@ -283,7 +283,7 @@ class SceneWriter {
     return out;
   }
 
-  // -- roads, as far as wheels come
+  // -- roads, in the area reached by wheels
 
   Json roads() {
     Json out = Json::array();
@@ -300,7 +300,7 @@ class SceneWriter {
           high = high.cwiseMax(p);
         }
       }
-      if (!(low[0] <= high[0])) continue;  // nothing drives there
+      if (!(low[0] <= high[0])) continue;  // no wheel reaches it
       out.push_back(road(model_.roads[r], low - Vec3::Constant(6.0 * radius),
                          high + Vec3::Constant(6.0 * radius)));
     }
@@ -330,8 +330,8 @@ class SceneWriter {
   PageBuffer& buffer_;
   SceneStressWriter stress_;
   std::vector<std::vector<Vec3>> places_;  ///< points on each body
-  std::map<int, int> point_of_;            ///< of markers
-  std::set<std::pair<int, int>> held_;     ///< bodies and their nodes that have a point
+  std::map<int, int> point_of_;            ///< index of the point of a marker
+  std::set<std::pair<int, int>> held_;     ///< (body, node) pairs that have a point
   std::vector<std::pair<const FlexibleBody*, Shape>> shapes_;
   Json points_ = Json::array(), joints_ = Json::array(), forces_ = Json::array(),
        rods_ = Json::array();

@@ -1,6 +1,6 @@
 #pragma once
 // The scene of a page for the viewer (viewer/README.md): bodies with their surfaces and modes,
-// where they are, and what holds and drives them.
+// their poses, joints and forces.
 #include <nlohmann/json_fwd.hpp>
 
 #include "floatframe/report/page_writer.hpp"

@@ -57,7 +57,7 @@ SceneBox scene_box(const FlexibleBody& body, const std::vector<Vec3>& points) {
     box.position = 0.5 * (low + high);
     box.size = high - low;
   }
-  // What has no extent is shown as a thin plate, a thin rod or a small cube.
+  // A box without extent is shown as a thin plate, a thin rod or a small cube.
   const double largest = box.size.maxCoeff();
   const double least = largest > 0.0 ? 0.05 * largest : 0.05;
   box.size = box.size.cwiseMax(least);

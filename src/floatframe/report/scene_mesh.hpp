@@ -1,6 +1,6 @@
 #pragma once
 // The surface of a body (body/surface_mesh) as triangles, each vertex with its displacement per
-// modal amplitude, as pages hold it; and what stands for a body without.
+// modal amplitude, as stored in pages; and the substitute for a body without a surface.
 #include <cstdint>
 #include <vector>
 
@@ -15,21 +15,21 @@ struct SceneMesh {
   std::vector<std::uint32_t> triangles;  ///< three vertices each
   std::vector<float> displacements;  ///< vertices x modes x 3 [m per unit of amplitude]; or empty
   std::vector<std::uint32_t> nodes;  ///< of each vertex; empty for a surface from a file
-  bool generated = false;            ///< swept
+  bool generated = false;            ///< swept along bars
 };
 
-/// Of a body with triangles or bars; empty without.
+/// Of a body with triangles or bars; otherwise empty.
 SceneMesh scene_mesh(const FlexibleBody& body);
 
-/// Against gravity, along an axis of the world.
+/// Opposite to gravity, along a world axis.
 Vec3 scene_up(const Model& model);
 
-/// A box with the mass and inertia of a body, or what bounds its points where it has no mass.
+/// A box with the mass and inertia of a body, or the bounding box of its points if it has no mass.
 struct SceneBox {
   Vec3 size = Vec3::Zero(), position = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
 };
-/// `points`: places on the body that joints and forces use, body frame [m].
+/// `points`: attachment points of joints and forces on the body, body frame [m].
 SceneBox scene_box(const FlexibleBody& body, const std::vector<Vec3>& points);
 
 }  // namespace floatframe

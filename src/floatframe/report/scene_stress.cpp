@@ -11,10 +11,10 @@
 namespace floatframe {
 namespace {
 
-/// Frames that are multiplied at once.
+/// Number of frames per matrix product.
 constexpr Eigen::Index block_of_frames = 64;
 
-/// Places that may show at each vertex.
+/// Candidate stress places of each vertex.
 std::vector<std::vector<int>> places_at(const BodyStress& stress, const SurfaceMesh& mesh) {
   std::vector<std::vector<int>> out(static_cast<std::size_t>(mesh.positions.cols()));
   if (mesh.bar_ends.empty()) {
@@ -25,7 +25,7 @@ std::vector<std::vector<int>> places_at(const BodyStress& stress, const SurfaceM
     }
     return out;
   }
-  // Of a swept section the nearest outer point of that end.
+  // For a swept section, the nearest outer point of that end.
   for (std::size_t v = 0; v < mesh.bar_ends.size(); ++v) {
     const std::size_t section = 2 * static_cast<std::size_t>(mesh.bar_ends[v].bar) +
                                 static_cast<std::size_t>(mesh.bar_ends[v].end);
@@ -46,7 +46,7 @@ double load_of(const BodyStress& stress, const VecX& unit, int place) {
   return sum;
 }
 
-/// More than a hundredth of the largest stress at some vertex.
+/// True if a vertex changes by more than a hundredth of the largest stress.
 bool loads_matter(const std::vector<float>& without, const std::vector<float>& with) {
   float most = 0.0F, apart = 0.0F;
   for (std::size_t v = 0; v < with.size(); ++v) {
@@ -56,9 +56,9 @@ bool loads_matter(const std::vector<float>& without, const std::vector<float>& w
   return apart > 0.01F * most;
 }
 
-/// The components of each place by column, in units of `factor`; 0 where there is no place.
+/// The components of each place by column, in units of `factor`; 0 if there is no place.
 std::vector<float> scaled(const MatX& columns, const std::vector<int>& places, double& factor) {
-  // Halves go from 6e-5 to 6e4: the largest stays well below.
+  // Half floats range from 6e-5 to 6e4: the largest value stays well below.
   const double largest = columns.cwiseAbs().maxCoeff();
   factor = largest > 0.0 ? largest / 1e4 : 1.0;
   std::vector<float> out;

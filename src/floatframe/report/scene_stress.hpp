@@ -1,9 +1,9 @@
 #pragma once
-// Stress of what a page draws: of each vertex the stress of one place per modal amplitude, and the
-// largest von Mises stress over the frames. A vertex at which several places meet - sides of a
-// shell, materials - shows the one that its modes load most; its largest is that of all. Where the
-// frames have load coefficients (add_load_coefficients) and these matter, their stress is a part of
-// it. The writer puts it into the JSON of the page, with its numbers in the buffer
+// Stress in the scene of a page: for each vertex the stress of one place per modal amplitude, and
+// the largest von Mises stress over the frames. A vertex shared by several places - sides of a
+// shell, materials - shows the place that its modes load most; its largest value is that of all. If
+// the frames have load coefficients (add_load_coefficients) and these are significant, their stress
+// is included. The writer puts it into the JSON of the page, with its numbers in the buffer
 // (viewer/README.md).
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -15,15 +15,15 @@
 
 namespace floatframe {
 
-/// Above so many numbers of stress the fields of a body are left out of its page.
+/// Limit of stress numbers; beyond it the fields of a body are omitted from its page.
 inline constexpr std::size_t most_numbers_of_stress = 12'000'000;
 
-/// Per vertex and mode; none if the body knows no stress or has too much of it.
+/// Per vertex and mode; empty if the body has no stress data or too much of it.
 struct SceneStress {
-  std::vector<int> places;                   ///< of each vertex the one that is shown; -1: none
-  std::vector<std::vector<int>> all_places;  ///< of each vertex
+  std::vector<int> places;                   ///< of each vertex, the place shown; -1: none
+  std::vector<std::vector<int>> all_places;  ///< of each vertex, all places
   bool several = false;                      ///< some vertex has more than one
-  std::size_t left_out = 0;                  ///< numbers that it has, if they are too many
+  std::size_t left_out = 0;                  ///< omitted numbers, if they are too many
   double factor = 1.0;                       ///< [Pa] of one unit in `modes`
   std::vector<float> modes;                  ///< vertices x modes x 6: xx yy zz xy yz zx
   std::vector<std::uint32_t> doubtful;
@@ -31,22 +31,22 @@ struct SceneStress {
 };
 SceneStress scene_stress(const FlexibleBody& body);
 
-/// Of the places from `first` to before `end` that next to p; -1: there is none.
+/// Index of the place in [first, end) nearest to p; -1: there is none.
 int nearest_place(const BodyStress& stress, int first, int end, const Vec3& p);
 
-/// Stress per vertex and load coefficient, and what one unit of it is [Pa].
+/// Stress per vertex and load coefficient, and its unit [Pa].
 struct SceneLoads {
   double factor = 1.0;
   std::vector<float> loads;  ///< vertices x 12 x 6
 };
 SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress);
 
-/// Of the vertices [Pa], and when [s].
+/// Largest stress of the vertices [Pa], and its instant [s].
 struct VertexEnvelope {
   std::vector<float> largest, when;
 };
-/// `first`, `columns`: of the amplitudes of the body and of all bodies; `first_load`: column of its
-/// load coefficients, -1: by the amplitudes alone.
+/// `first`, `columns`: column of the body's amplitudes, number of all columns; `first_load`: column
+/// of its load coefficients, -1: amplitudes only.
 VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
                                const SceneFrames& frames, std::size_t first, std::size_t columns,
                                int first_load);
@@ -57,18 +57,18 @@ class SceneStressWriter {
   SceneStressWriter(const Model& model, const SceneFrames& frames, PageBuffer& buffer)
       : model_(model), frames_(frames), buffer_(buffer) {}
 
-  /// What bodies that look alike share.
+  /// Data shared by bodies of the same appearance.
   struct Shape {
     SceneStress stress;
-    Json json;   ///< without the envelope, which is of one body
-    Json loads;  ///< once a body needs them
+    Json json;   ///< without the envelope, which belongs to a single body
+    Json loads;  ///< once used by a body
     double loads_factor = 1.0;
   };
   Shape shape(const FlexibleBody& data);
   /// `first`: column of the amplitudes of the body.
   Json of(const FlexibleBody& data, Shape& shape, std::size_t first, std::size_t body);
 
-  /// What stands behind the amplitudes of a frame: the load coefficients that are shown.
+  /// Appends to the amplitudes of a frame the load coefficients of the stress shown.
   void append_loads(std::size_t frame, std::vector<float>& row) const;
 
  private:
@@ -76,7 +76,7 @@ class SceneStressWriter {
 
   struct LoadColumn {
     std::size_t column;  ///< of SceneFrames::loads
-    double scale;        ///< so that it counts as an amplitude does
+    double scale;        ///< scales it to the weight of an amplitude
   };
   const Model& model_;
   const SceneFrames& frames_;

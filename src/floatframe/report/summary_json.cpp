@@ -16,7 +16,7 @@ Json energy(double kinetic, double potential, double elastic, double total) {
           {"total_J", total}};
 }
 
-/// The last value of a parameter is the one that counts.
+/// The last value of a repeated parameter applies.
 Json settings(const std::vector<std::string>& list) {
   Json json = Json::object();
   for (const std::string& setting : list) {
@@ -26,7 +26,7 @@ Json settings(const std::vector<std::string>& list) {
   return json;
 }
 
-/// Null for a run that kept none.
+/// Null for a run without an energy balance.
 Json balance(const EnergySummary& e) {
   if (!e.balanced) return nullptr;
   Json work = Json::object();
@@ -41,7 +41,7 @@ Json balance(const EnergySummary& e) {
           {"present_J", e.present}};
 }
 
-/// Null for a run that does not look for them.
+/// Null for a run without edge detection.
 Json edges(const RunSummary& s) {
   if (!s.locates_edges) return nullptr;
   return {{"located", s.edges}, {"steps_with_too_many", s.edges_passed}};
@@ -83,8 +83,8 @@ Json measured(const RunSummary& s) {
 
 std::string summary_json(const RunSummary& s) {
   Json json = Json::object();
-  // What nobody measured is left out: a model that could not be read, a run that never began, one
-  // that has not ended yet, or one of a study that was stopped or died.
+  // Omits figures that were not measured: a model that could not be read, a run that never began or
+  // has not ended yet, or a run of a study that was stopped or died.
   const bool ended = s.status != "running";
   const bool began = ended && (s.status != "failed" || s.steps > 0 || s.cpu > 0.0);
   if (began || !s.model.empty())

@@ -1,13 +1,13 @@
 #pragma once
-// The summary of a run for other programs: JSON, numbers that are not finite
-// as null. The words are those of the command line.
+// The summary of a run for other programs: JSON, with null for numbers that are not finite. The
+// terms are those of the command line.
 #include <string>
 
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
 
-/// Of a run: what was asked, what it cost, how well the constraints were met, how it ended.
+/// Summary of a run: options, cost, constraint violations, status at the end.
 std::string summary_json(const RunSummary& summary);
 
 }  // namespace floatframe

@@ -14,7 +14,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::size_t head_size = 1 + sizeof(std::uint64_t);
-/// A process that is damaged may send anything.
+/// A corrupted process may send anything.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;
 
 bool send_all(int socket, const char* data, std::size_t size) {
@@ -28,7 +28,7 @@ bool send_all(int socket, const char* data, std::size_t size) {
   return true;
 }
 
-/// A number from 3, so that a program that was started without standard input keeps its meaning.
+/// A descriptor from 3: standard descriptors keep their meaning if the program has none.
 int raised(int file) {
   if (file > 2) return file;
   const int higher = ::fcntl(file, F_DUPFD_CLOEXEC, 3);
@@ -50,7 +50,7 @@ bool send_message(int socket, char kind, std::string_view text) {
   const std::uint64_t size = text.size();
   std::string head(head_size, kind);
   std::memcpy(head.data() + 1, &size, sizeof size);
-  if (text.size() < 4096) {  // in one call
+  if (text.size() < 4096) {  // in a single call
     head += text;
     return send_all(socket, head.data(), head.size());
   }

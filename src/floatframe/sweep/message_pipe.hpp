@@ -1,5 +1,5 @@
 #pragma once
-// Texts between two processes over a stream socket: a letter that says what it is, the length, the
+// Messages between two processes over a stream socket: a letter for the kind, the length, the
 // bytes.
 #include <string>
 #include <string_view>
@@ -11,21 +11,21 @@ struct PipeMessage {
   std::string text;
 };
 
-/// Two sockets that are connected and that programs started later do not inherit; numbers from 3.
-/// Returns 0 or the system's error number.
+/// Two connected sockets, not inherited by programs started later; descriptors from 3. Returns 0 or
+/// the system's error number.
 int open_pipe(int& one, int& other);
 
-/// Sends all of it; false if nobody is at the other end any more.
+/// Sends all of it; false if the other end is closed.
 bool send_message(int socket, char kind, std::string_view text);
 
-/// Puts together a message that arrives in pieces.
+/// Assembles a message that arrives in pieces.
 class MessageReader {
  public:
   enum class State { incomplete, complete, closed };
-  /// Takes what has arrived and does not wait. `complete`: `message` was set; `closed`: the other
-  /// end is gone, or what it sent is no message.
+  /// Reads the available bytes without blocking. `complete`: `message` was set; `closed`: the other
+  /// end is closed, or the bytes are not a message.
   State read(int socket, PipeMessage& message);
-  /// Waits for a whole message; false if the other end is gone.
+  /// Waits for a whole message; false if the other end is closed.
   bool wait(int socket, PipeMessage& message);
 
  private:

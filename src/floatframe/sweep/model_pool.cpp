@@ -12,7 +12,7 @@ std::shared_ptr<const Model> ModelPool::get(const ModelFingerprint& fingerprint,
   if (known != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, known);
   } else {
-    if (entries_.size() >= capacity_) entries_.pop_back();  // first: room for the new one
+    if (entries_.size() >= capacity_) entries_.pop_back();  // before the insertion, for its memory
     if (bodies_.reduced() > most_bodies) bodies_ = {};
     auto model = std::make_shared<const Model>(build_model(read(), bodies_));
     entries_.push_front({fingerprint.model, fingerprint.simulation, std::move(model)});

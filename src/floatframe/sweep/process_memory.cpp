@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// Text of /proc/<process>/status; empty if it cannot be read. No more than a page.
+/// Text of /proc/<process>/status; empty if it cannot be read. At most one page.
 struct Status {
   char text[4096] = {};
   explicit Status(const char* path) {
@@ -20,7 +20,7 @@ struct Status {
     text[n > 0 ? n : 0] = '\0';
     ::close(file);
   }
-  /// Of a line "VmRSS:     1234 kB".
+  /// Value of a line "VmRSS:     1234 kB".
   double megabytes(const char* name) const {
     const char* const line = std::strstr(text, name);
     return line ? 1.024e-3 * std::strtod(line + std::strlen(name), nullptr) : 0.0;

@@ -1,16 +1,16 @@
 #pragma once
-// How much memory a process uses, as the system reports it; in MB of 1e6 bytes.
+// Memory use of a process, as reported by the system; in MB of 1e6 bytes.
 
 namespace floatframe {
 
-/// Resident and swapped; 0 if the system does not say.
+/// Resident and swapped memory; 0 if the system does not report it.
 double memory_of(int process);
 
 /// Largest resident memory of this process since `forget_peak_memory`, or since its start; 0 if the
-/// system does not say.
+/// system does not report it.
 double peak_memory();
 
-/// False if the system cannot.
+/// False if the system does not support it.
 bool forget_peak_memory();
 
 }  // namespace floatframe

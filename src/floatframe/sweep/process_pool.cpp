@@ -46,27 +46,27 @@ ProcessPool::ProcessPool(int workers, const WorkerLimits& limits, const Work& wo
 ProcessPool::~ProcessPool() { end(); }
 
 void ProcessPool::start(Worker& worker, const WorkerLimits& limits, const Work& work) {
-  int its_end = -1;
-  if (const int error = open_pipe(worker.socket, its_end); error != 0)
+  int guard_end = -1;
+  if (const int error = open_pipe(worker.socket, guard_end); error != 0)
     throw cannot_start(std::strerror(error));
   const pid_t self = ::getpid();
   worker.process = ::fork();
   if (worker.process == 0) {
-    settle_in_fork(its_end, self, "sweep-guard");
+    prepare_fork(guard_end, self, "sweep-guard");
     const SharedFlags& flags = *flags_;
     const Serve serve = [&](const std::string& request, WorkerState& state) {
       return work(request, state, flags);
     };
-    watch_over_worker(its_end, limits, serve, *worker.state);
+    watch_over_worker(guard_end, limits, serve, *worker.state);
   }
   const int error = worker.process < 0 ? errno : 0;
-  ::close(its_end);
+  ::close(guard_end);
   if (error != 0) throw cannot_start(std::strerror(error));
 }
 
 void ProcessPool::end() noexcept {
   if (flags_) flags_->give_up.store(true);
-  // All first, then wait: each sees that nobody listens, ends its worker and itself.
+  // Close all sockets first, then wait: each watching process then ends its worker and itself.
   for (Worker& w : workers_)
     if (w.socket >= 0) ::close(w.socket);
   for (Worker& w : workers_)

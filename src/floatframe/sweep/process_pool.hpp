@@ -1,10 +1,10 @@
 #pragma once
-// Worker processes that answer requests, one at a time each, and survive anything a request does:
-// one whose worker crashes, takes too long or too much memory has a reason in place of an answer,
-// and the next request finds a new worker.
+// Worker processes that answer requests, one at a time each, and tolerate any failure of a request:
+// if its worker crashes or exceeds the limit of time or memory, the answer is the reason, and the
+// next request gets a new worker.
 //
-// The processes are forks of this one, made by the constructor: best before the program has loaded
-// MPI or has threads. They end with it, however it ends, or with the thread that made them.
+// The processes are forks of this one, made by the constructor: preferably before the program loads
+// MPI or starts threads. They end with it, however it ends, or with the thread that made them.
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace floatframe {
 
-/// What worker processes can see: set to cancel running requests.
+/// Flags visible to worker processes: set to cancel running requests.
 struct SharedFlags {
   std::atomic<bool> give_up{false};
 };
@@ -28,15 +28,15 @@ class ProcessPool {
   struct Answer {
     int worker = 0;
     std::string request, text;
-    std::string lost;      ///< why there is no answer; empty: there is one
-    double seconds = 0.0;  ///< how long it took
+    std::string lost;      ///< reason for a missing answer; empty: there is one
+    double seconds = 0.0;  ///< duration [s]
   };
   using Work = std::function<std::string(const std::string& request, WorkerState& state,
                                          const SharedFlags& flags)>;
 
   /// Throws RunError if the system refuses more processes.
   ProcessPool(int workers, const WorkerLimits& limits, const Work& work);
-  /// Ends running requests at once.
+  /// Terminates running requests immediately.
   ~ProcessPool();
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
@@ -44,16 +44,16 @@ class ProcessPool {
   int size() const noexcept { return static_cast<int>(workers_.size()); }
   bool idle(int worker) const { return workers_[worker].request.empty(); }
   bool all_idle() const;
-  /// To an idle worker. Throws RunError if it is not there any more.
+  /// Sends a request to an idle worker. Throws RunError if the worker is gone.
   void give(int worker, const std::string& request);
-  /// What has come since the last call; waits for something, but not longer than `timeout`. Throws
-  /// RunError if workers cannot be started or have been taken away.
+  /// Answers received since the last call; waits for the first one, at most `timeout`. Throws
+  /// RunError if workers cannot be started or were killed.
   std::vector<Answer> answers(std::chrono::milliseconds timeout);
-  /// Gives a request and waits for its answer; for a pool at rest. None if `stop` was set first.
+  /// Sends a request to an idle pool and waits for the answer. None if `stop` was set first.
   std::optional<Answer> ask(int worker, const std::string& request, const std::atomic<bool>& stop);
   /// Sum over the running requests of the fraction done.
   double in_work() const;
-  /// Asks running requests to cancel.
+  /// Requests cancellation of running requests.
   void give_up() { flags_->give_up.store(true); }
 
  private:

@@ -18,7 +18,7 @@ int number_in(const char* variable) {
 
 }  // namespace
 
-// OpenMPI's own variable, and those of launchers that start OpenMPI programs directly (Slurm).
+// The variable of OpenMPI, and those of launchers that start OpenMPI programs directly (Slurm).
 bool started_on_ranks() {
   return number_in("OMPI_COMM_WORLD_SIZE") > 1 ||
          (std::getenv("PMIX_RANK") && number_in("SLURM_NTASKS") > 1);
@@ -33,7 +33,7 @@ std::unique_ptr<Ranks> open_ranks() {
         "started by mpirun, but this Floatframe was built without MPI (libfloatframe_mpi.so): "
         "install the packages libopenmpi-dev and openmpi-bin and build again");
   }
-  // Global: OpenMPI loads parts of itself that look for its symbols.
+  // RTLD_GLOBAL: OpenMPI loads plugins that need its symbols.
   void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!handle) {
     const char* why = ::dlerror();

@@ -1,7 +1,6 @@
 #pragma once
-// The processes of a study that was started on several at once (mpirun), as the study sees them:
-// numbered 0 .. size-1, sending each other texts. The engine is MPI; it lives in a module of its
-// own
+// The processes of a study started on several at once (mpirun), seen from the study: numbered 0 ..
+// size-1, sending each other texts. It is implemented with MPI, in a separate module
 // (`libfloatframe_mpi.so`) that is loaded only when the program was started that way, so that the
 // program runs on machines without MPI.
 #include <memory>
@@ -14,30 +13,30 @@ struct RankMessage {
   std::string text;
 };
 
-/// All functions are for the thread that opened the ranks.
+/// All functions must be called by the thread that opened the ranks.
 class Ranks {
  public:
-  virtual ~Ranks() = default;  ///< waits until all ranks are at the end
+  virtual ~Ranks() = default;  ///< waits until all ranks have finished
   virtual int rank() const noexcept = 0;
   virtual int size() const noexcept = 0;
   virtual void send(int to, const std::string& text) = 0;
-  /// The next message if one has arrived; does not wait.
+  /// The next message if one has arrived; does not block.
   virtual bool receive(RankMessage& message) = 0;
-  /// Ends all ranks at once.
+  /// Terminates all ranks immediately.
   [[noreturn]] virtual void abort(int exit_code) noexcept = 0;
 };
 
-/// Whether the environment says that this process was started as one of several.
+/// True if the environment shows that this process is one of several.
 bool started_on_ranks();
 
 /// Joins the other processes; null if there is only this one. Throws std::runtime_error with one
 /// sentence if the module is missing or cannot be loaded.
 std::unique_ptr<Ranks> open_ranks();
 
-/// Number of processes on this machine as the launcher tells it, at least 1.
+/// Number of processes on this machine according to the launcher, at least 1.
 int ranks_on_this_machine();
 
-/// What the module exports, as a C function of this name.
+/// Name of the C function that the module exports.
 inline constexpr const char* open_ranks_symbol = "floatframe_open_ranks";
 using OpenRanksFunction = Ranks* (*)();
 

@@ -1,6 +1,6 @@
 #pragma once
-// The runs that are left to do. A worker that has checked a run knows what it read, so each is
-// given its own ones first, and those of others at the end.
+// The pending runs. A worker that has checked a run still holds its inputs, so each worker gets the
+// runs it has checked first, and runs of other workers at the end.
 #include <cstddef>
 #include <deque>
 #include <optional>
@@ -14,9 +14,9 @@ class RunQueue {
 
   /// A run that `worker` has checked.
   void push(std::size_t run, int worker) { own_[worker].push_back(run); }
-  /// For a worker.
+  /// Next run for a worker.
   std::optional<std::size_t> take(int worker);
-  /// For whoever has checked nothing: from the worker that has most to do, its last.
+  /// Next run for a worker without pending runs: the last one of the worker with the most.
   std::optional<std::size_t> take();
   void clear() {
     for (auto& runs : own_) runs.clear();

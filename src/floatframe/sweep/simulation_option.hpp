@@ -1,6 +1,6 @@
 #pragma once
-// The options of a run that have a name and one value: those of the group `simulation` of a model
-// file, set from outside.
+// The options of a run that have a name and a single value: those of the group `simulation` of a
+// model file, set by a study or the command line.
 #include <string>
 #include <vector>
 
@@ -11,12 +11,12 @@ namespace floatframe {
 /// coordinates, inertia, start, step, duration, ...
 const std::vector<std::string>& simulation_option_names();
 
-/// Sets one option. Empty if done, otherwise what is wrong: "found 'x', expected ...". `name` must
-/// be one of the names above.
+/// Sets one option. Returns empty on success, otherwise the error: "found 'x', expected ...".
+/// `name` must be one of the names above.
 std::string set_simulation_option(SimulationDescription& simulation, const std::string& name,
                                   const std::string& value);
 
-/// What is wrong with the options together, empty if nothing.
+/// The error of the options as a whole, empty if they are valid.
 std::string simulation_error(const SimulationDescription& simulation);
 
 }  // namespace floatframe

@@ -23,8 +23,8 @@ namespace {
 using What = ServiceRequest::What;
 using Clock = std::chrono::steady_clock;
 
-/// Runs that earlier calls kept in the folder. The table of an earlier study stays until there is a
-/// new one.
+/// Removes runs recorded in the folder by earlier calls. The table of an earlier study is kept
+/// until the new one is written.
 void remove_results(const std::string& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> runs;
@@ -34,14 +34,14 @@ void remove_results(const std::string& folder) {
       runs.push_back(it->path());
   for (const auto& run : runs) {
     {
-      const FolderLock held(run.string());  // a single run may be at work there
+      const FolderLock held(run.string());  // a single run may be using the folder
       for (const char* name : {"results.csv", "summary.json"}) remove_file((run / name).string());
     }
-    std::filesystem::remove(run, ignored);  // only if nothing else is in it
+    std::filesystem::remove(run, ignored);  // only if empty
   }
 }
 
-/// Process 0: hands out runs, takes their lines.
+/// Process 0: distributes runs and collects their lines.
 class Coordinator {
  public:
   Coordinator(const SweepOptions& options, SweepWorkers& workers, const CheckedRuns& checked,
@@ -58,31 +58,31 @@ class Coordinator {
       if (!journal.finished().contains(run)) queue_.push(run, checked.worker[run]);
   }
 
-  /// True if all runs are finished, false if it was stopped.
+  /// True if all runs are finished, false if stopped.
   bool work(std::size_t before, const std::atomic<bool>& stop,
             const std::function<void(const SweepProgress&)>& progress) {
     const std::size_t total = options_.plan.runs.size();
-    bool given_up = false;
+    bool cancelled = false;
     if (ranks_) {
       const auto files = first_run_files(options_, workers_, stop);
-      given_up = !files;
+      cancelled = !files;
       if (files) study_ = study_hash(options_, *files);
     }
-    while (!given_up && journal_.finished().size() < total) {
+    while (!cancelled && journal_.finished().size() < total) {
       hand_out();
-      // Messages of other processes have to be asked for.
+      // Messages of other processes must be polled.
       for (const SweepWorkers::Answer& answer :
            workers_.answers(std::chrono::milliseconds(ranks_ ? 1 : 50)))
-        given_up = !take(answer) || given_up;
+        cancelled = !take(answer) || cancelled;
       RankMessage message;
-      while (ranks_ && ranks_->receive(message)) given_up = !take(message) || given_up;
+      while (ranks_ && ranks_->receive(message)) cancelled = !take(message) || cancelled;
       progress({SweepProgress::Stage::running, journal_.finished().size(), total, before,
                 workers_.in_work()});
-      given_up = given_up || stop.load();
+      cancelled = cancelled || stop.load();
     }
-    if (given_up) wind_up();
+    if (cancelled) cancel_running();
     journal_.flush();
-    return !given_up;
+    return !cancelled;
   }
 
  private:
@@ -95,9 +95,9 @@ class Coordinator {
     }
   }
 
-  /// Running jobs are cancelled, which they notice after some steps; those that do not are ended
-  /// with their workers.
-  void wind_up() {
+  /// Cancels running jobs, which react after some steps; workers of jobs that do not react are
+  /// terminated.
+  void cancel_running() {
     workers_.give_up();
     const auto end = Clock::now() + std::chrono::seconds(2);
     while (!workers_.all_idle() && Clock::now() < end)
@@ -225,7 +225,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
 
 namespace {
 
-/// With an origin for each run. Throws InputError for a plan whose parts do not belong together.
+/// Adds an origin for each run. Throws InputError for an inconsistent plan.
 SweepOptions completed(SweepOptions options) {
   SweepPlan& plan = options.plan;
   if (plan.runs.empty())

@@ -1,12 +1,12 @@
 #pragma once
 // A parameter study: many runs of one model file with different values, in worker processes and,
-// under mpirun, on several machines. Its table depends only on the runs, not on how they were
-// spread or how often the study was interrupted: each run is single-threaded, and rows go through
-// the journal's text.
+// under mpirun, on several machines. The table depends only on the runs, not on their distribution
+// or on interruptions of the study: each run is single-threaded, and rows pass through the text of
+// the journal.
 //
-// The program itself hands out run numbers, keeps the journal and writes the table; nothing of a
-// run, not even the reading of its model, happens in it, so that a run that crashes is a row.
-// Under mpirun each process has its own workers; process 0 leads, the others ask it for runs.
+// The main process distributes run numbers, keeps the journal and writes the table; workers read
+// the models and run them, so that a crash becomes a row of the table. Under mpirun each process
+// has its own workers; process 0 leads, the others request runs from it.
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -23,31 +23,31 @@ namespace floatframe {
 
 struct SweepOptions {
   std::string model;                ///< model file
-  std::optional<std::string> text;  ///< read instead of it: it says where other files are
+  std::optional<std::string> text;  ///< read instead of it; paths are relative to `model`
   std::vector<SweepSetting> fixed;  ///< for all runs
   SweepPlan plan;
   std::vector<SweepMeasure> measures;  ///< empty: all outputs
   std::string folder;                  ///< sweep.csv, sweep.journal, runs/
-  int threads = 1;                     ///< runs at a time: worker processes of this one
-  WorkerLimits limits;                 ///< of a run; reading its model and running it one by one
+  int threads = 1;                     ///< runs at a time: worker processes of this process
+  WorkerLimits limits;                 ///< of a run, for reading and for running separately
   bool keep_results = false;  ///< results.csv and summary.json of every run below runs/<number>
-  bool fresh = false;         ///< do not continue what is in the folder
-  bool retry_failed = false;  ///< repeat the runs that failed, whatever the reason
-  bool strict = false;        ///< a run with warnings has failed
+  bool fresh = false;         ///< do not continue a study in the folder
+  bool retry_failed = false;  ///< repeat the failed runs, whatever the reason
+  bool strict = false;        ///< warnings count as failures
 };
 
 struct SweepProgress {
   enum class Stage { checking, running } stage = Stage::checking;
   std::size_t done = 0, total = 0;  ///< runs; finished by an earlier call included
   std::size_t before = 0;           ///< runs finished by an earlier call
-  double in_work = 0.0;             ///< sum of the fractions done of the runs in work
+  double in_work = 0.0;             ///< sum of the fractions done of running runs
 };
 
 /// Warnings of one kind in a study.
 struct SweepWarnings {
   RangeLimit limit = RangeLimit::displacement;
-  std::size_t runs = 0, first = 0;  ///< how many have one; number from 1 of the first
-  std::string sentence;             ///< of the first
+  std::size_t runs = 0, first = 0;  ///< number of runs; number from 1 of the first
+  std::string sentence;             ///< of the first run
 };
 
 struct SweepReport {
@@ -61,14 +61,14 @@ struct SweepReport {
   std::vector<SweepWarnings> warnings;
   bool interrupted = false;
   std::string table;    ///< path of the table; empty if interrupted
-  std::string journal;  ///< its path
+  std::string journal;  ///< path of the journal
 };
 
-/// Runs the study or what is left of it. `stop`, looked at all the time, ends it early: runs in
-/// work are cancelled. Its workers are forks of the calling program: it should have no other
-/// threads at this moment, or none that hold a lock that a run needs (memory and files of the C
-/// library are safe). They do not run its exit handlers and touch none of its open files. Throws
-/// InputError (nothing was started), OutputError, RunError.
+/// Runs the study or its remaining runs. `stop`, polled continuously, ends it early: running runs
+/// are cancelled. Its workers are forks of the calling program, which should have no other threads
+/// at this moment, or none that hold a lock that a run needs (memory and files of the C library are
+/// safe). Workers run none of its exit handlers and do not use its open files. Throws InputError
+/// (nothing was started), OutputError, RunError.
 SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress);
 

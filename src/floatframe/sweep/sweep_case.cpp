@@ -17,7 +17,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The reader knows values from outside as `--set`: here they may come from elsewhere.
+/// The reader reports external values as `--set`: replaces that by their actual origin.
 std::vector<ErrorEntry> renamed(std::vector<ErrorEntry> errors,
                                 const std::vector<SweepSetting>& fixed, const std::string& origin) {
   for (ErrorEntry& error : errors) {
@@ -37,8 +37,8 @@ std::vector<ErrorEntry> renamed(std::vector<ErrorEntry> errors,
 SweepCaseReader::SweepCaseReader(std::string model, const std::optional<std::string>& text,
                                  const std::vector<SweepSetting>& fixed, const SweepPlan& plan)
     : model_(std::move(model)), fixed_(fixed), plan_(plan) {
-  // The file may be wrong with its own values and right with those of the study: only its
-  // parameters are asked for here.
+  // The file may be invalid with its own values and valid with those of the study: only its
+  // parameters are read here.
   if (text) options_.text = &*text;
   options_.parsed = std::make_shared<ParsedFiles>();
   ModelFingerprint file;

@@ -1,5 +1,5 @@
 #pragma once
-// One run of a study before it is run: the model file read with the run's values.
+// Input of one run of a study: the model file read with the values of the run.
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +18,9 @@ struct SweepCase {
 
 class SweepCaseReader {
  public:
-  /// Finds out what the names of the plan and of `fixed` stand for. Throws InputError if the model
-  /// file cannot be read at all or a name is unknown. All references must outlive the reader.
-  /// `text`, if there is one, is read instead of the file.
+  /// Resolves the names of the plan and of `fixed`. Throws InputError if the model file cannot be
+  /// read at all or a name is unknown. All references must outlive the reader. `text`, if given, is
+  /// read instead of the file.
   SweepCaseReader(std::string model, const std::optional<std::string>& text,
                   const std::vector<SweepSetting>& fixed, const SweepPlan& plan);
 
@@ -31,7 +31,7 @@ class SweepCaseReader {
 
  private:
   struct Target {
-    bool option = false;  ///< of the simulation, not a parameter
+    bool option = false;  ///< option of the simulation instead of a parameter
     std::string name;
   };
   Target target(const std::string& name, const std::string& subject, ErrorList& errors) const;

@@ -21,11 +21,11 @@ class Checker {
   }
 
   CheckedRuns check(const std::function<void(const SweepProgress&)>& progress) {
-    // The first run alone: a part that it reduces is in the cache when the others need it.
-    if (open() && alone(What::check)) {
+    // The first run run_first: the cache then holds its reduced part when the others need it.
+    if (open() && run_first(What::check)) {
       others(progress);
       if (!out_.stopped) refuse_errors();
-      if (!out_.stopped && !out_.lost.contains(0)) alone(What::build);
+      if (!out_.stopped && !out_.lost.contains(0)) run_first(What::build);
       refuse_errors();
     }
     if (out_.stopped) workers_.give_up();
@@ -33,7 +33,7 @@ class Checker {
   }
 
  private:
-  /// Whatever the runs are, the file and the names must be understood.
+  /// The file and the names must be valid for any run.
   bool open() {
     const auto answer = workers_.ask(0, {What::open, 0}, stop_);
     if (!answer) return !(out_.stopped = true);
@@ -44,7 +44,7 @@ class Checker {
     return true;
   }
 
-  bool alone(What what) {
+  bool run_first(What what) {
     const auto answer = workers_.ask(0, {what, 0}, stop_);
     if (!answer) return !(out_.stopped = true);
     take(*answer, what);
@@ -58,7 +58,7 @@ class Checker {
       out_.lost[answer.run] = fmt::format("{} while its model was {}", answer.lost,
                                           what == What::build ? "built" : "read");
     if (!answer.errors.empty()) errors_[answer.run] = answer.errors;
-    out_.stopped = out_.stopped || answer.kind == ServiceAnswer::Kind::given_up;
+    out_.stopped = out_.stopped || answer.kind == ServiceAnswer::Kind::cancelled;
   }
 
   void others(const std::function<void(const SweepProgress&)>& progress) {

@@ -1,6 +1,5 @@
 #pragma once
-// What happens before the first run: all runs are read and their values checked, in the worker
-// processes.
+// Before the first run: all runs are read and their values checked, in the worker processes.
 #include <atomic>
 #include <functional>
 #include <map>
@@ -14,12 +13,12 @@ namespace floatframe {
 
 struct CheckedRuns {
   bool stopped = false;                     ///< before all was checked
-  std::vector<int> worker;                  ///< that checked each run
-  std::map<std::size_t, std::string> lost;  ///< runs that have failed already, and why
+  std::vector<int> worker;                  ///< the worker that checked each run
+  std::map<std::size_t, std::string> lost;  ///< runs that have already failed, and the reason
 };
 
 /// Checks all runs and builds the model of the first. A run whose reading or building crashes or
-/// passes a limit is not bad input but a run that fails. Throws InputError with the errors of all
+/// exceeds a limit is not an input error but a failed run. Throws InputError with the errors of all
 /// runs, each once, in the order of the runs; RunError.
 CheckedRuns check_runs(const SweepOptions& options, SweepWorkers& workers,
                        const std::atomic<bool>& stop,

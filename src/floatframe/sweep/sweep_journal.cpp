@@ -28,7 +28,7 @@ std::string line_of(const Json& json) {
   return content_hash(text).substr(0, 16) + ' ' + text;
 }
 
-/// Discarded JSON if the line is not whole.
+/// Discarded JSON if the line is incomplete.
 Json json_of(const std::string& line) {
   Json nothing(Json::value_t::discarded);
   if (line.size() < 18 || line[16] != ' ') return nothing;
@@ -47,7 +47,7 @@ Json header_of(const SweepIdentity& identity, std::size_t runs, const SweepJourn
   return header;
 }
 
-/// In what a journal with this first line is another study; empty if in nothing.
+/// Difference between the study of this first line and the present one; empty if there is none.
 std::string difference(const Json& found, const SweepIdentity& identity, std::size_t runs) {
   const Json wanted = header_of(identity, runs, {});
   const Json same = found.contains("identity") ? found.at("identity") : Json::array();
@@ -65,7 +65,7 @@ OutputError cannot(const std::string& path, int error) {
       fmt::format("the file '{}' cannot be written: {}", path, std::strerror(error)));
 }
 
-/// The files that a line knows.
+/// Adds the files listed in a line.
 void add_files(const Json& json, SweepJournal::Files& files) {
   if (!json.contains("files") || !json.at("files").is_object()) return;
   for (const auto& [file, hash] : json.at("files").items())
@@ -130,7 +130,7 @@ SweepJournal::SweepJournal(const std::string& path, const SweepIdentity& identit
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) throw cannot(path, errno);
   try {
-    // A pipe would be waited for, a device read without end.
+    // Opening a pipe would block, a device would be read forever.
     struct stat status {};
     if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode))
       throw InputError(ErrorCode::unreadable,
@@ -167,8 +167,8 @@ void SweepJournal::load(const std::string& header, const SweepIdentity& identity
   }
   const std::size_t end_of_header = text.find('\n');
   if (end_of_header == std::string::npos) {
-    // Empty, or ended while the first line was written: no run can have been lost. A file that is
-    // not a beginning of such a line is somebody else's.
+    // Empty, or a first line cut short by a crash: no run can have been lost. A file with any other
+    // beginning belongs to another program.
     if (header.compare(0, text.size(), text) != 0 && json_of(text).is_discarded() &&
         text.size() > 17)
       throw InputError(ErrorCode::mismatch,
@@ -184,7 +184,7 @@ void SweepJournal::load(const std::string& header, const SweepIdentity& identity
   const std::string other = difference(found, identity, runs);
   if (!other.empty()) throw another_study(ErrorCode::mismatch, path_, other);
   add_files(found, files_);
-  // Lines: the last one may be torn; what is after the last line break goes.
+  // Lines: the last one may be incomplete; text after the last line break is dropped.
   const std::size_t whole = text.rfind('\n') + 1;
   for (std::size_t from = end_of_header + 1; from < whole;) {
     const std::size_t to = text.find('\n', from);

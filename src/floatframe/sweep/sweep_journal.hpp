@@ -1,11 +1,11 @@
 #pragma once
-// The memory of a study that may be interrupted at any moment: a text file to which one line is
-// added for every finished run. A line is "<fingerprint of the rest> <JSON>\n"; one that was torn
-// by a crash does not match its fingerprint and is left out, so its run is repeated. The first line
-// tells what the study is; a journal of another study is refused.
+// Journal of a study that may be interrupted at any moment: a text file with one line per finished
+// run. A line is "<fingerprint of the rest> <JSON>\n"; a line cut short by a crash does not match
+// its fingerprint and is ignored, so its run is repeated. The first line identifies the study; a
+// journal of another study is rejected.
 //
-// A line is handed to the system at once, which is safe against the end of the process in any way;
-// against a loss of power the file is flushed to the disk at most every half second.
+// A line is written to the system at once, so that it survives any end of the process; against
+// power failures the file is flushed to the disk at most every half second.
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -17,12 +17,12 @@
 
 namespace floatframe {
 
-/// What must be the same for a study to be continued: (what it is in words, its value), in the
-/// order in which a difference is reported. Files, which must not change either, are apart: a run
-/// whose reading was stopped may come to know one later.
+/// Must be equal for a study to be continued: (description, value) in the order in which
+/// differences are reported. Files, which must not change either, are separate: an interrupted
+/// reading may add one later.
 using SweepIdentity = std::vector<std::pair<std::string, std::string>>;
 
-/// A row as one line of text and back. `decode` returns false for anything that is not whole.
+/// A row as one line of text and back. `decode` returns false for an incomplete line.
 std::string encode_row(std::size_t run, const SweepRow& row);
 bool decode_row(const std::string& text, std::size_t& run, SweepRow& row);
 
@@ -30,10 +30,10 @@ class SweepJournal {
  public:
   using Files = std::map<std::string, std::string>;
 
-  /// Opens or creates the journal at `path` for a study of `runs` runs and takes it for this
-  /// process. Throws InputError if it belongs to another study or another process is at it,
-  /// OutputError if it cannot be written. `fresh`: what is there is given up. `files`: fingerprints
-  /// of the contents of files by name.
+  /// Opens or creates the journal at `path` for a study of `runs` runs and locks it. Throws
+  /// InputError if it belongs to another study or another process uses it, OutputError if it cannot
+  /// be written. `fresh`: discards existing content. `files`: fingerprints of the contents of files
+  /// by name.
   SweepJournal(const std::string& path, const SweepIdentity& identity, std::size_t runs, bool fresh,
                const Files& files = {});
   ~SweepJournal();
@@ -45,9 +45,9 @@ class SweepJournal {
 
   /// Adds a finished run given by its line from `encode_row`. Throws OutputError.
   void add(const std::string& line);
-  /// Takes failed runs as not finished; the line of their repetition counts.
+  /// Treats failed runs as not finished; the line of their repetition counts.
   void forget_failed();
-  /// To the disk.
+  /// Flushes to the disk.
   void flush();
 
  private:
@@ -62,7 +62,7 @@ class SweepJournal {
   bool unflushed_ = false;
   std::chrono::steady_clock::time_point flushed_;
   std::map<std::size_t, SweepRow> finished_;
-  Files files_;  ///< known to the journal
+  Files files_;  ///< listed in the journal
 };
 
 }  // namespace floatframe

@@ -4,7 +4,7 @@
 
 namespace floatframe {
 
-/// Which figures of which outputs go into the table.
+/// An output and the statistics of it that are columns of the table.
 struct SweepMeasure {
   std::string output;     ///< name of an output column
   std::string statistic;  ///< empty: all; else one of sweep_statistics

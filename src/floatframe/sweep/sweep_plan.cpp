@@ -84,7 +84,7 @@ std::vector<std::string> values_of(const std::string& variation, const std::stri
   return values;
 }
 
-/// The fields of one line and the column each begins in; false if a quote is not closed.
+/// The fields of one line and their starting columns; false if a quote is not closed.
 bool fields_of(const std::string& line, std::vector<std::string>& fields,
                std::vector<int>& columns) {
   fields.clear();

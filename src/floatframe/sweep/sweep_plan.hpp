@@ -1,6 +1,6 @@
 #pragma once
-// Which runs a parameter study consists of: names, and for each run one value a name, as text that
-// the model file's rules for values apply to later.
+// The runs of a parameter study: names, and for each run one value per name, as text that is
+// checked later by the model file's rules for values.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,9 +15,8 @@ struct SweepSetting {
 
 struct SweepPlan {
   std::vector<std::string> names;
-  std::vector<std::vector<std::string>> runs;  ///< one value a name
-  /// Where the values come from, for messages: "--vary" or "runs.csv:3" (one entry per run, or
-  /// none at all).
+  std::vector<std::vector<std::string>> runs;  ///< one value per name
+  /// Origin of the values, for messages: "--vary" or "runs.csv:3" (one entry per run, or empty).
   std::vector<std::string> origins;
 };
 
@@ -30,8 +29,8 @@ inline constexpr std::size_t most_sweep_runs = 1000000;
 /// Throws InputError.
 SweepPlan grid_plan(const std::vector<std::string>& variations);
 
-/// One run per row of a CSV file whose first line holds the names. Fields in double quotes may hold
-/// commas; empty lines are left out. Throws InputError with file, line and column.
+/// One run per row of a CSV file whose first line contains the names. Fields in double quotes may
+/// contain commas; empty lines are ignored. Throws InputError with file, line and column.
 SweepPlan table_plan(const std::string& file);
 
 }  // namespace floatframe

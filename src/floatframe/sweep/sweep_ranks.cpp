@@ -17,13 +17,13 @@ void dismiss_ranks(Ranks& ranks) {
 
 namespace {
 
-/// A process other than 0: does what it is sent.
+/// A process other than 0: executes the requests it receives.
 class RankWorker {
  public:
   RankWorker(const SweepOptions& options, SweepWorkers& workers, Ranks& ranks)
       : options_(options), workers_(workers), ranks_(ranks) {}
 
-  /// Until process 0 says that it is over (true), or `stop` (false).
+  /// Until process 0 ends the study (true), or `stop` (false).
   bool work(const std::atomic<bool>& stop) {
     const auto files = first_run_files(options_, workers_, stop);
     if (!files) return false;
@@ -53,7 +53,7 @@ class RankWorker {
     const auto line = line_of(options_, answer);
     if (!line) return;
     ranks_.send(0, "done " + *line);
-    // Short runs: a second run per worker lies ready, so that none waits for the answer.
+    // Short runs: each worker has a second run queued, so that none waits for process 0.
     const bool short_run = !ahead_ && answer.seconds < 0.1;
     want(short_run ? 1 + workers_.size() : 1);
     ahead_ = ahead_ || short_run;
@@ -94,7 +94,7 @@ std::string rest_of(const std::string& text) {
 std::optional<std::string> line_of(const SweepOptions& options,
                                    const SweepWorkers::Answer& answer) {
   if (!answer.lost.empty()) return lost_line(options, answer.run, answer.lost);
-  if (answer.kind == ServiceAnswer::Kind::given_up) return std::nullopt;
+  if (answer.kind == ServiceAnswer::Kind::cancelled) return std::nullopt;
   if (!answer.errors.empty()) throw InputError(answer.errors);
   return answer.text;
 }

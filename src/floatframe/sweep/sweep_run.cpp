@@ -22,7 +22,7 @@
 namespace floatframe {
 namespace {
 
-/// A journal line holds one sentence: of several errors the first.
+/// A journal line contains one sentence: the first of several errors.
 std::string first_error(const InputError& error) {
   std::string text = error.errors().front().text();
   if (error.count() > 1) text += fmt::format(" (and {} more)", error.count() - 1);
@@ -34,7 +34,7 @@ std::filesystem::path folder_of(const SweepOptions& options, std::size_t run) {
   return std::filesystem::path(options.folder) / "runs" / fmt::format("{:0{}}", run + 1, digits);
 }
 
-/// What a process that died while it wrote a file left of it.
+/// Removes temporary files of a process that died while it wrote them.
 void remove_torn_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> torn;
   std::error_code ignored;
@@ -44,7 +44,7 @@ void remove_torn_files(const std::filesystem::path& folder) {
   for (const auto& file : torn) remove_file(file.string());
 }
 
-/// For the time of writing: a single run may be at work there.
+/// Locks the folder while it is written: a single run may be using it.
 class RunFolder {
  public:
   explicit RunFolder(const std::string& folder) {
@@ -60,12 +60,11 @@ class RunFolder {
   std::optional<FolderLock> lock_;
 };
 
-/// The states of a run, where its model file asks for them (`record: states`). As its rows they are
-/// held until the run has ended.
+/// The states of a run, if its model file records them (`record: states`). Like its rows, they are
+/// kept in memory until the run has ended.
 class SweepStates {
  public:
-  /// `options` gives them here, if the run is asked to record; what is handed over must outlive the
-  /// run.
+  /// Connects `options` to this object if states are recorded; the arguments must outlive the run.
   void take_from(RunOptions& options, const Model& model, const SimulationDescription& simulation,
                  const HistoryOrigin& origin) {
     if (simulation.record.states != RecordDescription::States::states) return;
@@ -75,7 +74,7 @@ class SweepStates {
     };
   }
 
-  /// In place of what is there. Throws OutputError.
+  /// Replaces an existing file. Throws OutputError.
   void write(const std::filesystem::path& file, const RunSummary& summary) const {
     if (!content_) return remove_file(file.string());
     StatesFile out(file.string(), *content_, false);
@@ -102,7 +101,7 @@ void keep_files(const std::filesystem::path& folder, const RunResult& result,
   write_file((folder / "summary.json").string(), summary_json(result.summary));
 }
 
-/// What a run was given, as `run --set` would be.
+/// Values of a run, in the form of `run --set`.
 std::vector<std::string> settings_of(const SweepOptions& options, std::size_t run) {
   std::vector<std::string> settings;
   for (const SweepSetting& s : options.fixed) settings.push_back(s.name + '=' + s.value);
@@ -111,7 +110,7 @@ std::vector<std::string> settings_of(const SweepOptions& options, std::size_t ru
   return settings;
 }
 
-/// What the states of a run say they were made from.
+/// Origin written to the states of a run.
 HistoryOrigin origin_of(const SweepOptions& options, std::size_t run, const PreparedRun& prepared) {
   HistoryOrigin o = history_origin(options.model, folder_of(options, run).string());
   for (const std::string& setting : settings_of(options, run))
@@ -173,7 +172,7 @@ std::shared_ptr<const Model> SweepRunner::model(std::size_t run, const PreparedR
 }
 
 std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
-  if (stop_.load(std::memory_order_relaxed)) throw RunGivenUp{};
+  if (stop_.load(std::memory_order_relaxed)) throw RunCancelled{};
   RunResult result;
   SweepRow row;
   PreparedRun prepared;
@@ -184,7 +183,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
       prepared = std::move(known.mapped());
       shared = model(run, prepared);
     } else {
-      // Checked by another worker: what is read now is enough to build from.
+      // Checked by another worker: read again, to build from it.
       SweepCase c = read_checked(run);
       prepared = prepared_from(c);
       shared = pool_.get(prepared.fingerprint, prepared.simulation,
@@ -192,7 +191,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
     }
     RunOptions options;
     options.progress = [&](double fraction) {
-      if (stop_.load(std::memory_order_relaxed)) throw RunGivenUp{};
+      if (stop_.load(std::memory_order_relaxed)) throw RunCancelled{};
       progress.store(fraction, std::memory_order_relaxed);
     };
     const HistoryOrigin origin = origin_of(options_, run, prepared);

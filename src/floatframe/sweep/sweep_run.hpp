@@ -1,5 +1,5 @@
 #pragma once
-// One run of a study from its number to its line in the journal; in one thread.
+// One run of a study, from its number to its journal line; in one thread.
 #include <atomic>
 #include <map>
 #include <memory>
@@ -11,18 +11,18 @@
 
 namespace floatframe {
 
-/// What is known of a run once its values were checked.
+/// Data of a run whose values have been checked.
 struct PreparedRun {
   using Files = std::map<std::string, std::string>;
 
   ModelFingerprint fingerprint;  ///< without `files` and `parameters`
   SimulationDescription simulation;
-  /// Fingerprints of the files that were read, if the study keeps results; runs share them.
+  /// Fingerprints of the files that were read, if results are recorded; shared by runs.
   std::shared_ptr<const Files> files;
 };
 
-/// A run cancelled because the study ends.
-struct RunGivenUp {};
+/// Thrown for a run cancelled because the study ends.
+struct RunCancelled {};
 
 class SweepRunner {
  public:
@@ -31,11 +31,11 @@ class SweepRunner {
 
   /// Reads the model with the values of a run and checks them and the measures. Throws InputError.
   PreparedRun prepare(std::size_t run);
-  /// The same, and remembers what it found, so that `line` need not read the file again.
+  /// The same, and keeps the result, so that `line` need not read the file again.
   void check(std::size_t run);
-  /// Runs it; a run that cannot start or fails gives a line that says so. Writes the files of the
-  /// run if the study keeps them. Throws RunGivenUp, OutputError, RunError (a file changed
-  /// meanwhile).
+  /// Executes a run; if it cannot start or fails, the line contains the reason. Writes the files of
+  /// the run if the study records them. Throws RunCancelled, OutputError, RunError (a file was
+  /// changed meanwhile).
   std::string line(std::size_t run, std::atomic<double>& progress);
   /// The model of a run, built or from the pool. Throws InputError.
   std::shared_ptr<const Model> model(std::size_t run, const PreparedRun& prepared);
@@ -56,11 +56,11 @@ class SweepRunner {
   ModelPool pool_;
   std::unordered_map<std::size_t, PreparedRun> prepared_;
   std::map<std::string, std::string> files_;
-  std::shared_ptr<const PreparedRun::Files> last_files_;  // of the run prepared last
+  std::shared_ptr<const PreparedRun::Files> last_files_;  // of the last run prepared
 };
 
-/// The line of a run that was lost with its process, and the files that say so if the study keeps
-/// them. Throws OutputError.
+/// The line of a run lost with its process, and its files with the reason if the study records
+/// files. Throws OutputError.
 std::string lost_line(const SweepOptions& options, std::size_t run, const std::string& reason);
 
 }  // namespace floatframe

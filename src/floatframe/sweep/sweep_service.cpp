@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-// A list of texts: "<length>:<bytes>" for each, so that any byte may be in them.
+// A list of texts: "<length>:<bytes>" for each, so that they may contain any bytes.
 void put(std::string& out, const std::string& field) {
   out += std::to_string(field.size());
   out += ':';
@@ -44,7 +44,7 @@ class Fields {
     whole_ = whole_ && error == std::errc() && end == last;
     return whole_ ? value : 0;
   }
-  /// Number of groups of texts that follow; each takes two bytes at least.
+  /// Number of groups of texts that follow; each takes at least two bytes.
   std::size_t count() {
     const std::size_t n = number();
     whole_ = whole_ && n <= rest_.size();
@@ -116,7 +116,7 @@ bool decode(const std::string& text, ServiceAnswer& answer) {
 
 std::string SweepService::answer(const ServiceRequest& request, WorkerState& state) {
   using What = ServiceRequest::What;
-  if (!runner_) runner_ = std::make_unique<SweepRunner>(options_, give_up_);
+  if (!runner_) runner_ = std::make_unique<SweepRunner>(options_, cancel_);
   switch (request.what) {
     case What::open:
       break;
@@ -136,14 +136,14 @@ std::string SweepService::answer(const ServiceRequest& request, WorkerState& sta
 
 std::string SweepService::serve(const std::string& request, WorkerState& state) {
   Fields fields(request);
-  ServiceRequest asked;
-  asked.what = static_cast<ServiceRequest::What>(fields.number());
-  asked.run = fields.number();
+  ServiceRequest decoded;
+  decoded.what = static_cast<ServiceRequest::What>(fields.number());
+  decoded.run = fields.number();
   ServiceAnswer out;
   try {
-    out.text = answer(asked, state);
-  } catch (const RunGivenUp&) {
-    out.kind = ServiceAnswer::Kind::given_up;
+    out.text = answer(decoded, state);
+  } catch (const RunCancelled&) {
+    out.kind = ServiceAnswer::Kind::cancelled;
   } catch (const InputError& error) {
     out.kind = ServiceAnswer::Kind::errors;
     out.errors = error.errors();

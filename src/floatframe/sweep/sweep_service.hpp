@@ -1,5 +1,5 @@
 #pragma once
-// What a worker process does for a study, and the texts in which it is asked and answers.
+// The requests that a worker process serves for a study, and their encoding.
 #include <atomic>
 #include <map>
 #include <memory>
@@ -14,7 +14,7 @@ namespace floatframe {
 
 struct ServiceRequest {
   enum class What {
-    open,   ///< find out what the names of the study stand for
+    open,   ///< resolve the names of the study
     check,  ///< read a run and check its values
     build,  ///< build the model of a run
     files,  ///< fingerprint of the files that the first run reads
@@ -26,24 +26,24 @@ std::string encode(const ServiceRequest& request);
 
 struct ServiceAnswer {
   enum class Kind {
-    done,      ///< `text`: the line of a run or the fingerprint
-    errors,    ///< of the input
-    given_up,  ///< because the study ends
-    error      ///< `text`: what must end the study
+    done,       ///< `text`: line of a run or fingerprint
+    errors,     ///< errors of the input
+    cancelled,  ///< cancelled because the study ends
+    error       ///< `text`: an error that ends the study
   } kind = Kind::done;
   std::string text;
   std::vector<ErrorEntry> errors;
-  std::map<std::string, std::string> files;  ///< read since the worker's last answer: fingerprints
+  std::map<std::string, std::string> files;  ///< files read since the last answer: fingerprints
 };
 std::string encode(const ServiceAnswer& answer);
-/// False for anything that `encode` did not make.
+/// False for text that `encode` did not produce.
 bool decode(const std::string& text, ServiceAnswer& answer);
 
 class SweepService {
  public:
   /// Both must outlive the service.
   SweepService(const SweepOptions& options, const std::atomic<bool>& give_up)
-      : options_(options), give_up_(give_up) {}
+      : options_(options), cancel_(give_up) {}
   /// The answer to a request, both encoded.
   std::string serve(const std::string& request, WorkerState& state);
 
@@ -51,9 +51,9 @@ class SweepService {
   std::string answer(const ServiceRequest& request, WorkerState& state);
 
   const SweepOptions& options_;
-  const std::atomic<bool>& give_up_;
-  std::unique_ptr<SweepRunner> runner_;            // made by the first request
-  std::map<std::string, std::string> sent_files_;  // with former answers
+  const std::atomic<bool>& cancel_;
+  std::unique_ptr<SweepRunner> runner_;            // created by the first request
+  std::map<std::string, std::string> sent_files_;  // sent with earlier answers
 };
 
 }  // namespace floatframe

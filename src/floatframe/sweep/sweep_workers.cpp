@@ -16,7 +16,7 @@ int worker_count(const SweepOptions& options) {
   return std::clamp(options.threads, 1, std::max(1, static_cast<int>(runs)));
 }
 
-/// In each worker a service of its own, made by its first request.
+/// Each worker has its own service, created by its first request.
 ProcessPool::Work work_of(const SweepOptions& options) {
   return [&options, service = std::shared_ptr<SweepService>()](
              const std::string& request, WorkerState& state, const SharedFlags& flags) mutable {

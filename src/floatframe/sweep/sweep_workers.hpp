@@ -1,6 +1,6 @@
 #pragma once
-// The worker processes of a study as the study sees them: runs are given to them, and each comes
-// back with an answer or with the reason why there is none.
+// The worker processes of a study: they receive run numbers, and each returns an answer or the
+// reason why there is none.
 #include <map>
 #include <optional>
 #include <string>
@@ -16,12 +16,12 @@ class SweepWorkers {
   struct Answer : ServiceAnswer {
     int worker = 0;
     std::size_t run = 0;
-    std::string lost;      ///< why there is no answer: "crashed with signal ..."; else empty
-    double seconds = 0.0;  ///< how long it took
+    std::string lost;      ///< reason for a missing answer: "crashed with signal ..."
+    double seconds = 0.0;  ///< duration [s]
   };
 
-  /// Makes the processes by forking this one, as many as there are runs at most: best before the
-  /// program has loaded MPI or has threads. `options` must outlive them. Throws RunError.
+  /// Forks this process, at most once per run: preferably before the program loads MPI or starts
+  /// threads. `options` must outlive them. Throws RunError.
   explicit SweepWorkers(const SweepOptions& options);
 
   int size() const noexcept { return pool_.size(); }
@@ -29,8 +29,8 @@ class SweepWorkers {
   bool all_idle() const { return pool_.all_idle(); }
   double in_work() const { return pool_.in_work(); }
   void give(int worker, const ServiceRequest& request);
-  /// See ProcessPool. Throws RunError, also for what a worker says must end the study and if a file
-  /// was changed meanwhile.
+  /// See ProcessPool. Throws RunError, also for an error of a worker that ends the study and if a
+  /// file was changed meanwhile.
   std::vector<Answer> answers(std::chrono::milliseconds timeout);
   std::optional<Answer> ask(int worker, const ServiceRequest& request,
                             const std::atomic<bool>& stop);
@@ -43,7 +43,7 @@ class SweepWorkers {
   Answer understood(ProcessPool::Answer&& answer);
 
   ProcessPool pool_;
-  std::vector<std::size_t> run_of_;  ///< what each worker was given
+  std::vector<std::size_t> run_of_;  ///< the run of each worker
   std::map<std::string, std::string> files_;
 };
 

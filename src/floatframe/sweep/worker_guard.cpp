@@ -22,7 +22,7 @@
 namespace floatframe {
 namespace {
 
-constexpr char exception_kind = 'X';  // worker -> watching process: what was thrown
+constexpr char exception_kind = 'X';  // worker -> watching process: text of an exception
 
 WorkerState* own_state = nullptr;  // of this worker, for handlers
 
@@ -31,22 +31,22 @@ WorkerState* own_state = nullptr;  // of this worker, for handlers
   ::_exit(1);
 }
 
-/// A failed allocation inside a function that must not throw ends here.
+/// Called on a failed allocation inside a noexcept function.
 [[noreturn]] void end_by_terminate() {
-  if (const std::exception_ptr thrown = std::current_exception()) {
+  if (const std::exception_ptr exception = std::current_exception()) {
     try {
-      std::rethrow_exception(thrown);
+      std::rethrow_exception(exception);
     } catch (const std::bad_alloc&) {
       end_without_memory();
-    } catch (...) {  // reported as what it is: SIGABRT
+    } catch (...) {  // reported as SIGABRT
     }
   }
   std::abort();
 }
 
-/// Runs take and give back the same memory again and again: without this the C library gives it
-/// back to the system each time, which costs as much as a tenth of a short run.
-void keep_memory() {
+/// Runs allocate and free the same memory repeatedly: without this the C library returns it to the
+/// system each time, which costs up to a tenth of a short run.
+void retain_heap() {
   ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
   ::mallopt(M_MMAP_THRESHOLD, 16 << 20);
   ::mallopt(M_TOP_PAD, 1 << 20);
@@ -56,12 +56,12 @@ void keep_memory() {
                        WorkerState& state) {
   own_state = &state;
   std::set_terminate(end_by_terminate);
-  keep_memory();
+  retain_heap();
   MessageReader reader;
   PipeMessage request;
   try {
     while (reader.wait(socket, request)) {
-      std::string thrown = "an exception of an unknown kind";
+      std::string message = "an exception of an unknown kind";
       try {
         const bool watched = limits.megabytes > 0.0 && forget_peak_memory();
         const std::string answer = serve(request.text, state);
@@ -71,10 +71,10 @@ void keep_memory() {
       } catch (const std::bad_alloc&) {
         end_without_memory();
       } catch (const std::exception& error) {
-        thrown = error.what();
+        message = error.what();
       } catch (...) {
       }
-      send_message(socket, exception_kind, thrown);
+      send_message(socket, exception_kind, message);
     }
   } catch (const std::bad_alloc&) {
     end_without_memory();
@@ -88,7 +88,7 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-std::string end_in_words(int status, bool out_of_memory, const WorkerLimits& limits) {
+std::string end_reason(int status, bool out_of_memory, const WorkerLimits& limits) {
   if (out_of_memory)
     return limits.megabytes > 0.0
                ? fmt::format("needed more than {:.15g} MB (--case-memory)", limits.megabytes)
@@ -117,9 +117,9 @@ class Guard {
   }
 
  private:
-  enum class End { answered, died, large, late, deserted };
+  enum class End { answered, died, over_memory, timed_out, caller_gone };
 
-  /// False if nobody waits for the answer any more.
+  /// False if the caller no longer waits for the answer.
   bool answer(const std::string& request) {
     std::string lost;
     for (int attempt = 0; attempt < 2; ++attempt) {
@@ -130,28 +130,28 @@ class Guard {
         case End::answered:
           if (message.kind == answer_kind) return send_message(socket_, answer_kind, message.text);
           return send_message(socket_, lost_kind, "ended by an exception: " + message.text);
-        case End::large:
+        case End::over_memory:
           stop_worker();
-          lost = end_in_words(0, true, limits_);
+          lost = end_reason(0, true, limits_);
           break;
-        case End::late:
+        case End::timed_out:
           stop_worker();
           return send_message(
               socket_, lost_kind,
               fmt::format("stopped after {:.15g} s (--case-timeout)", limits_.seconds));
-        case End::deserted:
+        case End::caller_gone:
           return false;
         case End::died:
-          lost = end_in_words(reap(), state_.out_of_memory.load(), limits_);
+          lost = end_reason(reap(), state_.out_of_memory.load(), limits_);
       }
     }
     return send_message(socket_, lost_kind, lost);
   }
 
-  /// A living worker; 0 or the system's error number.
+  /// Ensures a living worker; returns 0 or the system's error number.
   int make_ready() {
     if (worker_ > 0) {
-      // One that ended while it had nothing to do has done nothing wrong.
+      // A worker that ended while idle is not an error.
       pollfd ready{to_worker_, POLLIN, 0};
       if (::poll(&ready, 1, 0) > 0) stop_worker();
     }
@@ -164,7 +164,7 @@ class Guard {
     worker_ = ::fork();
     const int error = worker_ < 0 ? errno : 0;
     if (worker_ == 0) {
-      settle_in_fork(end_of_worker, self, "sweep-worker");
+      prepare_fork(end_of_worker, self, "sweep-worker");
       work(end_of_worker, limits_, serve_, state_);
     }
     ::close(end_of_worker);
@@ -177,31 +177,31 @@ class Guard {
     if (!send_message(to_worker_, request_kind, request)) return End::died;
     using Clock = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
-    // In slices, of which none counts much longer than it was meant to be: time in which the whole
-    // study was stopped (Ctrl-Z) is not the case's.
+    // Waits in slices and caps the time counted per slice, so that time during which the whole
+    // study was stopped (Ctrl-Z) is not charged to the run.
     const bool timed = limits_.seconds > 0.0, watched = limits_.megabytes > 0.0;
     const double slice = watched ? 0.02 : 0.1;
     double left = limits_.seconds;
     while (true) {
       pollfd ready[2]{{to_worker_, POLLIN, 0}, {socket_, POLLIN, 0}};
       const auto start = Clock::now();
-      const double patience = timed ? std::clamp(left, 0.0, slice) : slice;
-      ::poll(ready, 2, timed || watched ? 1 + static_cast<int>(1e3 * patience) : -1);
-      if (ready[1].revents != 0) return End::deserted;
+      const double wait_seconds = timed ? std::clamp(left, 0.0, slice) : slice;
+      ::poll(ready, 2, timed || watched ? 1 + static_cast<int>(1e3 * wait_seconds) : -1);
+      if (ready[1].revents != 0) return End::caller_gone;
       if (ready[0].revents != 0) {
         const MessageReader::State state = answers_.read(to_worker_, message);
         if (state == MessageReader::State::complete) return End::answered;
         if (state == MessageReader::State::closed) return End::died;
       }
-      if (watched && memory_of(worker_) > limits_.megabytes) return End::large;
+      if (watched && memory_of(worker_) > limits_.megabytes) return End::over_memory;
       left -= std::min(Seconds(Clock::now() - start).count(), 2.0 * slice);
-      if (timed && left <= 0.0) return End::late;
+      if (timed && left <= 0.0) return End::timed_out;
     }
   }
 
-  /// How the worker, which has closed its socket, ended.
+  /// The reason why a worker that closed its socket ended.
   int reap() {
-    // Nothing else closes it; but a worker that does is ended.
+    // A worker that closes the socket but lives on is terminated.
     ::close(to_worker_);
     int status = 0;
     for (int k = 0; k < 200; ++k) {
@@ -236,12 +236,12 @@ class Guard {
 
 }  // namespace
 
-void settle_in_fork(int socket, int parent, const char* name) {
+void prepare_fork(int socket, int parent, const char* name) {
   ::prctl(PR_SET_NAME, name);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(0);  // it ended before that
-  // A signal to the group of processes is for the program, which decides what becomes of the runs;
-  // what a crash does is the system's matter, whatever the program or a sanitizer had arranged.
+  if (::getppid() != parent) ::_exit(0);  // it ended before
+  // The program handles signals to the process group and decides about the runs; crash signals get
+  // the default action, whatever handlers the program or a sanitizer has installed.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGPIPE})
     std::signal(signal, SIG_IGN);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGCHLD})
@@ -249,7 +249,7 @@ void settle_in_fork(int socket, int parent, const char* name) {
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  // Else this process would hold locks of files and keep other processes' sockets open.
+  // Otherwise this process would hold file locks and keep other processes' sockets open.
   if (::close_range(3, static_cast<unsigned>(socket - 1), 0) == 0 || socket == 3) {
     if (::close_range(static_cast<unsigned>(socket + 1), ~0U, 0) == 0) return;
   }

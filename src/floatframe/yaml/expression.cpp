@@ -23,16 +23,16 @@ std::string in_quotes(std::string_view s) {
   return t;
 }
 
-/// What a part of an expression is. In a branch that is not needed nothing is computed: of its
-/// parts only the types are known, or, where even those depend on values, nothing.
+/// Value of a part of an expression. In a branch that is not needed nothing is computed: only the
+/// types of its parts are known, or not even those if they depend on values.
 struct Operand {
   ParameterValue value;
   bool computed = true;
   bool typed = true;
 };
 
-/// Recursive descent; one function a level of precedence. Everything is read and checked: syntax,
-/// names, numbers of arguments, types; `needed_` says whether it is computed too.
+/// Recursive descent; one function per level of precedence. Everything is read and checked: syntax,
+/// names, numbers of arguments, types; values are computed only if `needed_`.
 class Parser {
  public:
   Parser(std::string_view text, const ParameterScope& scope, bool suggest)
@@ -48,24 +48,24 @@ class Parser {
   }
 
  private:
-  struct Deeper {  // bounds the recursion, whatever the text
-    explicit Deeper(int& d) : depth(d) {
+  struct DepthGuard {  // bounds the recursion for any text
+    explicit DepthGuard(int& d) : depth(d) {
       if (++depth > deepest_expression) throw ExpressionError("nested too deeply");
     }
-    ~Deeper() { --depth; }
+    ~DepthGuard() { --depth; }
     int& depth;
   };
-  struct OnlyIf {  // while it lives, what is read is needed only if the condition holds
-    OnlyIf(bool& n, bool condition) : needed(n), before(n) { needed = needed && condition; }
-    ~OnlyIf() { needed = before; }
-    OnlyIf(const OnlyIf&) = delete;
-    OnlyIf& operator=(const OnlyIf&) = delete;
+  struct NeededScope {  // in its scope, parts read are needed only if the condition holds
+    NeededScope(bool& n, bool condition) : needed(n), before(n) { needed = needed && condition; }
+    ~NeededScope() { needed = before; }
+    NeededScope(const NeededScope&) = delete;
+    NeededScope& operator=(const NeededScope&) = delete;
     bool& needed;
     bool before;
   };
 
   Operand truth(bool x) const { return {x, needed_, true}; }
-  /// A number that `compute` gives, if it is needed.
+  /// The number returned by `compute`, if it is needed.
   template <class Compute>
   Operand result(Compute compute) const {
     if (!needed_) return {1.0, false, true};
@@ -78,7 +78,7 @@ class Parser {
     Operand v = conjunction();
     while (word("or")) {
       const bool a = boolean(v, "or");
-      const OnlyIf other(needed_, !a);
+      const NeededScope other(needed_, !a);
       v = truth(boolean(conjunction(), "or") || a);
     }
     return v;
@@ -87,13 +87,13 @@ class Parser {
     Operand v = negation();
     while (word("and")) {
       const bool a = boolean(v, "and");
-      const OnlyIf other(needed_, a);
+      const NeededScope other(needed_, a);
       v = truth(boolean(negation(), "and") && a);
     }
     return v;
   }
   Operand negation() {
-    const Deeper deeper(depth_);
+    const DepthGuard deeper(depth_);
     if (word("not")) return truth(!boolean(negation(), "not"));
     return comparison();
   }
@@ -135,7 +135,7 @@ class Parser {
     });
   }
   Operand sign() {
-    const Deeper deeper(depth_);
+    const DepthGuard deeper(depth_);
     for (const char* op : {"-", "+"})
       if (symbol(op)) {
         const double a = number(sign(), op);
@@ -209,13 +209,13 @@ class Parser {
                             (p.complaint.empty() ? "" : " (" + p.complaint + ")"));
     return p.number;
   }
-  /// The arguments of `f`; of an `if` only the branch that its condition chooses is needed.
+  /// The arguments of `f`; for an `if` only the branch selected by its condition is needed.
   std::vector<Operand> arguments(const std::string& f) {
     std::vector<Operand> v;
     if (symbol(")")) return v;
     bool condition = true;
     do {
-      const OnlyIf chosen(needed_, f != "if" || v.empty() || (v.size() == 1) == condition);
+      const NeededScope chosen(needed_, f != "if" || v.empty() || (v.size() == 1) == condition);
       v.push_back(disjunction());
       if (v.size() == 1)
         if (const bool* x = std::get_if<bool>(&v[0].value)) condition = *x;

@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-/// Those without a reserved name are hidden by a parameter of the same name.
+/// Constants without a reserved name are hidden by a parameter of the same name.
 constexpr std::array<std::pair<const char*, double>, 7> constants{{
     {"pi", std::numbers::pi},
     {"deg", std::numbers::pi / 180.0},
@@ -22,23 +22,23 @@ constexpr std::array<std::pair<const char*, double>, 7> constants{{
     {"g0", 9.80665},
 }};
 
-bool everywhere(double) { return true; }
+bool any_argument(double) { return true; }
 bool within_one(double x) { return std::abs(x) <= 1.0; }
 
 constexpr std::array unary_functions{
     UnaryFunction{"sqrt", [](double x) { return std::sqrt(x); }, [](double x) { return x >= 0.0; }},
-    UnaryFunction{"sin", [](double x) { return std::sin(x); }, everywhere},
-    UnaryFunction{"cos", [](double x) { return std::cos(x); }, everywhere},
-    UnaryFunction{"tan", [](double x) { return std::tan(x); }, everywhere},
+    UnaryFunction{"sin", [](double x) { return std::sin(x); }, any_argument},
+    UnaryFunction{"cos", [](double x) { return std::cos(x); }, any_argument},
+    UnaryFunction{"tan", [](double x) { return std::tan(x); }, any_argument},
     UnaryFunction{"asin", [](double x) { return std::asin(x); }, within_one},
     UnaryFunction{"acos", [](double x) { return std::acos(x); }, within_one},
-    UnaryFunction{"atan", [](double x) { return std::atan(x); }, everywhere},
-    UnaryFunction{"exp", [](double x) { return std::exp(x); }, everywhere},
+    UnaryFunction{"atan", [](double x) { return std::atan(x); }, any_argument},
+    UnaryFunction{"exp", [](double x) { return std::exp(x); }, any_argument},
     UnaryFunction{"log", [](double x) { return std::log(x); }, [](double x) { return x > 0.0; }},
-    UnaryFunction{"abs", [](double x) { return std::abs(x); }, everywhere},
-    UnaryFunction{"floor", [](double x) { return std::floor(x); }, everywhere},
-    UnaryFunction{"ceil", [](double x) { return std::ceil(x); }, everywhere},
-    UnaryFunction{"round", [](double x) { return std::round(x); }, everywhere},
+    UnaryFunction{"abs", [](double x) { return std::abs(x); }, any_argument},
+    UnaryFunction{"floor", [](double x) { return std::floor(x); }, any_argument},
+    UnaryFunction{"ceil", [](double x) { return std::ceil(x); }, any_argument},
+    UnaryFunction{"round", [](double x) { return std::round(x); }, any_argument},
 };
 constexpr std::array<std::string_view, 4> other_functions{"atan2", "min", "max", "if"};
 constexpr std::array<std::string_view, 6> other_words{"pi", "true", "false", "and", "or", "not"};

@@ -1,5 +1,5 @@
 #pragma once
-// The words that the expression language has of its own: constants and functions.
+// The words of the expression language: constants and functions.
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Scalars as they stand in a model file: what a plain one is, how a number is written.
+// Scalars in a model file: interpretation of plain ones, notation of numbers.
 #include <algorithm>
 #include <array>
 #include <charconv>

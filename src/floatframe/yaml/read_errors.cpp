@@ -13,7 +13,7 @@ constexpr std::size_t longest_message = 2000;
 
 std::uint64_t hash(std::string_view text) { return std::hash<std::string_view>{}(text); }
 
-/// Suggestions come only as long as there are not too many: the sentence is the same without.
+/// Removes a suggestion, since suggestions are limited: the sentence is otherwise the same.
 std::string_view without_suggestion(std::string_view message) {
   return message.substr(0, message.find(", did you mean '"));
 }
@@ -65,17 +65,16 @@ void ReadErrors::add(ErrorEntry entry) {
     errors_.push_back(std::move(entry));
     return;
   }
-  if (kind->kept == 0) kind = &others_;  // of a kind that is not shown
-  if (kind->passed_over == 0) kind->first = entry.mark, kind->code = entry.code;
-  kind->passed_over += entry.count;
+  if (kind->kept == 0) kind = &others_;  // of a kind not shown
+  if (kind->omitted == 0) kind->first = entry.mark, kind->code = entry.code;
+  kind->omitted += entry.count;
 }
 
 std::vector<ErrorEntry> ReadErrors::take() {
   for (const auto& [key, kind] : kinds_)
-    if (kind.passed_over > 0)
-      errors_.push_back(more(kind.code, kind.first, kind.passed_over, "this kind"));
-  if (others_.passed_over > 0)
-    errors_.push_back(more(others_.code, others_.first, others_.passed_over, "other kinds"));
+    if (kind.omitted > 0) errors_.push_back(more(kind.code, kind.first, kind.omitted, "this kind"));
+  if (others_.omitted > 0)
+    errors_.push_back(more(others_.code, others_.first, others_.omitted, "other kinds"));
   return std::move(errors_);
 }
 

@@ -36,7 +36,7 @@ class TableFile {
   void read(const std::string& text) {
     std::string_view rest = text;
     if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
-    bool header = true;  // may still come
+    bool header = true;  // a header line may still follow
     for (int line = 1; !rest.empty(); ++line) {
       const std::size_t end = rest.find('\n');
       std::string_view content = rest.substr(0, end);
@@ -61,7 +61,7 @@ class TableFile {
       out_.error(ErrorCode::wrong_count, place,
                  "found " + std::to_string(words.size()) +
                      (words.size() == 1 ? " column" : " columns") + ", expected two");
-      stop_ = true;  // the other rows have as many
+      stop_ = true;  // the other rows have the same number
       return false;
     }
     double x[2] = {0.0, 0.0};

@@ -14,18 +14,18 @@ struct TableRow {
   std::size_t number = 0;  ///< from 1
 };
 
-/// The rows of a table with their places, for errors about one of them.
+/// The rows of a table with their locations, for error messages.
 struct TableRows {
-  bool good = false;  ///< nothing was wrong so far
+  bool good = false;  ///< no errors so far
   std::string file, path;
   std::vector<TableRow> rows;
   ReadErrors* errors = nullptr;
   void error(ErrorCode code, const TableRow& row, const std::string& sentence) const;
 };
 
-/// Reads a list of points, or the CSV file that `value` names relative to the file it is written
-/// in: two columns separated by commas, semicolons or blanks, one header line or none, comments
-/// after #. `point` describes a point for messages ("a point [x, f]").
+/// Reads a list of points, or the CSV file named by `value`, relative to the present file: two
+/// columns separated by commas, semicolons or blanks, one header line or none, comments after #.
+/// `point` describes a point for messages ("a point [x, f]").
 TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point);
 
 }  // namespace floatframe

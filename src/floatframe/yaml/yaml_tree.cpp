@@ -20,11 +20,11 @@ namespace {
 
 constexpr int deepest_nesting = 50;
 constexpr int most_open_brackets =
-    1000;  // the parser looks at a whole line before it says anything
+    1000;  // the parser reads a whole line before it reports anything
 constexpr std::uint64_t largest_file = 16u << 20u;
 
-// Inside `${...}` the characters that would end a plain scalar in a flow list or map are hidden
-// from the YAML parser as control characters (which the text cannot hold), so that `[0, ${a},
+// Inside `${...}` the characters that would end a plain scalar in a flow list or map are replaced
+// by control characters (which the text cannot contain) for the YAML parser, so that `[0, ${a},
 // ${min(b, c)}]` needs no quotes.
 constexpr std::array<std::pair<char, char>, 8> hidden{{{'{', '\x01'},
                                                        {'}', '\x02'},
@@ -44,13 +44,13 @@ void hide_expressions(std::string& text) {
   for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 1)) {
     const std::size_t end = text.find_first_of("}\n", at);
     if (end == std::string::npos) return;
-    if (text[end] == '\n') {  // none of this line is closed
+    if (text[end] == '\n') {  // none is closed on this line
       at = end;
       continue;
     }
     for (std::size_t k = at + 1; k <= end; ++k)
-      for (const auto& [plain, secret] : hidden)
-        if (text[k] == plain) text[k] = secret;
+      for (const auto& [plain, substitute] : hidden)
+        if (text[k] == plain) text[k] = substitute;
   }
 }
 
@@ -59,14 +59,14 @@ std::string revealed(std::string text) {
   for (std::size_t k = 0; k < text.size(); ++k) {
     inside = inside || (k > 0 && text[k - 1] == '$' && text[k] == hidden[0].second);
     if (!inside) continue;  // a control character that was written as \x01
-    for (const auto& [plain, secret] : hidden)
-      if (text[k] == secret) text[k] = plain;
+    for (const auto& [plain, substitute] : hidden)
+      if (text[k] == substitute) text[k] = plain;
     inside = text[k] != '}';
   }
   return text;
 }
 
-struct GaveUp {};
+struct ParseAborted {};
 
 class TreeBuilder final : public YAML::EventHandler {
  public:
@@ -105,7 +105,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void OnMapEnd() override { close(); }
   bool empty() const { return !seen_; }
-  /// Where the last scalar begins, if it is in quotes.
+  /// Location of the last scalar, if it is in quotes.
   const YAML::Mark& last_quoted() const { return last_; }
   std::size_t values() const { return values_; }
 
@@ -113,7 +113,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Level {
     YamlNode node;
     bool has_key = false;
-    bool skip = false;  // the value belongs to a refused key
+    bool skip = false;  // the value belongs to a rejected key
     YamlEntry entry;
     std::map<std::string, int> keys;  // key -> line
   };
@@ -127,7 +127,7 @@ class TreeBuilder final : public YAML::EventHandler {
       error(ErrorCode::too_large, mark,
             "found more than " + std::to_string(limits::file_values) +
                 " values in one file, expected fewer (tables may stand in CSV files)");
-      throw GaveUp{};
+      throw ParseAborted{};
     }
     YamlNode n;
     n.line = mark.line + 1;
@@ -165,7 +165,7 @@ class TreeBuilder final : public YAML::EventHandler {
     n.kind = kind;
     if (stack_.size() >= static_cast<std::size_t>(deepest_nesting)) {
       error(ErrorCode::too_large, mark, too_deep());
-      throw GaveUp{};
+      throw ParseAborted{};
     }
     stack_.emplace_back().node = std::move(n);
   }
@@ -221,13 +221,13 @@ class TreeBuilder final : public YAML::EventHandler {
   YAML::Mark last_ = YAML::Mark::null_mark();
 };
 
-/// Refuses binary data, line ends that YAML does not know and tabs in the indentation.
+/// Rejects binary data, line ends that YAML does not have and tabs in the indentation.
 bool check_text(const std::string& file, const std::string& text, ReadErrors& errors) {
   int line = 1;
   std::size_t start = 0;
   bool indentation = true;
   int brackets = 0;
-  SourceMark deep;  // where they are one too many
+  SourceMark deep;  // location of excessive nesting
   for (std::size_t k = 0; k < text.size();) {
     const char c = text[k];
     const std::size_t n = utf8_length(text, k);
@@ -268,7 +268,7 @@ bool check_text(const std::string& file, const std::string& text, ReadErrors& er
   return true;
 }
 
-/// The parser takes the end of the file for the closing quote.
+/// The parser would take the end of the file for the closing quote.
 bool is_closed(const std::string& text, const YAML::Mark& begin) {
   std::size_t at = 0;
   for (int line = 0; line < begin.line; ++line) at = text.find('\n', at) + 1;
@@ -317,14 +317,14 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
       errors.add(ErrorCode::duplicate,
                  {file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
                  "a second document starts here, a model file holds one");
-  } catch (const GaveUp&) {
+  } catch (const ParseAborted&) {
   } catch (const YAML::Exception& e) {
     SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
     if (e.mark.is_null()) mark.line = mark.column = 1;
     const bool open = e.msg == "illegal EOF in scalar";
     errors.add(ErrorCode::wrong_file, mark,
                open ? "a text in quotes is not closed" : "YAML syntax: " + revealed(e.msg));
-  } catch (const std::exception& e) {  // the parser's own limit on recursion
+  } catch (const std::exception& e) {  // the recursion limit of the parser
     errors.add(ErrorCode::wrong_file, {file, 1, 1}, std::string("YAML syntax: ") + e.what());
   }
   return document;

@@ -1,9 +1,8 @@
 #pragma once
-// A YAML document as a tree that remembers where everything was written. Only the subset that model
-// files use is accepted: maps, lists and scalars. Duplicate keys, anchors, aliases, merge keys,
-// tags, several documents, tabs in the indentation, very deep nesting, control characters and
-// anything that is not UTF-8 text are errors, so that no file is read differently from what it
-// looks like.
+// A YAML document as a tree with source locations. Only the subset used by model files is accepted:
+// maps, lists and scalars. Duplicate keys, anchors, aliases, merge keys, tags, several documents,
+// tabs in the indentation, very deep nesting, control characters and invalid UTF-8 are errors, so
+// that no file is read differently from its appearance.
 #include <map>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct YamlNode {
   int line = 0, column = 0;        ///< from 1
   std::string text;                ///< scalar
   bool quoted = false;             ///< scalar in quotes or a block scalar: always a text
-  bool refused = false;            ///< an error already: nothing more is said about it
+  bool refused = false;            ///< already reported: suppresses further errors
   std::vector<YamlNode> items;     ///< sequence
   std::vector<YamlEntry> entries;  ///< map, in the order of the file, keys unique
 };
@@ -32,13 +31,13 @@ struct YamlEntry {
 };
 
 struct YamlDocument {
-  std::string file;  ///< as the user gave it
+  std::string file;  ///< as given by the user
   YamlNode root;
   std::size_t values = 0;  ///< number of maps, lists and scalars, keys included
 };
 
-/// Parses `text`; errors go to `errors`. A document with errors is returned as far as it was
-/// understood.
+/// Parses `text`; errors go to `errors`. A document with errors contains the parts that could be
+/// parsed.
 YamlDocument parse_yaml(const std::string& file, const std::string& text, ReadErrors& errors);
 
 /// Reads a regular file of at most 16 MB; a file that cannot be read gives an error marked `where`
@@ -48,10 +47,10 @@ bool read_text_file(const std::string& file, std::string& text, ErrorList& error
 bool read_text_file(const std::string& file, std::string& text, ReadErrors& errors,
                     const SourceMark& where, const std::string& subject);
 
-/// Notes a file that was read in another way, with the fingerprint of its content (see FilesRead).
+/// Records a file read by other means, with the fingerprint of its content (see FilesRead).
 void note_file_read(const std::string& file, const std::string& hash);
 
-/// While it lives, notes every file that is read on this thread, with the fingerprint of its
+/// In its scope, records every file that is read on this thread, with the fingerprint of its
 /// content.
 class FilesRead {
  public:

@@ -47,7 +47,7 @@ std::optional<YamlValue::Scalar> YamlValue::scalar(const std::string& expected, 
     } catch (const ExpressionError&) {
       if (quiet) return std::nullopt;
     }
-    try {  // once more for the sentence
+    try {  // again, for the error message
       substitute_parameters(node_->text, *context_->scope, context_->errors->suggest());
     } catch (const ExpressionError& error) {
       complain(ErrorCode::wrong_value, "in " + shortened(node_->text) + ": " + error.what());
@@ -271,7 +271,7 @@ void YamlSection::finish(const std::vector<std::string>& elsewhere) {
   for (std::size_t i = 0; i < shown; ++i) {
     const YamlEntry& e = *unknown[i];
     std::string hint = errors.suggestion(e.key, [&] { return free; });
-    if (hint.empty() && !elsewhere.empty()) {  // a key of another group: its path is the hint
+    if (hint.empty() && !elsewhere.empty()) {  // a key of another group: suggest its path
       std::vector<std::string> last;
       for (const std::string& k : elsewhere) last.push_back(k.substr(k.rfind('.') + 1));
       const std::string* best = errors.suggest() ? nearest(e.key, last) : nullptr;

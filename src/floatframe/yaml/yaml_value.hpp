@@ -1,9 +1,8 @@
 #pragma once
 // Typed, checked access to a YAML tree. A `YamlValue` is one value with its path in the file
-// ("bodies.arm.mass"), a `YamlSection` is a map whose keys are asked for one by one; keys that
-// nobody asked for are errors. Every accessor reports what it found and what was expected and lets
-// the reading go on, so that all errors of a file are found at once. Scalars may hold `${...}`
-// expressions.
+// ("bodies.arm.mass"), a `YamlSection` is a map whose keys are read one by one; keys that were not
+// read are errors. Every accessor reports the value found and the value expected and continues, so
+// that all errors of a file are found at once. Scalars may contain `${...}` expressions.
 #include <algorithm>
 #include <initializer_list>
 #include <optional>
@@ -20,7 +19,7 @@
 
 namespace floatframe {
 
-/// What all values of one file share.
+/// Data shared by all values of one file.
 struct ReadContext {
   const std::string* file = nullptr;
   const ParameterScope* scope = nullptr;
@@ -65,7 +64,7 @@ class YamlValue {
   void complain(ErrorCode code, const std::optional<std::string>& complaint) const {
     if (complaint) error(code, *complaint);
   }
-  /// Error about a name that is not one of `known()`, with the one that is meant perhaps.
+  /// Error about a name that is not one of `known()`, with a suggestion if possible.
   template <class Known>
   void not_known(const std::string& sentence, const std::string& name, const Known& known) const {
     error(ErrorCode::not_found, sentence + context_->errors->suggestion(name, known));
@@ -74,10 +73,10 @@ class YamlValue {
   void unexpected(const std::string& what, ErrorCode code = ErrorCode::wrong_value) const {
     error(code, "found " + found() + ", expected " + what);
   }
-  /// What is written here, for sentences: -3, 'abc', a list of 2, a map, nothing.
+  /// The value in error messages: -3, 'abc', a list of 2, a map, nothing.
   std::string found() const;
 
-  // Accessors: an error and nullopt (or an empty list) if the value is not what is asked for.
+  // Accessors: an error and nullopt (or an empty list) if the value has another form.
   std::optional<double> number(const NumberRule& rule) const;
   std::optional<int> integer(int low, int high, const char* what) const {
     return integer(WholeNumberRule{what, low, high});
@@ -103,8 +102,8 @@ class YamlValue {
                                              const NumberRule& rule, const char* what) const;
   std::optional<Vec3> vector(const char* unit) const;
   std::optional<YamlSection> section(const char* what = "a map of keys") const;
-  /// A map of names to values, in the order of the file; names are checked to be identifiers
-  /// (unless `free_names`), long ones are refused.
+  /// A map of names to values, in the order of the file; names must be identifiers (unless
+  /// `free_names`) and not too long.
   std::vector<std::pair<std::string, YamlValue>> named(const char* what,
                                                        bool free_names = false) const;
   /// True if the scalar holds a number (after substitution); adds no errors.
@@ -112,7 +111,7 @@ class YamlValue {
 
  private:
   using Scalar = std::variant<std::monostate, bool, double, std::string>;
-  /// The substituted scalar; none after an error, which `quiet` does not add.
+  /// The substituted scalar; none after an error, which is not reported if `quiet`.
   std::optional<Scalar> scalar(const std::string& expected, bool quiet = false) const;
   template <class Rule>
   std::optional<double> number_by(const Rule& rule) const;
@@ -123,8 +122,8 @@ class YamlValue {
   int line_, column_;
 };
 
-/// A map being read. `mark` is the place of the key that opens it, for errors about the entity as a
-/// whole.
+/// A map being read. `mark` is the location of the key that opens it, for errors about the entity
+/// as a whole.
 class YamlSection {
  public:
   explicit YamlSection(const YamlValue& value) : value_(value), mark_(value.entity_mark()) {}
@@ -140,13 +139,13 @@ class YamlSection {
   bool has(const char* key) const { return find(key) != nullptr; }
   /// The value of an optional key.
   std::optional<YamlValue> get(const char* key);
-  /// The value of a key that must be there; an error if it is not.
+  /// The value of a required key; an error if it is missing.
   std::optional<YamlValue> require(const char* key);
-  /// Errors for all keys nobody asked for. `elsewhere`: keys that belong into other groups, as
-  /// "group.key", to suggest where nothing here is near.
+  /// Reports all keys that were not read. `elsewhere`: keys of other groups, as "group.key",
+  /// suggested if no key here is similar.
   void finish(const std::vector<std::string>& elsewhere = {});
 
-  /// The key is one that belongs here.
+  /// True if the key is a key of this section.
   bool was_asked(const std::string& key) const {
     return std::find(asked_.begin(), asked_.end(), key) != asked_.end();
   }
@@ -154,13 +153,13 @@ class YamlSection {
   /// Marks of the entity and of all its keys.
   Origin origin() const;
 
-  // Shorthands: the value if the key is present and right, else the default.
+  // Shorthands: the value if the key is present and valid, else the default.
   double number(const char* key, const NumberRule& rule, double absent);
   double required_number(const char* key, const NumberRule& rule, double when_wrong);
   bool boolean(const char* key, bool absent);
-  /// Into `place`, which stays as it is if the key is absent or its value is wrong.
+  /// Into `place`, which is unchanged if the key is absent or its value is invalid.
   void vector(const char* key, const char* unit, Vec3& place);
-  /// An enumerator by its word, in the order of the enumeration; likewise.
+  /// An enumerator by its word, in the order of the enumeration; else unchanged.
   template <class Enum>
   void word(const char* key, std::span<const char* const> words, Enum& place) {
     if (const auto v = get(key))
