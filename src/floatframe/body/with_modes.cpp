@@ -9,15 +9,10 @@ namespace {
 /// A fixed-size or dynamic matrix with some of its columns.
 template <class M>
 M columns(const M& x, const std::vector<int>& keep) {
-  M out(x.rows(), static_cast<Eigen::Index>(keep.size()));
-  for (std::size_t k = 0; k < keep.size(); ++k)
-    out.col(static_cast<Eigen::Index>(k)) = x.col(keep[k]);
-  return out;
+  return x(Eigen::all, keep);
 }
 
-MatX block(const MatX& x, const std::vector<int>& keep) {
-  return columns<MatX>(columns<MatX>(x, keep).transpose(), keep).transpose();
-}
+MatX block(const MatX& x, const std::vector<int>& keep) { return x(keep, keep); }
 
 /// Of the blocks h of the nodes, one below the other.
 MatX blocks(const MatX& h, const std::vector<int>& keep) {

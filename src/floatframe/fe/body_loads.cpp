@@ -48,11 +48,7 @@ void element_mass(const ElementKernel& kernel, const ElementInput& input, Elemen
     return mass_matrix(kernel, input, mass == ElementMass::section_inertia, M);
   MatX scalar;
   scalar_mass_matrix(kernel, input, scalar);
-  const int d = kernel.dofs_per_node;
-  M = MatX::Zero(d * kernel.nodes, d * kernel.nodes);
-  for (int a = 0; a < kernel.nodes; ++a)
-    for (int b = 0; b < kernel.nodes; ++b)
-      M.block<3, 3>(d * a, d * b) = scalar(a, b) * Mat3::Identity();
+  expand_scalar_mass(scalar, kernel.dofs_per_node, M);
 }
 
 NodalShapes linear_loads(const FeModel& model, ElementMass mass, Integration integration) {

@@ -93,21 +93,13 @@ struct ElementKernel {
 
 const ElementKernel& element_kernel(ElementType type) noexcept;
 
-inline bool is_beam(ElementType type) noexcept {
-  return element_kernel(type).family == ElementFamily::beam;
-}
-inline bool is_rod(ElementType type) noexcept {
-  return element_kernel(type).family == ElementFamily::rod;
-}
-inline bool is_shell(ElementType type) noexcept {
-  return element_kernel(type).family == ElementFamily::shell;
-}
-
-inline bool is_panel(ElementType type) noexcept {
-  return element_kernel(type).family == ElementFamily::panel;
-}
+inline ElementFamily family_of(ElementType type) noexcept { return element_kernel(type).family; }
+inline bool is_beam(ElementType type) noexcept { return family_of(type) == ElementFamily::beam; }
+inline bool is_rod(ElementType type) noexcept { return family_of(type) == ElementFamily::rod; }
+inline bool is_shell(ElementType type) noexcept { return family_of(type) == ElementFamily::shell; }
+inline bool is_panel(ElementType type) noexcept { return family_of(type) == ElementFamily::panel; }
 inline bool is_membrane(ElementType type) noexcept {
-  return element_kernel(type).family == ElementFamily::membrane;
+  return family_of(type) == ElementFamily::membrane;
 }
 /// In FeModel::shells is its section.
 inline bool has_shell_section(ElementType type) noexcept {
@@ -123,6 +115,26 @@ ElementInput gather(const FeModel& model, const Element& element,
 /// reference), z.
 Mat3 beam_axes(const ElementInput& input);
 
+/// Stress (xx, yy, zz, xy, yz, zx) of a unit stress along the unit vector t.
+inline Vec6 axial_stress(const Vec3& t) {
+  Vec6 stress;
+  stress << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
+  return stress;
+}
+/// Scalar mass of a line of two nodes with this mass.
+inline void line_mass(double mass, MatX& out) {
+  out.resize(2, 2);
+  out << mass / 3.0, mass / 6.0, mass / 6.0, mass / 3.0;
+}
+/// M_s (x) I_3 of the translations of nodes with d degrees of freedom each.
+void expand_scalar_mass(const MatX& scalar, int d, MatX& out);
+/// `mass` of an element whose mass is the same in all directions.
+template <void (*scalar_mass)(const ElementInput&, MatX&)>
+void mass_of_translations(const ElementInput& in, bool, MatX& out) {
+  MatX scalar;
+  scalar_mass(in, scalar);
+  expand_scalar_mass(scalar, 3, out);
+}
 /// Elasticity matrix of a solid at a place, in body axes.
 Mat6 elasticity_at(const ElementInput& in, const Vec3& p);
 

@@ -58,6 +58,13 @@ ShellLayers layers_of(const ElementInput& in) {
   return in.layers ? *in.layers : plain_layers(in.shell, in.material);
 }
 
+void expand_scalar_mass(const MatX& scalar, int d, MatX& out) {
+  out = MatX::Zero(d * scalar.rows(), d * scalar.cols());
+  for (int a = 0; a < scalar.rows(); ++a)
+    for (int b = 0; b < scalar.cols(); ++b)
+      out.block<3, 3>(d * a, d * b).diagonal().setConstant(scalar(a, b));
+}
+
 Mat6 elasticity_at(const ElementInput& in, const Vec3& p) {
   const Mat6 D = elasticity_matrix(in.material);
   if (!in.material.elasticity || !in.orientation) return D;

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/union_find.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,11 +33,10 @@ struct TurningGroup {
 class TurningGroups {
  public:
   explicit TurningGroups(const FeModel& model)
-      : model_(model), dofs_(dofs_without_springs(model)), parent_(model.positions.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+      : model_(model), dofs_(dofs_without_springs(model)), joined_(model.nodes()) {
     join_nodes();
     for (int k = 0; k < model_.nodes(); ++k)
-      if (turns(k)) groups_[root(k)].nodes.push_back(k);
+      if (turns(k)) groups_[joined_.root(k)].nodes.push_back(k);
     gather_elements();
     gather_spiders();
     gather_others();
@@ -50,13 +49,7 @@ class TurningGroups {
  private:
   static bool all_turns(const Spider& s) { return (s.mask & 56u) == 56u; }
 
-  int root(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(int a, int b) { parent_[root(b)] = root(a); }
-
-  TurningGroup& group(int node) { return groups_.at(root(node)); }
+  TurningGroup& group(int node) { return groups_.at(joined_.root(node)); }
 
   void add_point(int node) {
     if (turns(node)) group(node).points.push_back(node);
@@ -69,11 +62,11 @@ class TurningGroups {
   void join_nodes() {
     for (const Element& e : model_.elements)
       if (is_beam(e.type))
-        for (int a = 1; a < element_nodes(e.type); ++a) join(e.nodes[0], e.nodes[a]);
+        for (int a = 1; a < element_nodes(e.type); ++a) joined_.join(e.nodes[a], e.nodes[0]);
     for (const Spider& s : model_.spiders) {
       if (s.kind != Spider::Kind::rigid || !all_turns(s)) continue;
       for (const int node : s.nodes)
-        if (turns(node)) join(s.reference, node);
+        if (turns(node)) joined_.join(node, s.reference);
     }
   }
 
@@ -139,7 +132,7 @@ class TurningGroups {
 
   const FeModel& model_;
   std::vector<int> dofs_;
-  std::vector<int> parent_;
+  UnionFind joined_;
   std::map<int, TurningGroup> groups_;  ///< by their root
 };
 

@@ -99,7 +99,7 @@ SampledRule sample(int nodes, ShapeFunctions functions, const QuadratureRule& ru
 IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
                                    const std::array<QuadratureRule, 2>& stiffness,
                                    const std::array<QuadratureRule, 2>& mass,
-                                   const StressRule& stress) {
+                                   const StressRule& stress, const QuadratureRule& check) {
   IsoparametricElement element;
   element.nodes = nodes;
   element.functions = functions;
@@ -110,14 +110,12 @@ IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
   element.stress = sample(nodes, functions, stress.points);
   const int terms = static_cast<int>(stress.functions(Vec3::Zero()).size());
   MatX at_points(element.stress.size(), terms), at_nodes(nodes, terms);
-  for (int q = 0; q < element.stress.size(); ++q) {
+  for (int q = 0; q < element.stress.size(); ++q)
     at_points.row(q) = stress.functions(stress.points[q].xi);
-  }
-  for (int a = 0; a < nodes; ++a) {
-    at_nodes.row(a) = stress.functions(stress.nodes[a]);
-  }
+  for (int a = 0; a < nodes; ++a) at_nodes.row(a) = stress.functions(stress.nodes[a]);
   element.to_nodes = at_nodes * LeastNorm(at_points).pseudo_inverse();
   element.at = stress.nodes;
+  if (!check.empty()) element.check = sample(nodes, functions, check);
   return element;
 }
 
@@ -219,12 +217,6 @@ void scalar_mass(const IsoparametricElement& element, const ElementInput& in, Ma
   const MatX weighted = rule.N * dm.asDiagonal();
   out.noalias() = weighted * rule.N.transpose();
   out = (0.5 * (out + out.transpose())).eval();
-}
-
-void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out) {
-  MatX scalar;
-  scalar_mass(element, in, scalar);
-  expand(scalar, out);
 }
 
 void nodal_strains(const IsoparametricElement& element, const ElementInput& in, MatX& B) {

@@ -51,7 +51,7 @@ struct IsoparametricElement {
 IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
                                    const std::array<QuadratureRule, 2>& stiffness,
                                    const std::array<QuadratureRule, 2>& mass,
-                                   const StressRule& stress);
+                                   const StressRule& stress, const QuadratureRule& check = {});
 
 using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 20>;
 Positions positions(const ElementInput& in, int nodes);
@@ -82,13 +82,17 @@ Mat6 elasticity_at(const ElementInput& in, const SampledRule& rule, int q, const
 std::string error(const IsoparametricElement& element, const ElementInput& in);
 void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void scalar_mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
-void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 /// Strains at the nodes (6 rows per node) from the displacements of the nodes.
 void nodal_strains(const IsoparametricElement& element, const ElementInput& in, MatX& B);
 /// At the points where stresses are taken.
 void stressed_points(const IsoparametricElement& element, const ElementInput& in,
                      std::vector<StressedPoint>& points);
 NodalPly nodal_ply(const IsoparametricElement& element, const ElementInput& in, int node);
+
+template <const IsoparametricElement& (*element)()>
+void scalar_mass(const ElementInput& in, MatX& out) {
+  scalar_mass(element(), in, out);
+}
 
 /// The entry of the list for an isoparametric element.
 template <const IsoparametricElement& (*element)()>
@@ -98,8 +102,8 @@ constexpr ElementKernel kernel(int nodes, const ElementShape& shape) {
           .dofs_per_node = 3,
           .error = [](const ElementInput& in) { return error(element(), in); },
           .stiffness = [](const ElementInput& in, MatX& out) { stiffness(element(), in, out); },
-          .mass = [](const ElementInput& in, bool, MatX& out) { mass(element(), in, out); },
-          .scalar_mass = [](const ElementInput& in, MatX& out) { scalar_mass(element(), in, out); },
+          .mass = &mass_of_translations<&scalar_mass<element>>,
+          .scalar_mass = &scalar_mass<element>,
           .nodal_strains = [](const ElementInput& in, MatX& B) { nodal_strains(element(), in, B); },
           .stressed_points =
               [](const ElementInput& in, std::vector<StressedPoint>& points) {

@@ -59,6 +59,11 @@ QuadratureRule tetrahedron_rule_4() {
   return {{Vec3(b, b, b), w}, {Vec3(a, b, b), w}, {Vec3(b, a, b), w}, {Vec3(b, b, a), w}};
 }
 
+QuadratureRule triangle_rule_3() {
+  constexpr double a = 1.0 / 6.0, b = 2.0 / 3.0;
+  return {{Vec3(a, a, 0), a}, {Vec3(b, a, 0), a}, {Vec3(a, b, 0), a}};
+}
+
 QuadratureRule triangle_rule(int n) {
   const LineRule a = gauss_jacobi(n, 1), b = gauss_jacobi(n, 0);
   QuadratureRule rule;

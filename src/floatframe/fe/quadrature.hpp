@@ -28,5 +28,7 @@ QuadratureRule tetrahedron_rule(int n);
 QuadratureRule tetrahedron_rule_4();
 /// Triangle 0 <= xi_1, xi_2, xi_1 + xi_2 <= 1, xi_3 = 0, n^2 points; weights sum to 1/2.
 QuadratureRule triangle_rule(int n);
+/// The same with the 3 symmetric points, degree 2.
+QuadratureRule triangle_rule_3();
 
 }  // namespace floatframe

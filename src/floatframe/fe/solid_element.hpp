@@ -1,6 +1,5 @@
 #pragma once
-// Pieces shared by the solid elements: strain-displacement matrix, expansion of a scalar mass to
-// three directions.
+// Pieces shared by the solid elements: strain-displacement matrix, gradients of displacements.
 #include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe::solid {
@@ -23,16 +22,6 @@ inline void set_gradient(const Gradients& g, MatX& out) {
   out = MatX::Zero(9, 3 * g.cols());
   for (int a = 0; a < g.cols(); ++a)
     for (int i = 0; i < 3; ++i) out.block<3, 1>(3 * i, 3 * a + i) = g.col(a);
-}
-
-/// M_s (x) I_3
-inline void expand(const MatX& scalar, MatX& out) {
-  out = MatX::Zero(3 * scalar.rows(), 3 * scalar.cols());
-  for (int i = 0; i < scalar.rows(); ++i) {
-    for (int j = 0; j < scalar.cols(); ++j) {
-      for (int k = 0; k < 3; ++k) out(3 * i + k, 3 * j + k) = scalar(i, j);
-    }
-  }
 }
 
 }  // namespace floatframe::solid

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/union_find.hpp"
 
 namespace floatframe {
 namespace {
@@ -52,20 +52,6 @@ unsigned axes_of(const Spring& s, int end) {
     if (s.directions[end](axis) != 0.0) mask |= 1u << axis;
   return mask;
 }
-
-/// Sets of numbered things that grow together.
-class UnionFind {
- public:
-  explicit UnionFind(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void join(int a, int b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct DofOrder {
   bool operator()(const Dof& a, const Dof& b) const {

@@ -73,20 +73,14 @@ void check_materials(const FeModel& model, LimitedErrors& errors) {
                "the model has no material: give one (Young's modulus, Poisson's ratio, density)");
 }
 
-void check_shells(const FeModel& model, LimitedErrors& errors) {
-  for (std::size_t i = 0; i < model.shells.size(); ++i) {
-    const std::string error = section_error(model.shells[i], model.materials);
-    if (!error.empty())
-      errors.add(ErrorCode::wrong_value, "shell sections", {}, "shell section {} {}", i, error);
-  }
-}
-
-void check_layups(const FeModel& model, LimitedErrors& errors) {
-  for (std::size_t i = 0; i < model.layups.size(); ++i) {
-    const std::string error = layup_error(model.layups[i], model.materials);
-    if (!error.empty())
-      errors.add(ErrorCode::wrong_value, "layups of solids", {}, "layup {} {}", i, error);
-  }
+void check_layers(const FeModel& model, LimitedErrors& errors) {
+  const auto check = [&](const auto& all, auto error_of, const char* kind, const char* one) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (const std::string error = error_of(all[i], model.materials); !error.empty())
+        errors.add(ErrorCode::wrong_value, kind, {}, "{} {} {}", one, i, error);
+  };
+  check(model.shells, section_error, "shell sections", "shell section");
+  check(model.layups, layup_error, "layups of solids", "layup");
 }
 
 /// What does not go with the material of an element; empty if all does.
@@ -295,30 +289,20 @@ void check_equations(const FeModel& model, LimitedErrors& errors) {
 }
 
 void check_sets(const FeModel& model, LimitedErrors& errors) {
-  for (const auto& [name, nodes] : model.node_sets) {
-    if (std::all_of(nodes.begin(), nodes.end(),
-                    [&](int k) { return in_range(k, model.positions.size()); }))
-      continue;
-    errors.add(ErrorCode::not_found, "sets", {},
-               "node set '" + name + "' holds a node that does not exist");
-  }
-  for (const auto& [name, elements] : model.element_sets) {
-    if (std::all_of(elements.begin(), elements.end(),
-                    [&](int e) { return in_range(e, model.elements.size()); }))
-      continue;
-    errors.add(ErrorCode::not_found, "sets", {},
-               "element set '" + name + "' holds an element that does not exist");
-  }
-  for (const auto& [name, faces] : model.surfaces) {
-    for (const ElementFace& f : faces) {
-      if (in_range(f.element, model.elements.size()) &&
-          in_range(f.face, element_faces(model.elements[f.element].type).size()))
-        continue;
-      errors.add(ErrorCode::not_found, "sets", {},
-                 "surface '" + name + "' holds a face that does not exist");
-      break;
-    }
-  }
+  const auto check = [&](const auto& sets, const char* set, const char* member, auto exists) {
+    for (const auto& [name, members] : sets)
+      if (!std::all_of(members.begin(), members.end(), exists))
+        errors.add(ErrorCode::not_found, "sets", {}, "{} '{}' holds {} that does not exist", set,
+                   name, member);
+  };
+  check(model.node_sets, "node set", "a node",
+        [&](int k) { return in_range(k, model.positions.size()); });
+  check(model.element_sets, "element set", "an element",
+        [&](int e) { return in_range(e, model.elements.size()); });
+  check(model.surfaces, "surface", "a face", [&](const ElementFace& f) {
+    return in_range(f.element, model.elements.size()) &&
+           in_range(f.face, element_faces(model.elements[f.element].type).size());
+  });
 }
 
 double asymmetry(const SparseMatrix& A) {
@@ -383,8 +367,7 @@ void validate(const FeModel& model) {
   check_types(model, errors);
   check_nodes(model, errors);
   check_materials(model, errors);
-  check_shells(model, errors);
-  check_layups(model, errors);
+  check_layers(model, errors);
   check_elements(model, errors);
   check_masses(model, errors);
   check_springs(model, errors);

@@ -5,27 +5,15 @@
 #include <functional>
 #include <numeric>
 
+#include "floatframe/math/union_find.hpp"
+
 namespace floatframe {
 
 namespace {
 
-/// Union-find over bodies.
-class Sets {
- public:
-  explicit Sets(int n) : set_(n) { std::iota(set_.begin(), set_.end(), 0); }
-  int find(int i) const {
-    while (set_[i] != i) i = set_[i] = set_[set_[i]];
-    return i;
-  }
-  void join(int i, int j) { set_[find(i)] = find(j); }
-
- private:
-  mutable std::vector<int> set_;  // `find` shortens the paths
-};
-
 /// Bodies on the way between two markers, without their lowest common ancestor.
-Sets tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>> ties) {
-  Sets sets(tree.body_count());
+UnionFind tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>> ties) {
+  UnionFind sets(tree.body_count());
   for (const auto& [marker_a, marker_b] : ties) {
     std::vector<int> way = path_to_root(tree, tree.marker(marker_a).body);
     std::vector<int> back = path_to_root(tree, tree.marker(marker_b).body);
@@ -40,11 +28,11 @@ Sets tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>
 }
 
 /// Which bodies of one cluster are joined by a tie or by a joint of the tree.
-std::vector<std::vector<int>> neighbours(const TreeKinematics& tree, const Sets& sets,
+std::vector<std::vector<int>> neighbours(const TreeKinematics& tree, const UnionFind& sets,
                                          std::span<const std::pair<int, int>> ties) {
   std::vector<std::vector<int>> near(tree.body_count());
   const auto join = [&](int a, int b) {
-    if (a < 0 || b < 0 || a == b || sets.find(a) != sets.find(b)) return;
+    if (a < 0 || b < 0 || a == b || sets.root(a) != sets.root(b)) return;
     near[a].push_back(b);
     near[b].push_back(a);
   };
@@ -87,12 +75,12 @@ void order_bodies(Cluster& c, const TreeKinematics& tree,
 
 /// The parent of a cluster: of all bodies that hang from outside of it the one nearest to the
 /// ground.
-int parent_of(const Cluster& c, const TreeKinematics& tree, const Sets& sets,
+int parent_of(const Cluster& c, const TreeKinematics& tree, const UnionFind& sets,
               const std::vector<int>& depth) {
   int best = tree.body_count() + 2, parent = -1;
   for (const int i : c.bodies) {
     const int p = tree.body(i).parent;
-    if (p >= 0 && sets.find(p) == sets.find(i)) continue;
+    if (p >= 0 && sets.root(p) == sets.root(i)) continue;
     const int d = p < 0 ? 0 : depth[p];
     if (d < best) {
       best = d;
@@ -112,12 +100,12 @@ std::vector<int> path_to_root(const TreeKinematics& tree, int body) {
 
 std::vector<Cluster> find_clusters(const TreeKinematics& tree,
                                    std::span<const std::pair<int, int>> ties) {
-  const Sets sets = tied_bodies(tree, ties);
+  const UnionFind sets = tied_bodies(tree, ties);
   // In the order of their first body, parents before children.
   std::vector<Cluster> clusters;
   std::vector<int> cluster_of_set(tree.body_count(), -1), depth(tree.body_count(), 0);
   for (const Topology::Link& link : tree.topology().links) {
-    const int root = sets.find(link.body);
+    const int root = sets.root(link.body);
     if (cluster_of_set[root] < 0) {
       cluster_of_set[root] = static_cast<int>(clusters.size());
       clusters.emplace_back();
@@ -136,7 +124,7 @@ std::vector<Cluster> find_clusters(const TreeKinematics& tree,
   std::vector<int> level(clusters.size(), -1);
   const std::function<int(int)> level_of = [&](int k) {
     const int parent = clusters[k].parent;
-    if (level[k] < 0) level[k] = parent < 0 ? 0 : level_of(cluster_of_set[sets.find(parent)]) + 1;
+    if (level[k] < 0) level[k] = parent < 0 ? 0 : level_of(cluster_of_set[sets.root(parent)]) + 1;
     return level[k];
   };
   std::vector<int> order(clusters.size());

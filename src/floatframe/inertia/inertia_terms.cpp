@@ -53,7 +53,7 @@ std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
   return found;
 }
 
-const ProjectionData& projection_data(const FlexibleBody& body) {
+const ProjectionData& projection_data(const FlexibleBody& body, const BodyMotion& motion) {
   if (!body.projection)
     throw InputError(ErrorCode::missing,
                      "found a body without nodal masses, expected one that keeps ProjectionData");
@@ -66,6 +66,8 @@ const ProjectionData& projection_data(const FlexibleBody& body) {
   } else {
     require_size("a mass matrix of the nodes", data.M_s, n, n);
   }
+  if (motion.geometric_stiffening)
+    require_size("nodal displacements of second order", data.h, 3 * Eigen::Index{nm} * n, nm);
   return data;
 }
 
@@ -104,10 +106,7 @@ InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& 
 
 InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& motion) {
   const BodyMotion m = complete(body, motion);
-  const ProjectionData& data = projection_data(body);
-  if (m.geometric_stiffening)
-    require_size("nodal displacements of second order", data.h,
-                 3 * static_cast<Eigen::Index>(body.modes()) * data.nodes(), body.modes());
+  const ProjectionData& data = projection_data(body, m);
   ProjectionWorkspace work(data, m.geometric_stiffening);
   InertiaTerms t = zero_terms(6 + body.modes());
   relative_projection(data, m.r0, m.A, m.omega, m.y.data(), m.ydot.data(), work, t.M, t.Qv);
@@ -116,10 +115,7 @@ InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& mot
 
 InertiaTerms absolute_projection(const FlexibleBody& body, const BodyMotion& motion) {
   const BodyMotion m = complete(body, motion);
-  const ProjectionData& data = projection_data(body);
-  if (m.geometric_stiffening)
-    require_size("nodal displacements of second order", data.h,
-                 3 * static_cast<Eigen::Index>(body.modes()) * data.nodes(), body.modes());
+  const ProjectionData& data = projection_data(body, m);
   ProjectionWorkspace work(data, m.geometric_stiffening);
   InertiaTerms t = zero_terms(12 + body.modes());
   absolute_projection(data, m.A, skew(m.omega) * m.A, m.y.data(), m.ydot.data(), work, t.M, t.Qv);

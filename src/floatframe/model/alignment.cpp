@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/math/union_find.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -25,16 +25,12 @@ Vec3 across(const Vec3& e, const Vec3& d) { return d - e * e.dot(d); }
 /// Bodies that welds make one; the ground is the last.
 std::vector<int> rigid_groups(const Model& model) {
   const int ground = std::ssize(model.bodies);
-  std::vector<int> root(model.bodies.size() + 1);
-  std::iota(root.begin(), root.end(), 0);
-  const auto top = [&](int i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  UnionFind welded(ground + 1);
   for (const Joint& j : model.joints)
-    if (joint_velocities(j.type) == 0) root[top(j.child)] = top(j.parent < 0 ? ground : j.parent);
-  for (int i = 0; i <= ground; ++i) root[i] = top(i);
-  return root;
+    if (joint_velocities(j.type) == 0) welded.join(j.child, j.parent < 0 ? ground : j.parent);
+  std::vector<int> roots;
+  for (int i = 0; i <= ground; ++i) roots.push_back(welded.root(i));
+  return roots;
 }
 
 /// The point nearest to lines through `p` along `e`, or to points where `e` is zero.

@@ -32,6 +32,12 @@ void ForceBuild::actuate(const std::string& key) {
   force.driven = true;
 }
 
+void ForceBuild::spring_damper_actuator() {
+  force.spring = law("spring");
+  force.damper = law("damper");
+  actuate("actuator");
+}
+
 bool ForceBuild::load(bool oriented) {
   force.b = marker("body", oriented);
   force.axis = direction("direction");

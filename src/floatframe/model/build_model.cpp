@@ -12,6 +12,19 @@ void ModelBuilder::roads() {
   for (const RoadDescription& r : d.roads) model.roads.push_back({r.name, r.pieces, r.bumps});
 }
 
+void ModelBuilder::inputs() {
+  for (const InputDescription& i : d.inputs) {
+    Input input;
+    input.name = i.name;
+    input.unit = i.unit;
+    input.initial = i.initial;
+    input.clamp = i.clamp;
+    if (i.low) input.low = *i.low;
+    if (i.high) input.high = *i.high;
+    model.inputs.push_back(std::move(input));
+  }
+}
+
 void ModelBuilder::rods() {
   for (const RodDescription& r : d.rods) {
     Rod rod;

@@ -17,6 +17,9 @@ class ForceBuild : public ForceView {
   int marker(const std::string& key, bool oriented, const Mat3& R = Mat3::Identity()) const;
   /// The function of time and the input that drive the element.
   void actuate(const std::string& key);
+  /// The keys `spring`, `damper` and `actuator`.
+  void spring_damper_actuator();
+  bool has_ends() const noexcept { return force.a >= 0 && force.b >= 0; }
   /// The keys `body`, `direction`, `magnitude` and `follows` of an applied load.
   bool load(bool oriented);
   Signal built_signal(const std::string& key) const;

@@ -102,6 +102,20 @@ constexpr ForceMember access(T S::*) {
 template <auto member>
 inline constexpr ForceMember described_by = force_member::access<member>(member);
 
+/// A place that must be given.
+constexpr ForceKey place_key(const char* name, const char* about, ForceMember member = {}) {
+  return {.name = name,
+          .kind = ForceKeyKind::place,
+          .about = about,
+          .required = true,
+          .member = member};
+}
+/// A law, a stop or a signal.
+constexpr ForceKey law_key(const char* name, ForceKeyKind kind, const char* about,
+                           ForceMember member = {}, ForceAxis axis = ForceAxis::along) {
+  return {.name = name, .kind = kind, .about = about, .axis = axis, .member = member};
+}
+
 /// The keys of a type.
 std::span<const ForceKey> force_keys(ForceType type) noexcept;
 /// What is there of a key, numbers as double and words by their place if they are right.

@@ -124,6 +124,16 @@ inline constexpr ForceKey rebound_stop_key = {.name = "rebound_stop",
                                               .about = "above a length",
                                               .of = "spring"};
 
+/// Of an element of two frames with the axes e₁, e₂, e₃: `axis` is e₃.
+inline constexpr ForceKey axis_2_key = {
+    .name = "axis_2",
+    .kind = ForceKeyKind::direction,
+    .about = "the first axis, e₁, without its part along `axis`; e₂ = e₃ x e₁",
+    .vector = {1.0, 0.0, 0.0}};
+/// Its design axes.
+Mat3 element_axes(const ForceView& values);
+/// Its places are on two bodies, its axes differ, and it has a law.
+void validate_framed(const ForceCheck& check);
 /// The keys of an applied load: a force along, or a torque about the direction.
 constexpr std::array<ForceKey, 4> load_keys(ForceAxis axis) {
   using L = AppliedLoadDescription;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
@@ -69,6 +70,25 @@ ForceSide force_side(const Model& model, const Force& force, const MarkerState& 
                      std::span<const double> inputs, std::int64_t branch) noexcept {
   return force_kind(force.type)
       .side({model, force, a, b, origin, t, reference_angle, inputs, branch});
+}
+
+Mat3 element_axes(const ForceView& values) {
+  const Vec3 z = values.direction("axis").stableNormalized(),
+             v = values.direction("axis_2").stableNormalized();
+  Mat3 R;
+  R.col(2) = z;
+  R.col(0) = (v - z.dot(v) * z).normalized();
+  R.col(1) = z.cross(R.col(0));
+  return R;
+}
+
+void validate_framed(const ForceCheck& check) {
+  check.two_bodies("from", "to");
+  if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
+    if (const auto complaint =
+            sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
+      check.error(ErrorCode::geometry, "axis_2", *complaint);
+  check.some_law();
 }
 
 StretchSide stretch_side(const PiecewisePolynomial& f, std::size_t k, double x) noexcept {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "floatframe/fe/node_dof_names.hpp"
+#include "floatframe/math/union_find.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -140,29 +141,24 @@ bool joint_turns(const Joint& j) {
 
 /// Bodies that turn together, by the number of one of them; those that joints keep from turning
 /// have the number of the ground, which is that of the bodies.
-std::vector<std::size_t> bodies_turning_together(const Model& model) {
-  const std::size_t ground = model.bodies.size();
-  std::vector<std::size_t> leader(ground + 1);
-  for (std::size_t i = 0; i <= ground; ++i) leader[i] = i;
-  const auto first = [&](int body) {
-    std::size_t i = body < 0 ? ground : static_cast<std::size_t>(body);
-    while (leader[i] != i) i = leader[i] = leader[leader[i]];
-    return i;
-  };
+std::vector<int> bodies_turning_together(const Model& model) {
+  const int ground = std::ssize(model.bodies);
+  UnionFind together(ground + 1);
+  const auto first = [&](int body) { return together.root(body < 0 ? ground : body); };
   for (const Joint& j : model.joints) {
     if (joint_turns(j)) continue;
-    const std::size_t a = first(j.parent), b = first(j.child);
-    leader[std::min(a, b)] = std::max(a, b);  // the ground leads its own
+    const int a = first(j.parent), b = first(j.child);
+    together.join(std::min(a, b), std::max(a, b));  // the ground leads its own
   }
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < ground; ++i) out.push_back(first(static_cast<int>(i)));
+  std::vector<int> out;
+  for (int i = 0; i < ground; ++i) out.push_back(first(i));
   return out;
 }
 
 /// Point masses alone that can turn. Zeros that somebody has written are meant, and so is a mass
 /// that is welded to what has inertia.
 void hint_at_inertia(const ModelDescription& description, const Model& model, HintList& out) {
-  const std::vector<std::size_t> together = bodies_turning_together(model);
+  const std::vector<int> together = bodies_turning_together(model);
   std::vector<bool> has_inertia(model.bodies.size() + 1, false);
   const auto missing = [&](std::size_t i) {
     const auto* rigid = std::get_if<RigidDescription>(&description.bodies[i].kind);

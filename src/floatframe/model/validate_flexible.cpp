@@ -4,6 +4,7 @@
 #include <map>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/math/union_find.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
@@ -31,7 +32,7 @@ class FlexibleCheck {
   struct BarGeometry {
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     int elements = 1;
-    std::size_t index = 0;
+    int index = 0;
     bool good = false;
   };
 
@@ -102,8 +103,7 @@ class FlexibleCheck {
       name((group_.path + ".bars").c_str(), b.name, taken_bars_, bar);
       BarGeometry g;
       g.elements = b.elements;
-      g.index = leaders_.size();
-      leaders_.push_back(g.index);
+      g.index = joined_.add();
       g.good = bar.whole("elements", b.elements, rules::elements);
       section(bar, b.section);
       const Vec3* from = nullptr;
@@ -132,7 +132,7 @@ class FlexibleCheck {
       if (g.good) {
         join(g.index, b.to);
         if (b.from_bar)
-          unite(g.index, geometry_.at(*b.from_bar).index);
+          joined_.join(g.index, geometry_.at(*b.from_bar).index);
         else
           join(g.index, b.from);
         nodes_ += b.elements;
@@ -143,20 +143,15 @@ class FlexibleCheck {
   }
 
   // Which bars hang together.
-  std::size_t leader(std::size_t k) {
-    while (leaders_[k] != k) k = leaders_[k] = leaders_[leaders_[k]];
-    return k;
-  }
-  void unite(std::size_t a, std::size_t b) { leaders_[leader(a)] = leader(b); }
-  void join(std::size_t bar, const std::string& point) {
+  void join(int bar, const std::string& point) {
     const auto [it, fresh] = bar_of_point_.emplace(point, bar);
-    if (!fresh) unite(bar, it->second);
+    if (!fresh) joined_.join(bar, it->second);
   }
   void connectivity() {
     for (const auto& [name, g] : geometry_)
       if (!g.good) return;
     for (const BarDescription& b : f_.bars)
-      if (leader(geometry_.at(b.name).index) != leader(0)) {
+      if (joined_.root(geometry_.at(b.name).index) != joined_.root(0)) {
         group_.error(ErrorCode::not_found, "bars." + b.name,
                      sentences::bar_not_connected(f_.bars.front().name));
         return;
@@ -236,8 +231,8 @@ class FlexibleCheck {
   const Entity group_;
   NameIndex known_points_;
   std::map<std::string, BarGeometry> geometry_;
-  std::map<std::string, std::size_t> bar_of_point_;
-  std::vector<std::size_t> leaders_;
+  std::map<std::string, int> bar_of_point_;
+  UnionFind joined_;
   std::set<std::string> taken_bars_;
   std::set<std::pair<std::string, unsigned>> taken_dofs_;
   bool geometry_good_ = false;

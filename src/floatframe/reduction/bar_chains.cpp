@@ -80,21 +80,6 @@ Eigen::Matrix<double, 6, 12> interpolation(double s, double L) {
   return N;
 }
 
-SparseMatrix pick(const SparseMatrix& A, const std::vector<int>& rows,
-                  const std::vector<int>& columns) {
-  std::vector<int> place(A.rows(), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i) place[rows[i]] = static_cast<int>(i);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    for (SparseMatrix::InnerIterator it(A, columns[c]); it; ++it)
-      if (const int r = place[it.row()]; r >= 0)
-        entries.emplace_back(r, static_cast<int>(c), it.value());
-  SparseMatrix out(static_cast<Eigen::Index>(rows.size()),
-                   static_cast<Eigen::Index>(columns.size()));
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
-}
-
 }  // namespace
 
 std::optional<BarChains> BarChains::make(const FeModel& model, const SparseMatrix& K,

@@ -1,11 +1,13 @@
 #include "floatframe/reduction/body_reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/reduction/part_second_order.hpp"
 
 namespace floatframe {
 namespace {
@@ -25,6 +27,42 @@ MatX with_mass(const MatX& C, const MatX& K, const MatX& M) {
   const double most = eig.values(eig.values.size() - 1);  // of w^-2, ascending
   if (!eig.found || !(most > 0.0)) return C;
   return C * eig.vectors.rightCols((eig.values.array() > no_mass * most).count());
+}
+
+/// Points of the model with unit density and without point masses: integrals over the volume.
+PointModel volume_points(FeModel model, Integration integration) {
+  if (model.matrices) {
+    throw InputError(ErrorCode::unsupported,
+                     "the Buckens reference weighs by volume, which a part given by matrices does "
+                     "not have; take mean_axis");
+  }
+  for (Material& m : model.materials) m.density = 1.0;
+  for (ShellSection& s : model.shells) s.mass = 0.0;
+  for (PointMass& m : model.masses) {  // its degrees of freedom stay
+    m.mass = 0.0;
+    m.J *= 1e-100;
+  }
+  return point_model(model, assemble(model, integration), integration);
+}
+
+/// Uniform density without point masses: the volume weighs as the mass does.
+bool uniform(const FeModel& model) {
+  if (!model.masses.empty() || model.matrices || model.materials.empty()) return false;
+  if (std::any_of(model.shells.begin(), model.shells.end(),
+                  [](const ShellSection& s) { return s.mass != 0.0; }))
+    return false;
+  const double density = model.materials.front().density;
+  return std::all_of(model.materials.begin(), model.materials.end(),
+                     [&](const Material& m) { return m.density == density; });
+}
+
+/// The interface that the body frame follows; null: none.
+const InterfacePlace* reference_node(const PlacedPart& part) {
+  const BodyReference& reference = part.options.reference;
+  if (reference.kind != BodyReference::Kind::node) return nullptr;
+  const auto named = [&](const InterfacePlace& place) { return place.name == reference.node; };
+  const auto it = std::find_if(part.interfaces.begin(), part.interfaces.end(), named);
+  return it == part.interfaces.end() ? nullptr : &*it;
 }
 
 }  // namespace
@@ -75,6 +113,27 @@ ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const Ma
   result.stiffness = result.lambda(0) / first.dot(K.cwiseAbs() * first);
   result.mass = relative_modal_mass(combined(raw, result.C), Mat6X::Identity(6, 6));
   return result;
+}
+
+MatX reference_conditions(const PlacedPart& part, const ModeBasis& basis,
+                          const InertiaInvariants& raw) {
+  const BodyReference& reference = part.options.reference;
+  if (reference.kind == BodyReference::Kind::buckens && !uniform(part.model)) {
+    const PointModel points = volume_points(part.model, part.options.integration);
+    return momentum_of_modes(invariants_points(points.p, points.M_s, points.T * basis.X));
+  }
+  if (const InterfacePlace* place = reference_node(part)) return basis.X(place->rows, Eigen::all);
+  return momentum_of_modes(raw);
+}
+
+MatX reference_rows(const PlacedPart& part, const MatX& loads) {
+  if (part.options.reference.kind == BodyReference::Kind::buckens && !uniform(part.model))
+    return momentum_rows(body_loads(volume_points(part.model, part.options.integration)));
+  const InterfacePlace* place = reference_node(part);
+  if (!place) return momentum_rows(loads);
+  MatX B = MatX::Zero(6, loads.rows());
+  for (Eigen::Index i = 0; i < 6; ++i) B(i, place->rows[i]) = 1.0;
+  return B;
 }
 
 }  // namespace floatframe

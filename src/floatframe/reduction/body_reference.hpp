@@ -9,6 +9,8 @@
 #include "floatframe/body/inertia_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/types.hpp"
+#include "floatframe/reduction/mode_basis.hpp"
+#include "floatframe/reduction/part_places.hpp"
 
 namespace floatframe {
 
@@ -28,5 +30,12 @@ struct ElasticModes {
 /// on the rigid motions, or if a combination of modes has neither mass nor stiffness.
 ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B);
 inline constexpr double least_stiffness = 1e-10;
+
+/// The conditions of a part on its modes, 6 x modes; `raw`: the integrals of the basis.
+MatX reference_conditions(const PlacedPart& part, const ModeBasis& basis,
+                          const InertiaInvariants& raw);
+
+/// The same on all dofs, 6 x n; `loads`: of the masses (body_loads).
+MatX reference_rows(const PlacedPart& part, const MatX& loads);
 
 }  // namespace floatframe

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/flat_nodes.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
+#include "floatframe/math/union_find.hpp"
 
 namespace floatframe {
 namespace {
@@ -16,28 +16,18 @@ namespace {
 /// Sets of tied nodes.
 class Pieces {
  public:
-  explicit Pieces(int nodes) : parent_(nodes), used_(parent_.size(), 0) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
+  explicit Pieces(int nodes) : sets_(nodes), used_(nodes, 0) {}
   void use(int node) { used_[node] = 1; }
   bool used(int node) const { return used_[node] != 0; }
-  int root(int node) {
-    std::size_t k = node;
-    while (parent_[k] != static_cast<int>(k)) {
-      parent_[k] = parent_[parent_[k]];
-      k = parent_[k];
-    }
-    return static_cast<int>(k);
-  }
+  int root(int node) const { return sets_.root(node); }
   void tie(int a, int b) {
     use(a);
     use(b);
-    const int ra = root(a), rb = root(b);
-    if (ra != rb) parent_[std::max(ra, rb)] = std::min(ra, rb);
+    sets_.join(std::max(root(a), root(b)), std::min(root(a), root(b)));
   }
 
  private:
-  std::vector<int> parent_;
+  UnionFind sets_;
   std::vector<char> used_;
 };
 

@@ -28,6 +28,21 @@ SparseMatrix select(const SparseMatrix& A, const std::vector<int>& row_of, std::
 
 }  // namespace
 
+SparseMatrix pick(const SparseMatrix& A, const std::vector<int>& rows,
+                  const std::vector<int>& columns) {
+  std::vector<int> place(A.rows(), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[rows[i]] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (SparseMatrix::InnerIterator it(A, columns[c]); it; ++it)
+      if (const int r = place[it.row()]; r >= 0)
+        entries.emplace_back(r, static_cast<int>(c), it.value());
+  SparseMatrix out(static_cast<Eigen::Index>(rows.size()),
+                   static_cast<Eigen::Index>(columns.size()));
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
 FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
                                const std::vector<int>& boundary, const std::vector<int>& zero,
                                const std::function<std::string(int)>& label, SparseSolver solver)
@@ -36,12 +51,9 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
       boundary_(boundary),
       factors_(SparseMatrix(0, 0)) {
   const std::size_t n = size_;
-  std::vector<int> inner_of(n, 0), boundary_of(n, -1);
+  std::vector<int> inner_of(n, 0);
   for (const int row : zero) inner_of[row] = -1;
-  for (std::size_t b = 0; b < boundary.size(); ++b) {
-    inner_of[boundary[b]] = -1;
-    boundary_of[boundary[b]] = static_cast<int>(b);
-  }
+  for (const int row : boundary) inner_of[row] = -1;
   for (std::size_t i = 0; i < n; ++i) {
     if (inner_of[i] < 0) continue;
     inner_of[i] = static_cast<int>(inner_.size());
@@ -50,18 +62,7 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
   Kii_ = select(K, inner_of, inner_.size(), inner_);
   Mii_ = select(M, inner_of, inner_.size(), inner_);
   Kib_ = select(K, inner_of, inner_.size(), boundary_);
-  // Boundary rows are in the order of `boundary`, which need not ascend.
-  std::vector<Eigen::Triplet<double>> entry;
-  for (std::size_t b = 0; b < boundary.size(); ++b) {
-    for (SparseMatrix::InnerIterator it(K, boundary[b]); it; ++it) {
-      const int r = boundary_of[it.row()];
-      if (r >= 0) entry.emplace_back(r, static_cast<int>(b), it.value());
-    }
-  }
-  Kbb_.resize(static_cast<Eigen::Index>(boundary.size()),
-              static_cast<Eigen::Index>(boundary.size()));
-  Kbb_.setFromTriplets(entry.begin(), entry.end());
-
+  Kbb_ = pick(K, boundary, boundary);
   factors_ = SparseFactors(Kii_, solver);
   const int row = factors_.singular();
   if (row >= 0 || factors_.negative_pivots() > 0) {
@@ -77,9 +78,7 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
 
 MatX FixedInterface::with_all_rows(const MatX& inner) const {
   MatX X = MatX::Zero(size_, inner.cols());
-  for (Eigen::Index a = 0; a < inner.cols(); ++a)
-    for (std::size_t i = 0; i < inner_.size(); ++i)
-      X(inner_[i], a) = inner(static_cast<Eigen::Index>(i), a);
+  X(inner_, Eigen::all) = inner;
   return X;
 }
 
@@ -91,20 +90,13 @@ MatX FixedInterface::constraint_modes() const {
 }
 
 MatX FixedInterface::guyan_stiffness(const MatX& X) const {
-  MatX inner(static_cast<Eigen::Index>(inner_.size()), X.cols());
-  for (Eigen::Index a = 0; a < X.cols(); ++a)
-    for (std::size_t i = 0; i < inner_.size(); ++i)
-      inner(static_cast<Eigen::Index>(i), a) = X(inner_[i], a);
+  const MatX inner = X(inner_, Eigen::all);
   const MatX K = MatX(Kbb_) + Kib_.transpose() * inner;
   return 0.5 * (K + K.transpose());
 }
 
 MatX FixedInterface::inner_response(const MatX& forces) const {
-  MatX inner(static_cast<Eigen::Index>(inner_.size()), forces.cols());
-  for (Eigen::Index a = 0; a < forces.cols(); ++a)
-    for (std::size_t i = 0; i < inner_.size(); ++i)
-      inner(static_cast<Eigen::Index>(i), a) = forces(inner_[i], a);
-  return with_all_rows(factors_.solve(inner));
+  return with_all_rows(factors_.solve(forces(inner_, Eigen::all)));
 }
 
 Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,

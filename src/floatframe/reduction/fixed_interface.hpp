@@ -19,6 +19,10 @@ namespace floatframe {
 Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,
                        bool at_most = false);
 
+/// Rows and columns of A in any order.
+SparseMatrix pick(const SparseMatrix& A, const std::vector<int>& rows,
+                  const std::vector<int>& columns);
+
 class FixedInterface {
  public:
   /// `boundary`: rows of K; `zero`: further rows that are held in every mode. `label` names a row

@@ -127,10 +127,8 @@ void report_basis(const ModeBasis& basis, HealthReport& health) {
         " (a round part would bend more easily in one direction than in another)");
 }
 
-ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,
-                              const std::vector<InterfacePlace>& interfaces,
-                              const std::vector<MarkerPlace>& markers, const PartOptions& options,
-                              std::optional<FixedInterface>& fixed) {
+ModeBasis craig_bampton_basis(const PlacedPart& part, std::optional<FixedInterface>& fixed) {
+  const auto& [model, system, R, interfaces, markers, options] = part;
   std::vector<int> boundary;
   std::vector<std::string> names;
   for (const InterfacePlace& place : interfaces) {
@@ -146,8 +144,7 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
   ModeBasis basis;
   basis.solver = fixed->solver_name();
   int equal_left_out = 0;
-  const Eigenmodes normal =
-      select_fixed_modes(*fixed, system, R, boundary, options, basis.modes, equal_left_out);
+  const Eigenmodes normal = select_fixed_modes(*fixed, part, boundary, basis.modes, equal_left_out);
   static_cast<ModeSet&>(basis) = craig_bampton_set(*fixed, normal, names);
   basis.equal_left_out = equal_left_out;
   const auto nb = static_cast<Eigen::Index>(boundary.size());
@@ -169,10 +166,9 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
   return basis;
 }
 
-ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R,
-                     const std::vector<InterfacePlace>& interfaces,
-                     const std::vector<MarkerPlace>& markers, const PartOptions& options,
-                     std::optional<FreeStructure>& structure, Eigenpairs& elastic) {
+ModeBasis free_basis(const PlacedPart& part, std::optional<FreeStructure>& structure,
+                     Eigenpairs& elastic) {
+  const auto& [model, system, R, interfaces, markers, options] = part;
   VecX softest;
   const double estimate = elastic_estimate(model, system, &softest);
   ModeBasis basis;
@@ -185,8 +181,7 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
       if (softest.size() > 0) check_stiffness_of(model, system, softest);
       throw;
     }
-    elastic =
-        select_free_modes(model, *structure, system, options, basis.modes, basis.equal_left_out);
+    elastic = select_free_modes(*structure, part, basis.modes, basis.equal_left_out);
   });
   basis.solver = structure->solver_name();
   const Eigen::Index count = elastic.lambda.size();

@@ -28,15 +28,10 @@ void report_basis(const ModeBasis& basis, HealthReport& health);
 /// Errors of the options that need no model: contradictions, negative numbers.
 void check_options(const PartOptions& options);
 
-ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,
-                              const std::vector<InterfacePlace>& interfaces,
-                              const std::vector<MarkerPlace>& markers, const PartOptions& options,
-                              std::optional<FixedInterface>& fixed);
+ModeBasis craig_bampton_basis(const PlacedPart& part, std::optional<FixedInterface>& fixed);
 
 /// `elastic`: the free elastic modes, for further use.
-ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R,
-                     const std::vector<InterfacePlace>& interfaces,
-                     const std::vector<MarkerPlace>& markers, const PartOptions& options,
-                     std::optional<FreeStructure>& structure, Eigenpairs& elastic);
+ModeBasis free_basis(const PlacedPart& part, std::optional<FreeStructure>& structure,
+                     Eigenpairs& elastic);
 
 }  // namespace floatframe

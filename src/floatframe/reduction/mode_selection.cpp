@@ -60,11 +60,13 @@ std::optional<int> most_normal_modes(const PartOptions& options) {
   return default_modes;
 }
 
-Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
-                              const std::vector<int>& boundary, const PartOptions& options,
-                              std::vector<ModeHealth>& list, int& equal_left_out) {
+Eigenmodes select_fixed_modes(const FixedInterface& fixed, const PlacedPart& part,
+                              const std::vector<int>& boundary, std::vector<ModeHealth>& list,
+                              int& equal_left_out) {
+  const FeSystem& system = part.system;
+  const PartOptions& options = part.options;
   int count = normal_mode_count(fixed, most_normal_modes(options), options.max_frequency);
-  const MatX C = about_centre(R, system.M);
+  const MatX C = about_centre(part.R, system.M);
   const MatX MC = system.M * C;
   const Vec6 total = (C.transpose() * MC).diagonal();
   // What the inner dofs can reach.
@@ -123,9 +125,10 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
   return {modes.omega.head(kept), modes.shapes.leftCols(kept)};
 }
 
-Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
-                             const FeSystem& system, const PartOptions& options,
+Eigenpairs select_free_modes(const FreeStructure& structure, const PlacedPart& part,
                              std::vector<ModeHealth>& list, int& equal_left_out) {
+  const FeSystem& system = part.system;
+  const PartOptions& options = part.options;
   int count = most_normal_modes(options).value_or(system.size() - 6);
   if (options.max_frequency > 0.0)
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
@@ -141,7 +144,7 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
   // One more than kept shows a pair that is cut.
   const int looked_at = count > 0 ? std::min(count + 1, most) : std::min(most, 1);
   const Eigenpairs all = structure.modes(looked_at + 6);
-  if (all.shapes.cols() > 6) check_stiffness_of(model, system, all.shapes.col(6));
+  if (all.shapes.cols() > 6) check_stiffness_of(part.model, system, all.shapes.col(6));
   const auto found = static_cast<int>(std::max<Eigen::Index>(all.lambda.size() - 6, 0));
   if (!options.modes) count = std::min(count, found);
   if (count > found) {

@@ -7,21 +7,20 @@
 // does not sit on the interfaces, R_i^T M_ii R_i; a limit means a fraction of that.
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"
-#include "floatframe/reduction/part.hpp"
+#include "floatframe/reduction/part_places.hpp"
 
 namespace floatframe {
 
 /// The number of normal modes that ends the list; nullopt: the other limits do.
 std::optional<int> most_normal_modes(const PartOptions& options);
 
-/// Modes kept; `list` has them with their effective masses. R: about any point.
-Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
-                              const std::vector<int>& boundary, const PartOptions& options,
-                              std::vector<ModeHealth>& list, int& equal_left_out);
+/// Modes kept; `list` has them with their effective masses.
+Eigenmodes select_fixed_modes(const FixedInterface& fixed, const PlacedPart& part,
+                              const std::vector<int>& boundary, std::vector<ModeHealth>& list,
+                              int& equal_left_out);
 
 /// Elastic modes kept.
-Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
-                             const FeSystem& system, const PartOptions& options,
+Eigenpairs select_free_modes(const FreeStructure& structure, const PlacedPart& part,
                              std::vector<ModeHealth>& list, int& equal_left_out);
 
 }  // namespace floatframe

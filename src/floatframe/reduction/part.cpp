@@ -21,7 +21,6 @@
 #include "floatframe/reduction/mode_basis.hpp"
 #include "floatframe/reduction/part_damping.hpp"
 #include "floatframe/reduction/part_health.hpp"
-#include "floatframe/reduction/part_reference.hpp"
 #include "floatframe/reduction/part_second_order.hpp"
 #include "floatframe/reduction/part_stress.hpp"
 #include "floatframe/reduction/part_turning.hpp"
@@ -87,18 +86,13 @@ void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& 
 }
 
 /// The answers to unit loads that the stress stiffness needs; empty for given matrices.
-MatX unit_response(const FeModel& model, const FeSystem& system, const PointModel& points,
-                   const MatX& R, const ModeBasis& basis,
-                   const std::vector<InterfacePlace>& interfaces,
-                   const std::vector<MarkerPlace>& markers, const PartOptions& options,
+MatX unit_response(const PlacedPart& part, const PointModel& points, const ModeBasis& basis,
                    const std::optional<FixedInterface>& fixed,
                    const std::optional<FreeStructure>& structure, const Eigenpairs& elastic) {
-  if (model.matrices) return {};
-  MatX loads = body_loads(points);
-  MatX B = reference_rows(model, loads, interfaces, options);
-  const UnitCases cases{std::move(loads), std::move(B), R, interfaces, markers};
-  return fixed ? held_response(system, cases, *fixed, basis)
-               : free_response(system, cases, *structure, elastic);
+  if (part.model.matrices) return {};
+  const MatX loads = body_loads(points), B = reference_rows(part, loads);
+  return fixed ? held_response(part, loads, B, *fixed, basis)
+               : free_response(part, loads, B, *structure, elastic);
 }
 
 ModalNode interface_node(const FeModel& model, const FeSystem& system, const InterfacePlace& place,
@@ -156,47 +150,41 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
 }
 
 /// What the model weighs, and whether its stiffness lets it move freely.
-void check_model(const FeModel& model, const FeSystem& system, const MatX& R,
-                 const PartOptions& options, HealthReport& health) {
+void check_model(const PlacedPart& part, HealthReport& health) {
+  const FeModel& model = part.model;
+  const FeSystem& system = part.system;
   health.dofs = system.size();
-  health.from_elements = mass_properties(system.M, R);
+  health.from_elements = mass_properties(system.M, part.R);
   require_mass_and_elasticity(model, system, health.from_elements);
-  require_inertia(model, system, options, health.from_elements);
+  require_inertia(model, system, part.options, health.from_elements);
   health.rigid_residual = check_rigid_motions(model, system);
   health.volume = volume(model);
   health.volume_times_density = volume_times_density(model);
 }
 
 /// The body of the modes `modes` of `basis` in its frame; `X` its shapes at all degrees of freedom.
-FlexibleBody body_of(const FeModel& model, const FeSystem& system, const ModeBasis& basis,
-                     const InertiaInvariants& raw, const ElasticModes& modes, const MatX& X,
-                     const std::vector<InterfacePlace>& interfaces,
-                     const std::vector<MarkerPlace>& markers) {
+FlexibleBody body_of(const PlacedPart& part, const ModeBasis& basis, const InertiaInvariants& raw,
+                     const ElasticModes& modes, const MatX& X) {
   ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
   for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back(fmt::format("elastic {}", a + 1));
   set.equal_left_out = basis.equal_left_out;
   FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C));
-  for (const InterfacePlace& place : interfaces)
-    body.nodes.push_back(interface_node(model, system, place, X));
-  body.interfaces = mounted_at(interfaces);
-  for (const MarkerPlace& marker : markers)
+  for (const InterfacePlace& place : part.interfaces)
+    body.nodes.push_back(interface_node(part.model, part.system, place, X));
+  body.interfaces = mounted_at(part.interfaces);
+  for (const MarkerPlace& marker : part.markers)
     body.nodes.push_back({marker.name, marker.p, marker.translation * X, marker.rotation * X});
   return body;
 }
 
 /// `response`: empty for given matrices.
-void add_second_order(const FeModel& model, const FeSystem& system, const PointModel& points,
-                      const MatX& X, const MatX& response,
-                      const std::vector<InterfacePlace>& interfaces,
-                      const std::vector<MarkerPlace>& markers, const PartOptions& options,
-                      FlexibleBody& body) {
+void add_second_order(const PlacedPart& part, const PointModel& points, const MatX& X,
+                      const MatX& response, FlexibleBody& body) {
   PartSecondOrder second_order;
-  if (response.size() > 0)
-    second_order = part_second_order(model, system, points, X, response, interfaces, markers,
-                                     options.integration);
+  if (response.size() > 0) second_order = part_second_order(part, points, X, response);
   body.second_order = second_order.stiffening;
   body.turning = part_turning(points, X, second_order.twist);
-  if (options.keep_projection) body.projection = projection_of(points, X, second_order.twist);
+  if (part.options.keep_projection) body.projection = projection_of(points, X, second_order.twist);
 }
 
 /// In the mean-axis frame: those of the body that nothing holds.
@@ -209,11 +197,9 @@ ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
 }
 
 /// In the frame that is asked for.
-ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const InertiaInvariants& raw,
-                        const std::vector<InterfacePlace>& interfaces, const PartOptions& options,
-                        HealthReport& health) {
-  ElasticModes modes =
-      elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
+ElasticModes body_modes(const PlacedPart& part, const ModeBasis& basis,
+                        const InertiaInvariants& raw, HealthReport& health) {
+  ElasticModes modes = elastic_modes(basis.K, raw, reference_conditions(part, basis, raw));
   if (modes.mass < least_modal_mass)
     throw InputError(ErrorCode::singular,
                      "a combination of the modes moves as a rigid body and has no inertia of its "
@@ -230,9 +216,9 @@ ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const Iner
 
 /// Modes of the free part, of the model itself beside those of the body if asked for. `structure`:
 /// if its factors are there already. One mode at least shows what holds the part.
-void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& R,
-                      const VecX& reduced, Eigen::Index fixed_modes, const PartOptions& options,
+void check_free_modes(const PlacedPart& part, const VecX& reduced, Eigen::Index fixed_modes,
                       std::optional<FreeStructure>& structure, HealthReport& health) {
+  const auto& [model, system, R, interfaces, markers, options] = part;
   if (!options.check_free_modes) return free_frequencies(model, reduced, nullptr, health);
   if (!structure) {
     const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
@@ -250,8 +236,8 @@ void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& 
 }  // namespace
 
 ReducedPart reduce_part(FeModel model, const PartOptions& options) {
-  ReducedPart part;
-  HealthReport& health = part.health;
+  ReducedPart out;
+  HealthReport& health = out.health;
   Stages stages(options, health);
   check_options(options);
   validate(model);
@@ -268,21 +254,19 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   find_rows(model, system, interfaces);
   find_motions(model, system, markers);
   const MatX R = rigid_motions(model, system, Vec3::Zero());
-  check_model(model, system, R, options, health);
+  const PlacedPart part{model, system, R, interfaces, markers, options};
+  check_model(part, health);
   stages.done("assembly");
 
   std::optional<FixedInterface> fixed;
   std::optional<FreeStructure> structure;
   Eigenpairs elastic;
   const bool held = options.method == ModeMethod::craig_bampton;
-  ModeBasis basis =
-      held ? craig_bampton_basis(model, system, R, interfaces, markers, options, fixed)
-           : free_basis(model, system, R, interfaces, markers, options, structure, elastic);
+  ModeBasis basis = held ? craig_bampton_basis(part, fixed) : free_basis(part, structure, elastic);
   report_basis(basis, health);
   const Statics statics = statics_of(basis, structure, elastic, interfaces, system.size());
   stages.done("modes");
-  MatX response = unit_response(model, system, points, R, basis, interfaces, markers, options,
-                                fixed, structure, elastic);
+  const MatX response = unit_response(part, points, basis, fixed, structure, elastic);
   const bool stresses = options.stresses && !model.matrices;
   if (!stresses) fixed.reset();  // the factors are the largest piece of memory
   stages.done("unit loads");
@@ -293,39 +277,38 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
   if (model.matrices) match_mass_matrix(system, R, basis.X, raw);
   const ElasticModes free = free_elastic_modes(model, system, basis, raw);
-  const ElasticModes modes = body_modes(model, basis, raw, interfaces, options, health);
+  const ElasticModes modes = body_modes(part, basis, raw, health);
   const MatX X = basis.X * modes.C;
-  part.body = body_of(model, system, basis, raw, modes, X, interfaces, markers);
-  add_damping(model, system, R, X, options, part.body, health);
-  health.modes = part.body.modes();
-  health.from_invariants = mass_properties(part.body.invariants);
+  out.body = body_of(part, basis, raw, modes, X);
+  add_damping(part, X, out.body, health);
+  health.modes = out.body.modes();
+  health.from_invariants = mass_properties(out.body.invariants);
   health.rotary_inertia = points.rotary || points.anisotropy > least_anisotropy;
-  check_body(part.body, *health.rotary_inertia);
+  check_body(out.body, *health.rotary_inertia);
   stages.done("body");
-  add_surface(model, system, X, part);
+  add_surface(model, system, X, out);
   stages.done("surface");
   if (stresses && X.cols() > 0) {
     MatX loads =
         body_load_response(model, system, X, fixed, structure, elastic, options.integration);
     fixed.reset();
-    part.body.stress =
-        part_stress(model, system, part.surface.nodes, X, part.body.K, std::move(loads));
+    out.body.stress =
+        part_stress(model, system, out.surface.nodes, X, out.body.K, std::move(loads));
     stages.done("stress");
   }
   if (X.cols() > 0) {
-    add_second_order(model, system, points, X, response, interfaces, markers, options, part.body);
+    add_second_order(part, points, X, response, out.body);
     stages.done("stress stiffness");
   } else if (options.keep_projection) {
-    part.body.projection = projection_of(points, X, {});
+    out.body.projection = projection_of(points, X, {});
   }
 
   for (const InterfacePlace& place : interfaces) health.interfaces.push_back(place.health);
-  check_statics(interfaces, part.body, statics.stiffness, statics.flexibility, health);
-  check_free_modes(model, system, R, free.lambda, basis.frequencies.size(), options, structure,
-                   health);
+  check_statics(interfaces, out.body, statics.stiffness, statics.flexibility, health);
+  check_free_modes(part, free.lambda, basis.frequencies.size(), structure, health);
   if (options.check_free_modes) stages.done("free modes of the full model");
   add_warnings(model, points, health);
-  return part;
+  return out;
 }
 
 }  // namespace floatframe

@@ -72,14 +72,14 @@ std::vector<InterfaceDofs> mounted_at(const std::vector<InterfacePlace>& interfa
   return out;
 }
 
-void add_damping(const FeModel& model, const FeSystem& system, const MatX& R, const MatX& X,
-                 const PartOptions& options, FlexibleBody& body, HealthReport& health) {
-  body.D = damping_matrix(body, options.damping);
+void add_damping(const PlacedPart& part, const MatX& X, FlexibleBody& body, HealthReport& health) {
+  const ModalDamping& damping = part.options.damping;
+  body.D = damping_matrix(body, damping);
   if (body.modes() == 0) return;
-  if (model.matrices && model.matrices->C.nonZeros() > 0)
-    body.D += given_damping(*model.matrices, system, R, X, body, health);
+  if (part.model.matrices && part.model.matrices->C.nonZeros() > 0)
+    body.D += given_damping(*part.model.matrices, part.system, part.R, X, body, health);
   health.damping = own_damping(body);
-  if (options.damping.reference == DampingReference::mounted && health.damping.mounted.empty())
+  if (damping.reference == DampingReference::mounted && health.damping.mounted.empty())
     health.warnings.push_back(
         "damping is given for the mounted part, but no mode is left with its interfaces held: keep "
         "normal modes; what is damped are deformations by motions of the interfaces");

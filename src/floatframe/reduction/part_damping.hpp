@@ -12,9 +12,7 @@ namespace floatframe {
 /// The degrees of freedom of the interfaces; the nodes of the body begin with theirs.
 std::vector<InterfaceDofs> mounted_at(const std::vector<InterfacePlace>& interfaces);
 
-/// D of the body and what the report says of it. `R`, `X`: rigid motions about the origin and
-/// modes. Throws InputError if a given matrix gives energy.
-void add_damping(const FeModel& model, const FeSystem& system, const MatX& R, const MatX& X,
-                 const PartOptions& options, FlexibleBody& body, HealthReport& health);
+/// D of the body and what the report says of it. X: its modes. InputError if a matrix gives energy.
+void add_damping(const PlacedPart& part, const MatX& X, FlexibleBody& body, HealthReport& health);
 
 }  // namespace floatframe

@@ -30,6 +30,16 @@ struct MarkerPlace {
   SparseRows by_translations, turn_by_translations;
 };
 
+/// A part with its places and its equations, which everything that is asked of it stands on.
+struct PlacedPart {
+  const FeModel& model;
+  const FeSystem& system;
+  const MatX& R;  ///< n x 6: rigid motions about the origin
+  const std::vector<InterfacePlace>& interfaces;
+  const std::vector<MarkerPlace>& markers;
+  const PartOptions& options;
+};
+
 /// Adds the interfaces to the model and ties the turns that nothing resists (`free_turns`). Throws
 /// InputError with the errors of all of them, and if one of them or of the residual markers is to
 /// hold such a turn.

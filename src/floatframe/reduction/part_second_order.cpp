@@ -17,25 +17,26 @@ namespace {
 constexpr Eigen::Index body_cases = 12;
 
 /// Unit loads of all cases, with what the body reference carries.
-MatX balanced_loads(const FeSystem& system, const UnitCases& cases) {
-  const std::size_t places = cases.interfaces.size() + cases.markers.size();
+MatX balanced_loads(const PlacedPart& part, const MatX& loads, const MatX& B) {
+  const FeSystem& system = part.system;
+  const std::size_t places = part.interfaces.size() + part.markers.size();
   MatX F(system.size(), body_cases + 6 * static_cast<Eigen::Index>(places));
-  F.leftCols<body_cases>() = cases.loads;
+  F.leftCols<body_cases>() = loads;
   Eigen::Index column = body_cases;
   const auto add = [&](const SparseRows& rows) {
     F.middleCols<3>(column) = MatX(SparseMatrix(rows.transpose()));
     column += 3;
   };
-  for (const InterfacePlace& place : cases.interfaces) {
+  for (const InterfacePlace& place : part.interfaces) {
     add(system.T.middleRows(3 * place.node, 3));
     add(system.T_theta.middleRows(3 * place.node, 3));
   }
-  for (const MarkerPlace& marker : cases.markers) {
+  for (const MarkerPlace& marker : part.markers) {
     add(marker.translation);
     add(marker.rotation);
   }
-  const Mat6 BR = cases.B * cases.R;
-  F -= cases.B.transpose() * lu_solve(BR.transpose(), MatX(cases.R.transpose() * F));
+  const Mat6 BR = B * part.R;
+  F -= B.transpose() * lu_solve(BR.transpose(), MatX(part.R.transpose() * F));
   return F;
 }
 
@@ -55,11 +56,7 @@ MatX boundary_response(const MatX& K, const MatX& R, const MatX& f) {
 
 MatX body_loads(const PointModel& points) {
   const Eigen::Index n = points.p.cols();
-  // Masses of the points with 1, r_u1, r_u2, r_u3.
-  MatX fields(n, 4);
-  fields.col(0).setOnes();
-  fields.rightCols<3>() = points.p.transpose();
-  const MatX weights = points.M_s * fields;
+  const MatX weights = weighted_fields(points);
   MatX at_points = MatX::Zero(3 * n, body_cases);
   for (Eigen::Index k = 0; k < n; ++k)
     for (Eigen::Index field = 0; field < 4; ++field)
@@ -78,24 +75,24 @@ MatX momentum_rows(const MatX& loads) {
   return B;
 }
 
-MatX held_response(const FeSystem& system, const UnitCases& cases, const FixedInterface& fixed,
-                   const ModeBasis& basis) {
-  const MatX F = balanced_loads(system, cases);
+MatX held_response(const PlacedPart& part, const MatX& loads, const MatX& B,
+                   const FixedInterface& fixed, const ModeBasis& basis) {
+  const MatX F = balanced_loads(part, loads, B);
   std::vector<int> rows;
-  for (const InterfacePlace& place : cases.interfaces)
+  for (const InterfacePlace& place : part.interfaces)
     rows.insert(rows.end(), place.rows.begin(), place.rows.end());
   const auto nb = static_cast<Eigen::Index>(rows.size());
   const auto X_c = basis.X.leftCols(nb);
   const MatX f = X_c.transpose() * F;
-  const MatX u = boundary_response(basis.K.topLeftCorner(nb, nb), cases.R(rows, Eigen::all), f);
+  const MatX u = boundary_response(basis.K.topLeftCorner(nb, nb), part.R(rows, Eigen::all), f);
   MatX w = fixed.inner_response(F);
   w.noalias() += X_c * u;
   return w;
 }
 
-MatX free_response(const FeSystem& system, const UnitCases& cases, const FreeStructure& structure,
-                   const Eigenpairs& elastic) {
-  return structure.relieved_response(balanced_loads(system, cases), elastic);
+MatX free_response(const PlacedPart& part, const MatX& loads, const MatX& B,
+                   const FreeStructure& structure, const Eigenpairs& elastic) {
+  return structure.relieved_response(balanced_loads(part, loads, B), elastic);
 }
 
 namespace {
@@ -191,41 +188,26 @@ MatX second_order_matrix(const MatX& K, std::size_t column) {
   return -symmetric_of(K.col(static_cast<Eigen::Index>(column)));
 }
 
-SecondOrder of_body_loads(const MatX& K) {
-  SecondOrder out;
-  for (std::size_t j = 0; j < 3; ++j) {
-    out.S2[j] = second_order_matrix(K, j);
-    for (std::size_t i = 0; i < 3; ++i) out.S2i[i][j] = second_order_matrix(K, 3 + 3 * i + j);
-  }
-  return out;
-}
-
 }  // namespace
 
-PartSecondOrder part_second_order(const FeModel& model, const FeSystem& system,
-                                  const PointModel& points, const MatX& X, const MatX& response,
-                                  const std::vector<InterfacePlace>& interfaces,
-                                  const std::vector<MarkerPlace>& markers,
-                                  Integration integration) {
+PartSecondOrder part_second_order(const PlacedPart& part, const PointModel& points, const MatX& X,
+                                  const MatX& response) {
+  const auto& [model, system, R, interfaces, markers, options] = part;
   PartSecondOrder out;
   StressStiffness K;
   {
     const NodalShapes modes{system.T * X, system.T_theta * X};
     const NodalShapes cases{system.T * response, system.T_theta * response};
-    K = shares_of_stress_stiffness(model, modes, cases, integration);
+    K = shares_of_stress_stiffness(model, modes, cases, options.integration);
     const auto first_marker = body_cases + 6 * static_cast<Eigen::Index>(interfaces.size());
-    add_followers(model, points, X, cases, markers, first_marker, integration, K.direct);
+    add_followers(model, points, X, cases, markers, first_marker, options.integration, K.direct);
   }
-  auto stiffening = std::make_shared<SecondOrder>(of_body_loads(K.direct));
+  auto stiffening = std::make_shared<SecondOrder>(integrals_of(-K.direct.leftCols<body_cases>()));
   if (!points.strained_arms.empty()) {
-    const SecondOrder strained = turning_of(points, points.strained_arms, X);
-    for (std::size_t j = 0; j < 3; ++j) {
-      stiffening->S2[j] += strained.S2[j];
-      for (std::size_t i = 0; i < 3; ++i) stiffening->S2i[i][j] += strained.S2i[i][j];
-    }
+    add_integrals(turning_of(points, points.strained_arms, X), *stiffening);
   }
   if (K.twist.size() > 0) {
-    out.twist = of_body_loads(K.twist);
+    out.twist = integrals_of(-K.twist.leftCols<body_cases>());
     K.direct += K.twist;
   }
   for (std::size_t k = 0; k < interfaces.size() + markers.size(); ++k) {

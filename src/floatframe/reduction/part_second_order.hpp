@@ -31,29 +31,20 @@ MatX body_loads(const PointModel& points);
 /// The conditions of mean axes, 6 x n: momentum and angular momentum of the columns of body_loads.
 MatX momentum_rows(const MatX& loads);
 
-/// What the displacements w are asked for: 12 body loads, then three forces and three moments of
-/// each interface, of each marker.
-struct UnitCases {
-  MatX loads;  ///< n x 12
-  MatX B;      ///< 6 x n
-  const MatX& R;
-  const std::vector<InterfacePlace>& interfaces;
-  const std::vector<MarkerPlace>& markers;
-};
-/// n x cases; the first modes of `basis` are the constraint modes of `fixed`.
-MatX held_response(const FeSystem& system, const UnitCases& cases, const FixedInterface& fixed,
-                   const ModeBasis& basis);
-MatX free_response(const FeSystem& system, const UnitCases& cases, const FreeStructure& structure,
-                   const Eigenpairs& elastic);
+/// The displacements w of all unit loads: 12 body loads (`loads`, n x 12), then three forces and
+/// three moments of each interface, of each marker. B: 6 x n. The first modes of `basis` are the
+/// constraint modes of `fixed`.
+MatX held_response(const PlacedPart& part, const MatX& loads, const MatX& B,
+                   const FixedInterface& fixed, const ModeBasis& basis);
+MatX free_response(const PlacedPart& part, const MatX& loads, const MatX& B,
+                   const FreeStructure& structure, const Eigenpairs& elastic);
 
 struct PartSecondOrder {
   std::shared_ptr<const SecondOrder> stiffening;  ///< nodes: interfaces, then markers
   std::optional<SecondOrder> twist;               ///< of beams, on the masses
 };
 /// Of the modes X (n x nm).
-PartSecondOrder part_second_order(const FeModel& model, const FeSystem& system,
-                                  const PointModel& points, const MatX& X, const MatX& response,
-                                  const std::vector<InterfacePlace>& interfaces,
-                                  const std::vector<MarkerPlace>& markers, Integration integration);
+PartSecondOrder part_second_order(const PlacedPart& part, const PointModel& points, const MatX& X,
+                                  const MatX& response);
 
 }  // namespace floatframe

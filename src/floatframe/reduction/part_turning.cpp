@@ -9,6 +9,15 @@ namespace {
 
 constexpr Eigen::Index mass_loads = 12;  // rho e_j, rho r_ui e_j
 
+}  // namespace
+
+MatX weighted_fields(const PointModel& points) {
+  MatX fields(points.p.cols(), 4);
+  fields.col(0).setOnes();
+  fields.rightCols<3>() = points.p.transpose();
+  return points.M_s * fields;
+}
+
 SecondOrder integrals_of(const MatX& packed) {
   SecondOrder out;
   for (Eigen::Index j = 0; j < 3; ++j) {
@@ -27,8 +36,6 @@ void add_integrals(const SecondOrder& from, SecondOrder& to) {
   }
 }
 
-}  // namespace
-
 Vec6 turning_form(const Mat3& Q) {
   // theta (theta . arm) - arm theta . theta
   const double trace = Q.trace();
@@ -39,11 +46,7 @@ Vec6 turning_form(const Mat3& Q) {
 }
 
 SecondOrder turning_of(const PointModel& points, std::span<const PointArm> arms, const MatX& X) {
-  const Eigen::Index n = points.p.cols();
-  MatX fields(n, 4);
-  fields.col(0).setOnes();
-  fields.rightCols<3>() = points.p.transpose();
-  const MatX weights = points.M_s * fields;
+  const MatX weights = weighted_fields(points);
   // int arm dm and int arm r_ui dm of what each rotation carries.
   const Eigen::Index rotations = points.rotations.rows() / 3;
   Mat3X moments = Mat3X::Zero(3, 4 * rotations);

@@ -11,6 +11,13 @@
 
 namespace floatframe {
 
+/// Masses of the points with 1, r_u1, r_u2, r_u3.
+MatX weighted_fields(const PointModel& points);
+
+/// S2 and S2i of columns that are symmetric matrices: of rho e_j (3), then of rho r_ui e_j.
+SecondOrder integrals_of(const MatX& packed);
+void add_integrals(const SecondOrder& from, SecondOrder& to);
+
 /// S2 and S2i of the arms, weighed by the masses of the points, of the modes X (n x nm).
 SecondOrder turning_of(const PointModel& points, std::span<const PointArm> arms, const MatX& X);
 

@@ -30,10 +30,7 @@ MatX by_stiffness(const MatX& K, const InterfacePlace& loaded, const InterfacePl
 /// The rows of a rigid motion that an interface has.
 MatX rigid_rows(const InterfacePlace& place) {
   const Mat6 R = rigid_motion_at(place.health.p);
-  MatX rows(static_cast<Eigen::Index>(place.axes.size()), 6);
-  for (std::size_t k = 0; k < place.axes.size(); ++k)
-    rows.row(static_cast<Eigen::Index>(k)) = R.row(place.axes[k]);
-  return rows;
+  return R(place.axes, Eigen::all);
 }
 
 /// The same from the flexibility G with inertia relief: u = G f + R r, f in equilibrium.
@@ -61,9 +58,7 @@ MatX by_modes(const FlexibleBody& body, std::size_t loaded, std::size_t held,
   };
   const Mat6 R_h = rigid_motion_at(body.nodes[held].p), R_k = rigid_motion_at(body.nodes[loaded].p);
   const MatX all = rows_of(loaded) - R_k * R_h.partialPivLu().solve(rows_of(held));
-  MatX E(static_cast<Eigen::Index>(axes.size()), all.cols());
-  for (std::size_t k = 0; k < axes.size(); ++k)
-    E.row(static_cast<Eigen::Index>(k)) = all.row(axes[k]);
+  const MatX E = all(axes, Eigen::all);
   return E * ldlt_solve(body.K, E.transpose());
 }
 

@@ -45,9 +45,7 @@ class Stepper final : public BenchStepper {
     const double h = steps_.grid().step(), s = 0.25 * h * h;
     const double penalty = steps_.step_options().penalty_mass;
     for (long k = 0; k < iterations; ++k) {
-      f.positions(state.t, state.q);
-      f.velocities(state.v);
-      f.dynamics();
+      dynamics_at(f, state);
       f.residual(state.a, state.lambda, penalty / s, work_);
       f.factorize(1.0, 0.5 * h, s, penalty / s);
       f.solve(work_);

@@ -54,12 +54,11 @@ void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
 std::optional<RangeWarning> BranchWatch::judged(const MatX& J, double usual,
                                                 const ConstraintSet& constraints, double t) {
   if (!nearly_dependent(J) || !(independence(J) < part_of_usual * usual)) return {};
-  return RangeWarning{
-      RangeLimit::branch,
-      fmt::format("the mechanism passes a singular position at t = {:.4g} s: constraints{} nearly "
-                  "depend on each other there, so that it may go on in more than one way; compare "
-                  "with a run in smaller steps",
-                  t, branch_owners(constraints, dependent_rows(J)))};
+  return RangeWarning{RangeLimit::branch,
+                      fmt::format("the mechanism passes a singular position at t = {:.4g} s: "
+                                  "constraints{} nearly depend on each other there, so that it may "
+                                  "go on in more than one way; compare with a run in smaller steps",
+                                  t, branch_owners(constraints, dependent_rows(J)))};
 }
 
 }  // namespace floatframe

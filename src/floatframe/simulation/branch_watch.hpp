@@ -44,8 +44,7 @@ class BranchWatch {
       if (d->found == 0.0 || d->q.size() != f.configurations() || f.velocities() > most_coordinates)
         continue;
       const auto constraints_at = [&](const Dip& dip) {
-        f.positions(dip.t, dip.q);
-        f.velocities(VecX::Zero(f.velocities()));
+        kinematics_at(f, dip.t, dip.q, VecX::Zero(f.velocities()));
         return f.constraint_jacobian();
       };
       const double usual =

@@ -7,8 +7,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/campbell_lines.hpp"
-#include "floatframe/simulation/rotor_speeds.hpp"
-#include "floatframe/simulation/rotor_stiffening.hpp"
+#include "floatframe/simulation/rotor_analysis.hpp"
 #include "floatframe/simulation/rotor_symmetry.hpp"
 
 namespace floatframe {

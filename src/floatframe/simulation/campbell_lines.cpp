@@ -143,9 +143,8 @@ std::string end_note(ModeFollower& follower, const LineEnd& e, const CampbellDia
   const char* const side = e.upwards ? "above" : "below";
   if (grows > growth(follower.at(inside)))
     return fmt::format(
-        "{}; {} that speed it diverges without swinging (as e^({:.4g} t) at {:g} "
-        "rad/s)",
-        who, side, grows, beyond);
+        "{}; {} that speed it diverges without swinging (as e^({:.4g} t) at {:g} rad/s)", who, side,
+        grows, beyond);
   if (without_swing(follower.at(beyond)) > without_swing(follower.at(inside)))
     return fmt::format("{}; {} that speed it does not swing", who, side);
   return fmt::format("{}; {} that speed no mode has a shape like its own (MAC above 0.8){}", who,

@@ -110,8 +110,7 @@ class CornerSteps {
   template <class Behind>
   void pass(State& state, const TimeCorner& c, double h, const Behind& behind) noexcept {
     if (watch_.look) {
-      f_.positions(state.t, state.q);
-      f_.velocities(state.v);
+      kinematics_at(f_, state);
       f_.forces();
       // Multipliers that a state restored elsewhere has, too.
       watch_(state, made_ == Made::stepped ? integrator_.reactions() : state.lambda);

@@ -95,8 +95,7 @@ class ModalStiffness {
       for (const double sign : {1.0, -1.0}) {
         x[columns[k]] = sign * h;
         f_.retract(s_.q, x, q);
-        f_.positions(s_.t, q);
-        f_.velocities(s_.v);
+        kinematics_at(f_, s_.t, q, s_.v);
         f_.dynamics();
         f_.residual(a_, s_.lambda, 0.0, sign > 0.0 ? ahead : behind);
       }
@@ -135,8 +134,7 @@ class OperatingPoint {
   /// In body axes [rad/s].
   Vec3 spin(std::size_t body) {
     RelativeFormulation& f = start_.formulation();
-    f.positions(start_.state().t, start_.state().q);
-    f.velocities(start_.state().v);
+    kinematics_at(f, start_.state());
     const int b = static_cast<int>(body);
     return f.body_rotation(b).transpose() * f.body_angular_velocity(b);
   }
@@ -158,12 +156,11 @@ void note_body(const Model& model, std::size_t body, OperatingPoint& at,
   if (!(lowest > 0.0)) return;
   const double across = range.pulling_spin(w) / lowest;
   if (b.data->mass_model == MassModel::six_dof && w.norm() > 1e-3 * lowest)
-    notes.push_back(fmt::format(
-        "body '{}' spins at {:.4g} rad/s, and mass_model six_dof has no second order of its "
-        "turning "
-        "sections: whirl at speed is in error; mass_model: hermite with section_inertia: true has "
-        "it",
-        b.name, w.norm()));
+    notes.push_back(
+        fmt::format("body '{}' spins at {:.4g} rad/s, and mass_model six_dof has no second order "
+                    "of its turning sections: whirl at speed is in error; mass_model: hermite with "
+                    "section_inertia: true has it",
+                    b.name, w.norm()));
   if (!asked_without(b)) {
     if (can_stiffen(model, b) || b.stiffens() || !(across > limit)) return;
     notes.push_back(fmt::format(
@@ -180,10 +177,10 @@ void note_body(const Model& model, std::size_t body, OperatingPoint& at,
   } else if (can_stiffen(model, b)) {
     const double part = at.part(body);
     if (part > limit * limit)
-      notes.push_back(fmt::format(
-          "loads change the stiffness of body '{}' by up to {:.3g} %, which is left out here; "
-          "geometric_stiffening: true counts it in",
-          b.name, 100.0 * part));
+      notes.push_back(
+          fmt::format("loads change the stiffness of body '{}' by up to {:.3g} %, which is left "
+                      "out here; geometric_stiffening: true counts it in",
+                      b.name, 100.0 * part));
   }
 }
 

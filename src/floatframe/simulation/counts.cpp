@@ -88,8 +88,7 @@ ModelCounts check(const Model& model) {
   if (start_accelerations(relative, start, penalty_mass) && model.simulation.spectral_radius == 1.0)
     std::ranges::move(massless_notes(relative, start, penalty_mass),
                       std::back_inserter(c.start.notes));
-  relative.positions(0.0, start.q);
-  relative.velocities(start.v);
+  kinematics_at(relative, 0.0, start.q, start.v);
   const int rank = rank_of(relative.constraint_rows());
   c.degrees_of_freedom = relative.velocities() - rank;
   c.redundant_constraints = relative.constraints() - rank;
@@ -109,8 +108,7 @@ StaticsResult statics(const Model& model) {
   const std::string unstable = unstable_equilibrium(f, state.q, e.lambda);
   const VecX zero = VecX::Zero(f.velocities());
   VecX r(f.velocities());
-  f.positions(0.0, state.q);
-  f.velocities(zero);
+  kinematics_at(f, 0.0, state.q, zero);
   f.dynamics();
   f.residual(zero, e.lambda, 0.0, r);
 

@@ -113,8 +113,7 @@ class EdgeLocator {
   };
 
   void look(const State& state, Sides& sides) noexcept {
-    f_.positions(state.t, state.q);
-    f_.velocities(state.v);
+    kinematics_at(f_, state);
     for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.force_side(forces_[k]);
   }
 
@@ -123,8 +122,7 @@ class EdgeLocator {
     x_ = (0.125 * h) * (3.0 * from_.v + state.v);
     f_.retract(from_.q, x_, q_);
     x_ = 0.5 * (from_.v + state.v) + (0.125 * h) * (from_.a - state.a);
-    f_.positions(state.t - 0.5 * h, q_);
-    f_.velocities(x_);
+    kinematics_at(f_, state.t - 0.5 * h, q_, x_);
     for (std::size_t k = 0; k < forces_.size(); ++k) between_[k] = f_.force_side(forces_[k]);
   }
 

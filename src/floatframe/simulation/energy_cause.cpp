@@ -53,11 +53,10 @@ class CauseFinder {
                           "nothing with mass can; let it go there over several steps",
                           name, s.right.f - s.left.f, unit, e));
       else if (std::abs(jump) > 1e-9 * std::max(std::abs(s.left.df), std::abs(s.right.df)))
-        offer(share,
-              fmt::format("the velocity of the motion of joint '{}' jumps by {:.4g} {}/s at t = "
-                          "{:.6g} s: no step resolves that, round the corner (interpolation: "
-                          "cubic, or more entries there)",
-                          name, jump, unit, e));
+        offer(share, fmt::format("the velocity of the motion of joint '{}' jumps by {:.4g} {}/s at "
+                                 "t = {:.6g} s: no step resolves that, round the corner "
+                                 "(interpolation: cubic, or more entries there)",
+                                 name, jump, unit, e));
     }
   }
 

@@ -74,12 +74,7 @@ class Statics {
     T.bottomLeftCorner(nc, nv) = J;
     VecX b(nv + nc);
     b << -r, -phi;
-    // Equilibrate: forces of stiff modes and lengths of constraints differ by many orders.
-    VecX d(nv + nc);
-    for (Eigen::Index i = 0; i < nv + nc; ++i) {
-      const double norm = T.row(i).cwiseAbs().maxCoeff();
-      d[i] = norm > 0.0 ? 1.0 / std::sqrt(norm) : 1.0;
-    }
+    const VecX d = equilibration(T);
     const MatX Td = d.asDiagonal() * T * d.asDiagonal();
     const VecX scaled = d.cwiseProduct(b);
     VecX x = nv + nc <= 700 ? LeastNorm(Td, 1e-14).solve(scaled) : VecX(lu_solve(Td, scaled));

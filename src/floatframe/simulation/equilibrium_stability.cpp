@@ -167,9 +167,7 @@ std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const Ve
   }
   if (!(growth > least_growth)) return "";
   const std::string who = moving_bodies(f, s, x);
-  f.positions(s.t, s.q);
-  f.velocities(s.v);
-  f.dynamics();
+  dynamics_at(f, s);
   return fmt::format(
       "the equilibrium is unstable: {} would leave it at the smallest push, by e in {:.3g} s; look "
       "for another one from start values on its other side",

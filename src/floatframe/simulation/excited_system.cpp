@@ -85,9 +85,7 @@ template <class F>
 VecX ExcitedSystem<F>::balance() {
   const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
   VecX all(nv + 3 * nc), r(nv), rows(nc);
-  f_.positions(state_.t, state_.q);
-  f_.velocities(state_.v);
-  f_.dynamics();
+  dynamics_at(f_, state_);
   f_.residual(state_.a, state_.lambda, 0.0, r);
   all.head(nv) = r;
   all.segment(nv, nc) = f_.constraint_values();
@@ -135,9 +133,7 @@ VecX ExcitedSystem<F>::outputs(const VecX& x, const VecX& dv, const VecX& da) {
   f_.retract(state_.q, x, s.q);
   s.v = state_.v + dv;
   s.a = state_.a + da;
-  f_.positions(s.t, s.q);
-  f_.velocities(s.v);
-  f_.dynamics();
+  dynamics_at(f_, s);
   if (reactions_) reactions_->solve(s, f_.inputs(), f_.spring_angles());
   f_.set_accelerations(s.a);
   const OutputView view(f_, s.t, s.q, reactions_ ? &reactions_->reactions() : nullptr);

@@ -190,9 +190,7 @@ bool start_accelerations(F& f, State& state, double penalty_mass) {
   state.lambda = VecX::Zero(f.constraints());
   check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);
   const VecX possible = possible_masses(f, state);
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
+  dynamics_at(f, state);
   const VecX diagonal = mass_diagonal(f, state);
   // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
   const double growth = growth_by_mass(f, diagonal, possible, penalty_mass);
@@ -204,9 +202,7 @@ bool start_accelerations(F& f, State& state, double penalty_mass) {
                         : start_by_passes(f, state, no_stiffness, penalty_mass, false, false);
   if (!good) start_accelerations_dense(f, state);
   state.a_alg = state.a;
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
+  dynamics_at(f, state);
   return lacks_mass(growth);
 }
 

@@ -115,8 +115,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
     excited.derivatives(input, steps.back(), j, motions);
     linear.input_values[j] = excited.value(input);
   }
-  f.positions(excited.state().t, excited.state().q);
-  f.velocities(excited.state().v);
+  kinematics_at(f, excited.state());
   for (LinearInput& input : linear.inputs)
     if (input.wheels.size() == 1) {
       const Force& wheel = model.forces[static_cast<std::size_t>(input.wheels[0])];

@@ -29,9 +29,7 @@ MatX in_decided(const MatX& J_D, const std::vector<Eigen::Index>& decided, Eigen
                 const MatX& B) {
   MatX X = MatX::Zero(nv, B.cols());
   if (decided.empty() || B.cols() == 0) return X;
-  const MatX x = qr_solve(J_D, B);  // rows may be redundant
-  for (std::size_t k = 0; k < decided.size(); ++k)
-    X.row(decided[k]) = x.row(static_cast<Eigen::Index>(k));
+  X(decided, Eigen::all) = qr_solve(J_D, B);  // rows may be redundant
   return X;
 }
 
@@ -52,14 +50,9 @@ FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
   for (Eigen::Index j = 0; j < nv; ++j)
     if (is_free[static_cast<std::size_t>(j)]) c.free.push_back(j);
   const auto n = static_cast<Eigen::Index>(c.free.size());
-  MatX J_D(m.J.rows(), static_cast<Eigen::Index>(decided.size())), J_I(m.J.rows(), n);
-  for (std::size_t k = 0; k < decided.size(); ++k)
-    J_D.col(static_cast<Eigen::Index>(k)) = m.J.col(decided[k]);
+  const MatX J_D = m.J(Eigen::all, decided), J_I = m.J(Eigen::all, c.free);
   MatX S = MatX::Zero(nv, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    J_I.col(k) = m.J.col(c.free[static_cast<std::size_t>(k)]);
-    S(c.free[static_cast<std::size_t>(k)], k) = 1.0;
-  }
+  for (Eigen::Index k = 0; k < n; ++k) S(c.free[static_cast<std::size_t>(k)], k) = 1.0;
   const auto follow = [&](const MatX& B) { return in_decided(J_D, decided, nv, B); };
   c.N = S + follow(-J_I);
   c.P = follow(-(m.G * c.N));
@@ -139,9 +132,7 @@ Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
     if (std::abs(d.values[k]) > 1e-9 * size) order.push_back(k);
   for (Eigen::Index k = 0; k < light; ++k)
     if (!(std::abs(d.values[k]) > 1e-9 * size)) order.push_back(k), ++undamped;
-  MatX sorted(light, light);
-  for (std::size_t k = 0; k < order.size(); ++k)
-    sorted.col(static_cast<Eigen::Index>(k)) = d.vectors.col(order[k]);
+  const MatX sorted = d.vectors(Eigen::all, order);
   B.rightCols(light) = L * sorted;
   s = transformed(s, B, B.transpose() * scale);
   return {n - light, light - undamped, undamped};
@@ -263,33 +254,25 @@ InputMotions no_inputs(Eigen::Index nv, Eigen::Index nc) {
 
 SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
                                const FreeCoordinates& c) {
-  const auto n = static_cast<Eigen::Index>(c.free.size());
   const LinearInputs& h = c.held;
   if (m.J.rows() == 0)
     return {m.M,           m.C, m.K, m.Gamma, c.N,
             c.P,           c.N, c.R, c.T,     {u.residual[0], u.residual[1], u.residual[2]},
             m.Gamma * h.x, h};
   const MatX Nt = c.N.transpose();
-  SecondOrderSystem s{
-      Nt * m.M * c.N,
-      Nt * (m.M * c.T + m.C * c.N),
-      Nt * (m.M * c.R + m.C * c.P + m.K * c.N),
-      MatX(n, n),
-      c.N,
-      c.P,
-      c.N,
-      c.R,
-      c.T,
-      {Nt * (m.M * h.a[0] + m.C * h.v[0] + m.K * h.x + u.residual[0]),
-       Nt * (m.M * h.a[1] + m.C * h.v[1] + u.residual[1]), Nt * (m.M * h.a[2] + u.residual[2])},
-      MatX(n, h.x.cols()),
-      h};
-  const MatX turned = m.Gamma * c.N, turned_by_inputs = m.Gamma * h.x;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    s.Gamma.row(k) = turned.row(c.free[static_cast<std::size_t>(k)]);
-    s.turned.row(k) = turned_by_inputs.row(c.free[static_cast<std::size_t>(k)]);
-  }
-  return s;
+  return {Nt * m.M * c.N,
+          Nt * (m.M * c.T + m.C * c.N),
+          Nt * (m.M * c.R + m.C * c.P + m.K * c.N),
+          MatX(m.Gamma * c.N)(c.free, Eigen::all),
+          c.N,
+          c.P,
+          c.N,
+          c.R,
+          c.T,
+          {Nt * (m.M * h.a[0] + m.C * h.v[0] + m.K * h.x + u.residual[0]),
+           Nt * (m.M * h.a[1] + m.C * h.v[1] + u.residual[1]), Nt * (m.M * h.a[2] + u.residual[2])},
+          MatX(m.Gamma * h.x)(c.free, Eigen::all),
+          h};
 }
 
 /// Degrees of freedom up to which all eigenvalues take at most a few minutes.

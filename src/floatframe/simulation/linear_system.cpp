@@ -36,9 +36,7 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
     system.amplitudes.push_back(std::move(y));
   }
   // The stiffness of forces where they are; their measures in the motions, below.
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
+  dynamics_at(f, state);
   std::vector<ForceState> found;
   for (Eigen::Index k = 0; k < forces; ++k) found.push_back(f.force(static_cast<int>(k)));
   for (Eigen::Index z = 0; z < nz; ++z) {
@@ -75,9 +73,7 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
               std::sqrt(s.rows[r].k) * stacked(s.rows[r].g).dot(motion);
     }
   }
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
+  dynamics_at(f, state);
 }
 
 template <class F>

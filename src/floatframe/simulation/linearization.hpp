@@ -10,6 +10,8 @@
 // differences (K holds the geometric stiffness of forces and multipliers), here at a = 0, as
 // statics needs them; small_motions.hpp has them at accelerations. Dense, allocates: load time
 // only.
+#include <cmath>
+
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
@@ -33,12 +35,22 @@ MatX central_differences(Eigen::Index n, double step, const G& g) {
   return columns;
 }
 
+/// What rows and columns of a symmetric system are multiplied with, whose forces and lengths differ
+/// by many orders: the entries become of size one.
+inline VecX equilibration(const MatX& A) {
+  VecX scale(A.rows());
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    const double size = A.row(i).cwiseAbs().maxCoeff();
+    scale[i] = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;
+  }
+  return scale;
+}
+
 /// r without accelerations at t, q, v: moves `f` there, up to `dynamics`.
 template <EquationsOfMotion F>
 VecX residual_at(F& f, double t, const VecX& q, const VecX& v, const VecX& lambda) {
   VecX r(f.velocities());
-  f.positions(t, q);
-  f.velocities(v);
+  kinematics_at(f, t, q, v);
   f.dynamics();
   f.residual(VecX::Zero(f.velocities()), lambda, 0.0, r);
   return r;

@@ -204,7 +204,7 @@ void LoopEquations::evaluate(const VecX& open, const std::vector<char>& counts, 
   missed_ = VecX::Zero(wishes_.rows());
   for (Eigen::Index i = 0; i < open.size(); ++i) {
     if (!counts[i]) continue;
-    for (Eigen::Index j = 0; j < n; ++j) J_(i, j) = J(i, mobile_[j]);
+    J_.row(i) = J(i, mobile_);
     r_[i] = open[i];
   }
   Eigen::Index hold = open.size(), wish = 0;
@@ -216,8 +216,7 @@ void LoopEquations::evaluate(const VecX& open, const std::vector<char>& counts, 
 }
 
 VecX LoopEquations::moved(const VecX& x) const {
-  VecX own(unknowns());
-  for (Eigen::Index j = 0; j < own.size(); ++j) own[j] = x[mobile_[j]];
+  const VecX own = x(mobile_);
   return A_ * own;
 }
 
@@ -225,8 +224,7 @@ LoopEquations::Step LoopEquations::step(const VecX& along, const VecX* d) const 
   const Eigen::Index n = unknowns();
   Step s{along, 0, 0};
   if (n == 0) return s;
-  VecX x(n);
-  for (Eigen::Index j = 0; j < n; ++j) x[j] = along[mobile_[j]];
+  VecX x = along(mobile_);
   // x + W y with |A W y| = |y|.
   const auto& [Q_A, W] = orthonormal_columns(A_);
   const MatX JW = J_ * W;
@@ -256,7 +254,7 @@ LoopEquations::Step LoopEquations::step(const VecX& along, const VecX* d) const 
   s.free = N.cols();
   if (s.free > 0 && d != nullptr) y -= N * (N.transpose() * (y + Q_A.transpose() * (*d + A_ * x)));
   x += W * y;
-  for (Eigen::Index j = 0; j < n; ++j) s.x[mobile_[j]] = x[j];
+  s.x(mobile_) = x;
   return s;
 }
 
@@ -270,9 +268,8 @@ VecX LoopEquations::nearest() const {
   b.head(r_.size()) = -r_;
   H.middleRows(J_.rows() - values, values) *= firm;
   b.segment(J_.rows() - values, values) *= firm;
-  const VecX own = qr_solve(H, b);
   VecX x = VecX::Zero(f_.velocities());
-  for (Eigen::Index j = 0; j < n; ++j) x[mobile_[j]] = own[j];
+  x(mobile_) = qr_solve(H, b);
   return x;
 }
 

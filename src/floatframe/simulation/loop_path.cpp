@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "floatframe/math/union_find.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -112,21 +113,16 @@ bool LoopPath::closes(const VecX& q) {
 }
 
 bool LoopPath::all_given() const {
-  // Bodies in loops that values hold together, by the smallest of their numbers; ground: 0.
+  // Bodies in loops that values hold together; ground: 0.
   const std::vector<Joint>& joints = f_.model().joints;
-  std::vector<int> group(members_.body.size() + 1);
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int body) {
-    int g = body + 1;
-    while (group[g] != g) g = group[g] = group[group[g]];
-    return g;
-  };
+  UnionFind groups(static_cast<int>(members_.body.size()) + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (members_.joint[j] &&
         (!joints[j].position.empty() || joints[j].motion || joint_velocities(joints[j].type) == 0))
-      group[root(joints[j].child)] = root(joints[j].parent);
+      groups.join(joints[j].child + 1, joints[j].parent + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (members_.joint[j] && root(joints[j].child) != root(joints[j].parent)) return false;
+    if (members_.joint[j] && groups.root(joints[j].child + 1) != groups.root(joints[j].parent + 1))
+      return false;
   return true;
 }
 
@@ -156,8 +152,7 @@ LoopPath::Stage LoopPath::begin(const VecX& q, std::vector<LoopValue> values, bo
   if (size_ == 0.0) measure_size();
   const ConstraintSet& set = f_.constraint_set();
   const VecX rest = VecX::Zero(f_.velocities());
-  f_.positions(t_, q);
-  f_.velocities(rest);
+  kinematics_at(f_, t_, q, rest);
   Stage s{LoopEquations(f_, members_, std::move(values), moves, keeps)};
   s.open = f_.constraint_values();
   s.x_before = rest;
@@ -240,8 +235,7 @@ bool LoopPath::increment(Stage& stage, const VecX& q, double from, double to, Ve
   LoopEquations& equations = stage.equations;
   const VecX rest = VecX::Zero(f_.velocities());
   const auto evaluate_at = [&](const VecX& there) {
-    f_.positions(t_, there);
-    f_.velocities(rest);
+    kinematics_at(f_, t_, there, rest);
     equations.evaluate(stage.residual(f_, to), stage.counts, stage.off(f_, to), rest);
   };
   evaluate_at(q);
@@ -290,8 +284,7 @@ VecX LoopPath::gap(VecX& q) {
   const VecX rest = VecX::Zero(f_.velocities());
   VecX q_new = q;
   for (int pass = 0; pass < 100; ++pass) {
-    f_.positions(t_, q);
-    f_.velocities(rest);
+    kinematics_at(f_, t_, q, rest);
     values.equations.evaluate(values.residual(f_, 1.0), values.counts, values.off(f_, 1.0), rest);
     VecX x = values.equations.nearest();
     const double size = largest(x);

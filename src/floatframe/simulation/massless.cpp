@@ -192,9 +192,7 @@ std::vector<std::string> massless_notes(F& f, const State& state, double penalty
                       "{:g}; mass_model: hermite with section_inertia: true gives it inertia",
                       all[i].name, massless_spectral_radius));
   }
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
+  dynamics_at(f, state);
   return notes;
 }
 

@@ -108,10 +108,7 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
     for (std::vector<VecX>* start : {&out.amplitudes, &out.amplitude_rates}) {
       VecX& full = (*start)[i];
       if (full.size() == 0) continue;
-      VecX some(static_cast<Eigen::Index>(keep[i].size()));
-      for (std::size_t k = 0; k < keep[i].size(); ++k)
-        some[static_cast<Eigen::Index>(k)] = full[keep[i][k]];
-      full = some;
+      full = VecX(full(keep[i]));
     }
   }
   for (Gauge& gauge : out.gauges) fill_rows(*out.bodies[gauge.body].data, gauge);

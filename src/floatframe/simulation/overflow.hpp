@@ -37,8 +37,7 @@ std::string overflow_text(F& f, const State& state, double t, double limit) {
                            n);
       });
   }
-  f.positions(t, state.q);
-  f.velocities(state.v);
+  kinematics_at(f, t, state.q, state.v);
   f.forces();
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const int body = static_cast<int>(i);

@@ -29,6 +29,20 @@ struct Worst {
 
 std::string percent(double x) { return fmt::format("{:.3g} %", 100.0 * x); }
 
+/// What is left out of the stiffness of a body at a spin [rad/s].
+std::string tension_text(const BodyRange& body, double spin) {
+  const double ratio = spin / body.lowest_frequency();
+  if (body.stiffening() > 0.0)
+    return fmt::format(
+        "centrifugal tension, which is left out here, would raise its lowest stiffness by about "
+        "{}; geometric_stiffening: true counts it in",
+        percent(body.stiffening() * spin * spin));
+  return fmt::format(
+      "centrifugal tension does not stiffen it here, which leaves its frequencies in error by "
+      "about {} (the square of the ratio)",
+      percent(ratio * ratio));
+}
+
 class Writer {
  public:
   Writer(const Model& model, const std::vector<BodyRange>& bodies, double step,
@@ -49,8 +63,8 @@ class Writer {
                 percent(limits_.displacement), b.size());
           return fmt::format(
               "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of "
-              "its size of {:.3g} m, at t = {:.4g} s {} is displaced by {:.3g} m ({}) in the "
-              "body frame; divide it into several bodies",
+              "its size of {:.3g} m, at t = {:.4g} s {} is displaced by {:.3g} m ({}) in the body "
+              "frame; divide it into several bodies",
               body, x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
               x.value, percent(x.value / b.size()));
         },
@@ -69,8 +83,7 @@ class Writer {
                 body, b.node_name(x.node), x.value, limits_.rotation);
           return fmt::format(
               "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, "
-              "at "
-              "t = {:.4g} s {} is turned by {:.3g} rad in the body frame; divide it into "
+              "at t = {:.4g} s {} is turned by {:.3g} rad in the body frame; divide it into "
               "several bodies",
               body, x.first, limits_.rotation, x.at, b.node_name(x.node), x.value);
         },
@@ -82,23 +95,12 @@ class Writer {
         RangeLimit::spin, &BodyRange::spin,
         [&](const BodyRange& b) { return limits_.spin * b.lowest_frequency(); },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
-          const double ratio = x.value / b.lowest_frequency();
-          if (b.stiffening() > 0.0)
-            return fmt::format(
-                "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times "
-                "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; "
-                "centrifugal "
-                "tension, which is left out here, would raise its lowest stiffness by about {}; "
-                "geometric_stiffening: true counts it in",
-                body, x.first, limits_.spin, b.lowest_frequency(), x.at, x.value,
-                percent(b.stiffening() * x.value * x.value));
           return fmt::format(
               "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times "
-              "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; centrifugal "
-              "tension does not stiffen it here, which leaves its frequencies in error by about {} "
-              "(the square of the ratio); divide it into several bodies",
+              "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; {}{}",
               body, x.first, limits_.spin, b.lowest_frequency(), x.at, x.value,
-              percent(ratio * ratio));
+              tension_text(b, x.value),
+              b.stiffening() > 0.0 ? "" : "; divide it into several bodies");
         },
         out);
   }
@@ -150,10 +152,8 @@ class Writer {
         {RangeLimit::phase,
          fmt::format(
              "the step of {:g} s is too long for {}{}: it goes through {:.3g} rad of phase in each "
-             "step "
-             "(limit {:g} rad), {:.2g} steps per period, and carries {} of the kinetic energy of "
-             "{}; "
-             "take a step of at most {:.2g} s",
+             "step (limit {:g} rad), {:.2g} steps per period, and carries {} of the kinetic energy "
+             "of {}; take a step of at most {:.2g} s",
              step_, motion, subject(worst), m.phase(), limits_.phase,
              2.0 * std::numbers::pi / m.phase(),
              percent(m.energy() / (what >= 2 && elastic > 0.0 ? elastic : all)),
@@ -171,21 +171,19 @@ class Writer {
     // With numerical damping a loss is what was asked for, unless it is much.
     const bool damped = spectral_radius < 1.0 && e.largest_remainder < 0.0;
     if (damped && part > limits_.dissipation)
-      out.push_back({RangeLimit::damping,
-                     fmt::format("the numerical damping of the integrator (spectral radius {:g}) "
-                                 "has removed {:.4g} J "
-                                 "from the system by t = {:.4g} s, {} of the {:.4g} J exchanged "
-                                 "(limit {}); {}",
-                                 spectral_radius, x, e.largest_remainder_at, percent(part),
-                                 e.exchanged, percent(limits_.dissipation),
-                                 remedy(e, " or a spectral radius nearer to 1"))});
+      out.push_back(
+          {RangeLimit::damping,
+           fmt::format(
+               "the numerical damping of the integrator (spectral radius {:g}) has removed {:.4g} "
+               "J from the system by t = {:.4g} s, {} of the {:.4g} J exchanged (limit {}); {}",
+               spectral_radius, x, e.largest_remainder_at, percent(part), e.exchanged,
+               percent(limits_.dissipation), remedy(e, " or a spectral radius nearer to 1"))});
     if (!damped && part > limits_.imbalance)
       out.push_back(
           {RangeLimit::balance,
            fmt::format("the energy balance does not close: at t = {:.4g} s the system has {:.4g} J "
-                       "{} than the "
-                       "work of all forces and motions explains, {} of the {:.4g} J exchanged "
-                       "(limit {}); {}",
+                       "{} than the work of all forces and motions explains, {} of the {:.4g} J "
+                       "exchanged (limit {}); {}",
                        e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less",
                        percent(part), e.exchanged, percent(limits_.imbalance),
                        remedy(e, gain_of_vibrations(e, spectral_radius)
@@ -246,18 +244,12 @@ class Writer {
 }  // namespace
 
 std::string spin_sentence(const Model& model, const BodyRange& range, int body, const Vec3& w) {
-  const double spin = range.pulling_spin(w), ratio = spin / range.lowest_frequency();
+  const double spin = range.pulling_spin(w);
   return fmt::format(
       "body '{}' spins too fast for its stiffness: at {:.4g} rad/s, {:.3g} times its lowest "
       "frequency of {:.4g} rad/s; {}",
-      model.bodies[static_cast<std::size_t>(body)].name, spin, ratio, range.lowest_frequency(),
-      range.stiffening() > 0.0
-          ? fmt::format("centrifugal tension, which is left out here, would raise its lowest "
-                        "stiffness by about {}; geometric_stiffening: true counts it in",
-                        percent(range.stiffening() * spin * spin))
-          : fmt::format("centrifugal tension does not stiffen it here, which leaves its "
-                        "frequencies in error by about {} (the square of the ratio)",
-                        percent(ratio * ratio)));
+      model.bodies[static_cast<std::size_t>(body)].name, spin, spin / range.lowest_frequency(),
+      range.lowest_frequency(), tension_text(range, spin));
 }
 
 std::vector<RangeWarning> equilibrium_warnings(const Model& model,

@@ -51,9 +51,7 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
     least_.emplace(model);
   }
   const VecX possible = possible_masses(f_, start);
-  f_.positions(start.t, start.q);
-  f_.velocities(start.v);
-  f_.dynamics();
+  dynamics_at(f_, start);
   lacks_mass_ = may_lack_mass(f_, mass_diagonal(f_, start), possible, options.penalty_mass);
   if (least_) find_open_outputs(start);
 }
@@ -73,9 +71,7 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   if (!force_branches.empty()) f_.hold_force_branches(force_branches);
   f_.set_inputs(inputs);
   f_.set_spring_angles(spring_angles);
-  f_.positions(state.t, state.q);
-  f_.velocities(state.v);
-  f_.dynamics();
+  dynamics_at(f_, state);
   a_ = state.a;
   // Of redundant constraints any will do: those of the step are near.
   if (least_)
@@ -179,8 +175,7 @@ void ReactionSolver<F>::set_impulses(const ConstraintSet& set, const VecX& impul
 
 template <class F>
 void ReactionSolver<F>::find_open_outputs(const State& start) {
-  f_.positions(start.t, start.q);
-  f_.velocities(start.v);
+  kinematics_at(f_, start);
   least_->place(f_, start.t);
   const Model& model = f_.model();
   const OutputView view(f_, start.t, start.q, &reactions_);

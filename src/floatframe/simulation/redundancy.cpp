@@ -80,8 +80,7 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
     : model_(tree.model()), f_(tree.model(), tree.model().simulation.inertia) {
   State state;
   f_.start_from(tree, q, VecX::Zero(tree.velocities()), state.q, state.v);
-  f_.positions(0.0, state.q);
-  f_.velocities(state.v);
+  kinematics_at(f_, 0.0, state.q, state.v);
   f_.dynamics();
   const Eigen::Index nq = f_.velocities();
   first_ = parts().empty() ? f_.constraints() : f_.constraint_set().offset(0);
@@ -239,8 +238,7 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
   const ConstraintAnalysis analysis(f, state.q);
   report.redundant = analysis.redundant();
   const bool may_be = may_be_singular(f, state.t, state.q);
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
+  kinematics_at(f, state);
   for (const std::string& joint : analysis.held_motions())
     report.notes.push_back(fmt::format(
         "the prescribed motion of joint '{}' moves what other constraints hold still at the start: "

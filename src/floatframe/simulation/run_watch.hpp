@@ -113,8 +113,7 @@ class RunWatch {
   static constexpr double massless = 1e-4;
 
   void evaluate(const State& s) noexcept {
-    f_.positions(s.t, s.q);
-    f_.velocities(s.v);
+    kinematics_at(f_, s);
     f_.forces();
   }
 

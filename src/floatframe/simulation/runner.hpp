@@ -133,8 +133,7 @@ class Runner {
   /// Writes one row of outputs (time first) at the present state.
   void sample(double* row) noexcept {
     const Model& model = f_.model();
-    f_.positions(state_.t, state_.q);
-    f_.velocities(state_.v);
+    kinematics_at(f_, state_);
     if (terms_ == OutputTerms::forces)
       f_.forces();
     else
@@ -153,8 +152,7 @@ class Runner {
   double kinetic_energy() noexcept { return f_.kinetic_energy(state_.v); }
   /// Gravity and the potential of force elements.
   double potential_energy() noexcept {
-    f_.positions(state_.t, state_.q);
-    f_.velocities(state_.v);
+    kinematics_at(f_, state_);
     f_.forces();
     double sum = f_.gravity_energy(state_.q);
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k)

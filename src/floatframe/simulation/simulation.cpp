@@ -73,8 +73,7 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
     close_loops(f, state.q, state.v, false);
   }
   if (report == nullptr) return state;
-  f.positions(0.0, state.q);
-  f.velocities(state.v);
+  kinematics_at(f, 0.0, state.q, state.v);
   for (const LockedLoops& locked : f.model().hints.locked) report->notes.push_back(locked.sentence);
   report_changes(f, state, start, *report);
   report_redundancy(f, state, *report);

@@ -30,8 +30,7 @@ bool may_be_singular(RelativeFormulation& f, double t, const VecX& q) {
   if (f.velocities() > most_coordinates) return false;
   VecX there = q, from = q;
   const auto rows = [&] {
-    f.positions(t, there);
-    f.velocities(at_rest);
+    kinematics_at(f, t, there, at_rest);
     return without_motions(f, f.constraint_jacobian());
   };
   const PivotedQr here = pivoted_qr(rows().transpose(), nearly);
@@ -81,9 +80,8 @@ SingularPosition singular_position(const RelativeFormulation& f, double nearly) 
         more == 0 ? named_text("joint", "joints", names)
                   : fmt::format("joints '{}' and {} more", fmt::join(names, "', '"), more);
     text += fmt::format(
-        "{}the loop of {} is in a singular position: {} degree{} of freedom there, "
-        "{} anywhere near, so that forces in it may be without bound and it may go "
-        "on in more than one way",
+        "{}the loop of {} is in a singular position: {} degree{} of freedom there, {} anywhere "
+        "near, so that forces in it may be without bound and it may go on in more than one way",
         text.empty() ? "" : "; ", listed, free, free == 1 ? "" : "s", lasting);
   }
   return found;

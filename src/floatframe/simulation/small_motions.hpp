@@ -146,8 +146,7 @@ SmallMotions small_motions(F& f, const State& s) {
   const VecX steps = motion_steps(f.model(), m.scale);
   const auto terms = [&](const VecX& q, const VecX& v) {
     VecX all(nv + 2 * nc), part(nc), r(nv);
-    f.positions(s.t, q);
-    f.velocities(v);
+    kinematics_at(f, s.t, q, v);
     f.dynamics();
     f.residual(a, s.lambda, 0.0, r);
     all.head(nv) = r;

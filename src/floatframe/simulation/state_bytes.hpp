@@ -33,13 +33,10 @@ class StateWriter {
     (*this)(static_cast<std::uint64_t>(v.size()));
     for (Eigen::Index k = 0; k < v.size(); ++k) (*this)(v[k]);
   }
-  void operator()(const std::vector<double>& v) {
+  template <class Number>
+  void operator()(const std::vector<Number>& v) {
     (*this)(static_cast<std::uint64_t>(v.size()));
-    for (const double x : v) (*this)(x);
-  }
-  void operator()(const std::vector<std::int64_t>& v) {
-    (*this)(static_cast<std::uint64_t>(v.size()));
-    for (const std::int64_t n : v) (*this)(n);
+    for (const Number x : v) (*this)(x);
   }
   void operator()(const Vec3& v) {
     for (int k = 0; k < 3; ++k) (*this)(v[k]);
@@ -79,13 +76,10 @@ class StateReader {
     v.resize(static_cast<Eigen::Index>(count(8)));
     for (Eigen::Index k = 0; k < v.size(); ++k) (*this)(v[k]);
   }
-  void operator()(std::vector<double>& v) {
+  template <class Number>
+  void operator()(std::vector<Number>& v) {
     v.resize(count(8));
-    for (double& x : v) (*this)(x);
-  }
-  void operator()(std::vector<std::int64_t>& v) {
-    v.resize(count(8));
-    for (std::int64_t& n : v) (*this)(n);
+    for (Number& x : v) (*this)(x);
   }
   void operator()(Vec3& v) {
     for (int k = 0; k < 3; ++k) (*this)(v[k]);

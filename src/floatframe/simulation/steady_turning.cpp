@@ -50,11 +50,7 @@ class TurningEquations {
       A.block(nv + nc, 0, 1, nv) = turn.transpose();
       b.head(nv) -= tau * turn;
     }
-    VecX unit(A.rows());  // forces of stiff modes and lengths of constraints differ
-    for (Eigen::Index i = 0; i < unit.size(); ++i) {
-      const double size = A.row(i).cwiseAbs().maxCoeff();
-      unit[i] = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;
-    }
+    const VecX unit = equilibration(A);
     const MatX scaled = unit.asDiagonal() * A * unit.asDiagonal();
     return unit.cwiseProduct(LeastNorm(scaled, 1e-13).solve(VecX(unit.cwiseProduct(b))));
   }

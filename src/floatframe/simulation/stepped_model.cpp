@@ -18,8 +18,7 @@ StepOptions limited(StepOptions options, const StepLimits& limits) {
 std::string open_outputs_note(const std::vector<std::string>& names) {
   return named_text("output", "outputs", names) + (names.size() == 1 ? " is" : " are") +
          " not unique, since constraints are redundant: of the reactions that are possible those "
-         "of "
-         "least norm are given";
+         "of least norm are given";
 }
 
 }  // namespace

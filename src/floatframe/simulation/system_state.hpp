@@ -33,8 +33,7 @@ class JointFollower {
   /// After a step: brings f to the state and counts on.
   template <class F>
   void follow(F& f, const State& state) {
-    f.positions(state.t, state.q);
-    f.velocities(state.v);
+    kinematics_at(f, state);
     follow_present(f, state.t);
   }
   /// At the present positions and velocities of f.
@@ -92,10 +91,7 @@ SystemState system_state(F& f, const State& state, JointFollower& joints) {
     b.amplitudes = b.amplitude_rates = VecX::Zero(modes);
     for (int m = 0; m < modes; ++m) {
       b.amplitudes[m] = f.amplitude(state.q, static_cast<int>(i), m);
-      if constexpr (requires { f.amplitude_rate(state.v, 0, 0); })
-        b.amplitude_rates[m] = f.amplitude_rate(state.v, static_cast<int>(i), m);
-      else  // positions and velocities are laid out alike
-        b.amplitude_rates[m] = f.amplitude(state.v, static_cast<int>(i), m);
+      b.amplitude_rates[m] = f.amplitude_rate(state.v, static_cast<int>(i), m);
     }
     s.bodies.push_back(std::move(b));
   }

@@ -121,8 +121,7 @@ std::string velocity_note(const Model& model, const Forcing& f, const Kinks& k) 
   return fmt::format(
       "{} jumps in its velocity, by {:.4g} {} at t = {:.6g} s{}: an impulse, whose force and "
       "energy are those of the step, not of the model; round it over some steps, or write a table "
-      "with "
-      "interpolation: cubic",
+      "with interpolation: cubic",
       f.name, k.velocity_jump, joint_unit_name(model.joints[f.joint].type, 0, true), k.velocity_at,
       more);
 }
@@ -198,14 +197,13 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
   if (dense_functions > 0)
     out.dense.push_back(
         fmt::format("{} is sampled at the ends of steps: {} of its corners follow one another "
-                    "within two steps; "
-                    "locate_edges: true divides steps there, too",
+                    "within two steps; locate_edges: true divides steps there, too",
                     with_others(densest, dense_functions), most));
   if (functions > 0)
-    out.passed.push_back(fmt::format(
-        "{} jumps or has a corner within a step, the first at t = {:.6g} s: steps are not divided "
-        "here, so it acts from one end of that step to the other",
-        with_others(earliest, functions), first));
+    out.passed.push_back(
+        fmt::format("{} jumps or has a corner within a step, the first at t = {:.6g} s: steps are "
+                    "not divided here, so it acts from one end of that step to the other",
+                    with_others(earliest, functions), first));
   out.located = merged(std::move(times), time_corner_width * o.step);
   return out;
 }

@@ -72,9 +72,7 @@ class OutputSlopes {
     f_.retract(s_.q, x, s.q);
     s.v = s_.v + dv;
     s.a = s_.a + da;
-    f_.positions(s.t, s.q);
-    f_.velocities(s.v);
-    f_.dynamics();
+    dynamics_at(f_, s);
     f_.set_accelerations(s.a);
     const OutputView view(f_, s.t, s.q);
     VecX y(static_cast<Eigen::Index>(outputs_.size()));

@@ -10,8 +10,7 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/simulation/rotor_speeds.hpp"
-#include "floatframe/simulation/rotor_stiffening.hpp"
+#include "floatframe/simulation/rotor_analysis.hpp"
 #include "floatframe/simulation/rotor_symmetry.hpp"
 #include "floatframe/simulation/turning_model.hpp"
 

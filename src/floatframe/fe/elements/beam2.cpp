@@ -164,9 +164,7 @@ void mass(const ElementInput& in, bool section_inertia, MatX& out) {
 }
 
 void scalar_mass(const ElementInput& in, MatX& out) {
-  const double line = in.material.density * in.section.A * (in.p[1] - in.p[0]).norm();
-  out.resize(2, 2);
-  out << line / 3.0, line / 6.0, line / 6.0, line / 3.0;
+  line_mass(in.material.density * in.section.A * (in.p[1] - in.p[0]).norm(), out);
 }
 
 /// Shapes of bending in a plane at s = x/L, of (d1, slope1, d2, slope2).
@@ -266,11 +264,9 @@ StressedPoint tension_point(const ElementInput& in, const Mat3& T, double L, dou
   slopes.row(2) = bending_row(w.dN, true);
   const MatX fields = T * in_body_dofs(T, slopes);
   const Vec3 t = T.col(0);
-  Vec6 along;
-  along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
   StressedPoint point;
   const double force = in.material.young * in.section.A * dx;
-  point.stress = force * along * in_body_dofs(T, linear_row(0, -1 / L, 1 / L));
+  point.stress = force * axial_stress(t) * in_body_dofs(T, linear_row(0, -1 / L, 1 / L));
   point.gradient.resize(9, 12);
   for (int i = 0; i < 3; ++i) point.gradient.middleRows<3>(3 * i) = t * fields.row(i);
   return point;

@@ -121,8 +121,7 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
   const BeamSection& sec = in.section;
   integrate(in, 2, [&](const Station& s) {
     const Vec3 t = s.R.col(0);
-    Vec6 along;
-    along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
+    const Vec6 along = axial_stress(t);
     const Mat3 across = Mat3::Identity() - t * t.transpose();
     const Mat3 turned = std::sqrt((sec.Iy + sec.Iz) / sec.A) * t * t.transpose();
     StressedPoint tension, twist;

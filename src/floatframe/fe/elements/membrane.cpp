@@ -32,11 +32,6 @@ QuadratureRule square_rule(int n) {
   return rule;
 }
 
-QuadratureRule triangle_rule_3() {
-  constexpr double a = 1.0 / 6.0, b = 2.0 / 3.0;
-  return {{Vec3(a, a, 0), a}, {Vec3(b, a, 0), a}, {Vec3(a, b, 0), a}};
-}
-
 using Strain3 = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 24>;
 
 /// A place on the surface.
@@ -174,15 +169,6 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   }
 }
 
-template <int nodes>
-void mass(const ElementInput& in, bool, MatX& out) {
-  MatX m;
-  scalar_mass<nodes>(in, m);
-  out.resize(3 * nodes, 3 * nodes);
-  for (int a = 0; a < nodes; ++a)
-    for (int b = 0; b < nodes; ++b) out.block<3, 3>(3 * a, 3 * b) = m(a, b) * Mat3::Identity();
-}
-
 template <int nodes, Points kind>
 void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
   const ShellLayers layers = layers_of(in);
@@ -241,7 +227,7 @@ constexpr ElementKernel membrane_kernel(std::span<const FaceNodes> faces) {
           .dofs_per_node = 3,
           .error = &error<count>,
           .stiffness = &stiffness<count, kind>,
-          .mass = &mass<count>,
+          .mass = &mass_of_translations<&scalar_mass<count>>,
           .scalar_mass = &scalar_mass<count>,
           .stressed_points = &stressed_points<count, kind>,
           .layer_stresses = &layer_stresses<count, kind>,

@@ -29,24 +29,13 @@ void stiffness(const ElementInput& in, MatX& out) {
 }
 
 void scalar_mass(const ElementInput& in, MatX& out) {
-  const double line = in.material.density * in.section.A * (in.p[1] - in.p[0]).norm();
-  out.resize(2, 2);
-  out << line / 3.0, line / 6.0, line / 6.0, line / 3.0;
-}
-
-void mass(const ElementInput& in, bool, MatX& out) {
-  MatX m;
-  scalar_mass(in, m);
-  out.resize(6, 6);
-  for (int a = 0; a < 2; ++a)
-    for (int b = 0; b < 2; ++b) out.block<3, 3>(3 * a, 3 * b) = m(a, b) * Mat3::Identity();
+  line_mass(in.material.density * in.section.A * (in.p[1] - in.p[0]).norm(), out);
 }
 
 void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
   const double L = (in.p[1] - in.p[0]).norm();
   const Vec3 t = (in.p[1] - in.p[0]) / L;
-  Vec6 along;
-  along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
+  const Vec6 along = axial_stress(t);
   const Mat3 across = Mat3::Identity() - t * t.transpose();
   points.resize(1);
   StressedPoint& point = points[0];
@@ -68,7 +57,7 @@ constinit const ElementKernel rod2_kernel{.family = ElementFamily::rod,
                                           .dofs_per_node = 3,
                                           .error = &error,
                                           .stiffness = &stiffness,
-                                          .mass = &mass,
+                                          .mass = &mass_of_translations<&scalar_mass>,
                                           .scalar_mass = &scalar_mass,
                                           .stressed_points = &stressed_points};
 

@@ -116,14 +116,6 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   }
 }
 
-void mass(const ElementInput& in, bool, MatX& out) {
-  MatX m;
-  scalar_mass(in, m);
-  out.resize(12, 12);
-  for (int a = 0; a < 4; ++a)
-    for (int b = 0; b < 4; ++b) out.block<3, 3>(3 * a, 3 * b) = m(a, b) * Mat3::Identity();
-}
-
 /// Its share of the stress stiffness is left out, as is its stress.
 void stressed_points(const ElementInput&, std::vector<StressedPoint>& points) { points.clear(); }
 
@@ -137,7 +129,7 @@ constinit const ElementKernel shear4_kernel{.family = ElementFamily::panel,
                                             .dofs_per_node = 3,
                                             .error = &error,
                                             .stiffness = &stiffness,
-                                            .mass = &mass,
+                                            .mass = &mass_of_translations<&scalar_mass>,
                                             .scalar_mass = &scalar_mass,
                                             .stressed_points = &stressed_points,
                                             .shape = {.faces = faces}};

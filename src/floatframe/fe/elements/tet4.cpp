@@ -61,12 +61,6 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
   solid::set_gradient(gradients(in), points[0].gradient);
 }
 
-void mass(const ElementInput& in, bool, MatX& out) {
-  MatX scalar;
-  scalar_mass(in, scalar);
-  solid::expand(scalar, out);
-}
-
 }  // namespace
 
 constinit const ElementKernel tet4_kernel{.family = ElementFamily::solid,
@@ -74,7 +68,7 @@ constinit const ElementKernel tet4_kernel{.family = ElementFamily::solid,
                                           .dofs_per_node = 3,
                                           .error = &error,
                                           .stiffness = &stiffness,
-                                          .mass = &mass,
+                                          .mass = &mass_of_translations<&scalar_mass>,
                                           .scalar_mass = &scalar_mass,
                                           .nodal_strains = &nodal_strains,
                                           .stressed_points = &stressed_points,

@@ -52,20 +52,13 @@ void functions15(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
 QuadratureRule product(const QuadratureRule& triangle, int n) {
   const LineRule line = gauss_jacobi(n, 0);
   QuadratureRule rule;
-  for (int k = 0; k < n; ++k) {
-    for (const QuadraturePoint& q : triangle) {
+  for (int k = 0; k < n; ++k)
+    for (const QuadraturePoint& q : triangle)
       rule.push_back({q.xi + Vec3(0, 0, 2 * line.u(k) - 1), 2 * q.weight * line.weight(k)});
-    }
-  }
   return rule;
 }
 
 QuadratureRule centre() { return {{Vec3(1.0 / 3.0, 1.0 / 3.0, 0), 0.5}}; }
-QuadratureRule three() {
-  return {{Vec3(1.0 / 6.0, 1.0 / 6.0, 0), 1.0 / 6.0},
-          {Vec3(2.0 / 3.0, 1.0 / 6.0, 0), 1.0 / 6.0},
-          {Vec3(1.0 / 6.0, 2.0 / 3.0, 0), 1.0 / 6.0}};
-}
 
 /// 1, x, y times 1, t.
 VecX smooth(const Vec3& xi) {
@@ -88,16 +81,16 @@ std::vector<Vec3> nodes(int count) {
 
 const solid::IsoparametricElement& wedge6() {
   static const solid::IsoparametricElement e =
-      solid::isoparametric(6, &functions6, {product(three(), 2), product(centre(), 2)},
+      solid::isoparametric(6, &functions6, {product(triangle_rule_3(), 2), product(centre(), 2)},
                            {product(triangle_rule(2), 3), product(centre(), 2)},
                            {product(centre(), 2), nodes(6), &smooth});
   return e;
 }
 const solid::IsoparametricElement& wedge15() {
-  static const solid::IsoparametricElement e =
-      solid::isoparametric(15, &functions15, {product(three(), 3), product(three(), 3)},
-                           {product(triangle_rule(5), 5), product(three(), 3)},
-                           {product(three(), 2), nodes(15), &smooth});
+  static const solid::IsoparametricElement e = solid::isoparametric(
+      15, &functions15, {product(triangle_rule_3(), 3), product(triangle_rule_3(), 3)},
+      {product(triangle_rule(5), 5), product(triangle_rule_3(), 3)},
+      {product(triangle_rule_3(), 2), nodes(15), &smooth});
   return e;
 }
 

@@ -157,19 +157,10 @@ void force_tangent_of<ForceType::bearing>(const ForceInput& in, ForceTangent& ou
 namespace {
 
 constexpr ForceKey bearing_keys[] = {
-    {.name = "from",
-     .kind = ForceKeyKind::place,
-     .about = "on the housing, which carries the axes",
-     .required = true},
-    {.name = "to",
-     .kind = ForceKeyKind::place,
-     .about = "on the shaft, which may turn about its axis without end",
-     .required = true},
+    place_key("from", "on the housing, which carries the axes"),
+    place_key("to", "on the shaft, which may turn about its axis without end"),
     {.name = "axis", .kind = ForceKeyKind::direction, .about = "of the shaft, e₃"},
-    {.name = "axis_2",
-     .kind = ForceKeyKind::direction,
-     .about = "the first axis, e₁, without its part along `axis`; e₂ = e₃ x e₁",
-     .vector = {1.0, 0.0, 0.0}},
+    axis_2_key,
     {.name = "stiffness",
      .kind = ForceKeyKind::stiffness_matrix,
      .about = "displacements along e₁, e₂, e₃ and tilts about e₁, e₂ to forces and moments; 2 x 2: "
@@ -182,16 +173,6 @@ constexpr ForceKey bearing_keys[] = {
      .about = "stiffness and damping along e₁, e₂ over the spin of the shaft about e₃, added to "
               "the others: rows [speed, k₁₁, k₁₂, k₂₁, k₂₂, c₁₁, c₁₂, c₂₁, c₂₂]"}};
 
-Mat3 bearing_axes(const ForceView& values) {
-  const Vec3 z = values.direction("axis").stableNormalized(),
-             v = values.direction("axis_2").stableNormalized();
-  Mat3 R;
-  R.col(2) = z;
-  R.col(0) = (v - z.dot(v) * z).normalized();
-  R.col(1) = z.cross(R.col(0));
-  return R;
-}
-
 /// 6 x 6, a 2 x 2 matrix in its corner.
 Mat6 whole(const MatX& given) {
   Mat6 M = Mat6::Zero();
@@ -200,12 +181,7 @@ Mat6 whole(const MatX& given) {
 }
 
 void bearing_validate(const ForceCheck& check) {
-  check.two_bodies("from", "to");
-  if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
-    if (const auto complaint =
-            sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
-      check.error(ErrorCode::geometry, "axis_2", *complaint);
-  check.some_law();
+  validate_framed(check);
   if (check.good("stiffness"))
     if (const auto complaint = sentences::bearing_stiffness(check.matrix("stiffness")))
       check.error(ErrorCode::out_of_range, "stiffness", *complaint);
@@ -282,13 +258,13 @@ std::vector<double> bearing_values(const Mat6& K, const Mat6& C, const Vec3& d0,
 }
 
 bool bearing_build(ForceBuild& b) {
-  const Mat3 R = bearing_axes(b);
+  const Mat3 R = element_axes(b);
   b.force.a = b.marker("from", true, R);
   b.force.b = b.marker("to", true, R);
   const Vec3 d0 = R.transpose() * (b.place("to").point - b.place("from").point);
   b.force.numbers = bearing_values(whole(b.matrix("stiffness")), whole(b.matrix("damping")), d0,
                                    b.matrix("speed_table"));
-  return b.force.a >= 0 && b.force.b >= 0;
+  return b.has_ends();
 }
 
 void bearing_mirror(ForceDescription& force, const Placement& x) {

@@ -36,7 +36,6 @@
 
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/force_kind.hpp"
-#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
@@ -194,36 +193,26 @@ void force_tangent_of<ForceType::bushing>(const ForceInput& in, ForceTangent& ou
 
 namespace {
 
-constexpr ForceKey law_key(const char* name, ForceKeyKind kind, ForceAxis axis, const char* about) {
-  return {.name = name, .kind = kind, .about = about, .axis = axis};
-}
 constexpr const char* rotation_rates[] = {"rotation_vector", "angular_velocity"};
 constexpr ForceKeyKind spring_law = ForceKeyKind::spring, damper_law = ForceKeyKind::damper;
-constexpr ForceAxis along = ForceAxis::along, about_axis = ForceAxis::about;
-
+constexpr ForceAxis about_axis = ForceAxis::about;
 constexpr ForceKey bushing_keys[] = {
-    {.name = "from",
-     .kind = ForceKeyKind::place,
-     .about = "on the body that carries the axes",
-     .required = true},
-    {.name = "to", .kind = ForceKeyKind::place, .about = "on the other body", .required = true},
+    place_key("from", "on the body that carries the axes"),
+    place_key("to", "on the other body"),
     {.name = "axis", .kind = ForceKeyKind::direction, .about = "the third axis, e₃"},
-    {.name = "axis_2",
-     .kind = ForceKeyKind::direction,
-     .about = "the first axis, e₁, without its part along `axis`; e₂ = e₃ x e₁",
-     .vector = {1.0, 0.0, 0.0}},
-    law_key("spring_x", spring_law, along, "of the displacement along e₁"),
-    law_key("spring_y", spring_law, along, "along e₂"),
-    law_key("spring_z", spring_law, along, "along e₃"),
-    law_key("spring_rx", spring_law, about_axis, "of the rotation about e₁"),
-    law_key("spring_ry", spring_law, about_axis, "about e₂"),
-    law_key("spring_rz", spring_law, about_axis, "about e₃"),
-    law_key("damper_x", damper_law, along, "of the rate of the displacement along e₁"),
-    law_key("damper_y", damper_law, along, "along e₂"),
-    law_key("damper_z", damper_law, along, "along e₃"),
-    law_key("damper_rx", damper_law, about_axis, "of the rate of the rotation about e₁"),
-    law_key("damper_ry", damper_law, about_axis, "about e₂"),
-    law_key("damper_rz", damper_law, about_axis, "about e₃"),
+    axis_2_key,
+    law_key("spring_x", spring_law, "of the displacement along e₁"),
+    law_key("spring_y", spring_law, "along e₂"),
+    law_key("spring_z", spring_law, "along e₃"),
+    law_key("spring_rx", spring_law, "of the rotation about e₁", {}, about_axis),
+    law_key("spring_ry", spring_law, "about e₂", {}, about_axis),
+    law_key("spring_rz", spring_law, "about e₃", {}, about_axis),
+    law_key("damper_x", damper_law, "of the rate of the displacement along e₁"),
+    law_key("damper_y", damper_law, "along e₂"),
+    law_key("damper_z", damper_law, "along e₃"),
+    law_key("damper_rx", damper_law, "of the rate of the rotation about e₁", {}, about_axis),
+    law_key("damper_ry", damper_law, "about e₂", {}, about_axis),
+    law_key("damper_rz", damper_law, "about e₃", {}, about_axis),
     {.name = "rotation_rate",
      .kind = ForceKeyKind::word,
      .about = "what `damper_rx`, `damper_ry` and `damper_rz` are laws of: the rates of the "
@@ -232,40 +221,20 @@ constexpr ForceKey bushing_keys[] = {
      .words = rotation_rates}};
 constexpr int first_law = 4;
 
-/// Design axes.
-Mat3 axes_of(const ForceView& values) {
-  const Vec3 z = values.direction("axis").stableNormalized(),
-             v = values.direction("axis_2").stableNormalized();
-  Mat3 R;
-  R.col(2) = z;
-  R.col(0) = (v - z.dot(v) * z).normalized();
-  R.col(1) = z.cross(R.col(0));
-  return R;
-}
-
 /// Displacements count from the design configuration.
 double design_displacement(const ForceView& values, const ForceKey& key) {
   const auto i = &key - &bushing_keys[first_law];
   if (i >= 3) return 0.0;
-  return axes_of(values).col(i).dot(values.place("to").point - values.place("from").point);
-}
-
-void bushing_validate(const ForceCheck& check) {
-  check.two_bodies("from", "to");
-  if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
-    if (const auto complaint =
-            sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
-      check.error(ErrorCode::geometry, "axis_2", *complaint);
-  check.some_law();
+  return element_axes(values).col(i).dot(values.place("to").point - values.place("from").point);
 }
 
 bool bushing_build(ForceBuild& b) {
-  const Mat3 R = axes_of(b);
+  const Mat3 R = element_axes(b);
   b.force.a = b.marker("from", true, R);
   b.force.b = b.marker("to", true, R);
   for (int i = 0; i < 12; ++i) b.force.laws.push_back(b.law(bushing_keys[first_law + i].name));
   if (b.word("rotation_rate") == 1) b.force.numbers = {1.0};
-  return b.force.a >= 0 && b.force.b >= 0;
+  return b.has_ends();
 }
 
 bool bushing_ends(const Force& f) noexcept {
@@ -337,7 +306,7 @@ constinit const ForceKind bushing_element = {
         "Results: size of the force, distance of the points and its rate",
     .keys = bushing_keys,
     .free_value = design_displacement,
-    .validate = bushing_validate,
+    .validate = validate_framed,
     .build = bushing_build,
     .mirror = bushing_mirror,
     .ends_at_half_turn = bushing_ends,

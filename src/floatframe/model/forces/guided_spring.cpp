@@ -64,36 +64,19 @@ ForceExample guided_spring_example(std::size_t regime, ExampleNumbers& numbers) 
 using G = GuidedSpringDescription;
 
 constexpr ForceKey guided_spring_keys[] = {
-    {.name = "reference",
-     .kind = ForceKeyKind::place,
-     .about = "on the body that carries the axis",
-     .required = true,
-     .member = described_by<&G::reference>},
-    {.name = "tip",
-     .kind = ForceKeyKind::place,
-     .about = "on the other body",
-     .required = true,
-     .member = described_by<&G::tip>},
+    place_key("reference", "on the body that carries the axis", described_by<&G::reference>),
+    place_key("tip", "on the other body", described_by<&G::tip>),
     {.name = "axis",
      .kind = ForceKeyKind::direction,
      .about = "fixed in the body of `reference`",
      .required = true,
      .member = described_by<&G::axis>},
-    {.name = "spring",
-     .kind = ForceKeyKind::spring,
-     .about = "of the length axis · (reference - tip)",
-     .member = described_by<&G::spring>},
-    {.name = "damper",
-     .kind = ForceKeyKind::damper,
-     .about = "of the rate of the length",
-     .member = described_by<&G::damper>},
+    law_key("spring", ForceKeyKind::spring, "of the length axis · (reference - tip)",
+            described_by<&G::spring>),
+    law_key("damper", ForceKeyKind::damper, "of the rate of the length", described_by<&G::damper>),
     bump_stop_key,
     rebound_stop_key,
-    {.name = "actuator",
-     .kind = ForceKeyKind::load,
-     .about = "tension added to both",
-     .member = described_by<&G::actuator>},
-};
+    law_key("actuator", ForceKeyKind::load, "tension added to both", described_by<&G::actuator>)};
 
 double length_along_axis(const ForceView& values, const ForceKey&) {
   return values.direction("axis").dot(values.place("reference").point - values.place("tip").point);
@@ -108,10 +91,8 @@ bool guided_spring_build(ForceBuild& b) {
   b.force.a = b.marker("reference", true);
   b.force.b = b.marker("tip", false);
   b.force.axis = b.unit_direction("axis");
-  b.force.spring = b.law("spring");
-  b.force.damper = b.law("damper");
-  b.actuate("actuator");
-  return b.force.a >= 0 && b.force.b >= 0;
+  b.spring_damper_actuator();
+  return b.has_ends();
 }
 
 }  // namespace

@@ -151,38 +151,22 @@ ForceExample joint_spring_example(std::size_t regime, ExampleNumbers& numbers) {
 
 using J = JointSpringDescription;
 
+constexpr ForceAxis on_q = ForceAxis::coordinate;
 constexpr ForceKey joint_spring_keys[] = {
     {.name = "joint",
      .kind = ForceKeyKind::joint,
      .about = "one with one coordinate q",
      .required = true,
      .member = described_by<&J::joint>},
-    {.name = "spring",
-     .kind = ForceKeyKind::spring,
-     .about = "of q - target",
-     .axis = ForceAxis::coordinate,
-     .member = described_by<&J::spring>},
-    {.name = "damper",
-     .kind = ForceKeyKind::damper,
-     .about = "of q̇ - rate of the target",
-     .axis = ForceAxis::coordinate,
-     .member = described_by<&J::damper>},
-    {.name = "actuator",
-     .kind = ForceKeyKind::load,
-     .about = "added to the force on q, which it raises",
-     .axis = ForceAxis::coordinate,
-     .member = described_by<&J::actuator>},
-    {.name = "target",
-     .kind = ForceKeyKind::target,
-     .about = "the place that `spring` pulls to",
-     .axis = ForceAxis::coordinate,
-     .member = described_by<&J::target>},
-    {.name = "target_rate",
-     .kind = ForceKeyKind::target_rate,
-     .about = "the rate that `damper` pulls to",
-     .axis = ForceAxis::coordinate,
-     .member = described_by<&J::target_rate>},
-};
+    law_key("spring", ForceKeyKind::spring, "of q - target", described_by<&J::spring>, on_q),
+    law_key("damper", ForceKeyKind::damper, "of q̇ - rate of the target", described_by<&J::damper>,
+            on_q),
+    law_key("actuator", ForceKeyKind::load, "added to the force on q, which it raises",
+            described_by<&J::actuator>, on_q),
+    law_key("target", ForceKeyKind::target, "the place that `spring` pulls to",
+            described_by<&J::target>, on_q),
+    law_key("target_rate", ForceKeyKind::target_rate, "the rate that `damper` pulls to",
+            described_by<&J::target_rate>, on_q)};
 
 void joint_spring_validate(const ForceCheck& check) {
   if (check.good("joint")) {
@@ -201,9 +185,7 @@ void joint_spring_validate(const ForceCheck& check) {
 
 bool joint_spring_build(ForceBuild& b) {
   Force& f = b.force;
-  f.spring = b.law("spring");
-  f.damper = b.law("damper");
-  b.actuate("actuator");
+  b.spring_damper_actuator();
   if (b.has("target")) f.target = b.built_signal("target");
   if (b.has("target_rate")) f.target_rate = b.built_signal("target_rate");
   f.targeted = b.has("target") || b.has("target_rate");

@@ -103,31 +103,13 @@ ForceExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers) 
 using S = SpringDamperDescription;
 
 constexpr ForceKey spring_damper_keys[] = {
-    {.name = "from",
-     .kind = ForceKeyKind::place,
-     .about = "one end",
-     .required = true,
-     .member = described_by<&S::a>},
-    {.name = "to",
-     .kind = ForceKeyKind::place,
-     .about = "the other end",
-     .required = true,
-     .member = described_by<&S::b>},
-    {.name = "spring",
-     .kind = ForceKeyKind::spring,
-     .about = "of the length",
-     .member = described_by<&S::spring>},
-    {.name = "damper",
-     .kind = ForceKeyKind::damper,
-     .about = "of the rate of the length",
-     .member = described_by<&S::damper>},
+    place_key("from", "one end", described_by<&S::a>),
+    place_key("to", "the other end", described_by<&S::b>),
+    law_key("spring", ForceKeyKind::spring, "of the length", described_by<&S::spring>),
+    law_key("damper", ForceKeyKind::damper, "of the rate of the length", described_by<&S::damper>),
     bump_stop_key,
     rebound_stop_key,
-    {.name = "actuator",
-     .kind = ForceKeyKind::load,
-     .about = "tension added to both",
-     .member = described_by<&S::actuator>},
-};
+    law_key("actuator", ForceKeyKind::load, "tension added to both", described_by<&S::actuator>)};
 
 double distance_in_design(const ForceView& values, const ForceKey&) {
   return (values.place("from").point - values.place("to").point).norm();
@@ -146,10 +128,8 @@ void spring_damper_validate(const ForceCheck& check) {
 bool spring_damper_build(ForceBuild& b) {
   b.force.a = b.marker("from", false);
   b.force.b = b.marker("to", false);
-  b.force.spring = b.law("spring");
-  b.force.damper = b.law("damper");
-  b.actuate("actuator");
-  return b.force.a >= 0 && b.force.b >= 0;
+  b.spring_damper_actuator();
+  return b.has_ends();
 }
 
 }  // namespace

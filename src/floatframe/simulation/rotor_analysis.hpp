@@ -1,6 +1,7 @@
 #pragma once
-// Geometric stiffening of a rotor in analyses over its speed: counted in where the model does not
-// say (counted_stiffening.hpp); where it is left out, or cannot be complete, notes.
+// What analyses over the speed of a rotor share: the speeds, and geometric stiffening, which is
+// counted in where the model does not say (counted_stiffening.hpp); where it is left out, or cannot
+// be complete, notes.
 #include <string>
 #include <vector>
 
@@ -8,6 +9,10 @@
 #include "floatframe/simulation/rotor.hpp"
 
 namespace floatframe {
+
+/// from, from + step, ..., to [rad/s]. Throws InputError, which names the joint, unless they ascend
+/// and are not too many or too fast.
+std::vector<double> rotor_speeds(const std::string& joint, double from, double to, double step);
 
 /// The model with stiffening of the rotor on this joint.
 CountedStiffening stiffened_rotor(const Model& model, const std::string& joint);
