@@ -4,11 +4,10 @@
 // CalculiX (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC
 // for elements of three nodes only, PIPE and BOX for B32R.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/plate_section.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 

@@ -102,16 +102,13 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e);
-// abaqus_build_beams.cpp
 /// Direction 1 of a beam towards the further node of its element, if it has one; its ends at the
 /// centroid of its section, as nodes of their own.
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
                       Element& e);
 /// An error for each section with elements along its direction 1.
 void report_abaqus_directions(AbaqusBuild& build);
-/// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre beside the
-/// centroid.
-void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section);
+
 // abaqus_sections.cpp
 /// Sections of shells with the thickness of their nodes.
 class AbaqusNodalThickness {
@@ -136,7 +133,7 @@ void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
-// abaqus_home.cpp
+// abaqus_dialect.cpp
 /// Of a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;
 /// Mass and shear of the elements as the program of the deck has them.

@@ -1,7 +1,4 @@
 // Surfaces, spiders, equations and supports of an Abaqus deck in the model.
-#include <unordered_map>
-
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/face_weights.hpp"
 #include "floatframe/fe/element_faces.hpp"

@@ -4,7 +4,7 @@
 // one. Source: Abaqus Keywords Guide.
 #include <algorithm>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -5,13 +5,11 @@
 // two points. Equations are written in body axes; supports, which are hints only, stay as they are.
 // *ORIENTATION: axes of materials.
 // Source: Abaqus Keywords Guide.
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -1,14 +1,12 @@
 // Nodes and elements that decks have generated: *NGEN between two nodes, *NFILL between two sets,
 // *NCOPY with a shift, *ELGEN in rows and layers, *ELCOPY.
 // Source: Abaqus Keywords Guide.
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,6 +1,3 @@
-#include "floatframe/decks/abaqus/abaqus_keywords.hpp"
-
-#include <unordered_map>
 #include <unordered_set>
 
 #include "floatframe/decks/abaqus/abaqus_lines.hpp"

@@ -46,4 +46,11 @@ class AbaqusLines {
   TextSource& source_;
 };
 
+// Keywords that are not read, in upper case without blanks. Those that are in neither list may
+// change stiffness, mass or constraints.
+/// What to do in place of a keyword that is refused; null if it is not known.
+const char* advice_for_abaqus(const std::string& name);
+/// Does it change neither stiffness nor mass nor constraints of a linear part?
+bool is_harmless_in_abaqus(const std::string& name);
+
 }  // namespace floatframe

@@ -4,7 +4,7 @@
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,12 +1,9 @@
 #include "floatframe/decks/abaqus/read_abaqus.hpp"
 
 #include <set>
-#include <unordered_map>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
-#include "floatframe/decks/abaqus/abaqus_keywords.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -1,13 +1,8 @@
 #include "floatframe/decks/ansys/ansys_build.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/decks/ansys/read_ansys.hpp"
 #include "floatframe/decks/number_sizes.hpp"

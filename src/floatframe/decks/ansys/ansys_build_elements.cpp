@@ -1,8 +1,6 @@
 // Solids, shells, beams and rods; of beams and rods also their sections, axes and ends.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <span>
 #include <tuple>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"

@@ -1,9 +1,6 @@
 // Springs, rigid links and regions, point masses.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"

@@ -11,11 +11,19 @@
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
-#include "floatframe/formats/text/fortran_columns.hpp"
 
 namespace floatframe {
 
 class TextSource;
+
+/// (3i9,6e21.13e3) is 'i' 9 three times, then 'e' 21 six times; a scale factor (1P) is ignored.
+struct FortranColumns {
+  std::vector<std::pair<char, int>> columns;  ///< kind in lower case, width
+  std::size_t integers() const noexcept;      ///< columns 'i' at the beginning
+  /// The cells of a line, trimmed; those that the line does not reach are not there. What is left
+  /// of the line behind the last column.
+  std::string_view split(std::string_view line, std::vector<std::string_view>& cells) const;
+};
 
 /// One command after the other. Comments (behind `!`), empty lines and `/COM` are ignored; `$`
 /// divides commands of one line. Errors of form stop the reading: what follows them cannot be

@@ -3,11 +3,8 @@
 // thicknesses of a section are shares of that of the element, from the face I-J-K-L to M-N-O-P;
 // angles count from the x axis of ESYS projected on the layer, else from the first natural
 // direction.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"

@@ -1,6 +1,4 @@
 // MP, MPTEMP, MPDATA and linear TB; from their labels to a material.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>

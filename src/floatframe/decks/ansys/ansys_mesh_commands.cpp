@@ -1,7 +1,5 @@
 // Nodes, elements, components and coordinate systems, as CDWRITE writes them (blocked and
 // unblocked) and as a user does.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 

@@ -5,11 +5,8 @@
 // number, with its section and offsets (gen3dnor.f of CalculiX 2.20).
 #include "floatframe/decks/calculix/calculix_equations.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
 #include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/node_dof_names.hpp"

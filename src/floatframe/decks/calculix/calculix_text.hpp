@@ -1,21 +1,36 @@
 #pragma once
 // What the parts of a CalculiX deck share. Numbers have 13 digits: CalculiX reads 20 characters of
 // a field.
+//
+// Beams beside their nodes as CalculiX has them: OFFSET1 and OFFSET2 of *BEAM SECTION, in
+// thicknesses along directions 1 and 2 of the section, the centroid at
+//   -OFFSET1 t_1 n_1 - OFFSET2 t_2 n_2
+// of the node. Beams at one node are joined rigidly there whatever their offsets, which equations
+// between their rotations cannot say (CalculixEquations).
 #include <fmt/format.h>
 
+#include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "floatframe/core/plural.hpp"
-#include "floatframe/decks/calculix/calculix_offsets.hpp"
 #include "floatframe/decks/nodes_of_element.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/written/mesh_writer.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
 
 namespace floatframe {
+
+/// A model whose beams are at the nodes that rigid arms tied them to, without these arms.
+struct OffsetBeams {
+  FeModel model;
+  std::vector<std::array<double, 2>> offsets;  ///< of each element, in thicknesses
+  std::vector<char> left_out;                  ///< nodes at the ends of arms, of nothing now
+};
 
 struct CalculixText {
   explicit CalculixText(const FeModel& m) : model(m) { numbers = written_numbers(m, notes); }
@@ -67,5 +82,12 @@ void add_calculix_sections(CalculixText& deck);
 
 /// Spiders and equations (CalculixEquations), springs, point masses.
 void add_calculix_constraints(CalculixText& deck);
+
+/// None if no end of a beam with a rectangular or round section hangs on a rigid arm across it, one
+/// in both directions the same at all its nodes, and of nothing else.
+std::optional<OffsetBeams> offset_beams(const FeModel& model);
+
+/// The writer of `convert`.
+WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options);
 
 }  // namespace floatframe

@@ -1,13 +1,8 @@
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-
-#include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
 namespace {

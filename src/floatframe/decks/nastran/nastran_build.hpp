@@ -170,7 +170,7 @@ void note_nastran_shells(NastranBuild& build);
 /// Axes of the material of an element whose section and material are known.
 void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result);
 void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
-// nastran_build_materials.cpp
+// nastran_materials.cpp
 /// Materials of the model by their numbers.
 class NastranMaterials {
  public:
@@ -207,7 +207,7 @@ struct NastranPiece {
 };
 /// Of the tapered properties of a file, as many as the file may have.
 std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build);
-// nastran_build_bars.cpp
+// nastran_bar_cards.cpp
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
 bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
 std::string weak_nastran_bar_note(const NastranProperty& p);
@@ -247,7 +247,6 @@ class NastranBars {
 /// RBE1, RBAR and RTRPLT whose independent components are of several nodes, RROD.
 void build_nastran_rigids(NastranBuild& build);
 void give_nastran_rigid_rotations(NastranBuild& build);
-// nastran_build_means.cpp
 /// An RBE3 that is no mean spider of displacements; after all other constraints.
 void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
 // nastran_build_constraints.cpp

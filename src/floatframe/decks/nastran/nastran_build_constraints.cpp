@@ -1,10 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <set>
-#include <unordered_map>
-#include <vector>
-
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_kernel.hpp"

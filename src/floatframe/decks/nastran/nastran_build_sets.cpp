@@ -1,9 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <map>
-#include <unordered_set>
-
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
 namespace floatframe {

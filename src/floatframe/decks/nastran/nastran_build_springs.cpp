@@ -1,9 +1,6 @@
 // Springs, bushings and the torsion of rods in the model. Directions are those of the displacement
 // system CD of each node.
-#include <fmt/format.h>
-
 #include <cmath>
-#include <utility>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/springs.hpp"

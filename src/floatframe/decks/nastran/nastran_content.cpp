@@ -1,11 +1,6 @@
 #include "floatframe/decks/nastran/nastran_content.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <algorithm>
-#include <unordered_map>
-#include <utility>
 
 #include "floatframe/formats/text/text_fields.hpp"
 

@@ -279,9 +279,6 @@ std::span<const NastranCardReader> nastran_material_cards();
 std::span<const NastranCardReader> nastran_property_cards();
 std::span<const NastranCardReader> nastran_scalar_cards();
 std::span<const NastranCardReader> nastran_constraint_cards();
-// nastran_materials.cpp
-/// What is wrong with the constants of a MAT2 that is the material of a shell.
-std::string nastran_plane_error(const NastranMaterial& m);
 // nastran_bar_cards.cpp
 /// Fields 5 to 7; false if they are blank.
 bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction);

@@ -4,15 +4,7 @@
 // another makes it depend on nodes; without scalar points it ties nodes. A scalar point that is the
 // difference of nodes does not move when the part is displaced, so springs from it to the ground
 // are springs of the part: they end at a node that an equation holds.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
-#include <utility>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 

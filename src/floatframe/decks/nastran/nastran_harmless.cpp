@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "floatframe/decks/nastran/nastran_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 

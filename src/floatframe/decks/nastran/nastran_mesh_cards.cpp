@@ -1,7 +1,4 @@
 // Cards of nodes, coordinate systems, solids and shells.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <numbers>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"

@@ -1,6 +1,4 @@
 // Cards of springs, bushings, masses and scalar points.
-#include <fmt/format.h>
-
 #include "floatframe/decks/nastran/nastran_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 

@@ -2,12 +2,6 @@
 // without a place. In the model each that a spring or an equation uses is a node of its own, of
 // which the component ux is used, or rx where its springs turn. Springs condense it
 // (fe/springs.hpp), or it depends on nodes by an equation; its place only says where it is shown.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-#include <optional>
-
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
 namespace floatframe {

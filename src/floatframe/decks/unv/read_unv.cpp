@@ -1,14 +1,7 @@
 #include "floatframe/decks/unv/read_unv.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
-#include <set>
-#include <unordered_map>
 #include <unordered_set>
-#include <utility>
-#include <vector>
 
 #include "floatframe/decks/unv/unv_content.hpp"
 #include "floatframe/formats/surface_thickness.hpp"

@@ -1,8 +1,5 @@
 #include "floatframe/formats/body_file/body_arrays.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 namespace floatframe {

@@ -1,12 +1,8 @@
-#include "floatframe/formats/body_file/body_numbers.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/formats/body_file/body_members.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {

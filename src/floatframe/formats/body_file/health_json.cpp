@@ -1,6 +1,5 @@
 // One list of fields serves writing and reading.
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/diagnostics.hpp"

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "floatframe/formats/body_file/body_members.hpp"
 
 namespace floatframe {

@@ -1,6 +1,3 @@
-#include <limits>
-
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/formats/body_file/body_members.hpp"
 
 namespace floatframe {

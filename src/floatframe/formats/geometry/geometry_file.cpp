@@ -1,5 +1,3 @@
-#include "floatframe/formats/geometry/geometry_file.hpp"
-
 #include <bit>
 #include <unordered_map>
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "floatframe/formats/text/text_fields.hpp"
 

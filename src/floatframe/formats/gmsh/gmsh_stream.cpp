@@ -1,7 +1,5 @@
 #include "floatframe/formats/gmsh/gmsh_stream.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,5 @@
 #include "floatframe/formats/matrices/matrix_entries.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,11 +1,7 @@
 #include "floatframe/formats/matrices/matrix_model.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <unordered_map>
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/deck_component.hpp"

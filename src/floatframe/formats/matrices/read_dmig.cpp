@@ -1,18 +1,13 @@
 #include "floatframe/formats/matrices/read_dmig.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
-#include <map>
-#include <optional>
 #include <set>
 
 #include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,10 +1,5 @@
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

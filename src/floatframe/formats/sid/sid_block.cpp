@@ -1,10 +1,6 @@
 #include "floatframe/formats/sid/sid_block.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "floatframe/formats/text/text_fields.hpp"
 

@@ -1,6 +1,5 @@
 #include "floatframe/formats/text/text_source.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <set>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/formats/gmsh/gmsh_types.hpp"
