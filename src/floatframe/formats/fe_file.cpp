@@ -59,9 +59,8 @@ const std::vector<FeFormat>& formats() {
 /// "Abaqus / CalculiX deck (.inp), ...".
 std::string known_formats() {
   std::string text;
-  for (const FeFormat& f : formats()) {
+  for (const FeFormat& f : formats())
     text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", f.description, f.name);
-  }
   return text + deck_component_missing();
 }
 
@@ -100,9 +99,8 @@ const FeFormat& recognised(const std::filesystem::path& file) {
     if (found->size() == 1) return *found->front();
     if (found->size() > 1 && found != &by_ending) {
       std::string names;
-      for (const FeFormat* f : *found) {
+      for (const FeFormat* f : *found)
         names += fmt::format("{}'{}'", names.empty() ? "" : " or ", f->name);
-      }
       throw InputError(ErrorCode::wrong_file, {file.string()},
                        "the format is not clear: name it, " + names);
     }
@@ -203,11 +201,10 @@ void add_up(const LinearEquation& e, std::vector<LinearEquation::Term>& terms) {
   std::size_t count = 0;
   for (const LinearEquation::Term& t : terms) {
     scale = std::max(scale, std::abs(t.factor));
-    if (count > 0 && place(terms[count - 1]) == place(t)) {
+    if (count > 0 && place(terms[count - 1]) == place(t))
       terms[count - 1].factor += t.factor;
-    } else {
+    else
       terms[count++] = t;
-    }
   }
   terms.resize(count);
   std::erase_if(terms, [&](const auto& t) { return std::abs(t.factor) <= 1e-12 * scale; });
@@ -269,12 +266,11 @@ const char* word(DeckDialect dialect) noexcept {
 FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& options,
                      const std::string& format) {
   const FeFormat& chosen = format.empty() ? recognised(file) : by_name(file, format);
-  if (options.dialect != DeckDialect::by_content && std::string_view(chosen.name) != "abaqus") {
+  if (options.dialect != DeckDialect::by_content && std::string_view(chosen.name) != "abaqus")
     throw InputError(ErrorCode::unsupported, {file.string()},
                      fmt::format("the dialect '{}' is given, but the file is no deck of Abaqus or "
                                  "CalculiX: it is read as '{}'",
                                  word(options.dialect), chosen.name));
-  }
   if (!options.thicknesses.empty() && !chosen.without_sections)
     throw InputError(ErrorCode::exclusive, {file.string()},
                      fmt::format("a thickness is given, but shells of the format '{}' have that of "

@@ -226,20 +226,16 @@ void read_abaqus_equation(AbaqusCard& card) {
 }
 
 void read_abaqus_boundary(AbaqusCard& card) {
-  struct Named {
-    const char* name;
-    unsigned mask;
-  };
-  constexpr std::array words{Named{"ENCASTRE", 63u}, Named{"PINNED", 7u}, Named{"XSYMM", 49u},
-                             Named{"YSYMM", 42u},    Named{"ZSYMM", 28u}, Named{"XASYMM", 14u},
-                             Named{"YASYMM", 21u},   Named{"ZASYMM", 35u}};
+  constexpr std::pair<const char*, unsigned> words[] = {
+      {"ENCASTRE", 63u}, {"PINNED", 7u},  {"XSYMM", 49u},  {"YSYMM", 42u},
+      {"ZSYMM", 28u},    {"XASYMM", 14u}, {"YASYMM", 21u}, {"ZASYMM", 35u}};
   while (card.next()) {
     AbaqusSupport support{{card.reference(0)}};
     if (card.field(1) == "11") continue;  // the temperature
-    const auto word = std::find_if(words.begin(), words.end(), [&](const Named& w) {
-      return same_word(card.field(1), w.name);
+    const auto* const word = std::find_if(std::begin(words), std::end(words), [&](const auto& w) {
+      return same_word(card.field(1), w.first);
     });
-    support.mask = word == words.end() ? card.dofs(1, card.shown) : word->mask;
+    support.mask = word == std::end(words) ? card.dofs(1, card.shown) : word->second;
     if (support.mask != 0) card.content.supports.push_back(support);
   }
 }

@@ -59,13 +59,12 @@ AbaqusOrientation begin_orientation(AbaqusCard& card) {
 
 void read_abaqus_system(AbaqusCard& card) {
   constexpr const char* what = "coordinate of *SYSTEM";
-  std::optional<AbaqusCoordinates>& present = card.content.system;
+  std::optional<Orientation>& present = card.content.system;
   present.reset();
   // Without lines: the axes of the part again.
   if (!card.next()) return;
-  AbaqusCoordinates system;
+  Orientation& system = present.emplace();
   system.origin = card.vector(0, what);
-  present = system;
   if (card.fields.size() <= 3) return;
   Vec3 x = card.vector(3, what) - system.origin, in_plane = Vec3::Zero();
   const bool plane = card.next();
@@ -86,7 +85,6 @@ void read_abaqus_system(AbaqusCard& card) {
   system.axes.col(0) = x.stableNormalized();
   system.axes.col(2) = z.stableNormalized();
   system.axes.col(1) = system.axes.col(2).cross(system.axes.col(0));
-  present = system;
 }
 
 void read_abaqus_transform(AbaqusCard& card) {

@@ -121,10 +121,9 @@ class DeckReader {
 
   void read() {
     std::string_view first;
-    if (lines_.next_data(first)) {
+    if (lines_.next_data(first))
       lines_.source().stop(ErrorCode::wrong_value, lines_.source().here(),
                            "the deck begins with {}, expected a keyword line (*...)", shown(first));
-    }
     AbaqusKeyword keyword;
     while (lines_.next_keyword(keyword)) {
       content_.clues.look_at(keyword);
@@ -199,9 +198,7 @@ class DeckReader {
 bool looks_like_abaqus(std::string_view beginning) {
   // The first line that is no comment is a keyword.
   while (!beginning.empty()) {
-    const std::size_t end = beginning.find('\n');
-    const std::string_view line = trimmed(beginning.substr(0, end));
-    beginning.remove_prefix(end == std::string_view::npos ? beginning.size() : end + 1);
+    const std::string_view line = trimmed(next_line(beginning));
     if (line.empty() || line.starts_with("**")) continue;
     return line.size() > 1 && line[0] == '*' &&
            ((line[1] >= 'A' && line[1] <= 'Z') || (line[1] >= 'a' && line[1] <= 'z') ||

@@ -67,21 +67,20 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
   if (library != nullptr) return type;
   if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
   said.push_back(e.type);
-  if (type == nullptr) {
+  if (type == nullptr)
     source.error(ErrorCode::not_found, e.at, "element {} is of type {}, which no ET gives", e.id,
                  e.type);
-  } else if (type->number == 179) {
+  else if (type->number == 179)
     source.error(ErrorCode::unsupported, type->at,
                  "type {} is PRETS179: the mesh is cut there, and what holds it together is the "
                  "preload of an analysis; write the mesh without the cut",
                  e.type);
-  } else {
+  else
     source.error(ErrorCode::unsupported, type->at,
                  "type {} is element {}, which is not read; read are SOLID45, 92, 95, 185, 186, "
                  "187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, PIPE288, 289, LINK8, "
                  "180, COMBIN14, MATRIX27, MASS21 and MPC184",
                  e.type, type->number);
-  }
   return nullptr;
 }
 
@@ -115,13 +114,12 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   const auto found = content.materials.find(id);
   Material m;
   const bool own = found != content.materials.end();
-  if (own) {
+  if (own)
     m = ansys_material(found->second, id, options.temperature, content, source);
-  } else if (content.materials.empty() && options.material) {
+  else if (content.materials.empty() && options.material)
     m = *options.material;
-  } else if (!content.materials.empty()) {
+  else if (!content.materials.empty())
     error(ErrorCode::not_found, e, "it has material {}, which is not in the file", id);
-  }
   if (const std::string huge = huge_constant(m); own && !huge.empty())
     source.error(ErrorCode::not_finite, found->second.at, "material {}: {}", id, huge);
   if (own && found->second.find("DENS") == nullptr)
@@ -242,11 +240,9 @@ bool AnsysBuild::error_once(ErrorCode code, const FeSource& at, const std::strin
 
 bool looks_like_ansys(std::string_view beginning) {
   while (!beginning.empty()) {
-    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    const std::string_view line = trimmed(beginning.substr(0, end));
+    const std::string_view line = trimmed(next_line(beginning));
     for (const std::string_view sign : ansys_signs)
       if (begins_with(line, sign)) return true;
-    beginning.remove_prefix(std::min(end + 1, beginning.size()));
   }
   return false;
 }

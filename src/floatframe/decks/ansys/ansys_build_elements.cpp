@@ -199,11 +199,10 @@ class AnsysElementBuilder {
     if (library.family != F::shell && ansys_has_layers(b_, e, type))
       return build_ansys_layers(b_, e, type, element);
     element.material = b_.material(e.material, e);
-    if (library.family == F::shell) {
+    if (library.family == F::shell)
       build_ansys_shell(b_, e, type, element);
-    } else if (b_.model.materials[element.material].elasticity) {
+    else if (b_.model.materials[element.material].elasticity)
       element.orientation = b_.orientation(e.system, e.at, b_.label(e));
-    }
     return true;
   }
 

@@ -100,13 +100,12 @@ void read_ansys_rigid(AnsysFields& f, AnsysContent& c) {
   for (std::size_t k = 3; k < 8; ++k) {
     const std::string word = f.word(k);
     if (word.empty() && k > 3) continue;
-    if (word.empty() || word == "ALL") {
+    if (word.empty() || word == "ALL")
       rigid.mask = 63u;
-    } else if (word == "UXYZ" || word == "RXYZ") {
+    else if (word == "UXYZ" || word == "RXYZ")
       rigid.mask |= word == "UXYZ" ? 7u : 56u;
-    } else {
+    else
       rigid.mask |= 1u << axis_of(f, k);
-    }
   }
   c.rigid.push_back(rigid);
 }
@@ -174,12 +173,11 @@ void refuse_member(AnsysBuild& b, const AnsysComponent& component, int first, in
   const char* const what = component.elements ? "element" : "node";
   std::string text = fmt::format("component {} has ", component.name);
   if (last != first) text += fmt::format("{}s {} to {}, ", what, first, last);
-  if (last < first) {
+  if (last < first)
     text += "expected numbers that rise";
-  } else {
+  else
     text += fmt::format("{}{} {}{} is not in the file", last != first ? "of which " : "", what,
                         missing, last != first ? "" : ", which");
-  }
   b.source.error(ErrorCode::wrong_value, component.at, text);
 }
 
@@ -242,11 +240,10 @@ void build_ansys_supports(AnsysBuild& b) {
     }
     if (mask == 0) continue;
     auto& all = b.model.supports;
-    if (!all.empty() && all.back().node == node) {
+    if (!all.empty() && all.back().node == node)
       all.back().mask |= mask;
-    } else {
+    else
       all.push_back({node, mask, at});
-    }
   }
 }
 

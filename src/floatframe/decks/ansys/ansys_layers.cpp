@@ -51,11 +51,10 @@ class AnsysShell {
       b_.shared_error(ErrorCode::unsupported, e_,
                       "KEYOPT(1) = {}: only shells with bending and membrane stiffness are read",
                       type_.keyopt[1]);
-    if (section != nullptr && !thin_ && type_.number != 93) {
+    if (section != nullptr && !thin_ && type_.number != 93)
       layers(*section, s);
-    } else {
+    else
       constants(s);
-    }
     check_numbers(section == nullptr ? e_.at : section->at, s);
     s.shear = thin_ ? 0.0 : shell_shear * s.thickness;
     element_.section = index_of(s);

@@ -81,14 +81,13 @@ class AnsysElastic {
     const auto* const table = m_.find(label);
     if (table == nullptr) return std::nullopt;
     const auto& [x, found] = at(*table);
-    if (!found.error.empty()) {
+    if (!found.error.empty())
       error(ErrorCode::wrong_value, "its {} {}", label, found.error);
-    } else if (found.chosen && temperatures_noted_++ == 0) {
+    else if (found.chosen && temperatures_noted_++ == 0)
       source_.note(
           content_.model, m_.at,
           "material {} is taken at the temperature {:g} (its table of {} goes from {:g} to {:g})",
           id_, *temperature_, label, table->front().first, table->back().first);
-    }
     return x;
   }
 

@@ -226,11 +226,10 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
     f.stop(ErrorCode::wrong_count,
            "CMBLOCK: component {} has {} members in its first line, but {} are listed",
            component.name, count, found);
-  if (known) {
+  if (known)
     c.components.push_back(std::move(component));
-  } else {
+  else
     c.ignored.try_emplace(fmt::format("CMBLOCK of {}", shown(f.text(2))), f.at());
-  }
 }
 
 /// LOCAL,R5.0,LOC,number,kind,x,y,z, ...,ANG,..., ...,PRM,...;

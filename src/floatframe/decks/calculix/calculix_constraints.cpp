@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "floatframe/decks/calculix/calculix_equations.hpp"
+#include "floatframe/decks/calculix/calculix_text.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/math/dense.hpp"
 

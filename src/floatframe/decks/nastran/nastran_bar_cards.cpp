@@ -120,11 +120,10 @@ bool bar_without_axes(NastranBuild& build, const NastranEntity& bar) {
 
 bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction) {
   if (f.blank(4) && f.blank(5) && f.blank(6)) return false;
-  if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
+  if (f.blank(5) && f.blank(6) && parse_label(f.text(4)))
     direction.node = f.label(4, node);
-  } else {
+  else
     direction.vector = f.vector(4, "the orientation vector");
-  }
   return true;
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/decks/stiffeners.hpp"
+#include "floatframe/decks/rigid_arms.hpp"
 #include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {

@@ -155,11 +155,10 @@ class ConstraintBuilder {
   int add_rigid_node(int node, const Vec3& p, const NastranMass& m) {
     const int fresh = b_.add_node(p, m.at, m.label());
     const auto spider = rigid_of_.find(node);
-    if (spider != rigid_of_.end()) {
+    if (spider != rigid_of_.end())
       b_.model.spiders[spider->second].nodes.push_back(fresh);
-    } else {
+    else
       b_.add_rigid_spider(node, fresh, m.at, m.label());
-    }
     return fresh;
   }
 
@@ -193,11 +192,10 @@ class ConstraintBuilder {
       for (const NastranEquation::Term& term : e.terms)
         if (add_nastran_term(b_, e, term, equation) < 0) return;
       const int dependent = b_.node_of.at(e.terms[0].node);
-      if (b_.turned[dependent] != 0) {
+      if (b_.turned[dependent] != 0)
         b_.equations.add(dependent, e.terms[0].axis >= 3, equation);
-      } else {
+      else
         b_.model.equations.push_back(std::move(equation));
-      }
     }
     build_nastran_scalar_equations(b_, of_scalar_points);
     b_.note(

@@ -112,18 +112,17 @@ class ContentReader {
 
   void parameter(NastranFields& f) {
     const std::string name = upper_case(f.text(0)).substr(0, 40);
-    if (name == "WTMASS" || name == "CM1") {
+    if (name == "WTMASS" || name == "CM1")
       c_.mass_factor *= factor(f, name);
-    } else if (name == "CK1") {
+    else if (name == "CK1")
       c_.stiffness_factor *= factor(f, name);
-    } else if (name == "COUPMASS") {
+    else if (name == "COUPMASS")
       c_.coupled_mass = same_word(f.text(1), "YES") || same_word(f.text(1), "ON") ||
                         parse_real(f.text(1)).value_or(0.0) > 0.0;
-    } else if (is_harmless_nastran_parameter(name)) {
+    else if (is_harmless_nastran_parameter(name))
       pass("PARAM", f.at());
-    } else {
+    else
       refuse("PARAM " + name, f.at());
-    }
   }
 
   /// A positive factor, 1 if an entry before has given it. Subcases may repeat it; two values

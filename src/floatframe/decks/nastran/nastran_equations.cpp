@@ -231,9 +231,7 @@ class ScalarEquations {
 
   int ground(int axis, const FeSource& at) {
     if (ground_ < 0) ground_ = b_.add_node(b_.model.positions.front(), at, "a spring");
-    if (grounded_.insert(axis).second) {
-      b_.model.equations.push_back({{{ground_, axis, 1.0}}, at});
-    }
+    if (grounded_.insert(axis).second) b_.model.equations.push_back({{{ground_, axis, 1.0}}, at});
     return ground_;
   }
 

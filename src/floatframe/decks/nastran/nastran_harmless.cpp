@@ -84,11 +84,10 @@ constexpr RefusedCards refused_cards[] = {
 
 NastranWords::NastranWords(std::string_view text) {
   for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
-    if (word.ends_with('*')) {
+    if (word.ends_with('*'))
       beginnings_.push_back(word.substr(0, word.size() - 1));
-    } else {
+    else
       words_.insert(word);
-    }
   }
 }
 

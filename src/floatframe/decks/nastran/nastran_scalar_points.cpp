@@ -10,11 +10,10 @@ void NastranRanges::finish() {
   std::sort(ranges_.begin(), ranges_.end());
   std::vector<std::pair<int, int>> joined;
   for (const auto& [first, last] : ranges_) {
-    if (!joined.empty() && first <= joined.back().second) {
+    if (!joined.empty() && first <= joined.back().second)
       joined.back().second = std::max(joined.back().second, last);
-    } else if (first <= last) {
+    else if (first <= last)
       joined.emplace_back(first, last);
-    }
   }
   ranges_ = std::move(joined);
 }

@@ -5,7 +5,6 @@
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/deck_component.hpp"
-#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 
 namespace floatframe {

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <set>
 
-#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 

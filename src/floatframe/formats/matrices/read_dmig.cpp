@@ -5,7 +5,6 @@
 #include <set>
 
 #include "floatframe/formats/matrices/matrix_entries.hpp"
-#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 
@@ -30,11 +29,10 @@ class DmigFile {
       if (card.name != "DMIG") continue;
       NastranFields fields(source, card);
       const std::string name = upper_case(card.field(0));
-      if (card.field(1) == "0") {
+      if (card.field(1) == "0")
         header(name, fields);
-      } else if (wanted(name)) {
+      else if (wanted(name))
         column(name, fields, card);
-      }
     }
     source.throw_if_any();
   }

@@ -22,6 +22,8 @@ bool begins_with(std::string_view text, std::string_view head) noexcept;
 void split_commas(std::string_view line, std::vector<std::string_view>& fields);
 /// Words between blanks, tabs or commas; replaces `fields`.
 void split_blanks(std::string_view line, std::vector<std::string_view>& fields);
+/// The next line of a text; `rest` moves behind it.
+std::string_view next_line(std::string_view& rest) noexcept;
 /// The next word between blanks; `rest` moves behind it. Empty at the end.
 std::string_view next_word(std::string_view& rest) noexcept;
 

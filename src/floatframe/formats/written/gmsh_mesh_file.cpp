@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "floatframe/core/plural.hpp"
-#include "floatframe/formats/gmsh/gmsh_types.hpp"
+#include "floatframe/formats/gmsh/gmsh_mesh.hpp"
 #include "floatframe/formats/written/mesh_writers.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
 
