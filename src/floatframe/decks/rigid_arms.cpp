@@ -20,9 +20,7 @@ namespace {
 void add_arm_equations(FeModel& model, int end, int node, const FeSource& at) {
   const Mat6 rigid = rigid_motion_at(model.positions[end] - model.positions[node]);
   for (const int row : {0, 3, 1, 4, 2, 5}) {
-    LinearEquation equation;
-    equation.source = at;
-    equation.terms = {{end, row, 1.0}};
+    LinearEquation equation{{{end, row, 1.0}}, at};
     for (int k = 0; k < 6; ++k)
       if (rigid(row, k) != 0.0) equation.terms.push_back({node, k, -rigid(row, k)});
     model.equations.push_back(std::move(equation));
@@ -121,6 +119,28 @@ int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSour
   return model.nodes() - 1;
 }
 
+Spider& add_rigid_spider(FeModel& model, int reference, std::string name, const FeSource& at) {
+  Spider& s = model.spiders.emplace_back();
+  s.reference = reference;
+  s.name = std::move(name);
+  s.source = at;
+  return s;
+}
+
+std::vector<char> nodes_with_rotations(const FeModel& model) {
+  std::vector<char> rotates(model.positions.size(), 0);
+  for (const Element& e : model.elements) {
+    const ElementKernel& kernel = element_kernel(e.type);
+    for (int k = 0; k < kernel.nodes; ++k)
+      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
+  }
+  for (const Spider& s : model.spiders) rotates[s.reference] = 1;
+  for (const Spring& s : model.springs)
+    for (int end = 0; end < 2; ++end)
+      if (s.nodes[end] >= 0 && !s.directions[end].tail<3>().isZero(0.0)) rotates[s.nodes[end]] = 1;
+  return rotates;
+}
+
 int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm,
                    const FeSource& at) {
   if (!std::isfinite(arm.squaredNorm()))  // stiffness about the node holds that square
@@ -166,13 +186,8 @@ void RigidArms::tie(FeModel& model) const {
       continue;
     }
     const auto [it, fresh] = spiders.try_emplace(a.node, model.spiders.size());
-    if (fresh) {
-      Spider s;
-      s.name = fmt::format("beams of {}", model.node_label(a.node));
-      s.reference = a.node;
-      s.source = a.at;
-      model.spiders.push_back(std::move(s));
-    }
+    if (fresh)
+      add_rigid_spider(model, a.node, fmt::format("beams of {}", model.node_label(a.node)), a.at);
     model.spiders[it->second].nodes.push_back(a.end);
   }
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
@@ -32,6 +33,12 @@ void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> be
 /// last one which this caller added, 0 before the first.
 int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
                  int& largest);
+
+/// A rigid spider that has no nodes yet.
+Spider& add_rigid_spider(FeModel& model, int reference, std::string name, const FeSource& at);
+
+/// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
+std::vector<char> nodes_with_rotations(const FeModel& model);
 
 class RigidArms {
  public:

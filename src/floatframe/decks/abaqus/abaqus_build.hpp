@@ -80,7 +80,6 @@ struct AbaqusProperties {
   bool directional = false;  ///< shells: not isotropic in the plane
 };
 
-// abaqus_build_sections.cpp
 /// Elements that have no section: masses, springs, ...
 bool is_abaqus_point(AbaqusType::Family family) noexcept;
 /// Of each element of the deck the index of the section whose set names it; -1: none.
@@ -90,7 +89,6 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
 void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of);
 /// Of each section; its material and its shape get into the model.
 std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build);
-// abaqus_build_layers.cpp
 /// Index of an orientation in the model, which gets it; -1 and an error if there is none.
 int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section);
 /// `material`: index of one by its name.
@@ -109,7 +107,6 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
 /// An error for each section with elements along its direction 1.
 void report_abaqus_directions(AbaqusBuild& build);
 
-// abaqus_sections.cpp
 /// Sections of shells with the thickness of their nodes.
 class AbaqusNodalThickness {
  public:
@@ -128,28 +125,21 @@ class AbaqusNodalThickness {
   double unevenness_ = 0.0;
   FeSource first_uneven_;
 };
-// abaqus_build_mesh.cpp
 void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
-// abaqus_dialect.cpp
 /// Of a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;
 /// Mass and shear of the elements as the program of the deck has them.
 void as_in_home_program(AbaqusBuild& build);
 void note_mass_of_unclear_dialect(AbaqusBuild& build);
-// abaqus_nonstructural_mass.cpp
 /// Once all elements have their sections.
 void build_abaqus_nonstructural_mass(AbaqusBuild& build);
-// abaqus_springs.cpp
 void build_abaqus_springs(AbaqusBuild& build);
-// abaqus_ties.cpp
 void build_abaqus_ties(AbaqusBuild& build);
-// abaqus_coordinates.cpp
 /// Of the nodes that *TRANSFORM turns: columns are the axes of their degrees of freedom.
 std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build);
-// abaqus_build_constraints.cpp
 /// The surface of a name and its name in the model; null and an error if there is none.
 const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
                                          std::string& shown_name);

@@ -169,8 +169,7 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const Rotatio
   }
   build.nodes.spend(nodes.front().size() * raw.terms.size(), raw.at);
   for (std::size_t k = 0; k < nodes.front().size(); ++k) {
-    LinearEquation equation;
-    equation.source = raw.at;
+    LinearEquation equation{{}, raw.at};
     for (std::size_t t = 0; t < raw.terms.size(); ++t)
       add_term(equation,
                meant_dof(rotations, nodes[t][nodes[t].size() == 1 ? 0 : k], raw.terms[t].axis),

@@ -55,12 +55,6 @@ std::string abaqus_name(std::string_view text) {
   return without_blanks(text);
 }
 
-bool is_abaqus_word(std::string_view words, std::string_view word) noexcept {
-  for (std::string_view w = next_word(words); !w.empty(); w = next_word(words))
-    if (w == word) return true;
-  return false;
-}
-
 bool AbaqusLines::next_line(std::string_view& line) {
   while (source_.next(line)) {
     line = trimmed(line);
@@ -134,7 +128,7 @@ bool AbaqusLines::next_data(std::string_view& line) {
 
 void AbaqusCard::allow_only(std::string_view known) {
   for (const Parameter& p : parameters)
-    if (!is_abaqus_word(known, p.name))
+    if (!has_word(known, p.name))
       error(ErrorCode::unsupported, "has the parameter {}, which is not supported",
             floatframe::shown(p.name));
   start();
@@ -152,7 +146,7 @@ std::string_view AbaqusCard::required(std::string_view parameter) {
 bool AbaqusCard::is_one_of(std::string_view parameter, std::string_view values,
                            fmt::format_string<std::string> text, ErrorCode code) {
   const std::string_view found = value(parameter);
-  if (found.empty() || is_abaqus_word(values, upper_case(found))) return true;
+  if (found.empty() || has_word(values, upper_case(found))) return true;
   error(code, text, floatframe::shown(found));
   return false;
 }

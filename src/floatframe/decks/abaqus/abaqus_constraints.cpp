@@ -101,7 +101,7 @@ bool are_at_one_place(const AbaqusContent& content, const AbaqusReference& first
 void read_mpc_line(AbaqusCard& card) {
   AbaqusContent& content = card.content;
   const std::string type = upper_case(card.field(0));
-  if (!is_abaqus_word("BEAM PIN TIE", type))
+  if (!has_word("BEAM PIN TIE", type))
     return card.error_in_line(ErrorCode::unsupported,
                               "*MPC: the type {} is not supported, expected BEAM, PIN or TIE; use "
                               "*RIGID BODY, *COUPLING or *EQUATION",
@@ -160,8 +160,7 @@ void read_abaqus_coupling(AbaqusCard& card) {
   card.required("REF NODE");
   const bool of_surface = !card.required("SURFACE").empty();
   AbaqusKeyword following;
-  if (!card.lines.next_keyword(following) ||
-      !is_abaqus_word("KINEMATIC DISTRIBUTING", following.name)) {
+  if (!card.lines.next_keyword(following) || !has_word("KINEMATIC DISTRIBUTING", following.name)) {
     card.error(ErrorCode::incomplete, "is not followed by *KINEMATIC or *DISTRIBUTING");
     if (!following.name.empty())
       card.source.stop(ErrorCode::missing, following.at, "reading ends here");

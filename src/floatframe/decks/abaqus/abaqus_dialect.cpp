@@ -54,12 +54,12 @@ constexpr std::string_view types_of_abaqus_alone =
 
 /// What of a keyword is in a list, for messages; empty: nothing.
 std::string found_in(std::span<const DialectWords> list, const AbaqusKeyword& keyword) {
-  if (is_abaqus_word(list.front().keywords, keyword.name)) return keyword.shown;
+  if (has_word(list.front().keywords, keyword.name)) return keyword.shown;
   for (const auto& p : keyword.parameters) {
     for (const DialectWords& known : list.subspan(1)) {
       if (p.name != known.parameter ||
-          (!known.keywords.empty() && !is_abaqus_word(known.keywords, keyword.name)) ||
-          (!known.values.empty() && !is_abaqus_word(known.values, abaqus_name(p.value))))
+          (!known.keywords.empty() && !has_word(known.keywords, keyword.name)) ||
+          (!known.values.empty() && !has_word(known.values, abaqus_name(p.value))))
         continue;
       const bool with_value = !known.values.empty() || p.value.size() < 20;
       return keyword.shown + ", " + p.name +
@@ -95,7 +95,7 @@ void DialectClues::look_at(const AbaqusKeyword& keyword) {
 }
 
 void DialectClues::look_at_type(const std::string& type, const FeSource& at) {
-  if (is_abaqus_word(types_of_abaqus_alone, type))
+  if (has_word(types_of_abaqus_alone, type))
     add(DeckDialect::abaqus, "elements of type " + type, at);
 }
 

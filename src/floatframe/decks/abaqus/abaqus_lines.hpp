@@ -32,8 +32,6 @@ struct AbaqusKeyword {
 
 /// A name as Abaqus compares it: upper case without blanks, or between quotes as it is.
 std::string abaqus_name(std::string_view text);
-/// Is it one of some words between blanks?
-bool is_abaqus_word(std::string_view words, std::string_view word) noexcept;
 
 class AbaqusLines {
  public:

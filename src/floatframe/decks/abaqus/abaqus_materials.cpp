@@ -98,9 +98,9 @@ Mat6 constants_matrix(const std::vector<double>& c, Form form) {
 }
 
 const ElasticType* elastic_type(const AbaqusCard& card) {
-  const auto it = std::find_if(
-      std::begin(elastic_types), std::end(elastic_types),
-      [&](const ElasticType& t) { return is_abaqus_word(t.names, card.word("TYPE")); });
+  const auto it =
+      std::find_if(std::begin(elastic_types), std::end(elastic_types),
+                   [&](const ElasticType& t) { return has_word(t.names, card.word("TYPE")); });
   return it == std::end(elastic_types) ? nullptr : it;
 }
 

@@ -110,7 +110,7 @@ bool changes_part(const AbaqusKeyword& keyword) {
   const AbaqusReader* const reader = reader_of(keyword.name);
   return (reader != nullptr
               ? !reader->may_be_in_step
-              : is_abaqus_word("CHANGESOLIDSECTION MATRIXINPUT MATRIXASSEMBLE", keyword.name)) &&
+              : has_word("CHANGESOLIDSECTION MATRIXINPUT MATRIXASSEMBLE", keyword.name)) &&
          !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
 }
 

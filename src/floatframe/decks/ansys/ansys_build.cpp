@@ -6,7 +6,6 @@
 #include "floatframe/core/plural.hpp"
 #include "floatframe/decks/ansys/read_ansys.hpp"
 #include "floatframe/decks/number_sizes.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -198,44 +197,13 @@ Mat3 AnsysBuild::nodal_axes(int node) const {
   return it == content.node_angles.end() ? Mat3::Identity() : ansys_rotation(it->second);
 }
 
-std::vector<char> AnsysBuild::nodes_with_rotations() const {
-  std::vector<char> rotates(model.positions.size(), 0);
-  for (const Element& e : model.elements) {
-    const ElementKernel& kernel = element_kernel(e.type);
-    for (int k = 0; k < kernel.nodes; ++k)
-      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
-  }
-  for (const Spider& s : model.spiders) rotates[s.reference] = 1;
-  for (const Spring& s : model.springs)
-    for (int end = 0; end < 2; ++end)
-      if (s.nodes[end] >= 0 && !s.directions[end].tail<3>().isZero(0.0)) rotates[s.nodes[end]] = 1;
-  return rotates;
-}
-
-bool AnsysBuild::error(ErrorCode code, const AnsysElement& e, const std::string& text) {
-  source.error(code, e.at, "{}: {}", label(e), text);
-  return false;
-}
-
-bool AnsysBuild::shared_error(ErrorCode code, const AnsysElement& e, const std::string& text) {
-  const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e, code});
-  if (!fresh) ++it->second.others;
-  return false;
-}
-
 void AnsysBuild::report_shared() {
   for (const auto& [key, s] : shared) {
     std::string text = key.second;
     if (s.others > 0) text += "; the same holds for " + plural(s.others, "other element");
-    error(s.code, s.first, text);
+    error(s.code, s.first, "{}", text);
   }
   shared.clear();
-}
-
-bool AnsysBuild::error_once(ErrorCode code, const FeSource& at, const std::string& text) {
-  if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, text)).second)
-    source.error(code, at, text);
-  return false;
 }
 
 bool looks_like_ansys(std::string_view beginning) {

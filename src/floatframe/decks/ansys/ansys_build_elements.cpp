@@ -221,10 +221,8 @@ class AnsysElementBuilder {
       add_own_node(b_.model, b_.source, 0.5 * (b_.model.positions[a] + b_.model.positions[b]), e.at,
                    b_.largest_node);
       for (int axis = 0; axis < 3; ++axis) {
-        LinearEquation equation;
-        equation.terms = {{middle, axis, 1.0}, {a, axis, -0.5}, {b, axis, -0.5}};
-        equation.source = e.at;
-        b_.model.equations.push_back(std::move(equation));
+        b_.model.equations.push_back(
+            {{{middle, axis, 1.0}, {a, axis, -0.5}, {b, axis, -0.5}}, e.at});
       }
     }
   }

@@ -200,8 +200,7 @@ void build_ansys_equations(AnsysBuild& b) {
                      raw.constant);
       continue;
     }
-    LinearEquation equation;
-    equation.source = raw.at;
+    LinearEquation equation{{}, raw.at};
     bool known = true;
     for (const AnsysTerm& term : raw.terms) {
       const int node = b.node(term.node, raw.at, who);
@@ -216,8 +215,7 @@ void build_ansys_equations(AnsysBuild& b) {
     for (std::size_t k = 1; k < raw.nodes.size() && first >= 0; ++k) {
       const int node = b.node(raw.nodes[k], raw.at, who);
       if (node < 0 || node == first) continue;
-      LinearEquation equation;
-      equation.source = raw.at;
+      LinearEquation equation{{}, raw.at};
       add_term(b, node, raw.axis, 1.0, equation);
       add_term(b, first, raw.axis, -1.0, equation);
       b.model.equations.push_back(std::move(equation));

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "floatframe/formats/text/text_fields.hpp"
-#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {
@@ -229,10 +228,6 @@ void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<
 
 void AnsysFields::append_cells(std::size_t first, const char* what, std::vector<double>& out) {
   for (std::size_t k = first; k < cells(); ++k) out.push_back(cell_real(k, what));
-}
-
-void AnsysFields::stop(ErrorCode code, const std::string& message) {
-  source_.stop(code, at_, message);
 }
 
 std::size_t FortranColumns::integers() const noexcept {

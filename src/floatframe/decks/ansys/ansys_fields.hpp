@@ -10,11 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
-
-class TextSource;
 
 /// (3i9,6e21.13e3) is 'i' 9 three times, then 'e' 21 six times; a scale factor (1P) is ignored.
 struct FortranColumns {
@@ -79,11 +77,9 @@ class AnsysFields {
   void append_cells(std::size_t first, const char* what, std::vector<int>& out);
   void append_cells(std::size_t first, const char* what, std::vector<double>& out);
 
-  [[noreturn]] void stop(ErrorCode code, const std::string& message);
-  template <class First, class... Rest>
-  [[noreturn]] void stop(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
-                         Rest&&... rest) {
-    stop(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  template <class... Values>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<Values...> text, Values&&... values) {
+    source_.stop(code, at_, fmt::format(text, std::forward<Values>(values)...));
   }
 
  private:

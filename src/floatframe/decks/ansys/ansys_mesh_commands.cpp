@@ -6,7 +6,6 @@
 #include "floatframe/decks/ansys/ansys_content.hpp"
 #include "floatframe/decks/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
-#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {

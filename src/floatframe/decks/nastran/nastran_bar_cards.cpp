@@ -16,7 +16,6 @@
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/element_kernel.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -240,13 +239,8 @@ void NastranBars::tie(const Tie& t, bool rotates) {
   const bool needs_rotations = (t.mask >> 3) != 0 || !t.arm.isZero(0.0);
   if (!rotates && needs_rotations) {
     const auto [it, fresh] = spiders_.try_emplace(t.node, static_cast<int>(model.spiders.size()));
-    if (fresh) {
-      Spider s;
-      s.name = fmt::format("bars of node {}", model.node_ids[t.node]);
-      s.reference = t.node;
-      s.source = t.at;
-      model.spiders.push_back(std::move(s));
-    }
+    if (fresh)
+      add_rigid_spider(model, t.node, fmt::format("bars of node {}", model.node_ids[t.node]), t.at);
     if (t.mask == 63u) {
       model.spiders[it->second].nodes.push_back(t.fresh);
       return;

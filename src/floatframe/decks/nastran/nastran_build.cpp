@@ -77,17 +77,8 @@ int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string&
 void NastranBuild::give_rotations(int node, const NastranEntity& e) {
   if (rotates[node] != 0) return;
   rotates[node] = 1;
-  add_rigid_spider(node, add_node(model.positions[node], e.at, e.label()), e.at, e.label());
-}
-
-void NastranBuild::add_rigid_spider(int reference, int node, const FeSource& at,
-                                    const std::string& name) {
-  Spider s;
-  s.name = name;
-  s.reference = reference;
-  s.nodes = {node};
-  s.source = at;
-  model.spiders.push_back(std::move(s));
+  const int extra = add_node(model.positions[node], e.at, e.label());
+  add_rigid_spider(model, node, e.label(), e.at).nodes = {extra};
 }
 
 int NastranBuild::node(int id, const FeSource& at, const std::string& who) {

@@ -1,6 +1,5 @@
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -16,19 +15,10 @@ bool any_axes(unsigned mask) {
 class ConstraintBuilder {
  public:
   explicit ConstraintBuilder(NastranBuild& build) : b_(build) {
-    b_.rotates.assign(b_.model.nodes(), 0);
-    for (const Element& e : b_.model.elements) {
-      const ElementKernel& kernel = element_kernel(e.type);
-      if (kernel.dofs_per_node != 6) continue;
-      for (int k = 0; k < kernel.nodes; ++k) b_.rotates[e.nodes[k]] = 1;
-    }
-    for (const Spring& s : b_.model.springs)
-      for (int end = 0; end < 2; ++end)
-        if (!s.directions[end].tail<3>().isZero(0.0)) b_.rotates[s.nodes[end]] = 1;
+    b_.rotates = nodes_with_rotations(b_.model);  // spiders: of bars
   }
 
   void build() {
-    for (const Spider& s : b_.model.spiders) b_.rotates[s.reference] = 1;  // of bars
     for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean})
       for (const NastranSpider& s : b_.content.spiders)
         if (s.kind == kind) spider(s);
@@ -158,7 +148,7 @@ class ConstraintBuilder {
     if (spider != rigid_of_.end())
       b_.model.spiders[spider->second].nodes.push_back(fresh);
     else
-      b_.add_rigid_spider(node, fresh, m.at, m.label());
+      add_rigid_spider(b_.model, node, m.label(), m.at).nodes = {fresh};
     return fresh;
   }
 

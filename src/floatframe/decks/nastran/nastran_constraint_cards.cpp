@@ -2,7 +2,6 @@
 #include <bit>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

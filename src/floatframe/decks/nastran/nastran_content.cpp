@@ -2,8 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include "floatframe/formats/text/text_fields.hpp"
-
 namespace floatframe {
 namespace {
 
@@ -23,8 +21,8 @@ const std::unordered_map<std::string_view, ReadCard>& card_readers() {
 }
 
 /// Cards that the case control selects.
-const NastranWords& selected_cards() {
-  static const NastranWords cards("DMIG DMIAX NSM*");
+const WordList& selected_cards() {
+  static const WordList cards("DMIG DMIAX NSM*");
   return cards;
 }
 
@@ -55,7 +53,7 @@ class ContentReader {
  private:
   void one(NastranFields& f) {
     const std::string& name = f.name();
-    static const NastranWords of_nodes("GRID GRDSET CORD* SPC* SET*");
+    static const WordList of_nodes("GRID GRDSET CORD* SPC* SET*");
     if (only_nodes_ && !of_nodes.contains(name)) return;
     const auto reader = card_readers().find(name);
     if (reader != card_readers().end()) {
@@ -77,7 +75,7 @@ class ContentReader {
 
   /// Masses and rigid elements given twice would count twice.
   void once(NastranFields& f) {
-    static const NastranWords masses("CONM* CMASS*"), rigid("RBE* RBAR RROD RTRPLT");
+    static const WordList masses("CONM* CMASS*"), rigid("RBE* RBAR RROD RTRPLT");
     const bool mass = masses.contains(f.name());
     if (!mass && !rigid.contains(f.name())) return;
     const auto id = parse_label(f.text(0));
@@ -187,7 +185,7 @@ class ContentReader {
   }
 
   void note_passed() {
-    static const NastranWords damper("CDAMP* CVISC"), varying("PELAST PBUSHT PDAMPT");
+    static const WordList damper("CDAMP* CVISC"), varying("PELAST PBUSHT PDAMPT");
     std::string list, dampers, nominal, unselected;
     const auto append = [](std::string& names, const std::string& name) {
       names += (names.empty() ? "" : ", ") + name;

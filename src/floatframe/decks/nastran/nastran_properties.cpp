@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

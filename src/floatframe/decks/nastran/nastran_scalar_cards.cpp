@@ -1,6 +1,5 @@
 // Cards of springs, bushings, masses and scalar points.
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

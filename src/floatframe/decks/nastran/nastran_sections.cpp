@@ -6,7 +6,6 @@
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
 #include "floatframe/fe/plate_section.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,7 +1,6 @@
 #include "floatframe/decks/nastran/read_nastran.hpp"
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 

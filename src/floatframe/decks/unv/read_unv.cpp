@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "floatframe/decks/rigid_arms.hpp"
 #include "floatframe/decks/unv/unv_content.hpp"
 #include "floatframe/formats/surface_thickness.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -189,11 +190,8 @@ class UnvBuild {
         c_.model.spiders[it->second].nodes.push_back(node);
         continue;
       }
-      Spider spider;
-      spider.name = fmt::format("{} {}", element->type->name, element->id);
-      spider.reference = node;
-      spider.source = element->at;
-      c_.model.spiders.push_back(std::move(spider));
+      add_rigid_spider(c_.model, node, fmt::format("{} {}", element->type->name, element->id),
+                       element->at);
     }
   }
 

@@ -22,7 +22,7 @@ class Check {
     const auto source = file_.part.health.rotary_inertia == false ? InvariantSource::integrals
                                                                   : InvariantSource::rotary;
     for (const InvariantError& f : check_invariants(file_.part.body, source))
-      arrays_.error(ErrorCode::wrong_value, f.quantity, f.sentence);
+      arrays_.error(ErrorCode::wrong_value, f.quantity, "{}", f.sentence);
     if (!errors_.empty()) return;
     const InertiaInvariants& v = file_.part.body.invariants;
     if (const auto& p = file_.part.body.projection) {

@@ -19,10 +19,6 @@ ErrorEntry GmshStream::error(ErrorCode code, const Place& at, std::string messag
   return {{name_, at.line, 0}, code, std::move(message)};
 }
 
-void GmshStream::stop(ErrorCode code, const Place& at, std::string message) const {
-  throw InputError({error(code, at, std::move(message))});
-}
-
 bool GmshStream::next_line(std::string_view& line) {
   if (at_ >= text_.size()) return false;
   const std::size_t end = std::min(text_.find('\n', at_), text_.size());
@@ -50,7 +46,7 @@ void GmshStream::expect_end(std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   const std::string_view rest = text_.substr(at_);
   if (!rest.starts_with(end))
-    stop(ErrorCode::damaged, at,
+    stop(ErrorCode::damaged, at, "{}",
          rest.empty()
              ? fmt::format("the file ends where '{}' was expected", end)
              : fmt::format("found {}, expected '{}': section ${} has more than it counts",

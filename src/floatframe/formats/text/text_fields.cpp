@@ -133,6 +133,12 @@ std::string_view next_word(std::string_view& rest) noexcept {
   return word;
 }
 
+bool has_word(std::string_view words, std::string_view word) noexcept {
+  for (std::string_view w = next_word(words); !w.empty(); w = next_word(words))
+    if (w == word) return true;
+  return false;
+}
+
 std::optional<double> parse_real(std::string_view field) {
   double value = 0.0;
   if (parse(field, value) != Number::good) return std::nullopt;
