@@ -10,8 +10,8 @@
 // elements have the same one. That may stand behind the materials, so their tables wait.
 #include <algorithm>
 
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/abaqus/abaqus_card.hpp"
-#include "floatframe/decks/abaqus/abaqus_resolve.hpp"
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 

@@ -1,7 +1,6 @@
-#include "floatframe/decks/abaqus/abaqus_resolve.hpp"
-
 #include <algorithm>
 
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

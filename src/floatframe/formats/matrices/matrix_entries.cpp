@@ -1,7 +1,7 @@
-#include "floatframe/formats/matrices/matrix_entries.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "floatframe/formats/matrices/matrix_model.hpp"
 
 namespace floatframe {
 namespace {

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <set>
 
-#include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 

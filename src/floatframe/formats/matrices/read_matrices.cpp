@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 
 namespace floatframe {
