@@ -1,7 +1,7 @@
 // What the component offers: a reader or a writer is one entry here.
 #include "floatframe/decks/abaqus/read_abaqus.hpp"
 #include "floatframe/decks/ansys/read_ansys.hpp"
-#include "floatframe/decks/calculix/calculix_deck.hpp"
+#include "floatframe/decks/calculix/calculix_text.hpp"
 #include "floatframe/decks/nastran/read_nastran.hpp"
 #include "floatframe/decks/unv/read_unv.hpp"
 #include "floatframe/formats/deck_component.hpp"

@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/core/utf8_text.hpp"
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/limited_errors.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/deck_component.hpp"
-#include "floatframe/formats/equation_checks.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/matrices/op4_file.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
-#include "floatframe/formats/matrices/read_op4.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
@@ -56,9 +59,8 @@ const std::vector<FeFormat>& formats() {
 /// "Abaqus / CalculiX deck (.inp), ...".
 std::string known_formats() {
   std::string text;
-  for (const FeFormat& f : formats()) {
+  for (const FeFormat& f : formats())
     text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", f.description, f.name);
-  }
   return text + deck_component_missing();
 }
 
@@ -97,9 +99,8 @@ const FeFormat& recognised(const std::filesystem::path& file) {
     if (found->size() == 1) return *found->front();
     if (found->size() > 1 && found != &by_ending) {
       std::string names;
-      for (const FeFormat* f : *found) {
+      for (const FeFormat* f : *found)
         names += fmt::format("{}'{}'", names.empty() ? "" : " or ", f->name);
-      }
       throw InputError(ErrorCode::wrong_file, {file.string()},
                        "the format is not clear: name it, " + names);
     }
@@ -189,6 +190,63 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
   }
 }
 
+/// Adds terms of equal degrees of freedom up and leaves out those that cancel. There may be
+/// millions of equations, so `terms` is used again.
+void add_up(const LinearEquation& e, std::vector<LinearEquation::Term>& terms) {
+  const auto place = [](const LinearEquation::Term& t) { return std::pair{t.node, t.axis}; };
+  terms = e.terms;
+  std::sort(terms.begin(), terms.end(),
+            [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  double scale = 0.0;
+  std::size_t count = 0;
+  for (const LinearEquation::Term& t : terms) {
+    scale = std::max(scale, std::abs(t.factor));
+    if (count > 0 && place(terms[count - 1]) == place(t))
+      terms[count - 1].factor += t.factor;
+    else
+      terms[count++] = t;
+  }
+  terms.resize(count);
+  std::erase_if(terms, [&](const auto& t) { return std::abs(t.factor) <= 1e-12 * scale; });
+}
+
+/// Equations of one line for a set of nodes have one note.
+void note_empty(FeModel& model, const std::map<std::pair<int, int>, long>& empty) {
+  for (const auto& [place, count] : empty) {
+    const SourceMark mark = model.mark({place.first, place.second});
+    model.notes.push_back(fmt::format(
+        "{}:{}: {} 0 = 0, since {} terms cancel: left out", mark.file, mark.line,
+        count == 1 ? std::string("the equation says") : fmt::format("{} equations say", count),
+        count == 1 ? "its" : "their"));
+  }
+}
+
+/// Equations whose terms cancel (0 = 0) go, with a note. Throws InputError for those that hold one
+/// degree of freedom of the part to the ground.
+void look_at_equations(FeModel& model) {
+  if (model.equations.empty() || model.matrices) return;
+  const std::vector<int> dofs = dofs_without_springs(model);
+  std::map<std::pair<int, int>, long> empty;  // by file and line
+  LimitedErrors errors;
+  std::vector<LinearEquation::Term> sums;
+  std::erase_if(model.equations, [&](const LinearEquation& e) {
+    add_up(e, sums);
+    if (sums.empty()) {
+      ++empty[{e.source.file, e.source.line}];
+      return true;
+    }
+    const auto& [node, axis, factor] = sums.front();
+    if (sums.size() == 1 && axis < dofs[node + 1])
+      errors.add(ErrorCode::unsupported, "equations", model.mark(e.source),
+                 "the equation holds {} of {} to the ground, to which a part that floats cannot be "
+                 "tied: take it out",
+                 node_dof_names[axis], model.node_label(node));
+    return false;
+  });
+  note_empty(model, empty);
+  errors.throw_if_any();
+}
+
 }  // namespace
 
 std::span<const FeFormat> fe_formats() { return formats(); }
@@ -208,12 +266,11 @@ const char* word(DeckDialect dialect) noexcept {
 FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& options,
                      const std::string& format) {
   const FeFormat& chosen = format.empty() ? recognised(file) : by_name(file, format);
-  if (options.dialect != DeckDialect::by_content && std::string_view(chosen.name) != "abaqus") {
+  if (options.dialect != DeckDialect::by_content && std::string_view(chosen.name) != "abaqus")
     throw InputError(ErrorCode::unsupported, {file.string()},
                      fmt::format("the dialect '{}' is given, but the file is no deck of Abaqus or "
                                  "CalculiX: it is read as '{}'",
                                  word(options.dialect), chosen.name));
-  }
   if (!options.thicknesses.empty() && !chosen.without_sections)
     throw InputError(ErrorCode::exclusive, {file.string()},
                      fmt::format("a thickness is given, but shells of the format '{}' have that of "

@@ -17,11 +17,10 @@ SurfaceThickness::SurfaceThickness(const std::map<std::string, double>& given) {
     s.thickness = thickness;
     s.shear = 5.0 / 6.0 * thickness;
     sections_.push_back(s);
-    if (name.empty()) {
+    if (name.empty())
       others_ = section;
-    } else {
+    else
       groups_[utf8_text(name)] = section;
-    }
   }
 }
 

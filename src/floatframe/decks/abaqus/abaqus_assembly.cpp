@@ -2,13 +2,12 @@
 // assembly has its own; from there things of an instance are INSTANCE.NAME and INSTANCE.12. What
 // stands in the scope of a part stands once more in that of a further instance, and of a part
 // without instances not at all.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
 #include <set>
 
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

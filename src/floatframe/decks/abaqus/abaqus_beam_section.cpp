@@ -4,11 +4,10 @@
 // CalculiX (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC
 // for elements of three nodes only, PIPE and BOX for B32R.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/plate_section.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -43,8 +42,7 @@ void set_pipe(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
   section.beam = BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
 }
 
-/// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
-/// of Bredt, 4 A_m^2 / (closed integral of ds / t).
+/// Closed thin-walled box, a along direction 1, b along direction 2.
 void set_box(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
   const double a = d[0], b = d[1];
   const double* const t = &d[2];
@@ -59,9 +57,7 @@ void set_box(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
   s.A = a * b - inner_a * inner_b;
   s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
   s.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
-  const double mid_a = a - 0.5 * (t[0] + t[2]), mid_b = b - 0.5 * (t[1] + t[3]);
-  s.J = 4.0 * mid_a * mid_a * mid_b * mid_b /
-        (mid_a / t[1] + mid_a / t[3] + mid_b / t[0] + mid_b / t[2]);
+  s.J = bredt_torsion(a, b, t[1], t[3], t[0], t[2]);
 }
 
 /// l, h, b1, b2, t1, t2, t3: the node lies l above the lower edge, direction 2 points up; the lower

@@ -1,7 +1,4 @@
 // Surfaces, spiders, equations and supports of an Abaqus deck in the model.
-#include <unordered_map>
-
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/face_weights.hpp"
 #include "floatframe/fe/element_faces.hpp"
@@ -172,8 +169,7 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const Rotatio
   }
   build.nodes.spend(nodes.front().size() * raw.terms.size(), raw.at);
   for (std::size_t k = 0; k < nodes.front().size(); ++k) {
-    LinearEquation equation;
-    equation.source = raw.at;
+    LinearEquation equation{{}, raw.at};
     for (std::size_t t = 0; t < raw.terms.size(); ++t)
       add_term(equation,
                meant_dof(rotations, nodes[t][nodes[t].size() == 1 ? 0 : k], raw.terms[t].axis),

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/decks/nodes_of_element.hpp"
 #include "floatframe/decks/number_sizes.hpp"
+#include "floatframe/fe/shell_layers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

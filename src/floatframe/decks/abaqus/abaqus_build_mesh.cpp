@@ -290,11 +290,10 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
     for (const int e : members) {
       const int index = build.element_index[e];
       const Family family = c.elements[e].type->family;
-      if (index >= 0) {
+      if (index >= 0)
         list.push_back(index);
-      } else if (only_nodes || is_skin_without_section(family) || family == Family::shell) {
+      else if (only_nodes || is_skin_without_section(family) || family == Family::shell)
         skins.push_back(e);
-      }
     }
     if (!skins.empty()) model.node_sets.emplace(name, build.nodes_of_elements(skins));
     if (!list.empty()) model.element_sets[name] = std::move(list);

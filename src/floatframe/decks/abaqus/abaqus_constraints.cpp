@@ -4,7 +4,7 @@
 // one. Source: Abaqus Keywords Guide.
 #include <algorithm>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -101,7 +101,7 @@ bool are_at_one_place(const AbaqusContent& content, const AbaqusReference& first
 void read_mpc_line(AbaqusCard& card) {
   AbaqusContent& content = card.content;
   const std::string type = upper_case(card.field(0));
-  if (!is_abaqus_word("BEAM PIN TIE", type))
+  if (!has_word("BEAM PIN TIE", type))
     return card.error_in_line(ErrorCode::unsupported,
                               "*MPC: the type {} is not supported, expected BEAM, PIN or TIE; use "
                               "*RIGID BODY, *COUPLING or *EQUATION",
@@ -160,8 +160,7 @@ void read_abaqus_coupling(AbaqusCard& card) {
   card.required("REF NODE");
   const bool of_surface = !card.required("SURFACE").empty();
   AbaqusKeyword following;
-  if (!card.lines.next_keyword(following) ||
-      !is_abaqus_word("KINEMATIC DISTRIBUTING", following.name)) {
+  if (!card.lines.next_keyword(following) || !has_word("KINEMATIC DISTRIBUTING", following.name)) {
     card.error(ErrorCode::incomplete, "is not followed by *KINEMATIC or *DISTRIBUTING");
     if (!following.name.empty())
       card.source.stop(ErrorCode::missing, following.at, "reading ends here");
@@ -226,20 +225,16 @@ void read_abaqus_equation(AbaqusCard& card) {
 }
 
 void read_abaqus_boundary(AbaqusCard& card) {
-  struct Named {
-    const char* name;
-    unsigned mask;
-  };
-  constexpr std::array words{Named{"ENCASTRE", 63u}, Named{"PINNED", 7u}, Named{"XSYMM", 49u},
-                             Named{"YSYMM", 42u},    Named{"ZSYMM", 28u}, Named{"XASYMM", 14u},
-                             Named{"YASYMM", 21u},   Named{"ZASYMM", 35u}};
+  constexpr std::pair<const char*, unsigned> words[] = {
+      {"ENCASTRE", 63u}, {"PINNED", 7u},  {"XSYMM", 49u},  {"YSYMM", 42u},
+      {"ZSYMM", 28u},    {"XASYMM", 14u}, {"YASYMM", 21u}, {"ZASYMM", 35u}};
   while (card.next()) {
     AbaqusSupport support{{card.reference(0)}};
     if (card.field(1) == "11") continue;  // the temperature
-    const auto word = std::find_if(words.begin(), words.end(), [&](const Named& w) {
-      return same_word(card.field(1), w.name);
+    const auto* const word = std::find_if(std::begin(words), std::end(words), [&](const auto& w) {
+      return same_word(card.field(1), w.first);
     });
-    support.mask = word == words.end() ? card.dofs(1, card.shown) : word->mask;
+    support.mask = word == std::end(words) ? card.dofs(1, card.shown) : word->second;
     if (support.mask != 0) card.content.supports.push_back(support);
   }
 }

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/decks/abaqus/abaqus_dialect.hpp"
 #include "floatframe/decks/abaqus/abaqus_lines.hpp"
 #include "floatframe/decks/temperature_table.hpp"
 #include "floatframe/fe/fe_model.hpp"
@@ -252,12 +251,6 @@ struct AbaqusPlacement {
   Vec3 at(const Vec3& p) const { return R * (p + t - a) + a; }
 };
 
-/// *SYSTEM: axes in which coordinates of nodes are given.
-struct AbaqusCoordinates {
-  Mat3 axes = Mat3::Identity();  ///< columns in the axes of the part
-  Vec3 origin = Vec3::Zero();
-};
-
 /// *NONSTRUCTURAL MASS
 struct AbaqusNonstructuralMass : AbaqusThing {
   enum class Units { total, volume, area, length };
@@ -338,7 +331,7 @@ struct AbaqusContent {
   std::string part;                         ///< the last one
   std::map<AbaqusScope, AbaqusInstance> instances;
   std::map<std::string, AbaqusScope> scope_of_instance;
-  std::optional<AbaqusCoordinates> system;
+  std::optional<Orientation> system;  ///< *SYSTEM: of the coordinates of nodes, in the part
   std::vector<AbaqusOpenBlock> open;
   int scopes = 2;        ///< how many there are
   std::string material;  ///< the last *MATERIAL

@@ -5,13 +5,11 @@
 // two points. Equations are written in body axes; supports, which are hints only, stay as they are.
 // *ORIENTATION: axes of materials.
 // Source: Abaqus Keywords Guide.
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -61,13 +59,12 @@ AbaqusOrientation begin_orientation(AbaqusCard& card) {
 
 void read_abaqus_system(AbaqusCard& card) {
   constexpr const char* what = "coordinate of *SYSTEM";
-  std::optional<AbaqusCoordinates>& present = card.content.system;
+  std::optional<Orientation>& present = card.content.system;
   present.reset();
   // Without lines: the axes of the part again.
   if (!card.next()) return;
-  AbaqusCoordinates system;
+  Orientation& system = present.emplace();
   system.origin = card.vector(0, what);
-  present = system;
   if (card.fields.size() <= 3) return;
   Vec3 x = card.vector(3, what) - system.origin, in_plane = Vec3::Zero();
   const bool plane = card.next();
@@ -88,7 +85,6 @@ void read_abaqus_system(AbaqusCard& card) {
   system.axes.col(0) = x.stableNormalized();
   system.axes.col(2) = z.stableNormalized();
   system.axes.col(1) = system.axes.col(2).cross(system.axes.col(0));
-  present = system;
 }
 
 void read_abaqus_transform(AbaqusCard& card) {

@@ -1,14 +1,12 @@
 // Nodes and elements that decks have generated: *NGEN between two nodes, *NFILL between two sets,
 // *NCOPY with a shift, *ELGEN in rows and layers, *ELCOPY.
 // Source: Abaqus Keywords Guide.
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 
 namespace floatframe {
 namespace {
@@ -144,17 +142,16 @@ std::optional<ArcOfNodes> arc_of(AbaqusCard& card, const Vec3& centre, const Vec
                                  const Vec3& b) {
   const Vec3 ra = a - centre, rb = b - centre, n = ra.cross(rb);
   const double r = ra.norm(), angle = std::atan2(n.norm(), ra.dot(rb));
-  if (std::abs(rb.norm() - r) > 1e-3 * r || !(r > 0.0)) {
+  if (std::abs(rb.norm() - r) > 1e-3 * r || !(r > 0.0))
     card.error_in_line(
         ErrorCode::geometry,
         "the ends are {:.6g} and {:.6g} from the centre of the arc, expected the same", r,
         rb.norm());
-  } else if (!(n.norm() > 1e-9 * r * r) || angle > 0.999 * std::numbers::pi) {
+  else if (!(n.norm() > 1e-9 * r * r) || angle > 0.999 * std::numbers::pi)
     card.error_in_line(ErrorCode::unsupported,
                        "the arc is half a turn or has no length; arcs of less are read");
-  } else {
+  else
     return ArcOfNodes{centre, a, n.normalized(), angle};
-  }
   return std::nullopt;
 }
 

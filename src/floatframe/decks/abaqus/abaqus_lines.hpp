@@ -1,10 +1,16 @@
 #pragma once
 // The lines of an Abaqus or CalculiX deck: keyword lines with parameters, data lines, comments,
 // continuation lines and *INCLUDE. Keywords, parameters and names do not depend on case or blanks.
+//
+// Abaqus and CalculiX read the same keywords, but not always as the same thing: the number of a
+// round beam section is its radius in Abaqus and its diameter in CalculiX. What only one of the two
+// programs knows shows whose deck it is.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
@@ -26,8 +32,6 @@ struct AbaqusKeyword {
 
 /// A name as Abaqus compares it: upper case without blanks, or between quotes as it is.
 std::string abaqus_name(std::string_view text);
-/// Is it one of some words between blanks?
-bool is_abaqus_word(std::string_view words, std::string_view word) noexcept;
 
 class AbaqusLines {
  public:
@@ -44,6 +48,33 @@ class AbaqusLines {
   void parse_keyword(std::string_view line, AbaqusKeyword& keyword);
 
   TextSource& source_;
+};
+
+// Keywords that are not read, in upper case without blanks. Those that are in neither list may
+// change stiffness, mass or constraints.
+/// What to do in place of a keyword that is refused; null if it is not known.
+const char* advice_for_abaqus(const std::string& name);
+/// Does it change neither stiffness nor mass nor constraints of a linear part?
+bool is_harmless_in_abaqus(const std::string& name);
+
+/// The first thing found in a deck that only Abaqus has, and the first that only CalculiX has.
+struct DialectClues {
+  struct Clue {
+    std::string what;  ///< "*PART"
+    FeSource at;
+  };
+  std::optional<Clue> abaqus, calculix;
+  /// SYSTEM=Z RECTANGULAR is of Abaqus too, but CalculiX takes it without a word as RECTANGULAR.
+  std::optional<Clue> axes;
+  bool by_axes = false;  ///< nothing else shows whose deck it is
+
+  void add(DeckDialect of, std::string what, const FeSource& at);
+  /// Looks at a keyword, in a step or before it, and at its parameters.
+  void look_at(const AbaqusKeyword& keyword);
+  /// Looks at a type of elements.
+  void look_at_type(const std::string& type, const FeSource& at);
+  /// All of the deck has been looked at.
+  void settle();
 };
 
 }  // namespace floatframe

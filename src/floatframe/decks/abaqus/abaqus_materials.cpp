@@ -10,8 +10,8 @@
 // elements have the same one. That may stand behind the materials, so their tables wait.
 #include <algorithm>
 
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
-#include "floatframe/decks/abaqus/abaqus_resolve.hpp"
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -98,9 +98,9 @@ Mat6 constants_matrix(const std::vector<double>& c, Form form) {
 }
 
 const ElasticType* elastic_type(const AbaqusCard& card) {
-  const auto it = std::find_if(
-      std::begin(elastic_types), std::end(elastic_types),
-      [&](const ElasticType& t) { return is_abaqus_word(t.names, card.word("TYPE")); });
+  const auto it =
+      std::find_if(std::begin(elastic_types), std::end(elastic_types),
+                   [&](const ElasticType& t) { return has_word(t.names, card.word("TYPE")); });
   return it == std::end(elastic_types) ? nullptr : it;
 }
 

@@ -4,7 +4,7 @@
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -39,11 +39,10 @@ AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource&
     if (it == scope_of_instance.end() || dot + 1 == name.size()) continue;
     r.scope = it->second;
     const std::string rest = name.substr(dot + 1);
-    if (const std::optional<int> id = parse_label(rest)) {
+    if (const std::optional<int> id = parse_label(rest))
       r.first = r.last = *id;
-    } else {
+    else
       r.name = intern(rest);
-    }
     return r;
   }
   r.name = intern(name);
@@ -168,7 +167,7 @@ Vec3 coordinates_of(AbaqusCard& card, int id, bool cylindrical) {
     const double angle = p.y() * std::numbers::pi / 180.0, r = p.x();
     p.head<2>() << r * std::cos(angle), r * std::sin(angle);
   }
-  const std::optional<AbaqusCoordinates>& system = card.content.system;
+  const std::optional<Orientation>& system = card.content.system;
   return system ? Vec3(system->axes * p + system->origin) : p;
 }
 

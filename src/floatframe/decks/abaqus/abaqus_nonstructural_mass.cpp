@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -42,13 +42,12 @@ class SmearedMass {
     for (const int e : list) {
       const Size& s = size(e);
       double more = raw.units == Units::total ? raw.value / sum : raw.value;
-      if (raw.units == Units::length) {
+      if (raw.units == Units::length)
         more /= m_.sections[m_.elements[e].section].A;
-      } else if (raw.units == Units::total && !raw.by_volume) {
+      else if (raw.units == Units::total && !raw.by_volume)
         more *= s.density;
-      } else if (raw.units != Units::area) {
+      else if (raw.units != Units::area)
         more *= s.measure;
-      }
       more_[e] += more;
       mass += (s.density + more_[e]) * (s.volume / s.measure);
       if (std::isfinite(s.density + more_[e])) continue;
@@ -102,15 +101,14 @@ class SmearedMass {
       if (index < 0 && is_abaqus_point(deck.type->family)) continue;
       const ElementType type = index < 0 ? ElementType::beam2 : m_.elements[index].type;
       std::string why;
-      if (index < 0) {
+      if (index < 0)
         why = "has no section here";
-      } else if (raw.units == Units::area && !has_shell_section(type)) {
+      else if (raw.units == Units::area && !has_shell_section(type))
         why = "is no shell or membrane, but the mass is one over area";
-      } else if (raw.units == Units::length && !is_beam(type) && !is_rod(type)) {
+      else if (raw.units == Units::length && !is_beam(type) && !is_rod(type))
         why = "is no beam or rod, but the mass is one over length";
-      } else if (missing_density(m_.elements[index])) {
+      else if (missing_density(m_.elements[index]))
         why = "is of a material without *DENSITY, which must stand in the deck then";
-      }
       if (why.empty()) {
         list.push_back(index);
         continue;

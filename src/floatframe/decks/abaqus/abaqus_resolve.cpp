@@ -1,7 +1,6 @@
-#include "floatframe/decks/abaqus/abaqus_resolve.hpp"
-
 #include <algorithm>
 
+#include "floatframe/decks/abaqus/abaqus_build.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -150,10 +149,9 @@ std::vector<int> AbaqusResolver::resolve(const AbaqusReference& reference) {
 int AbaqusResolver::one(const AbaqusReference& reference, std::string_view what) {
   const std::vector<int> found = resolve(reference);
   if (found.size() == 1) return found.front();
-  if (!found.empty()) {
+  if (!found.empty())
     source_.error(ErrorCode::wrong_count, reference.at, "{}: {} has {} {}s, expected one", what,
                   content_.text(reference, word_), found.size(), word_);
-  }
   return -1;
 }
 

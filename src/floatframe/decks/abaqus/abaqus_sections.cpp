@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -35,14 +35,13 @@ void read_shell_offset(AbaqusCard& card, AbaqusSection& section) {
   const std::string offset = card.word("OFFSET");
   if (offset.empty()) return;
   const auto value = parse_real(offset);
-  if (offset == "SPOS" || offset == "SNEG") {
+  if (offset == "SPOS" || offset == "SNEG")
     section.offset = offset == "SPOS" ? 0.5 : -0.5;
-  } else if (value && std::isfinite(*value)) {
+  else if (value && std::isfinite(*value))
     section.offset = *value;
-  } else {
+  else
     card.error(ErrorCode::wrong_value, "has the offset {}, expected SPOS, SNEG or a number",
                shown(offset));
-  }
 }
 
 /// Thickness, number of points, material, orientation (a name, or an angle in degrees), name.
@@ -53,11 +52,10 @@ void read_ply(AbaqusCard& card, AbaqusSection& section) {
   ply.material = abaqus_name(card.field(2));
   if (ply.material.empty())
     card.error_in_line(ErrorCode::missing, "ply {} names no material (third entry)", number);
-  if (const auto angle = parse_real(card.field(3))) {
+  if (const auto angle = parse_real(card.field(3)))
     ply.angle = *angle * std::numbers::pi / 180.0;
-  } else {
+  else
     ply.orientation = abaqus_name(card.field(3));
-  }
   section.plies.push_back(ply);
 }
 

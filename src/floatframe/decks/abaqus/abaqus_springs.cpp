@@ -5,7 +5,7 @@
 #include <set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 
 namespace floatframe {
 namespace {
@@ -51,11 +51,10 @@ class AbaqusSpringBuilder {
       const Family family = element.type->family;
       if (family == Family::damper) ++dampers_;
       if (family != Family::spring) continue;
-      if (spring_of[e] < 0) {
+      if (spring_of[e] < 0)
         b_.error(element, ErrorCode::missing, " has no *SPRING");
-      } else {
+      else
         one(element, c_.springs[spring_of[e]]);
-      }
     }
     if (dampers_ > 0)
       b_.note({0, 1}, "{} dashpots are ignored, the part has modal damping (--damping)", dampers_);

@@ -3,9 +3,8 @@
 #include <unordered_set>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/fe/element_faces.hpp"
-#include "floatframe/fe/surface_ties.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

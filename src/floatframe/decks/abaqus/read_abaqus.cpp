@@ -1,12 +1,9 @@
 #include "floatframe/decks/abaqus/read_abaqus.hpp"
 
 #include <set>
-#include <unordered_map>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
-#include "floatframe/decks/abaqus/abaqus_handlers.hpp"
-#include "floatframe/decks/abaqus/abaqus_keywords.hpp"
+#include "floatframe/decks/abaqus/abaqus_card.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -113,7 +110,7 @@ bool changes_part(const AbaqusKeyword& keyword) {
   const AbaqusReader* const reader = reader_of(keyword.name);
   return (reader != nullptr
               ? !reader->may_be_in_step
-              : is_abaqus_word("CHANGESOLIDSECTION MATRIXINPUT MATRIXASSEMBLE", keyword.name)) &&
+              : has_word("CHANGESOLIDSECTION MATRIXINPUT MATRIXASSEMBLE", keyword.name)) &&
          !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
 }
 
@@ -124,10 +121,9 @@ class DeckReader {
 
   void read() {
     std::string_view first;
-    if (lines_.next_data(first)) {
+    if (lines_.next_data(first))
       lines_.source().stop(ErrorCode::wrong_value, lines_.source().here(),
                            "the deck begins with {}, expected a keyword line (*...)", shown(first));
-    }
     AbaqusKeyword keyword;
     while (lines_.next_keyword(keyword)) {
       content_.clues.look_at(keyword);
@@ -202,9 +198,7 @@ class DeckReader {
 bool looks_like_abaqus(std::string_view beginning) {
   // The first line that is no comment is a keyword.
   while (!beginning.empty()) {
-    const std::size_t end = beginning.find('\n');
-    const std::string_view line = trimmed(beginning.substr(0, end));
-    beginning.remove_prefix(end == std::string_view::npos ? beginning.size() : end + 1);
+    const std::string_view line = trimmed(next_line(beginning));
     if (line.empty() || line.starts_with("**")) continue;
     return line.size() > 1 && line[0] == '*' &&
            ((line[1] >= 'A' && line[1] <= 'Z') || (line[1] >= 'a' && line[1] <= 'z') ||

@@ -3,7 +3,6 @@
 // masses, rigid bodies, couplings, equations, supports; flat or with one part and one instance.
 // docs/fe-files.md lists the keywords. A keyword that would change stiffness or mass and is not
 // read is an error; others are listed in the notes.
-#include <string>
 #include <string_view>
 
 #include "floatframe/formats/fe_file.hpp"

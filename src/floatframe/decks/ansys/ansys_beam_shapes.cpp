@@ -1,10 +1,7 @@
 // Sections of beams and pipes from SECTYPE, SECDATA and SECOFFSET. In the figures of ANSYS y points
 // to the right and z up.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
 #include "floatframe/fe/plate_section.hpp"

@@ -1,17 +1,11 @@
 #include "floatframe/decks/ansys/ansys_build.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/decks/ansys/read_ansys.hpp"
 #include "floatframe/decks/number_sizes.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -72,21 +66,20 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
   if (library != nullptr) return type;
   if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
   said.push_back(e.type);
-  if (type == nullptr) {
+  if (type == nullptr)
     source.error(ErrorCode::not_found, e.at, "element {} is of type {}, which no ET gives", e.id,
                  e.type);
-  } else if (type->number == 179) {
+  else if (type->number == 179)
     source.error(ErrorCode::unsupported, type->at,
                  "type {} is PRETS179: the mesh is cut there, and what holds it together is the "
                  "preload of an analysis; write the mesh without the cut",
                  e.type);
-  } else {
+  else
     source.error(ErrorCode::unsupported, type->at,
                  "type {} is element {}, which is not read; read are SOLID45, 92, 95, 185, 186, "
                  "187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, PIPE288, 289, LINK8, "
                  "180, COMBIN14, MATRIX27, MASS21 and MPC184",
                  e.type, type->number);
-  }
   return nullptr;
 }
 
@@ -120,13 +113,12 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   const auto found = content.materials.find(id);
   Material m;
   const bool own = found != content.materials.end();
-  if (own) {
+  if (own)
     m = ansys_material(found->second, id, options.temperature, content, source);
-  } else if (content.materials.empty() && options.material) {
+  else if (content.materials.empty() && options.material)
     m = *options.material;
-  } else if (!content.materials.empty()) {
+  else if (!content.materials.empty())
     error(ErrorCode::not_found, e, "it has material {}, which is not in the file", id);
-  }
   if (const std::string huge = huge_constant(m); own && !huge.empty())
     source.error(ErrorCode::not_finite, found->second.at, "material {}: {}", id, huge);
   if (own && found->second.find("DENS") == nullptr)
@@ -205,53 +197,20 @@ Mat3 AnsysBuild::nodal_axes(int node) const {
   return it == content.node_angles.end() ? Mat3::Identity() : ansys_rotation(it->second);
 }
 
-std::vector<char> AnsysBuild::nodes_with_rotations() const {
-  std::vector<char> rotates(model.positions.size(), 0);
-  for (const Element& e : model.elements) {
-    const ElementKernel& kernel = element_kernel(e.type);
-    for (int k = 0; k < kernel.nodes; ++k)
-      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
-  }
-  for (const Spider& s : model.spiders) rotates[s.reference] = 1;
-  for (const Spring& s : model.springs)
-    for (int end = 0; end < 2; ++end)
-      if (s.nodes[end] >= 0 && !s.directions[end].tail<3>().isZero(0.0)) rotates[s.nodes[end]] = 1;
-  return rotates;
-}
-
-bool AnsysBuild::error(ErrorCode code, const AnsysElement& e, const std::string& text) {
-  source.error(code, e.at, "{}: {}", label(e), text);
-  return false;
-}
-
-bool AnsysBuild::shared_error(ErrorCode code, const AnsysElement& e, const std::string& text) {
-  const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e, code});
-  if (!fresh) ++it->second.others;
-  return false;
-}
-
 void AnsysBuild::report_shared() {
   for (const auto& [key, s] : shared) {
     std::string text = key.second;
     if (s.others > 0) text += "; the same holds for " + plural(s.others, "other element");
-    error(s.code, s.first, text);
+    error(s.code, s.first, "{}", text);
   }
   shared.clear();
 }
 
-bool AnsysBuild::error_once(ErrorCode code, const FeSource& at, const std::string& text) {
-  if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, text)).second)
-    source.error(code, at, text);
-  return false;
-}
-
 bool looks_like_ansys(std::string_view beginning) {
   while (!beginning.empty()) {
-    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    const std::string_view line = trimmed(beginning.substr(0, end));
+    const std::string_view line = trimmed(next_line(beginning));
     for (const std::string_view sign : ansys_signs)
       if (begins_with(line, sign)) return true;
-    beginning.remove_prefix(std::min(end + 1, beginning.size()));
   }
   return false;
 }

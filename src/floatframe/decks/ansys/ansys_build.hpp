@@ -55,30 +55,31 @@ struct AnsysBuild {
   int orientation(int id, const FeSource& at, const std::string& who);
   /// Axes of the nodal system of a node; columns in body axes.
   Mat3 nodal_axes(int node) const;
-  /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
-  std::vector<char> nodes_with_rotations() const;
   /// Errors are false, for functions that say so of what they build.
-  bool error(ErrorCode code, const AnsysElement& e, const std::string& text);
-  /// An error that elements of the same type share: `report_shared` says it with the first of them.
-  bool shared_error(ErrorCode code, const AnsysElement& e, const std::string& text);
-  void report_shared();
-  /// An error of what many elements have; equal ones are one.
-  bool error_once(ErrorCode code, const FeSource& at, const std::string& text);
-  /// Each also with a text of fmt and its values.
   template <class... Args>
   bool error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
              Args&&... args) {
-    return error(code, e, fmt::format(text, std::forward<Args>(args)...));
+    source.error(code, e.at, "{}: {}", label(e), fmt::format(text, std::forward<Args>(args)...));
+    return false;
   }
+  /// An error that elements of the same type share: `report_shared` says it with the first of them.
   template <class... Args>
   bool shared_error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
                     Args&&... args) {
-    return shared_error(code, e, fmt::format(text, std::forward<Args>(args)...));
+    const std::string said_of_type = fmt::format(text, std::forward<Args>(args)...);
+    const auto [it, fresh] = shared.try_emplace({e.type, said_of_type}, Shared{e, code});
+    if (!fresh) ++it->second.others;
+    return false;
   }
+  void report_shared();
+  /// An error of what many elements have; equal ones are one.
   template <class... Args>
   bool error_once(ErrorCode code, const FeSource& at, fmt::format_string<Args...> text,
                   Args&&... args) {
-    return error_once(code, at, fmt::format(text, std::forward<Args>(args)...));
+    const std::string message = fmt::format(text, std::forward<Args>(args)...);
+    if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, message)).second)
+      source.error(code, at, message);
+    return false;
   }
   template <class... Args>
   void note(const FeSource& at, fmt::format_string<Args...> text, Args&&... args) {

@@ -1,11 +1,7 @@
 // Contact pairs: TARGE170 and CONTA17x of the same real constants. Those that are always bonded are
 // ties (fe/surface_ties.hpp); those of a pilot node by multipoint constraints (remote points) are
 // spiders; all others are not linear, and the options say what becomes of them.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <map>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
 #include "floatframe/decks/face_weights.hpp"

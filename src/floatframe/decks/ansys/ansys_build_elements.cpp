@@ -1,8 +1,6 @@
 // Solids, shells, beams and rods; of beams and rods also their sections, axes and ends.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <span>
 #include <tuple>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
@@ -201,11 +199,10 @@ class AnsysElementBuilder {
     if (library.family != F::shell && ansys_has_layers(b_, e, type))
       return build_ansys_layers(b_, e, type, element);
     element.material = b_.material(e.material, e);
-    if (library.family == F::shell) {
+    if (library.family == F::shell)
       build_ansys_shell(b_, e, type, element);
-    } else if (b_.model.materials[element.material].elasticity) {
+    else if (b_.model.materials[element.material].elasticity)
       element.orientation = b_.orientation(e.system, e.at, b_.label(e));
-    }
     return true;
   }
 
@@ -224,10 +221,8 @@ class AnsysElementBuilder {
       add_own_node(b_.model, b_.source, 0.5 * (b_.model.positions[a] + b_.model.positions[b]), e.at,
                    b_.largest_node);
       for (int axis = 0; axis < 3; ++axis) {
-        LinearEquation equation;
-        equation.terms = {{middle, axis, 1.0}, {a, axis, -0.5}, {b, axis, -0.5}};
-        equation.source = e.at;
-        b_.model.equations.push_back(std::move(equation));
+        b_.model.equations.push_back(
+            {{{middle, axis, 1.0}, {a, axis, -0.5}, {b, axis, -0.5}}, e.at});
       }
     }
   }

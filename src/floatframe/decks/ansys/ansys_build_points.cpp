@@ -1,9 +1,6 @@
 // Springs, rigid links and regions, point masses.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
@@ -101,13 +98,10 @@ class RigidBodies {
       // The node that most links share.
       const int reference = *std::max_element(nodes.begin(), nodes.end(),
                                               [&](int a, int b) { return links_[a] < links_[b]; });
-      Spider s;
-      s.reference = reference;
-      s.name = first_.at(reference).second;
-      s.source = first_.at(reference).first;
+      const auto& [at, name] = first_.at(reference);
+      Spider& s = add_rigid_spider(model, reference, name, at);
       for (const int n : nodes)
         if (n != reference) s.nodes.push_back(n);
-      model.spiders.push_back(std::move(s));
     }
   }
 
@@ -181,8 +175,7 @@ bool add_rigid(AnsysBuild& b, const AnsysItem& item, RigidBodies& bodies) {
   }
   const Vec3 d = b.model.positions[n[1]] - b.model.positions[n[0]];
   if (!(d.norm() > 0.0)) return b.error(ErrorCode::geometry, e, "its nodes are at one place");
-  LinearEquation equation;
-  equation.source = e.at;
+  LinearEquation equation{{}, e.at};
   for (int k = 0; k < 3; ++k)
     if (const double x = d(k) / d.norm(); std::abs(x) > 1e-12) {
       equation.terms.push_back({n[1], k, x});
@@ -219,14 +212,9 @@ void build_ansys_rigid(AnsysBuild& b) {
     const int master = b.node(r.master, r.at, "CERIG"), slave = b.node(r.slave, r.at, "CERIG");
     if (master < 0 || slave < 0) continue;
     const auto [it, fresh] = regions.try_emplace({master, r.mask}, b.model.spiders.size());
-    if (fresh) {
-      Spider s;
-      s.name = fmt::format("CERIG of node {}", r.master);
-      s.reference = master;
-      s.mask = r.mask;
-      s.source = r.at;
-      b.model.spiders.push_back(std::move(s));
-    }
+    if (fresh)
+      add_rigid_spider(b.model, master, fmt::format("CERIG of node {}", r.master), r.at).mask =
+          r.mask;
     b.model.spiders[it->second].nodes.push_back(slave);
   }
 }
@@ -234,7 +222,7 @@ void build_ansys_rigid(AnsysBuild& b) {
 bool add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
   if (m.mass == 0.0 && m.J.isZero(0.0)) return true;
   if (const std::string huge = huge_mass(m.mass, m.J); !huge.empty())
-    return b.error(ErrorCode::not_finite, e, huge);
+    return b.error(ErrorCode::not_finite, e, "{}", huge);
   if (!m.J.isZero(0.0) && b.rotates[m.node] == 0) {
     b.note(e.at, "{}: node {} has no rotations, so the inertia has no effect and is left out",
            b.label(e), b.model.node_ids[m.node]);
@@ -247,7 +235,7 @@ bool add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
 }
 
 void build_ansys_masses(AnsysBuild& b) {
-  b.rotates = b.nodes_with_rotations();
+  b.rotates = nodes_with_rotations(b.model);
   each(b, F::mass, [&](const AnsysItem& i) { add_point_mass(b, i); });
   build_matrices(b, true);
 }

@@ -1,12 +1,9 @@
 // The commands of a deck: those that are read, and those that change neither stiffness nor mass.
 // Any other stops the reading.
-
 #include <algorithm>
-#include <array>
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
-#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {

@@ -10,12 +10,18 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/fe/fe_model.hpp"
-#include "floatframe/formats/text/fortran_columns.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 
-class TextSource;
+/// (3i9,6e21.13e3) is 'i' 9 three times, then 'e' 21 six times; a scale factor (1P) is ignored.
+struct FortranColumns {
+  std::vector<std::pair<char, int>> columns;  ///< kind in lower case, width
+  std::size_t integers() const noexcept;      ///< columns 'i' at the beginning
+  /// The cells of a line, trimmed; those that the line does not reach are not there. What is left
+  /// of the line behind the last column.
+  std::string_view split(std::string_view line, std::vector<std::string_view>& cells) const;
+};
 
 /// One command after the other. Comments (behind `!`), empty lines and `/COM` are ignored; `$`
 /// divides commands of one line. Errors of form stop the reading: what follows them cannot be
@@ -71,11 +77,9 @@ class AnsysFields {
   void append_cells(std::size_t first, const char* what, std::vector<int>& out);
   void append_cells(std::size_t first, const char* what, std::vector<double>& out);
 
-  [[noreturn]] void stop(ErrorCode code, const std::string& message);
-  template <class First, class... Rest>
-  [[noreturn]] void stop(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
-                         Rest&&... rest) {
-    stop(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  template <class... Values>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<Values...> text, Values&&... values) {
+    source_.stop(code, at_, fmt::format(text, std::forward<Values>(values)...));
   }
 
  private:

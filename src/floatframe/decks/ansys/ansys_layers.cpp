@@ -3,11 +3,8 @@
 // thicknesses of a section are shares of that of the element, from the face I-J-K-L to M-N-O-P;
 // angles count from the x axis of ESYS projected on the layer, else from the first natural
 // direction.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
@@ -54,11 +51,10 @@ class AnsysShell {
       b_.shared_error(ErrorCode::unsupported, e_,
                       "KEYOPT(1) = {}: only shells with bending and membrane stiffness are read",
                       type_.keyopt[1]);
-    if (section != nullptr && !thin_ && type_.number != 93) {
+    if (section != nullptr && !thin_ && type_.number != 93)
       layers(*section, s);
-    } else {
+    else
       constants(s);
-    }
     check_numbers(section == nullptr ? e_.at : section->at, s);
     s.shear = thin_ ? 0.0 : shell_shear * s.thickness;
     element_.section = index_of(s);

@@ -1,6 +1,4 @@
 // MP, MPTEMP, MPDATA and linear TB; from their labels to a material.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,7 +7,6 @@
 #include "floatframe/decks/temperature_table.hpp"
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
-#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,13 +30,6 @@ constexpr std::string_view harmless_tables =
 constexpr std::string_view linear_beside =
     "BISO MISO BKIN MKIN KINH NLIS CHAB PLAS CREE PRON RATE CONC DP EDP SDAM DMGI DMGE SHIF VISC "
     "HILL GURS";
-
-/// `list`: words between blanks.
-bool holds(std::string_view list, std::string_view word) {
-  for (auto entry = next_word(list); !entry.empty(); entry = next_word(list))
-    if (entry == word) return true;
-  return false;
-}
 
 class AnsysElastic {
  public:
@@ -83,14 +73,13 @@ class AnsysElastic {
     const auto* const table = m_.find(label);
     if (table == nullptr) return std::nullopt;
     const auto& [x, found] = at(*table);
-    if (!found.error.empty()) {
+    if (!found.error.empty())
       error(ErrorCode::wrong_value, "its {} {}", label, found.error);
-    } else if (found.chosen && temperatures_noted_++ == 0) {
+    else if (found.chosen && temperatures_noted_++ == 0)
       source_.note(
           content_.model, m_.at,
           "material {} is taken at the temperature {:g} (its table of {} goes from {:g} to {:g})",
           id_, *temperature_, label, table->front().first, table->back().first);
-    }
     return x;
   }
 
@@ -221,7 +210,7 @@ class AnsysElastic {
 /// MP,EX,1,2.1e5: with further constants it is a polynomial of the temperature.
 void read_ansys_material(AnsysFields& f, AnsysContent& c) {
   const std::string label = f.word(1);
-  if (!holds(needed_labels, label)) return;
+  if (!has_word(needed_labels, label)) return;
   AnsysMaterial& m = open_ansys_material(f, c, f.label(2, "the number of the material"));
   for (std::size_t k = 4; k < f.size(); ++k)
     if (f.real(k, "the coefficient") != 0.0)
@@ -258,7 +247,7 @@ void read_ansys_temperatures(AnsysFields& f, AnsysContent& c) {
 void read_ansys_material_data(AnsysFields& f, AnsysContent& c) {
   const std::size_t at = ansys_written(f) ? 3 : 1;
   const std::string label = f.word(at);
-  if (!holds(needed_labels, label)) return;
+  if (!has_word(needed_labels, label)) return;
   const int id = f.label(at + 1, "the number of the material");
   auto& table = open_ansys_material(f, c, id).values[label];
   const int start = f.blank(at + 2) ? 1 : f.label(at + 2, "the place");
@@ -292,8 +281,8 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
       if ((c.table == "DENS") == (label == "DENS")) m.tables.erase(std::string(label));
     return;
   }
-  if (holds(harmless_tables, c.table)) return;
-  if (holds(linear_beside, c.table))
+  if (has_word(harmless_tables, c.table)) return;
+  if (has_word(linear_beside, c.table))
     return f.source().note(
         c.model, f.at(),
         "TB,{} of material {} is not linear: the part has the elastic constants beside it",

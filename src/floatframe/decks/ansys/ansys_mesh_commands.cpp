@@ -1,14 +1,11 @@
 // Nodes, elements, components and coordinate systems, as CDWRITE writes them (blocked and
 // unblocked) and as a user does.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
 #include "floatframe/decks/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
-#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {
@@ -228,11 +225,10 @@ void read_ansys_component(AnsysFields& f, AnsysContent& c) {
     f.stop(ErrorCode::wrong_count,
            "CMBLOCK: component {} has {} members in its first line, but {} are listed",
            component.name, count, found);
-  if (known) {
+  if (known)
     c.components.push_back(std::move(component));
-  } else {
+  else
     c.ignored.try_emplace(fmt::format("CMBLOCK of {}", shown(f.text(2))), f.at());
-  }
 }
 
 /// LOCAL,R5.0,LOC,number,kind,x,y,z, ...,ANG,..., ...,PRM,...;

@@ -4,7 +4,6 @@
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
-#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {

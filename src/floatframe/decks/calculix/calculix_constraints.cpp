@@ -2,11 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
-#include <set>
 
-#include "floatframe/decks/calculix/calculix_equations.hpp"
-#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/decks/calculix/calculix_text.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/math/dense.hpp"
 

@@ -1,12 +1,8 @@
 // A deck of CalculiX: nodes, elements, sets and surfaces; a step of free vibration if all masses
 // are known. Sections and constraints are in sources of their own.
 // Source: CalculiX CrunchiX User's Manual 2.20, "Input deck format".
-#include "floatframe/decks/calculix/calculix_deck.hpp"
-
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <optional>
 
 #include "floatframe/decks/calculix/calculix_text.hpp"
 #include "floatframe/fe/free_turns.hpp"

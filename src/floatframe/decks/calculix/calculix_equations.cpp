@@ -3,14 +3,10 @@
 // each by a rigid knot, and rotations of the node in equations are those of the knot. In one line
 // are beams whose tangents and normals are within 20 degrees of those of the beam with the smallest
 // number, with its section and offsets (gen3dnor.f of CalculiX 2.20).
-#include "floatframe/decks/calculix/calculix_equations.hpp"
-
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 
+#include "floatframe/decks/calculix/calculix_text.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/rigid_motion.hpp"

@@ -1,13 +1,8 @@
-#include "floatframe/decks/calculix/calculix_offsets.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
-#include "floatframe/decks/nodes_of_element.hpp"
+#include "floatframe/decks/calculix/calculix_text.hpp"
 #include "floatframe/fe/beam_tangent.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <map>
 
 #include "floatframe/decks/calculix/calculix_text.hpp"
 

@@ -1,21 +1,44 @@
 #pragma once
 // What the parts of a CalculiX deck share. Numbers have 13 digits: CalculiX reads 20 characters of
 // a field.
+//
+// Beams beside their nodes as CalculiX has them: OFFSET1 and OFFSET2 of *BEAM SECTION, in
+// thicknesses along directions 1 and 2 of the section, the centroid at
+//   -OFFSET1 t_1 n_1 - OFFSET2 t_2 n_2
+// of the node. Beams at one node are joined rigidly there whatever their offsets, which equations
+// between their rotations cannot say (CalculixEquations).
+//
+// Equations of a CalculiX deck: spiders and linear equations in degrees of freedom that depend on
+// none. Rotations of nodes without beams and shells are displacements of further nodes.
+//
+// CalculiX makes solids of beams and shells. Equations with rotations of their nodes are in force
+// only where it joins several of them by a rigid knot (`knots_of`), elsewhere it loses them
+// silently: refused.
 #include <fmt/format.h>
 
+#include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "floatframe/core/plural.hpp"
-#include "floatframe/decks/calculix/calculix_offsets.hpp"
 #include "floatframe/decks/nodes_of_element.hpp"
+#include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/written/mesh_writer.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
 
 namespace floatframe {
+
+/// A model whose beams are at the nodes that rigid arms tied them to, without these arms.
+struct OffsetBeams {
+  FeModel model;
+  std::vector<std::array<double, 2>> offsets;  ///< of each element, in thicknesses
+  std::vector<char> left_out;                  ///< nodes at the ends of arms, of nothing now
+};
 
 struct CalculixText {
   explicit CalculixText(const FeModel& m) : model(m) { numbers = written_numbers(m, notes); }
@@ -67,5 +90,58 @@ void add_calculix_sections(CalculixText& deck);
 
 /// Spiders and equations (CalculixEquations), springs, point masses.
 void add_calculix_constraints(CalculixText& deck);
+
+/// None if no end of a beam with a rectangular or round section hangs on a rigid arm across it, one
+/// in both directions the same at all its nodes, and of nothing else.
+std::optional<OffsetBeams> offset_beams(const FeModel& model);
+
+/// The writer of `convert`.
+WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options);
+
+class CalculixEquations {
+ public:
+  using Terms = DependentDofs::Terms;
+
+  explicit CalculixEquations(CalculixText& deck);
+
+  /// Dependent degrees of freedom by independent ones. Of a node without elements, as the
+  /// reference of a coupling of some directions is, those are held that the others stand for: its
+  /// motions that move nothing have neither stiffness nor mass, and CalculiX finds wrong
+  /// frequencies if there are any.
+  void add_dependences();
+  /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
+  void add(const std::pair<int, int>& place, const Terms& terms, const FeSource& source);
+  void add_zeros();
+  /// One error for all rotations that would be lost.
+  void say_refused();
+
+  /// A sum over degrees of freedom of one node in independent ones.
+  Terms independent(int node, const Vec6& factors) const;
+
+  /// Is it the rotation of a knot? Springs reach it by equations only.
+  bool is_turn_of_knot(int node, int axis) const;
+
+  /// Number of the node and direction of the deck, for a spring.
+  std::pair<int, int> place(int node, int axis, const FeSource& source);
+
+ private:
+  void refuse(int node, const FeSource& source);
+  /// How many there are, and the first.
+  void note_directions(fmt::format_string<std::string, const std::string&> text,
+                       const std::vector<std::string>& names) const;
+  void hold_idle_motions(const std::vector<char>& in_elements);
+  /// Of equations that rigid motions do not satisfy, which are no joints of a free part.
+  void note_not_rigid(const std::vector<char>& in_elements) const;
+
+  CalculixText& deck_;
+  DofTable table_;
+  DependentDofs dependences_;
+  std::vector<std::pair<int, int>> place_;
+  std::set<int> knots_;  ///< numbers of nodes
+  std::string zeros_;
+  std::set<int> refused_;  ///< numbers of nodes
+  int first_refused_ = 0;
+  FeSource first_source_;
+};
 
 }  // namespace floatframe

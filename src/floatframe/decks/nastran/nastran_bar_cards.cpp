@@ -1,8 +1,21 @@
 // Cards of bars, beams and rods, with what bars leave to BAROR and BEAMOR.
-#include <fmt/format.h>
+//
+// Ends of bars. An offset end is a node of its own, tied rigidly: u' = u + theta x d, theta' =
+// theta. A pinned end is a node of its own too, tied only in the components that are not pinned, in
+// the axes of the element. What two pins of a bar release twice is released once, else nothing
+// would hold the end.
+//
+// Bars of which I1, I2 or J is 0. They have no stiffness there, so as beams they would leave
+// rotations of nodes without any, which Nastran takes out one by one (AUTOSPC). Here they are rods
+// with springs for what stiffness they have, since rotations that springs alone hold are condensed
+// (fe/springs.hpp). In a plane with EI and L, phi = 12 EI/(G As L^2), the beam is
+//   12 EI/(L^3 (1 + phi)) of v_2 - v_1 - L/2 (r_1 + r_2)  and  EI/L of r_2 - r_1,
+// exactly; torsion comes with the rod (build_nastran_torsion).
+#include <cmath>
 
-#include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
+#include "floatframe/decks/nastran/nastran_build.hpp"
+#include "floatframe/fe/beam_tangent.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -84,15 +97,32 @@ void read_nastran_rod(NastranFields& f, NastranContent& c) {
   c.elements.push_back(std::move(e));
 }
 
+/// One of two equal releases that a bar has at both ends: 1, 4, and in each plane what is more than
+/// two of the deflections and slopes.
+void without_double_releases(unsigned& a, unsigned& b) {
+  for (const unsigned component : {1u, 8u})
+    if ((a & b & component) != 0) b &= ~component;
+  for (const auto& [deflection, slope] : {std::pair{2u, 32u}, std::pair{4u, 16u}}) {
+    if ((a & b & deflection) != 0) b &= ~deflection;
+    if ((a & b & slope) == 0) continue;
+    a &= ~deflection;
+    b &= ~deflection;
+  }
+}
+
+bool bar_without_axes(NastranBuild& build, const NastranEntity& bar) {
+  return build.fail(ErrorCode::geometry, bar,
+                    "it has no length, or its orientation vector is along its axis");
+}
+
 }  // namespace
 
 bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction) {
   if (f.blank(4) && f.blank(5) && f.blank(6)) return false;
-  if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
+  if (f.blank(5) && f.blank(6) && parse_label(f.text(4)))
     direction.node = f.label(4, node);
-  } else {
+  else
     direction.vector = f.vector(4, "the orientation vector");
-  }
   return true;
 }
 
@@ -122,6 +152,151 @@ std::span<const NastranCardReader> nastran_bar_cards() {
                                                 {"BAROR BEAMOR", read_nastran_bar_default},
                                                 {"CROD CTUBE CONROD", read_nastran_rod}};
   return cards;
+}
+
+Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
+  Mat3 T;
+  T.col(0) = along.normalized();
+  T.col(2) = along.cross(v).normalized();
+  T.col(1) = T.col(2).cross(T.col(0));
+  return T;
+}
+
+bool find_nastran_bar_axes(NastranBuild& build, const NastranEntity& bar, const Vec3& along,
+                           const Vec3& v, Mat3& T) {
+  T = nastran_bar_axes(along, v);
+  return T.squaredNorm() > 2.5 || bar_without_axes(build, bar);  // a column without length is zero
+}
+
+bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {
+  static const NastranBarEnds plain;
+  const NastranBarEnds& ends = e.ends < 0 ? plain : b_.content.bar_ends[e.ends];
+  const int node[2] = {element.nodes[0], element.nodes[1]};
+  const Vec3 p[2] = {b_.model.positions[node[0]], b_.model.positions[node[1]]};
+  if (element.type != ElementType::rod2) {
+    const bool pinned = (ends.pins[0] | ends.pins[1]) != 0;
+    const bool beside = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
+    bars_.push_back({{node[0], node[1], -1}, beside, bends && !pinned});
+  }
+  if (!b_.direction(e.orientation, node[0], ends.axes[0] == 'G', e, element.reference))
+    return false;
+  if (e.ends < 0 && turn == 0.0)
+    return !is_along_axis(p[1] - p[0], element.reference) || bar_without_axes(b_, e);
+  Vec3 arm[2], end[2];
+  for (int k = 0; k < 2; ++k) {
+    const Mat3 T = ends.axes[1 + k] == 'G' ? b_.axes(node[k])
+                                           : nastran_bar_axes(p[1] - p[0], element.reference);
+    arm[k] = ends.offset[k] == Vec3::Zero() ? Vec3::Zero() : Vec3(T * ends.offset[k]);
+    end[k] = p[k] + arm[k];
+  }
+  Mat3 T;
+  if (!find_nastran_bar_axes(b_, e, end[1] - end[0], element.reference, T)) return false;
+  element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);
+  unsigned pins[2] = {ends.pins[0], ends.pins[1]};
+  without_double_releases(pins[0], pins[1]);
+  const bool rod = element.type == ElementType::rod2;
+  if (rod) pins[0] &= 7u, pins[1] &= 7u;
+  for (int k = 0; k < 2; ++k) {
+    if (pins[k] == 0 && arm[k].isZero(0.0)) continue;
+    int* shared = nullptr;
+    if (pins[k] == 0) {
+      shared = &offset_nodes_[{double(node[k]), arm[k](0), arm[k](1), arm[k](2)}];
+      if (*shared > 0) {
+        element.nodes[k] = *shared;
+        continue;
+      }
+    }
+    const int fresh = element.nodes[k] = b_.add_node(end[k], e.at, e.label());
+    if (shared != nullptr) *shared = fresh;
+    ties_.push_back({fresh, node[k], arm[k], pins[k] != 0 ? T : Mat3(Mat3::Identity()),
+                     (rod ? 7u : 63u) & ~pins[k], e.at});
+  }
+  return true;
+}
+
+void NastranBars::finish() {
+  free_drilling_at_stiffeners(b_.model, bars_);
+  std::vector<char> dofs(b_.model.positions.size(), 0);
+  for (const Element& e : b_.model.elements) {
+    const ElementKernel& kernel = element_kernel(e.type);
+    for (int k = 0; k < kernel.nodes; ++k) {
+      char& d = dofs[e.nodes[k]];
+      d = std::max(d, static_cast<char>(kernel.dofs_per_node));
+    }
+  }
+  for (const Tie& t : ties_) {
+    const bool held = dofs[t.node] == 6;
+    tie(t, held);
+    if (dofs[t.node] > 0 || spiders_.contains(t.node)) continue;
+    b_.model.masses.push_back({t.node, 0.0, Mat3::Zero()});  // it has displacements
+    dofs[t.node] = 3;
+  }
+}
+
+void NastranBars::tie(const Tie& t, bool rotates) {
+  FeModel& model = b_.model;
+  // Rotations of a node of nothing but pinned or offset bars come with a spider.
+  const bool needs_rotations = (t.mask >> 3) != 0 || !t.arm.isZero(0.0);
+  if (!rotates && needs_rotations) {
+    const auto [it, fresh] = spiders_.try_emplace(t.node, static_cast<int>(model.spiders.size()));
+    if (fresh)
+      add_rigid_spider(model, t.node, fmt::format("bars of node {}", model.node_ids[t.node]), t.at);
+    if (t.mask == 63u) {
+      model.spiders[it->second].nodes.push_back(t.fresh);
+      return;
+    }
+    if (fresh) {  // a node that only gives the reference its rotations
+      const int extra = b_.add_node(model.positions[t.node], t.at, "a pinned bar");
+      model.spiders[it->second].nodes.push_back(extra);
+    }
+  }
+  for (int c = 0; c < 6; ++c)
+    if (((t.mask >> c) & 1u) != 0) b_.equations.follow(t.fresh, c, t.axes, t.node, t.arm, t.at);
+}
+
+bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends) {
+  const BeamSection& s = p.section;
+  if (!(s.A > 0.0) || s.Iy < 0.0 || s.Iz < 0.0 || s.J < 0.0) return false;  // an error
+  if (s.Iy == 0.0 && s.Iz == 0.0) return true;
+  return (ends == nullptr || ends->plain()) && (s.Iy == 0.0 || s.Iz == 0.0 || s.J == 0.0);
+}
+
+std::string weak_nastran_bar_note(const NastranProperty& p) {
+  const BeamSection& s = p.section;
+  std::string zero;
+  const std::pair<const char*, double> values[] = {{"I1", s.Iz}, {"I2", s.Iy}, {"J", s.J}};
+  for (const auto& [name, value] : values)
+    if (value == 0.0) zero += fmt::format("{}{}", zero.empty() ? "" : ", ", name);
+  const bool bends = s.Iy > 0.0 || s.Iz > 0.0;
+  return fmt::format("without {} its elements are rods{}{}", zero, s.J > 0.0 ? " with torsion" : "",
+                     bends ? " and springs that bend as the beam does (without rotary inertia, "
+                             "stress and stress stiffness of bending)"
+                           : "");
+}
+
+void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& s,
+                         double shear_modulus, const NastranEntity& bar) {
+  FeModel& model = build.model;
+  const Vec3 d = model.positions[rod.nodes[1]] - model.positions[rod.nodes[0]];
+  Mat3 T;
+  if (!find_nastran_bar_axes(build, bar, d, rod.reference, T)) return;
+  const double L = d.norm(), E = model.materials[rod.material].young;
+  for (const bool xz : {false, true}) {
+    const double EI = E * (xz ? s.Iy : s.Iz), area = xz ? s.shear_z : s.shear_y;
+    if (EI == 0.0) continue;
+    const double phi = area > 0.0 ? 12.0 * EI / (shear_modulus * area * L * L) : 0.0;
+    // The slope of the deflection is r about z, and -r about y.
+    const Vec3 across = T.col(xz ? 2 : 1), about = xz ? Vec3(-T.col(1)) : Vec3(T.col(2));
+    Vec6 left, right, turn = Vec6::Zero();
+    left << -across, -0.5 * L * about;
+    right << across, -0.5 * L * about;
+    turn.tail<3>() = about;
+    const std::array<int, 2> nodes = {rod.nodes[0], rod.nodes[1]};
+    const std::string name = fmt::format("the bending of {}", bar.label());
+    model.springs.push_back(
+        {nodes, {left, right}, 12.0 * EI / (L * L * L * (1.0 + phi)), name, rod.source});
+    model.springs.push_back({nodes, {Vec6(-turn), turn}, EI / L, name, rod.source});
+  }
 }
 
 }  // namespace floatframe

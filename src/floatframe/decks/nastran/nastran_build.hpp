@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/decks/stiffeners.hpp"
+#include "floatframe/decks/rigid_arms.hpp"
 #include "floatframe/formats/fe_file.hpp"
 
 namespace floatframe {
@@ -120,7 +120,6 @@ struct NastranBuild {
   std::vector<char> rotates;  ///< nodes that have rotations; empty until constraints are built
   /// A node that nothing else uses gets rotations by a spider with a node of its own.
   void give_rotations(int node, const NastranEntity& e);
-  void add_rigid_spider(int reference, int node, const FeSource& at, const std::string& name);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
   /// there are too many in all.
   void spend(std::size_t members, const FeSource& at);
@@ -137,30 +136,24 @@ struct NastranBuild {
   std::set<int> open_;  // systems being made, to find circles
 };
 
-// nastran_build.cpp
 void build_nastran_nodes(NastranBuild& build);
 /// Directions of a system at a place: cylinder radial, around, along; sphere radial, along the
 /// meridian (theta), around (phi). On the axis the angle around is zero.
 Mat3 nastran_axes_at(const Orientation& f, const Vec3& p);
-// nastran_masses.cpp
 /// CONM1 and CMASS of nodes: of each node one.
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
 /// Masses of scalar points are errors, but of those that are held.
 void check_nastran_scalar_masses(NastranBuild& build);
-// nastran_build_springs.cpp
 void build_nastran_springs(NastranBuild& build);
 /// GJ/L of rods; after what gives rotations to nodes.
 void build_nastran_torsion(NastranBuild& build);
-// nastran_equations.cpp
 /// Equations with scalar points. Each is solved for one of them; what is left without any is an
 /// equation of nodes.
 void build_nastran_scalar_equations(NastranBuild& build,
                                     const std::vector<const NastranEquation*>& equations);
 /// Lumped or consistent.
 void nastran_mass_forms(NastranBuild& build);
-// nastran_build_elements.cpp
 void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
-// nastran_build_layers.cpp
 /// `material`: index of one by its number.
 ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
                                    const NastranProperty& p,
@@ -170,7 +163,6 @@ void note_nastran_shells(NastranBuild& build);
 /// Axes of the material of an element whose section and material are known.
 void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result);
 void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
-// nastran_build_materials.cpp
 /// Materials of the model by their numbers.
 class NastranMaterials {
  public:
@@ -197,7 +189,6 @@ class NastranMaterials {
   // Properties by line, whose nonstructural mass is said, and is too negative.
   std::set<std::pair<int, int>> noted_, negative_;
 };
-// nastran_tapers.cpp
 /// A piece of a tapered beam.
 struct NastranPiece {
   double to = 1.0;  ///< its end, of the length
@@ -207,7 +198,6 @@ struct NastranPiece {
 };
 /// Of the tapered properties of a file, as many as the file may have.
 std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build);
-// nastran_build_bars.cpp
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
 bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
 std::string weak_nastran_bar_note(const NastranProperty& p);
@@ -243,14 +233,11 @@ class NastranBars {
   std::vector<BeamOnNodes> bars_;  ///< that are no rods
   std::map<int, int> spiders_;
 };
-// nastran_build_rigid.cpp
 /// RBE1, RBAR and RTRPLT whose independent components are of several nodes, RROD.
 void build_nastran_rigids(NastranBuild& build);
 void give_nastran_rigid_rotations(NastranBuild& build);
-// nastran_build_means.cpp
 /// An RBE3 that is no mean spider of displacements; after all other constraints.
 void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
-// nastran_build_constraints.cpp
 /// Adds the part of a node's displacement (`first` 0) or rotation (3) along an axis.
 void add_nastran_direction(LinearEquation& equation, int node, int first, const Vec3& axis,
                            double factor);
@@ -259,7 +246,6 @@ int add_nastran_term(NastranBuild& build, const NastranEquation& e,
                      const NastranEquation::Term& term, LinearEquation& equation);
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);
-// nastran_build_sets.cpp
 /// The set that the case control selects, or those that an ADD card of its number joins; an error
 /// if it selects two, or if one that is joined is not `there`. `what`: MPC, SPC.
 std::set<int> selected_nastran_sets(NastranBuild& build,

@@ -1,13 +1,5 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <set>
-#include <unordered_map>
-#include <vector>
-
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
-#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 namespace {
@@ -23,19 +15,10 @@ bool any_axes(unsigned mask) {
 class ConstraintBuilder {
  public:
   explicit ConstraintBuilder(NastranBuild& build) : b_(build) {
-    b_.rotates.assign(b_.model.nodes(), 0);
-    for (const Element& e : b_.model.elements) {
-      const ElementKernel& kernel = element_kernel(e.type);
-      if (kernel.dofs_per_node != 6) continue;
-      for (int k = 0; k < kernel.nodes; ++k) b_.rotates[e.nodes[k]] = 1;
-    }
-    for (const Spring& s : b_.model.springs)
-      for (int end = 0; end < 2; ++end)
-        if (!s.directions[end].tail<3>().isZero(0.0)) b_.rotates[s.nodes[end]] = 1;
+    b_.rotates = nodes_with_rotations(b_.model);  // spiders: of bars
   }
 
   void build() {
-    for (const Spider& s : b_.model.spiders) b_.rotates[s.reference] = 1;  // of bars
     for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean})
       for (const NastranSpider& s : b_.content.spiders)
         if (s.kind == kind) spider(s);
@@ -162,11 +145,10 @@ class ConstraintBuilder {
   int add_rigid_node(int node, const Vec3& p, const NastranMass& m) {
     const int fresh = b_.add_node(p, m.at, m.label());
     const auto spider = rigid_of_.find(node);
-    if (spider != rigid_of_.end()) {
+    if (spider != rigid_of_.end())
       b_.model.spiders[spider->second].nodes.push_back(fresh);
-    } else {
-      b_.add_rigid_spider(node, fresh, m.at, m.label());
-    }
+    else
+      add_rigid_spider(b_.model, node, m.label(), m.at).nodes = {fresh};
     return fresh;
   }
 
@@ -200,11 +182,10 @@ class ConstraintBuilder {
       for (const NastranEquation::Term& term : e.terms)
         if (add_nastran_term(b_, e, term, equation) < 0) return;
       const int dependent = b_.node_of.at(e.terms[0].node);
-      if (b_.turned[dependent] != 0) {
+      if (b_.turned[dependent] != 0)
         b_.equations.add(dependent, e.terms[0].axis >= 3, equation);
-      } else {
+      else
         b_.model.equations.push_back(std::move(equation));
-      }
     }
     build_nastran_scalar_equations(b_, of_scalar_points);
     b_.note(

@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"

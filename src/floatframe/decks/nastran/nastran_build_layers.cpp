@@ -1,7 +1,5 @@
 // Materials with axes, shell sections and the axes of elements. Axis 1 of a shell is at THETA from
 // its side G1-G2, or the x axis of the system MCID projected on it.
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"

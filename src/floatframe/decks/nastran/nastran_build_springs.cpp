@@ -1,9 +1,6 @@
 // Springs, bushings and the torsion of rods in the model. Directions are those of the displacement
 // system CD of each node.
-#include <fmt/format.h>
-
 #include <cmath>
-#include <utility>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/springs.hpp"
@@ -22,13 +19,12 @@ class SpringBuilder {
       if (!fresh && s.id > 0)
         b_.error(ErrorCode::duplicate, s,
                  "this element number is in the file twice, first in line {}", it->second.line);
-      if (s.card == "CBUSH") {
+      if (s.card == "CBUSH")
         bushing(s);
-      } else if (s.card == "CBUSH1D") {
+      else if (s.card == "CBUSH1D")
         line_bushing(s);
-      } else {
+      else
         scalar(s);
-      }
     }
     if (c_.damping)
       b_.note(*c_.damping,
@@ -116,11 +112,10 @@ class SpringBuilder {
     Mat3 axes = Mat3::Identity();
     if (!bushing_axes(s, n, k, axes)) return;
     Vec3 at = position(n[0]);
-    if (s.offset_system >= 0) {
+    if (s.offset_system >= 0)
       at += b_.axes_of_system(s.offset_system, s.at, n[0]) * s.offset;
-    } else if (n[1] >= 0) {
+    else if (n[1] >= 0)
       at += s.place * (position(n[1]) - at);
-    }
     add_bushing(b_.model, n[0], n[1], at, axes, k, s.label(), s.at);
   }
 
@@ -131,12 +126,11 @@ class SpringBuilder {
     const auto* const p = b_.property(c_.pbush1d, s.property, "PBUSH1D", s);
     if (p == nullptr) return;
     Vec3 x;
-    if (s.system >= 0) {
+    if (s.system >= 0)
       x = b_.axes_of_system(s.system, s.at, spring.nodes[0]).col(0);
-    } else if (!line_of(spring.nodes, x)) {
+    else if (!line_of(spring.nodes, x))
       return b_.error(ErrorCode::incomplete, s,
                       "it has no line from node to node; give a coordinate system CID");
-    }
     spring.directions[0].head<3>() = -x;
     if (spring.nodes[1] >= 0) spring.directions[1].head<3>() = x;
     add(spring, p->value, s);

@@ -1,12 +1,7 @@
 // Cards of spiders, linear equations and supports.
-#include <fmt/format.h>
-
 #include <bit>
-#include <utility>
-#include <vector>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

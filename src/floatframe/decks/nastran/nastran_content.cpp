@@ -1,13 +1,6 @@
 #include "floatframe/decks/nastran/nastran_content.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <algorithm>
-#include <unordered_map>
-#include <utility>
-
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -28,8 +21,8 @@ const std::unordered_map<std::string_view, ReadCard>& card_readers() {
 }
 
 /// Cards that the case control selects.
-const NastranWords& selected_cards() {
-  static const NastranWords cards("DMIG DMIAX NSM*");
+const WordList& selected_cards() {
+  static const WordList cards("DMIG DMIAX NSM*");
   return cards;
 }
 
@@ -60,7 +53,7 @@ class ContentReader {
  private:
   void one(NastranFields& f) {
     const std::string& name = f.name();
-    static const NastranWords of_nodes("GRID GRDSET CORD* SPC* SET*");
+    static const WordList of_nodes("GRID GRDSET CORD* SPC* SET*");
     if (only_nodes_ && !of_nodes.contains(name)) return;
     const auto reader = card_readers().find(name);
     if (reader != card_readers().end()) {
@@ -82,7 +75,7 @@ class ContentReader {
 
   /// Masses and rigid elements given twice would count twice.
   void once(NastranFields& f) {
-    static const NastranWords masses("CONM* CMASS*"), rigid("RBE* RBAR RROD RTRPLT");
+    static const WordList masses("CONM* CMASS*"), rigid("RBE* RBAR RROD RTRPLT");
     const bool mass = masses.contains(f.name());
     if (!mass && !rigid.contains(f.name())) return;
     const auto id = parse_label(f.text(0));
@@ -117,18 +110,17 @@ class ContentReader {
 
   void parameter(NastranFields& f) {
     const std::string name = upper_case(f.text(0)).substr(0, 40);
-    if (name == "WTMASS" || name == "CM1") {
+    if (name == "WTMASS" || name == "CM1")
       c_.mass_factor *= factor(f, name);
-    } else if (name == "CK1") {
+    else if (name == "CK1")
       c_.stiffness_factor *= factor(f, name);
-    } else if (name == "COUPMASS") {
+    else if (name == "COUPMASS")
       c_.coupled_mass = same_word(f.text(1), "YES") || same_word(f.text(1), "ON") ||
                         parse_real(f.text(1)).value_or(0.0) > 0.0;
-    } else if (is_harmless_nastran_parameter(name)) {
+    else if (is_harmless_nastran_parameter(name))
       pass("PARAM", f.at());
-    } else {
+    else
       refuse("PARAM " + name, f.at());
-    }
   }
 
   /// A positive factor, 1 if an entry before has given it. Subcases may repeat it; two values
@@ -193,7 +185,7 @@ class ContentReader {
   }
 
   void note_passed() {
-    static const NastranWords damper("CDAMP* CVISC"), varying("PELAST PBUSHT PDAMPT");
+    static const WordList damper("CDAMP* CVISC"), varying("PELAST PBUSHT PDAMPT");
     std::string list, dampers, nominal, unselected;
     const auto append = [](std::string& names, const std::string& name) {
       names += (names.empty() ? "" : ", ") + name;

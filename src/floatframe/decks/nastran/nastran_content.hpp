@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
+#include "floatframe/decks/word_list.hpp"
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
@@ -279,35 +279,18 @@ std::span<const NastranCardReader> nastran_material_cards();
 std::span<const NastranCardReader> nastran_property_cards();
 std::span<const NastranCardReader> nastran_scalar_cards();
 std::span<const NastranCardReader> nastran_constraint_cards();
-// nastran_materials.cpp
-/// What is wrong with the constants of a MAT2 that is the material of a shell.
-std::string nastran_plane_error(const NastranMaterial& m);
-// nastran_bar_cards.cpp
 /// Fields 5 to 7; false if they are blank.
 bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction);
 /// What bars leave to BAROR and BEAMOR.
 void complete_nastran_bars(NastranContent&, TextSource&);
-// nastran_properties.cpp
 /// Material, A, J and nonstructural mass of PROD and CONROD.
 void read_nastran_rod_section(NastranFields& f, std::size_t first, NastranProperty& p);
-// nastran_tapers.cpp
 /// Stations of a beam as they stand on the card; blanks are filled when all are known.
 void read_nastran_beam_stations(NastranFields&, NastranProperty&, std::vector<NastranStation>);
-// nastran_sections.cpp
 void read_nastran_named_section(NastranFields&, NastranProperty&);
 /// Section about its principal axes, and nonstructural mass.
 void set_nastran_section(NastranProperty& property, const NastranSection& section);
 
-/// Words of a text that stays; '*' stands for any end.
-class NastranWords {
- public:
-  explicit NastranWords(std::string_view text);
-  bool contains(std::string_view name) const;
-
- private:
-  std::unordered_set<std::string_view> words_;
-  std::vector<std::string_view> beginnings_;
-};
 /// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
 bool is_harmless_nastran_card(std::string_view name);
 /// The same of a PARAM entry.

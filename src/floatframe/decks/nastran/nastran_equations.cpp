@@ -4,15 +4,7 @@
 // another makes it depend on nodes; without scalar points it ties nodes. A scalar point that is the
 // difference of nodes does not move when the part is displaced, so springs from it to the ground
 // are springs of the part: they end at a node that an equation holds.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
-#include <utility>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
@@ -239,9 +231,7 @@ class ScalarEquations {
 
   int ground(int axis, const FeSource& at) {
     if (ground_ < 0) ground_ = b_.add_node(b_.model.positions.front(), at, "a spring");
-    if (grounded_.insert(axis).second) {
-      b_.model.equations.push_back({{{ground_, axis, 1.0}}, at});
-    }
+    if (grounded_.insert(axis).second) b_.model.equations.push_back({{{ground_, axis, 1.0}}, at});
     return ground_;
   }
 

@@ -1,7 +1,4 @@
-#include <algorithm>
-
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -84,31 +81,15 @@ constexpr RefusedCards refused_cards[] = {
 
 }  // namespace
 
-NastranWords::NastranWords(std::string_view text) {
-  for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
-    if (word.ends_with('*')) {
-      beginnings_.push_back(word.substr(0, word.size() - 1));
-    } else {
-      words_.insert(word);
-    }
-  }
-}
-
-bool NastranWords::contains(std::string_view name) const {
-  return words_.contains(name) ||
-         std::any_of(beginnings_.begin(), beginnings_.end(),
-                     [name](std::string_view word) { return name.starts_with(word); });
-}
-
 bool is_harmless_nastran_card(std::string_view name) {
-  static const NastranWords harmless(harmless_cards), contact(contact_cards);
+  static const WordList harmless(harmless_cards), contact(contact_cards);
   return harmless.contains(name) && !contact.contains(name);
 }
 
 const char* why_nastran_card_is_refused(std::string_view name) {
   const auto* const it =
       std::find_if(std::begin(refused_cards), std::end(refused_cards),
-                   [name](const RefusedCards& r) { return NastranWords(r.cards).contains(name); });
+                   [name](const RefusedCards& r) { return WordList(r.cards).contains(name); });
   return it == std::end(refused_cards) ? nullptr : it->reason;
 }
 

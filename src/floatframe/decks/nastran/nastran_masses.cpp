@@ -3,8 +3,6 @@
 //   [ m 1          -m skew(c) ]
 //   [ m skew(c)     J         ]
 // Others, as a mass in one direction only, have no meaning in a part that moves freely.
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"

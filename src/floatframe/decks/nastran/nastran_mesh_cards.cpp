@@ -1,7 +1,4 @@
 // Cards of nodes, coordinate systems, solids and shells.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <numbers>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
@@ -107,11 +104,10 @@ constexpr SurfaceCard surface_cards[] = {
 /// THETA or MCID, ZOFFS, then T1 to T4, which with TFLAG 1 are factors of that of the property.
 void read_shell_fields(NastranFields& f, const SurfaceCard& card, NastranElement& e) {
   const std::string_view text = f.text(card.axes);
-  if (!text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos) {
+  if (!text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos)
     e.material_system = f.integer(card.axes, "the material system MCID", -1);
-  } else {
+  else
     e.theta = f.real(card.axes, "the material angle THETA", 0.0) * std::numbers::pi / 180.0;
-  }
   e.offset = f.real(card.axes + 1, "the offset ZOFFS", 0.0);
   for (std::size_t k = 0; k < card.corners; ++k) {
     e.corner_thickness[k] = -1.0;

@@ -57,7 +57,7 @@ constexpr std::string_view harmless_names =
 }  // namespace
 
 bool is_harmless_nastran_parameter(std::string_view name) {
-  static const NastranWords harmless(harmless_names);
+  static const WordList harmless(harmless_names);
   return harmless.contains(name);
 }
 

@@ -1,16 +1,10 @@
 // Property cards of solids, shells and bars. The element's y axis lies in the plane of its axis and
 // the orientation vector (plane 1), so I1 = int y^2 dA is Iz of a section and I2 is Iy. Plies of
 // PCOMP and PCOMPG come from the bottom, the first at Z0 from the nodes along the normal.
-#include <fmt/format.h>
-
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,8 +1,5 @@
 // Cards of springs, bushings, masses and scalar points.
-#include <fmt/format.h>
-
 #include "floatframe/decks/nastran/nastran_content.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -26,11 +23,10 @@ bool is_there(const NastranFields& f, std::size_t i) { return !f.blank(i) && f.t
 template <class Element>
 Element scalar_element(NastranFields& f, const char* value) {
   auto e = f.entity<Element>("the number of the element");
-  if (f.name().ends_with('2') || f.name().ends_with('4')) {
+  if (f.name().ends_with('2') || f.name().ends_with('4'))
     e.value = f.real(1, value);
-  } else {
+  else
     e.property = f.label(1, "the property", e.id);
-  }
   return e;
 }
 
@@ -138,14 +134,13 @@ void read_nastran_pbush(NastranFields& f, NastranContent& c) {
                      shown(word));
     for (int i = 0; i < 6; ++i) {
       const std::size_t at = line + 2 + i;
-      if (lost) {
+      if (lost)
         note_damping(f, at, c);
-      } else if (same_word(f.text(at), "RIGID")) {
+      else if (same_word(f.text(at), "RIGID"))
         f.error(ErrorCode::not_a_number,
                 "RIGID is not a stiffness; give a number, or join the nodes with RBE2");
-      } else {
+      else
         p.stiffness(i) = f.real(at, "a stiffness", 0.0);
-      }
     }
   }
   f.keep(c.pbush, std::move(p));

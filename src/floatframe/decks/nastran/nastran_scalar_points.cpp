@@ -2,12 +2,6 @@
 // without a place. In the model each that a spring or an equation uses is a node of its own, of
 // which the component ux is used, or rx where its springs turn. Springs condense it
 // (fe/springs.hpp), or it depends on nodes by an equation; its place only says where it is shown.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
-#include <optional>
-
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
 namespace floatframe {
@@ -16,11 +10,10 @@ void NastranRanges::finish() {
   std::sort(ranges_.begin(), ranges_.end());
   std::vector<std::pair<int, int>> joined;
   for (const auto& [first, last] : ranges_) {
-    if (!joined.empty() && first <= joined.back().second) {
+    if (!joined.empty() && first <= joined.back().second)
       joined.back().second = std::max(joined.back().second, last);
-    } else if (first <= last) {
+    else if (first <= last)
       joined.emplace_back(first, last);
-    }
   }
   ranges_ = std::move(joined);
 }

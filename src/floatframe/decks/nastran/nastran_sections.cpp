@@ -2,16 +2,10 @@
 // right. All but round ones and solid bars are made of plates along y and z (plate_section.hpp). J
 // of open sections is sum b t^3/3 of the plates, of a box that of Bredt. Shear deformation is that
 // of Nastran.
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
 #include "floatframe/fe/plate_section.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,12 +1,6 @@
 #include "floatframe/decks/nastran/read_nastran.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
 #include "floatframe/decks/nastran/nastran_build.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 

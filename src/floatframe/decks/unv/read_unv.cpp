@@ -1,15 +1,9 @@
 #include "floatframe/decks/unv/read_unv.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
-#include <set>
-#include <unordered_map>
 #include <unordered_set>
-#include <utility>
-#include <vector>
 
+#include "floatframe/decks/rigid_arms.hpp"
 #include "floatframe/decks/unv/unv_content.hpp"
 #include "floatframe/formats/surface_thickness.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -196,11 +190,8 @@ class UnvBuild {
         c_.model.spiders[it->second].nodes.push_back(node);
         continue;
       }
-      Spider spider;
-      spider.name = fmt::format("{} {}", element->type->name, element->id);
-      spider.reference = node;
-      spider.source = element->at;
-      c_.model.spiders.push_back(std::move(spider));
+      add_rigid_spider(c_.model, node, fmt::format("{} {}", element->type->name, element->id),
+                       element->at);
     }
   }
 

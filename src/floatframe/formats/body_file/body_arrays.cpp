@@ -1,8 +1,5 @@
 #include "floatframe/formats/body_file/body_arrays.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 namespace floatframe {
@@ -43,10 +40,6 @@ void ArrayWriter::grouped(const std::string& name, const MatX& m, Eigen::Index p
       {{size(points), size(group), size(columns)}, rows_of(or_zeros(m, points * group, columns))});
 }
 
-void ArrayReader::error(ErrorCode code, const std::string& name, const std::string& sentence) {
-  errors_.add(code, {file_, 0, 0}, "member '" + name + ".npy': " + sentence);
-}
-
 const ZipMember* ArrayReader::find(const std::string& name) const {
   for (const ZipMember& m : members_)
     if (m.name == name + ".npy") return &m;
@@ -62,7 +55,7 @@ std::optional<NpyArray> ArrayReader::load(const std::string& name) {
   try {
     return read_npy(m->content);
   } catch (const InputError& damage) {
-    error(damage.errors().front().code, name, damage.what());
+    error(damage.errors().front().code, name, "{}", damage.what());
     return std::nullopt;
   }
 }
@@ -148,7 +141,7 @@ Eigen::Index ArrayReader::length(const std::string& name) {
   const auto array = load(name);
   if (!array) return 0;
   if (array->shape.empty()) {
-    error(ErrorCode::wrong_count, name, "found " + shape_text(array->shape) + ", expected rows");
+    error(ErrorCode::wrong_count, name, "found {}, expected rows", shape_text(array->shape));
     return 0;
   }
   const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array->values);

@@ -136,11 +136,11 @@ class ArrayReader {
 
   /// Size of the first dimension; 0 and an error if the member is missing or damaged.
   Eigen::Index length(const std::string& name);
-  void error(ErrorCode code, const std::string& name, const std::string& sentence);
-  template <class First, class... Rest>
-  void error(ErrorCode code, const std::string& name, fmt::format_string<First, Rest...> text,
-             First&& first, Rest&&... rest) {
-    error(code, name, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  template <class... Values>
+  void error(ErrorCode code, const std::string& name, fmt::format_string<Values...> text,
+             Values&&... values) {
+    errors_.add(code, {file_, 0, 0},
+                "member '" + name + ".npy': " + fmt::format(text, std::forward<Values>(values)...));
   }
 
  private:

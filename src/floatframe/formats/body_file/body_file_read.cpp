@@ -1,16 +1,10 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/regular_file.hpp"
-#include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/body_members.hpp"
-#include "floatframe/formats/body_file/body_numbers.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 
 namespace floatframe {

@@ -1,13 +1,8 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/core/enum_index.hpp"
-#include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/body_members.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/math/frequency.hpp"

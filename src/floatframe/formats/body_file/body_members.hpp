@@ -1,15 +1,21 @@
 #pragma once
 // The members of a body file that hold its matrices, for ArrayWriter and ArrayReader alike.
+//
+// Are the numbers of a body file those of a body, and does it say the same where it says things
+// twice: arrays, header, health report?
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "floatframe/body/body_stress.hpp"
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/body_file/body_arrays.hpp"
+#include "floatframe/formats/body_file/body_file.hpp"
 
 namespace floatframe {
 
@@ -102,5 +108,16 @@ void add_stress(const FlexibleBody& body, ArrayWriter& out);
 std::shared_ptr<const BodyStress> read_stress(ArrayReader& arrays, Eigen::Index nm,
                                               const std::vector<int>& nodes, const Mat3X& positions,
                                               const StressNames& names);
+
+/// Numbers of the header that are not part of the body.
+struct BodyHeader {
+  std::vector<double> frequencies;                    ///< of each mode [Hz]; -1: not given
+  std::vector<std::vector<std::int64_t>> moves_with;  ///< surface points of each marker
+  StressNames stress;
+};
+
+/// `content`: complete, of sizes that fit. `name`: of the file.
+void check_body_numbers(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays,
+                        ErrorList& errors, const std::string& name);
 
 }  // namespace floatframe

@@ -1,12 +1,8 @@
-#include "floatframe/formats/body_file/body_numbers.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/formats/body_file/body_members.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
@@ -26,7 +22,7 @@ class Check {
     const auto source = file_.part.health.rotary_inertia == false ? InvariantSource::integrals
                                                                   : InvariantSource::rotary;
     for (const InvariantError& f : check_invariants(file_.part.body, source))
-      arrays_.error(ErrorCode::wrong_value, f.quantity, f.sentence);
+      arrays_.error(ErrorCode::wrong_value, f.quantity, "{}", f.sentence);
     if (!errors_.empty()) return;
     const InertiaInvariants& v = file_.part.body.invariants;
     if (const auto& p = file_.part.body.projection) {

@@ -41,13 +41,6 @@ class GeometryBuilder {
   std::vector<std::array<int, 3>> triangles_;
 };
 
-/// The next line without its end; `text` moves behind it, and `line` counts.
-std::string_view next_geometry_line(std::string_view& text, int& line);
-/// Three numbers of a line behind the word `key`.
-Vec3 geometry_point(const char* key, std::string_view rest, int line, const GeometryBuilder& out);
-
-void parse_stl(std::string_view bytes, GeometryBuilder& out);
-void parse_obj(std::string_view bytes, GeometryBuilder& out);
 /// JSON, or the binary container if the bytes begin as one.
 void parse_gltf(std::string_view bytes, const GeometryLoader& loader, GeometryBuilder& out);
 

@@ -2,12 +2,9 @@
 // second chunk of a .glb, in data: addresses or in files beside it. Triangles, strips and fans are
 // taken, with the transformations of their nodes; every length and index is checked against what is
 // there.
-
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/base64.hpp"

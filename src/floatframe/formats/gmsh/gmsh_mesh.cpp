@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -38,11 +36,10 @@ class GmshParser {
         bool& there = section == "Nodes" ? nodes : elements;
         if (std::exchange(there, true))
           in_.stop(ErrorCode::duplicate, at, "section ${} is in the file twice", section);
-        if (section == "Nodes") {
+        if (section == "Nodes")
           version_4_ ? nodes_4() : nodes_2();
-        } else {
+        else
           version_4_ ? elements_4() : elements_2();
-        }
       } else if (section == "Comments") {
         in_.end_section(at, section);
         continue;
@@ -95,12 +92,11 @@ class GmshParser {
                  shown(fields[2]));
       in_.set_binary(false);
       const int one = in_.integer("the number 1 that shows the order of bytes");
-      if (one == 0x01000000) {
+      if (one == 0x01000000)
         in_.set_binary(true);
-      } else if (one != 1) {
+      else if (one != 1)
         in_.stop(ErrorCode::wrong_value,
                  "found {}, expected the number 1 that shows the order of bytes", one);
-      }
     }
     in_.expect_end("MeshFormat");
   }
@@ -322,8 +318,54 @@ class GmshParser {
   std::map<std::vector<int>, int> known_lists_;
 };
 
+using E = ElementType;
+
+constexpr std::array<int, 20> same_order = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                            10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+
+const GmshType gmsh_types[] = {
+    {1, "2-node line", 1, 2, {}, {}},
+    {2, "3-node triangle", 2, 3, E::tri3, same_order},
+    {3, "4-node quadrilateral", 2, 4, E::quad4, same_order},
+    {4, "4-node tetrahedron", 3, 4, E::tet4, same_order},
+    {5, "8-node hexahedron", 3, 8, E::hex8, same_order},
+    {6, "6-node wedge", 3, 6, E::wedge6, same_order},
+    {7, "5-node pyramid", 3, 5, E::pyramid5, same_order},
+    {8, "3-node line", 1, 3, {}, {}},
+    {9, "6-node triangle", 2, 6, E::tri6, same_order},
+    {10, "9-node quadrilateral", 2, 9, {}, {}},
+    {11, "10-node tetrahedron", 3, 10, E::tet10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
+    {12, "27-node hexahedron", 3, 27, {}, {}},
+    {13, "18-node wedge", 3, 18, {}, {}},
+    {14, "14-node pyramid", 3, 14, {}, {}},
+    {15, "point", 0, 1, {}, {}},
+    {16, "8-node quadrilateral", 2, 8, E::quad8, same_order},
+    {17, "20-node hexahedron", 3, 20, E::hex20, {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
+                                                 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}},
+    {18, "15-node wedge", 3, 15, E::wedge15, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}},
+    {19, "13-node pyramid", 3, 13, E::pyramid13, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
+    {20, "9-node triangle", 2, 9, {}, {}},
+    {21, "10-node triangle", 2, 10, {}, {}},
+    {26, "4-node line", 1, 4, {}, {}},
+    {27, "5-node line", 1, 5, {}, {}},
+    {29, "20-node tetrahedron", 3, 20, {}, {}},
+    {30, "35-node tetrahedron", 3, 35, {}, {}},
+    {36, "16-node quadrilateral", 2, 16, {}, {}},
+    {92, "64-node hexahedron", 3, 64, {}, {}},
+};
+
 }  // namespace
 
 GmshMesh parse_gmsh_mesh(GmshStream& in) { return GmshParser(in).parse(); }
+
+int surface_corners(const GmshType& type) noexcept {
+  return std::string_view(type.name).ends_with("triangle") ? 3 : 4;
+}
+
+const GmshType* gmsh_type(int number) noexcept {
+  const auto* it = std::find_if(std::begin(gmsh_types), std::end(gmsh_types),
+                                [number](const GmshType& t) { return t.number == number; });
+  return it == std::end(gmsh_types) ? nullptr : it;
+}
 
 }  // namespace floatframe

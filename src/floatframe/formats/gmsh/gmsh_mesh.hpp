@@ -1,12 +1,30 @@
 #pragma once
 // What a .msh file says, before it is a model: nodes, elements of any type, physical groups.
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/gmsh/gmsh_stream.hpp"
-#include "floatframe/formats/gmsh/gmsh_types.hpp"
 
 namespace floatframe {
+
+/// By its number in the file.
+struct GmshType {
+  int number = 0;
+  const char* name = "";
+  int dimension = 0;
+  int nodes = 0;
+  std::optional<ElementType> element;  ///< the solid or shell that it is, if there is one
+  std::array<int, 20> order{};  ///< of these: node k of the element is node order[k] of the file
+};
+
+/// Of a triangle or quadrilateral of any order.
+int surface_corners(const GmshType& type) noexcept;
+
+/// Null if the number is unknown.
+const GmshType* gmsh_type(int number) noexcept;
 
 struct GmshGroup {
   int dimension = 0, tag = 0;

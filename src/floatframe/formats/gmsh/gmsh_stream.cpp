@@ -1,7 +1,5 @@
 #include "floatframe/formats/gmsh/gmsh_stream.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -19,10 +17,6 @@ GmshStream::Place GmshStream::here() {
 ErrorEntry GmshStream::error(ErrorCode code, const Place& at, std::string message) const {
   if (binary_) return {{name_, 0, 0}, code, fmt::format("byte {}: {}", at.byte, message)};
   return {{name_, at.line, 0}, code, std::move(message)};
-}
-
-void GmshStream::stop(ErrorCode code, const Place& at, std::string message) const {
-  throw InputError({error(code, at, std::move(message))});
 }
 
 bool GmshStream::next_line(std::string_view& line) {
@@ -52,7 +46,7 @@ void GmshStream::expect_end(std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   const std::string_view rest = text_.substr(at_);
   if (!rest.starts_with(end))
-    stop(ErrorCode::damaged, at,
+    stop(ErrorCode::damaged, at, "{}",
          rest.empty()
              ? fmt::format("the file ends where '{}' was expected", end)
              : fmt::format("found {}, expected '{}': section ${} has more than it counts",

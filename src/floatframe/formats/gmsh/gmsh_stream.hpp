@@ -30,19 +30,14 @@ class GmshStream {
   /// Of the next number.
   Place here();
   ErrorEntry error(ErrorCode code, const Place& at, std::string message) const;
-  [[noreturn]] void stop(ErrorCode code, const Place& at, std::string message) const;
-  template <class First, class... Rest>
-  [[noreturn]] void stop(ErrorCode code, const Place& at, fmt::format_string<First, Rest...> text,
-                         First&& first, Rest&&... rest) const {
-    stop(code, at, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
+  template <class... Values>
+  [[noreturn]] void stop(ErrorCode code, const Place& at, fmt::format_string<Values...> text,
+                         Values&&... values) const {
+    throw InputError({error(code, at, fmt::format(text, std::forward<Values>(values)...))});
   }
-  template <class First, class... Rest>
-  [[noreturn]] void stop(ErrorCode code, fmt::format_string<First, Rest...> text, First&& first,
-                         Rest&&... rest) {
-    stop(code, fmt::format(text, std::forward<First>(first), std::forward<Rest>(rest)...));
-  }
-  [[noreturn]] void stop(ErrorCode code, std::string message) {
-    stop(code, here(), std::move(message));
+  template <class... Values>
+  [[noreturn]] void stop(ErrorCode code, fmt::format_string<Values...> text, Values&&... values) {
+    stop(code, here(), text, std::forward<Values>(values)...);
   }
 
   /// The next line, trimmed, ASCII in all files; false at the end.

@@ -1,9 +1,6 @@
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>

@@ -1,9 +1,7 @@
-#include "floatframe/formats/matrices/matrix_entries.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "floatframe/formats/matrices/matrix_model.hpp"
 
 namespace floatframe {
 namespace {
@@ -42,15 +40,14 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
     const Entry e = entries_[k++];
     for (int more = 0; k < entries_.size() && !before(e, entries_[k]); ++more, ++k) {
       const Entry& other = entries_[k];
-      if (more > 0 || (e.line > 0) == (other.line > 0)) {
+      if (more > 0 || (e.line > 0) == (other.line > 0))
         error(ErrorCode::duplicate, other,
               fmt::format("is there already (line {})", std::abs(e.line)));
-      } else if (!(std::abs(e.value - other.value) <= half_tolerance * largest)) {
+      else if (!(std::abs(e.value - other.value) <= half_tolerance * largest))
         error(ErrorCode::contradiction, other,
               fmt::format(
                   "is {:g}, but {:g} in the other half (line {}): the matrix is not symmetric",
                   other.value, e.value, std::abs(e.line)));
-      }
     }
     if (e.row == e.column && e.value < 0.0)
       error(ErrorCode::out_of_range, e,

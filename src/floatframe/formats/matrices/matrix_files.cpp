@@ -1,7 +1,3 @@
-#include "floatframe/formats/matrices/matrix_files.hpp"
-
-#include <fmt/format.h>
-
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 

@@ -1,15 +1,10 @@
 #include "floatframe/formats/matrices/matrix_model.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <unordered_map>
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/deck_component.hpp"
-#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 
 namespace floatframe {

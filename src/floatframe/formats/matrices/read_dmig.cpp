@@ -1,18 +1,11 @@
 #include "floatframe/formats/matrices/read_dmig.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
-#include <map>
-#include <optional>
 #include <set>
 
-#include "floatframe/formats/matrices/matrix_entries.hpp"
-#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
@@ -35,11 +28,10 @@ class DmigFile {
       if (card.name != "DMIG") continue;
       NastranFields fields(source, card);
       const std::string name = upper_case(card.field(0));
-      if (card.field(1) == "0") {
+      if (card.field(1) == "0")
         header(name, fields);
-      } else if (wanted(name)) {
+      else if (wanted(name))
         column(name, fields, card);
-      }
     }
     source.throw_if_any();
   }

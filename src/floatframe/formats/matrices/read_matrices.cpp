@@ -2,15 +2,8 @@
 // *MATRIX OUTPUT), and Matrix Market (coordinate real or integer, symmetric or general).
 #include "floatframe/formats/matrices/read_matrices.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <map>
-#include <optional>
 
-#include "floatframe/formats/matrices/matrix_entries.hpp"
-#include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 
 namespace floatframe {

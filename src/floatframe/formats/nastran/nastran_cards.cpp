@@ -1,10 +1,5 @@
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
-
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -42,13 +37,6 @@ bool is_continuation(std::string_view name) {
 
 }  // namespace
 
-std::string_view next_line(std::string_view& rest) noexcept {
-  const std::size_t end = std::min(rest.find('\n'), rest.size());
-  const std::string_view line = rest.substr(0, end);
-  rest.remove_prefix(std::min(end + 1, rest.size()));
-  return line;
-}
-
 std::string_view card_name(std::string_view line) noexcept {
   return line.substr(0, std::min(line.find_first_of(", *\t"), line.size()));
 }
@@ -81,13 +69,12 @@ void NastranCards::read_control() {
     std::string_view rest = line;
     const std::string_view word = next_word(rest);
     control_.there = control_.there || !(word.empty() || same_word(word, "INCLUDE"));
-    if (same_word(word, "INCLUDE")) {
+    if (same_word(word, "INCLUDE"))
       include(line, executive);
-    } else if (same_word(word, "CEND")) {
+    else if (same_word(word, "CEND"))
       executive = false;
-    } else {
+    else
       command(line);
-    }
   }
 }
 
@@ -222,14 +209,13 @@ bool NastranCards::next(NastranCard& card) {
   std::string_view text;
   for (bool found = false; !found;) {
     if (!next_text(text)) return false;
-    if (begins_with(trimmed(text), "INCLUDE") && text.find(',') == std::string_view::npos) {
+    if (begins_with(trimmed(text), "INCLUDE") && text.find(',') == std::string_view::npos)
       include(text, false);
-    } else if (!is_begin(text)) {
+    else if (!is_begin(text))
       found = true;
-    } else if (!begins(trimmed(text)) || std::exchange(begun_, true)) {
+    else if (!begins(trimmed(text)) || std::exchange(begun_, true))
       source_.stop(ErrorCode::unsupported, source_.here(),
                    fmt::format(one_model, shown(trimmed(text))));
-    }
   }
   ended_ = begins_with(text, "ENDDATA");
   if (ended_) return false;

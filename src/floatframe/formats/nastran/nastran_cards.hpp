@@ -93,8 +93,6 @@ class NastranCards {
   NastranNames names_;
 };
 
-/// The next line of a text; `rest` moves behind it.
-std::string_view next_line(std::string_view& rest) noexcept;
 /// The name that a line of bulk data begins with.
 std::string_view card_name(std::string_view line) noexcept;
 /// Is there a line BEGIN (BULK, SUPER, ...) in a text or in the beginning of a file?

@@ -1,7 +1,5 @@
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 
-#include <fmt/format.h>
-
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -1,10 +1,6 @@
 #include "floatframe/formats/sid/sid_block.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -60,17 +56,15 @@ class BlockReader {
       if (order_ < 0 || order_ > 1)
         misfit(ErrorCode::out_of_range, "order is {}, expected 0 or 1", *value);
     } else if (item.key == "nrow") {
-      if (name_ == "J" && *value == 3) {
+      if (name_ == "J" && *value == 3)
         block_.m0 = Mat3::Zero();
-      } else {
+      else
         size(block_.m0.rows(), "");
-      }
     } else if (item.key == "ncol") {
-      if (name_ == "sigma" && *value == 1) {
+      if (name_ == "sigma" && *value == 1)
         block_.m0 = Vec6::Zero();
-      } else {
+      else
         size(name_ == "J" ? (block_.m0.rows() == 3 ? 3 : 1) : block_.m0.cols(), "");
-      }
     } else if (item.key == "nq") {
       if (*value != 0 || order_ == 1) size(modes_, ", the number of modes");
     } else if (item.key == "nqn") {
@@ -169,16 +163,15 @@ class BlockReader {
     for (Eigen::Index r = 0; r < block_.m0.rows(); ++r) {
       for (Eigen::Index c = 0; c < r; ++c) {
         double &lower = block_.m0(r, c), &upper = block_.m0(c, r);
-        if (seen0_(r, c) == 0.0) {
+        if (seen0_(r, c) == 0.0)
           lower = upper;
-        } else if (seen0_(c, r) == 0.0) {
+        else if (seen0_(c, r) == 0.0)
           upper = lower;
-        } else if (std::abs(upper - lower) > 1e-6 * scale) {
+        else if (std::abs(upper - lower) > 1e-6 * scale)
           source_.error(
               ErrorCode::contradiction, {0, static_cast<int>(std::max(seen0_(r, c), seen0_(c, r)))},
               "block {} is symmetric by its structure 2, but m0({},{}) = {} and m0({},{}) = {}",
               name_, r + 1, c + 1, lower, c + 1, r + 1, upper);
-        }
       }
     }
   }

@@ -5,10 +5,7 @@
 // A block is "name", order, nrow, ncol, nq, nqn, structure, entries m0(r,c) and m1(r,q,c), "end
 // name". Blanks do not matter. Memory is taken for the sizes that the number of modes implies,
 // never for what a block claims.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "floatframe/formats/sid/sid_block.hpp"

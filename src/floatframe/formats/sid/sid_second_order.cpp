@@ -185,12 +185,12 @@ class SecondOrderOfSid {
   }
 
   void notes(bool inertia, double off) const {
-    if (inertia && off > same_digits) {
+    if (inertia && off > same_digits)
       note_(c_.Oe.line,
             fmt::format("second-order inertia terms are taken from m1 of Oe, which gives the modal "
                         "masses with a deviation of {:.2g} from Me; Me is kept",
                         off));
-    } else if (!inertia) {
+    else if (!inertia)
       note_(c_.Oe.first_order() ? c_.Oe.line : c_.Me.line,
             std::string(c_.Oe.first_order()
                             ? fmt::format("m1 of Oe does not give the modal masses (deviation "
@@ -201,7 +201,6 @@ class SecondOrderOfSid {
                 "The file has no second-order inertia terms: the mass matrix at zero deformation "
                 "and its first derivative are exact, its second derivative and softening by spin "
                 "are not (S^11, S^22 and S^33 are each taken as a third of Me)");
-    }
   }
 
   const SidContent& c_;

@@ -116,6 +116,13 @@ void split_blanks(std::string_view line, std::vector<std::string_view>& fields) 
   }
 }
 
+std::string_view next_line(std::string_view& rest) noexcept {
+  const std::size_t end = std::min(rest.find('\n'), rest.size());
+  const std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return line;
+}
+
 std::string_view next_word(std::string_view& rest) noexcept {
   std::size_t begin = 0;
   while (begin < rest.size() && blank(rest[begin])) ++begin;
@@ -124,6 +131,12 @@ std::string_view next_word(std::string_view& rest) noexcept {
   const std::string_view word = rest.substr(begin, end - begin);
   rest.remove_prefix(end);
   return word;
+}
+
+bool has_word(std::string_view words, std::string_view word) noexcept {
+  for (std::string_view w = next_word(words); !w.empty(); w = next_word(words))
+    if (w == word) return true;
+  return false;
 }
 
 std::optional<double> parse_real(std::string_view field) {
@@ -137,9 +150,8 @@ std::optional<int> parse_integer(std::string_view field) noexcept {
   if (field.size() > 1 && field.front() == '+' && digit(field[1])) field.remove_prefix(1);
   int value = 0;
   const auto [last, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (field.empty() || error != std::errc() || last != field.data() + field.size()) {
+  if (field.empty() || error != std::errc() || last != field.data() + field.size())
     return std::nullopt;
-  }
   return value;
 }
 
@@ -160,10 +172,9 @@ std::string not_an_integer(std::string_view field) {
   field = trimmed(field);
   if (field.empty()) return "a number is missing";
   const std::string_view digits = field.substr(field.front() == '-' || field.front() == '+');
-  if (!digits.empty() && std::all_of(digits.begin(), digits.end(), digit)) {
+  if (!digits.empty() && std::all_of(digits.begin(), digits.end(), digit))
     return parse_integer(field) ? shown(field) + " is not positive"
                                 : shown(field) + " is too large";
-  }
   return shown(field) + " is not a whole number";
 }
 

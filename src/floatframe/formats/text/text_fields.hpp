@@ -22,8 +22,12 @@ bool begins_with(std::string_view text, std::string_view head) noexcept;
 void split_commas(std::string_view line, std::vector<std::string_view>& fields);
 /// Words between blanks, tabs or commas; replaces `fields`.
 void split_blanks(std::string_view line, std::vector<std::string_view>& fields);
+/// The next line of a text; `rest` moves behind it.
+std::string_view next_line(std::string_view& rest) noexcept;
 /// The next word between blanks; `rest` moves behind it. Empty at the end.
 std::string_view next_word(std::string_view& rest) noexcept;
+/// Is it one of some words between blanks?
+bool has_word(std::string_view words, std::string_view word) noexcept;
 
 /// A finite real number as Fortran and Nastran write it: 1., .5, 1e5, 1d5, 1.5D+03, 3.+5, -1.2-3.
 /// Nothing else may be in the field; too large, nan and inf are no numbers; too small is zero.

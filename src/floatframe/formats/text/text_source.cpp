@@ -1,6 +1,5 @@
 #include "floatframe/formats/text/text_source.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -45,9 +44,8 @@ std::string inflate_bytes(std::string_view bytes, const std::string& name, std::
   if (whole && bytes.size() >= 4) {
     // The last four bytes give the size, which need not be true.
     std::uint64_t size = 0;
-    for (std::size_t i = 1; i <= 4; ++i) {
+    for (std::size_t i = 1; i <= 4; ++i)
       size = size << 8 | static_cast<unsigned char>(bytes[bytes.size() - i]);
-    }
     text.reserve(std::min({size + 1, most, std::uint64_t{20} * bytes.size() + 4096}));
   }
   std::string chunk(std::size_t{1} << 18, '\0');
@@ -64,11 +62,10 @@ std::string inflate_bytes(std::string_view bytes, const std::string& name, std::
     const int status = inflate(&z, Z_NO_FLUSH);
     text.append(chunk.data(), chunk.size() - z.avail_out);
     if (!whole && text.size() >= most) return text.substr(0, most);
-    if (text.size() > most) {
+    if (text.size() > most)
       throw InputError(
           ErrorCode::unsupported, {name},
           fmt::format("the compressed file holds more than {} GiB, which is not read", most >> 30));
-    }
     if (text.size() > compression_matters_from &&
         text.size() / largest_compression > bytes.size()) {
       throw InputError(ErrorCode::unsupported, {name},
@@ -122,13 +119,11 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t bytes)
 }
 
 std::string not_text(std::string_view bytes) {
-  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
     return "the file is text of 16 bits per character (UTF-16); save it as ASCII or UTF-8";
-  }
   const std::size_t zero = bytes.find('\0');
-  if (zero != std::string_view::npos) {
+  if (zero != std::string_view::npos)
     return fmt::format("the file is binary, not text: byte 0x00 in line {}", line_of(bytes, zero));
-  }
   if (bytes.find('\n') == std::string_view::npos && bytes.find('\r') != std::string_view::npos)
     return "its lines end with a carriage return alone, expected a line feed (LF or CRLF)";
   // Control characters that no text has, and few of them are already too many.
@@ -252,19 +247,15 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
   for (std::size_t k = 0; k < stack_.size(); ++k) {
     if (keys_[stack_[k].file] != key) continue;
     std::string chain;
-    for (std::size_t i = k; i < stack_.size(); ++i) {
-      chain += names_[stack_[i].file] + " -> ";
-    }
+    for (std::size_t i = k; i < stack_.size(); ++i) chain += names_[stack_[i].file] + " -> ";
     stop(ErrorCode::cycle, at, "circular include: " + chain + names_[stack_[k].file]);
   }
-  if (++includes_ > most_includes) {
+  if (++includes_ > most_includes)
     stop(ErrorCode::too_large, at, "the files include each other more than {} times",
          most_includes);
-  }
-  if (stack_.size() >= deepest_include) {
+  if (stack_.size() >= deepest_include)
     stop(ErrorCode::too_large, at, "includes are nested deeper than {}: {} -> ... -> {} -> {}",
          deepest_include, names_.front(), names_[stack_.back().file], file.string());
-  }
   const auto known = index_of_key_.find(key);
   int index = 0;
   if (known != index_of_key_.end()) {
@@ -281,9 +272,8 @@ bool TextSource::include_file(std::string_view path, const FeSource& at, bool re
   }
   open(index);
   // A file that includes another twice, which includes another twice, ...
-  if (expanded_ > largest_text) {
+  if (expanded_ > largest_text)
     stop(ErrorCode::too_large, at, "the includes hold more than {} GiB in all", largest_text >> 30);
-  }
   return true;
 }
 

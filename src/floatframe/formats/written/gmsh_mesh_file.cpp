@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <set>
 
 #include "floatframe/core/plural.hpp"
-#include "floatframe/formats/gmsh/gmsh_types.hpp"
+#include "floatframe/formats/gmsh/gmsh_mesh.hpp"
 #include "floatframe/formats/written/mesh_writers.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
 

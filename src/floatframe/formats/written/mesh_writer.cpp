@@ -1,5 +1,3 @@
-#include "floatframe/formats/written/mesh_writer.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

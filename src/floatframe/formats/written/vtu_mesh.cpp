@@ -3,9 +3,6 @@
 // arrays of 0 and 1.
 #include <fmt/format.h>
 
-#include <array>
-#include <span>
-
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/vtk/vtk_file.hpp"
