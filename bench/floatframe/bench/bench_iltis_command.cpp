@@ -39,7 +39,7 @@ Command bench_iltis_command() {
   const auto a = std::make_shared<BenchArguments>();
   return {
       .name = "iltis",
-      .help = "The Iltis manoeuvre: Table 1 of the paper beside this machine",
+      .help = "The Iltis manoeuvre: Table 1 of the paper and of this machine",
       .options = {text_option("--json", a->json_file, "FILE",
                               "Write the figures to this file as JSON"),
                   whole_option("--repeat", a->options.repeats, 1, 1000,

@@ -182,7 +182,7 @@ Analysis advise_analysis() {
   const auto order = std::make_shared<ModelOrderOptions>();
   return {
       .name = "advise",
-      .help = "Find out which modes of flexible bodies a model could do without",
+      .help = "Find the modes of flexible bodies that a model does not need",
       .makes_steps = true,
       .options =
           {fraction_option(

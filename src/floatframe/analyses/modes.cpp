@@ -267,12 +267,12 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
                    : linearised_state<AbsoluteFormulation>(model);
   page.sentences = {
       fmt::format("The natural vibrations of the model {}.", place_text(at, page.state.time)),
-      "Each is drawn at one slow pace and with an amplitude that stays, whatever its frequency and "
-      "its damping; what decays or grows without swinging is drawn as if it swung."};
+      "All modes are animated at the same slow rate with constant amplitude, whatever their "
+      "frequency and damping; modes that do not oscillate are animated as if they did."};
   if (!system.stiffening.empty()) page.sentences.push_back(system.stiffening + ".");
   if (system.speed > 1e-6)
     page.sentences.push_back(
-        "The model moves there: drawn is the motion about that state, which is held still.");
+        "The model is moving in this state; the animation shows the perturbation about it.");
   if (const std::string slowest = slowest_text(system, modes); !slowest.empty())
     page.sentences.push_back("Shown: " + slowest + ".");
   for (const std::string& note : system.notes) {
@@ -282,12 +282,12 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
   }
   for (const ShownMotion& m : modes) {
     if (m.kind == "unstable")
-      page.warnings.push_back(fmt::format(
-          "Mode {} ({:.4g} Hz) is unstable: it grows while it swings.", m.number, m.mode.damped()));
+      page.warnings.push_back(fmt::format("Mode {} ({:.4g} Hz) is unstable: its oscillation grows.",
+                                          m.number, m.mode.damped()));
     if (m.kind == "growth")
-      page.warnings.push_back(fmt::format(
-          "Mode {} grows without swinging, by e in {:.4g} s: the model does not stay there.",
-          m.number, 1.0 / m.mode.lambda.real()));
+      page.warnings.push_back(
+          fmt::format("Mode {} grows without oscillating, by e in {:.4g} s: the state is unstable.",
+                      m.number, 1.0 / m.mode.lambda.real()));
   }
   page.facts = {
       {"Linear system",

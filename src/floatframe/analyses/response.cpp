@@ -101,7 +101,7 @@ AnalysisReport report_unbalance(const Model& model, const ResponseOptions& o) {
   if (!o.ports.inputs.empty() || !o.harmonic.empty() || !o.spectrum.empty() || !o.at.empty())
     throw InputError(ErrorCode::exclusive,
                      "--rotor goes through speeds under unbalance alone, expected none of "
-                     "--inputs, --harmonic, --road-spectrum, --at beside it");
+                     "--inputs, --harmonic, --road-spectrum, --at with it");
   const SpeedRange range = speed_range("--rotor", o.rotor);
   UnbalanceOptions options{range.joint, range.from,      range.to,          range.step,
                            {},          o.ports.outputs, axis_named(o.axis)};

@@ -62,7 +62,7 @@ Command compare_command() {
       .help = "Show how far the results of two runs are apart, channel by channel",
       .options =
           {file_position("A", a->a, "results.csv of a run, or the folder that holds it"),
-           file_position("B", a->b, "The one that is compared with it"),
+           file_position("B", a->b, "The result to compare with A"),
            text_option("--tolerance", a->tolerance, "NUMBER",
                        "Exit code 1 if a channel differs by more than this part of its largest "
                        "magnitude in A"),
@@ -73,13 +73,13 @@ Command compare_command() {
            flag("--overlap", a->overlap,
                 "Compare the span of time that both have; otherwise another span is a difference"),
            flag("--json", a->json, "JSON on standard output"),
-           text_option("--report", a->report, "FILE",
-                       "Page with the curves of both over each other"),
+           text_option("--report", a->report, "FILE", "Page with both curves in one plot"),
            overwrite_option(a->overwrite)},
       .footer =
-          "Instants: those that both have, if one has all of the other; else those of A, between\n"
-          "which B is taken as linear. Any file with a header line and a first column `time` will "
-          "do.\n"
+          "Compared at the common instants if one result has all instants of the other, else at\n"
+          "those of A, with B interpolated linearly. Any file with a header line and a first "
+          "column\n"
+          "`time` is accepted.\n"
           "Exit codes: 0 within the tolerance or none given, 1 beyond it, 2 bad input.",
       .run = [a] { return compare(*a); }};
 }

@@ -26,24 +26,26 @@ int convert(const ConvertArguments& a) {
 
 Command convert_command() {
   const auto a = std::make_shared<ConvertArguments>();
-  return {.name = "convert",
-          .help = "Write a finite-element model as a CalculiX deck, a Gmsh mesh or a VTU file",
-          .options = joined(
-              {file_position("PART", a->from, "Finite-element file (also .gz)"),
-               file_position("OUT", a->to, "File to write; its ending says what: .inp, .msh, .vtu"),
-               whole_option("--modes", a->modes, 0, 100000,
-                            "Modes of the vibration step of a deck; 0: no step; default 20"),
-               overwrite_option(a->overwrite)},
-              a->options.table(true)),
-          .footer =
-              "Mesh, sets, materials, sections, connections and point masses as they were "
-              "understood, in\n"
-              "the units of the file. What the other format cannot hold is said; what would "
-              "make it\n"
-              "another model is refused. Supports stand in a deck as comments.\n"
-              "Example: floatframe convert arm.bdf arm.inp && ccx arm\n"
-              "Exit codes: 0 done, 2 bad input; files are written atomically.",
-          .run = [a] { return convert(*a); }};
+  return {
+      .name = "convert",
+      .help = "Write a finite-element model as a CalculiX deck, a Gmsh mesh or a VTU file",
+      .options =
+          joined({file_position("PART", a->from, "Finite-element file (also .gz)"),
+                  file_position("OUT", a->to,
+                                "File to write; its ending gives the format: .inp, .msh, .vtu"),
+                  whole_option("--modes", a->modes, 0, 100000,
+                               "Modes of the vibration step of a deck; 0: no step; default 20"),
+                  overwrite_option(a->overwrite)},
+                 a->options.table(true)),
+      .footer =
+          "Mesh, sets, materials, sections, connections and point masses as read, in the units "
+          "of the\n"
+          "file. Data that the other format does not support is reported; data whose loss would "
+          "change\n"
+          "the model is an error. Supports are written to a deck as comments.\n"
+          "Example: floatframe convert arm.bdf arm.inp && ccx arm\n"
+          "Exit codes: 0 done, 2 bad input; files are written atomically.",
+      .run = [a] { return convert(*a); }};
 }
 
 }  // namespace floatframe

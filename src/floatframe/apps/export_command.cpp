@@ -90,13 +90,13 @@ Command export_command() {
                            "glTF 2.0 with animation, for Blender and viewers (.glb)"),
                text_option("--npz", a->npz, "FILE", "Arrays of NumPy (.npz)"),
                flag("--stress", a->stress,
-                    "In the .npz file also the stress of bodies that know it, at all its places"),
+                    "In the .npz file also the stress of bodies with stress data, at all places"),
                text_option("--csv", a->csv, "FILE",
                            "One table: a row for each instant, body and named node")},
               a->selection.table()),
           {recorded_model_option(a->run), overwrite_option(a->overwrite)}),
       .footer =
-          "The model file and all that it refers to must be as they were in the run.\n"
+          "The model file and all files that it names must be unchanged since the run.\n"
           "Exit codes: 0 done, 1 the model cannot be started or a file not be written, 2 bad "
           "input.",
       .run = [a] { return export_motion(*a); }};

@@ -54,7 +54,7 @@ Command outputs_command() {
                                   "File for the table (CSV); default: standard output"),
                       overwrite_option(a->overwrite)},
           .footer =
-              "The model file and all that it refers to must be as they were in the run.\n"
+              "The model file and all files that it names must be unchanged since the run.\n"
               "Exit codes: 0 done, 1 the model cannot be started, 2 bad input.",
           .run = [a] { return outputs(*a); }};
 }

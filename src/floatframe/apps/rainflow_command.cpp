@@ -141,7 +141,7 @@ int rainflow_of(const RainflowArguments& a) {
   std::vector<CountedChannel> channels;
   if (reader.columns().size() < 2)
     throw InputError(ErrorCode::missing, {file, 1, 0},
-                     "found no channel beside the time, expected one to count");
+                     "found no channel but the time, expected one to count");
   const std::vector<std::size_t> columns = chosen(reader, a.channels);
   for (const std::size_t k : columns) channels.push_back({reader.columns()[k], {}, {}});
   std::vector<double> time;

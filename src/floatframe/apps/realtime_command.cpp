@@ -110,13 +110,13 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   if (options.outputs && options.listen.family() != options.send.family())
     throw InputError(
         ErrorCode::exclusive,
-        fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6",
+        fmt::format("--listen: found {} with --send {}, expected both IPv4 or both IPv6",
                     options.listen.text(), options.send.text()));
   // A socket bound to the IPv6 wildcard address receives IPv4 as well.
   if (options.inputs && options.peer.known() && options.peer.family() != options.listen.family() &&
       !options.listen.text().starts_with("[::]"))
     throw InputError(ErrorCode::exclusive,
-                     fmt::format("--peer: found {}, from which no packet can come to {}, expected "
+                     fmt::format("--peer: found {}, which cannot send packets to {}, expected "
                                  "both IPv4 or both IPv6",
                                  options.peer.text(), options.listen.text()));
   return std::make_unique<UdpPort>(model, options);
@@ -126,7 +126,7 @@ std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
   std::string text;
   if (arguments.input == "udp")
     text += fmt::format("listening at {} to {}", port.local().text(),
-                        port.peer().known() ? port.peer().text() : "whoever sends first");
+                        port.peer().known() ? port.peer().text() : "the first sender");
   if (arguments.output == "udp")
     text += fmt::format("{}sending to {}", text.empty() ? "" : ", ",
                         arguments.send.empty() ? default_send : arguments.send);
@@ -135,8 +135,7 @@ std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
 
 int run_paced(const RealTimeArguments& arguments) {
   if (arguments.endless && !arguments.duration.empty())
-    throw InputError(ErrorCode::exclusive,
-                     "--duration: found with --endless, expected one of the two");
+    throw InputError(ErrorCode::exclusive, "--duration: excludes --endless; remove one of them");
   if (arguments.json && !arguments.layout)
     throw InputError(ErrorCode::incomplete,
                      "--json: found without --layout; a run writes JSON with --report FILE");
@@ -204,8 +203,9 @@ std::vector<Option> options_of(RealTimeArguments& a) {
                   "Where inputs come from: udp or none (default)"),
       word_option("--output", a.output, {"udp", "none"},
                   "Where outputs go to: udp or none (default)"),
-      text_option("--listen", a.listen, "HOST:PORT",
-                  "Where inputs come in; default: port 47100 of the address that the partner sees"),
+      text_option(
+          "--listen", a.listen, "HOST:PORT",
+          "Local address for inputs; default: port 47100 of the address that the peer reaches"),
       text_option("--send", a.send, "HOST:PORT",
                   "Where outputs go to, and the only sender accepted; default: 127.0.0.1:47101"),
       text_option("--peer", a.peer, "HOST[:PORT]",
@@ -236,7 +236,7 @@ std::vector<Option> options_of(RealTimeArguments& a) {
       flag("--layout", a.layout, "Only print names and order of the values in the packets"),
       flag("--json", a.json, "With --layout: as JSON"),
       flag("--quiet", a.quiet,
-           "No progress, no summary; errors and silent partners are still shown")};
+           "No progress, no summary; errors and missing inputs are still shown")};
 }
 
 }  // namespace

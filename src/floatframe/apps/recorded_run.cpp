@@ -34,9 +34,10 @@ std::string model_path(const std::string& given, const StateHistory& history) {
   std::error_code ignored;
   if (!origin.from_here.empty() && std::filesystem::exists(local, ignored)) return local.string();
   if (std::filesystem::exists(origin.model_file, ignored)) return origin.model_file;
-  throw InputError(ErrorCode::not_found, {history.name(), 0, 0},
-                   fmt::format("found no model file '{}' any more, expected its place with --model",
-                               origin.model_file));
+  throw InputError(
+      ErrorCode::not_found, {history.name(), 0, 0},
+      fmt::format("the model file '{}' does not exist any more; give its path with --model",
+                  origin.model_file));
 }
 
 void require_same_files(const StateHistory& history, const ModelFingerprint& used,

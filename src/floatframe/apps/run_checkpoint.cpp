@@ -118,7 +118,7 @@ CheckpointFile read_checkpoint(const std::string& path) {
   in(value);
   const auto run = std::as_bytes(std::span(value));
   c.run.bytes.assign(run.begin(), run.end());
-  if (!in.at_end()) refuse(ErrorCode::damaged, "is damaged: it goes on after its end");
+  if (!in.at_end()) refuse(ErrorCode::damaged, "is damaged: there is data after its end");
   return c;
 }
 

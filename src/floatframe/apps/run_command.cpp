@@ -275,15 +275,15 @@ Command run_command() {
                 "Begin anew where a run in DIR is unfinished; replace files that were not written "
                 "by this program"),
            word_option("--record", a->record, {"states", "none"},
-                       "Keep the states of the run in DIR/states.ffr, or not; default: as the "
-                       "model file says, else states"),
+                       "Record the states of the run in DIR/states.ffr, or not; default: as in the "
+                       "model file, else states"),
            flag("--no-report", a->no_report, "Do not write report.html"),
            flag("--strict", a->strict, "Warnings count as errors: exit code 1, results are kept"),
            flag("--quiet", a->quiet,
                 "No progress bar, no summary; errors and warnings are still shown")}),
       .footer =
-          "Files: results.csv (SI units, radians) and states.ffr, which grow while the run goes "
-          "on,\n"
+          "Files: results.csv (SI units, radians) and states.ffr, which are written during "
+          "the run,\n"
           "report.html, summary.json. Ctrl-C ends the run with its files.\n"
           "A completed run in DIR is replaced once the new one is complete; until then it is kept "
           "in\n"

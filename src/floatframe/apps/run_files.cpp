@@ -54,11 +54,10 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
             "'{}' is not a regular file, expected one that a run with checkpoints can continue",
             paths_.results));
   if (keeps_states() && !is_replaceable(paths_.states))
-    throw InputError(
-        ErrorCode::unreadable,
-        fmt::format(
-            "'{}' is not a regular file, expected one that states can be kept in, or --record none",
-            paths_.states));
+    throw InputError(ErrorCode::unreadable,
+                     fmt::format("'{}' is not a regular file, expected one that states can be "
+                                 "written to, or --record none",
+                                 paths_.states));
   if (!options_.overwrite && !options_.resume) require_own_files();
   holds_completed_ = holds_completed_run(paths_);
   if (options_.resume) {

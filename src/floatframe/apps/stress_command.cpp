@@ -37,8 +37,8 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
       report.bodies.push_back({b, {}, {}, {}});
     } else if (!selection.bodies.empty()) {
       throw InputError(ErrorCode::missing, "--body: body '" + body.name +
-                                               (body.modes() == 0 ? "' is rigid and knows no stress"
-                                                                  : "' does not know its stress") +
+                                               (body.modes() == 0 ? "' is rigid and has no stress"
+                                                                  : "' has no stress data") +
                                                ", expected a flexible body with stress");
     } else if (body.modes() > 0) {
       report.without.push_back(body.name);
@@ -48,10 +48,10 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (has_stress(model.bodies[b]) && run.history.header().bodies[b].pose < 0)
       throw InputError(ErrorCode::missing, {run.history.name(), 0, 0},
-                       "found no states of a body that knows its stress, those of '" +
+                       "found no states of a body with stress data, those of '" +
                            model.bodies[b].name + "' were not recorded (record)");
   throw InputError(ErrorCode::missing, {run.history.name(), 0, 0},
-                   "found no body that knows its stress, expected a flexible body of bars, or a "
+                   "found no body with stress data, expected a flexible body of bars, or a "
                    "part reduced with stresses");
 }
 
@@ -128,7 +128,7 @@ Command stress_command() {
               a->selection.table()),
           {recorded_model_option(a->run)}),
       .footer =
-          "The model file and all that it refers to must be as they were in the run.\n"
+          "The model file and all files that it names must be unchanged since the run.\n"
           "Exit codes: 0 done, 1 the model cannot be started or a file not be written, 2 bad "
           "input.",
       .run = [a] { return stress(*a); }};

@@ -53,7 +53,7 @@ double megabytes(const std::string& text) {
   const double value = option_number("--case-memory", text, positive_number("MB"));
   if (!(memory_of(::getpid()) > 0.0))
     throw InputError(ErrorCode::unavailable,
-                     "--case-memory: /proc does not tell how much memory a process uses");
+                     "--case-memory: /proc does not show how much memory a process uses");
   return value;
 }
 
@@ -99,7 +99,7 @@ SweepOptions options_from(const SweepArguments& a) {
   if (a.vary.empty() == a.table.empty())
     throw InputError(a.vary.empty() ? ErrorCode::missing : ErrorCode::exclusive,
                      a.vary.empty() ? "expected --vary or --table: what changes from run to run"
-                                    : "found --vary and --table, expected one of the two");
+                                    : "--vary and --table exclude each other; remove one of them");
   o.plan = a.table.empty() ? grid_plan(a.vary) : table_plan(a.table);
   for (const std::string& m : a.measures) o.measures.push_back(sweep_measure(m));
   o.threads = a.threads > 0 ? a.threads : processors();
@@ -224,8 +224,9 @@ Command sweep_command() {
       .help = "Run a model many times with different values; one row of results per run",
       .options =
           {file_position("MODEL", a->model.path, "Model file (YAML)"),
-           text_option("--files-in", a->files_in, "DIR",
-                       "Where files are that the model names; default: beside the model file"),
+           text_option(
+               "--files-in", a->files_in, "DIR",
+               "Where files are that the model names; default: the folder of the model file"),
            repeated_option("--vary", a->vary, "NAME=VALUES",
                            "Values to vary: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: "
                            "all combinations"),

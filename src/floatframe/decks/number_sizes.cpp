@@ -38,7 +38,8 @@ std::string huge_sheet(const ShellSection& shell, double density,
     return fmt::format("its mass over area is {:g}, expected a finite number", mass);
   if (!std::isfinite(shell.offset * shell.offset * t))
     return fmt::format(
-        "its middle is {:g} beside its nodes, expected a number whose square does not overflow",
+        "its mid-surface is {:g} away from its nodes, expected a number whose square does not "
+        "overflow",
         shell.offset);
   return {};
 }

@@ -208,10 +208,11 @@ void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> be
     }
   }
   if (count > 0)
-    model.notes.push_back(fmt::format(
-        "at {} nodes of beams along shells and beside them the shells do not resist the turn about "
-        "their normal, as in most programs; here they do elsewhere",
-        count));
+    model.notes.push_back(
+        fmt::format("at {} nodes of beams along shells and next to them the shells do not resist "
+                    "the turn about "
+                    "their normal, as in most programs; here they do elsewhere",
+                    count));
 }
 
 }  // namespace floatframe

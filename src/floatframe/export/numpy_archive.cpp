@@ -24,7 +24,7 @@ class NumpyArchive : public ExportFile {
     }
     if (stress && !(numbers > 0.0))
       throw InputError(ErrorCode::missing,
-                       "--stress: none of the bodies whose states were recorded knows its stress");
+                       "--stress: none of the bodies whose states were recorded has stress data");
     // A zip archive of this kind is limited to 4 GB: checked before data is collected.
     const double size = 8.0 * numbers * static_cast<double>(bodies.instants);
     if (size > 4e9)

@@ -117,12 +117,12 @@ std::string stress_text(const StressReport& report) {
     text += fmt::format("\nbody '{}', {} places{}\n", body.name, stress.places.size(),
                         stress.loads.size() + stress.section_loads.size() > 0
                             ? ""
-                            : ", by its modes alone: its loads are not known");
+                            : ", of its modes alone: its loads are not known");
     if (!b.hot_spots.empty()) text += hot_spot_table(report, b);
     if (!b.peaks.empty()) text += peak_table(report, b);
   }
   for (const std::string& name : report.without)
-    text += fmt::format("\nbody '{}' does not know its stress\n", name);
+    text += fmt::format("\nbody '{}' has no stress data\n", name);
   return text;
 }
 

@@ -238,7 +238,7 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   }
   if (line && spread.vectors.col(0).head<3>().norm() > 1e-6)
     return refuse(ErrorCode::singular,
-                  "its reference lies beside the line of its nodes, about which it turns freely");
+                  "its reference is off the line of its nodes, about which it turns freely");
   // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without the turn about it.
   const int m = line ? 5 : 6;
   const MatX chosen = line ? MatX(spread.vectors.rightCols(5)) : MatX(MatX::Identity(6, 6));

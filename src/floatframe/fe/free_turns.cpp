@@ -273,7 +273,7 @@ std::vector<FreeTurn> line_turns(const FeModel& model) {
     if (!(size(1) > 1e-4 * size(2)))
       throw InputError(
           ErrorCode::geometry,
-          fmt::format("{}: its {} nodes lie on a line, and there are no elements beside it that "
+          fmt::format("{}: its {} nodes lie on a line, and there are no elements next to it that "
                       "show how the part turns about it; choose nodes that do not lie on a line",
                       turn.label, s.nodes.size()));
     out.push_back(std::move(turn));

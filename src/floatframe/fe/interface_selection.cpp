@@ -206,7 +206,7 @@ unsigned mask_on_line(const InterfaceDescription& d, const Vec3& line, std::size
       ErrorCode::singular,
       fmt::format(
           "its {} nodes lie on a line, about which nothing holds the rotation of the reference "
-          "point; choose nodes beside the line too, or type mean and dofs without {}",
+          "point; choose nodes off the line too, or type mean and dofs without {}",
           nodes, named.empty() ? "the rotation about it" : named));
 }
 

@@ -106,7 +106,7 @@ void StateHistory::Data::index() {
     refuse(error.errors().front().code, error.errors().front().message);
   }
   while (walk.next(block, longest())) {
-    if (status != "running") refuse(ErrorCode::damaged, "it goes on after its end");
+    if (status != "running") refuse(ErrorCode::damaged, "there is data after its end");
     add(block);
   }
   if (arrays.size() < header.arrays.size()) cut();

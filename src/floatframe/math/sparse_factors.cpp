@@ -106,7 +106,7 @@ struct SparseFactors::Implementation {
 SparseFactors::SparseFactors(const Eigen::SparseMatrix<double>& A, SparseSolver solver)
     : implementation_(std::make_unique<Implementation>()) {
   if (solver == SparseSolver::mumps && !mumps().engine)
-    throw std::runtime_error("MUMPS was asked for, but " + mumps().why);
+    throw std::runtime_error("MUMPS was requested, but " + mumps().why);
   VecX& s = implementation_->scale;
   s = scaling(A, implementation_->empty);
   Eigen::SparseMatrix<double> lower = A.triangularView<Eigen::Lower>();

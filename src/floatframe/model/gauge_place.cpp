@@ -294,12 +294,13 @@ GaugeChoice find_place(const FlexibleBody& body, const std::string& name,
                        const GaugeDescription& gauge, const Vec3* point,
                        const std::string& node_name, bool section) {
   if (!body.stress || body.modes() == 0)
-    return {-1, -1,
-            fmt::format("body '{}' {}", name,
-                        body.modes() == 0
-                            ? "is rigid and knows no stress"
-                            : "knows no stress: its part was reduced without (stresses: false), is "
-                              "given by matrices, or its file has none")};
+    return {
+        -1, -1,
+        fmt::format("body '{}' {}", name,
+                    body.modes() == 0
+                        ? "is rigid and has no stress"
+                        : "has no stress data: its part was reduced without (stresses: false), is "
+                          "given by matrices, or its file has none")};
   int node_index = -1;
   if (!node_name.empty()) {
     // Nodes of bars that have no name are called by their place in the list, as tables call them.

@@ -247,7 +247,7 @@ Complaint unit(const std::string& unit) {
 Complaint clamp_without_limits(bool clamp, const std::optional<double>& low,
                                const std::optional<double>& high) {
   if (!clamp || low || high) return std::nullopt;
-  return "found true without limits, expected min, max or both beside it";
+  return "found true without limits, expected min, max or both";
 }
 
 Complaint input_limits(const std::optional<double>& low, const std::optional<double>& high) {

@@ -105,7 +105,7 @@ PartChoice read_choice(YamlSection& s) {
     else
       flexible->error(ErrorCode::wrong_value,
                       "found " + flexible->found() +
-                          " beside 'part', expected true or false (or one of the two keys)");
+                          " with 'part', expected true or false (or one of the two keys)");
   } else if (on) {
     flexible->error(ErrorCode::incomplete, "found " + flexible->found() +
                                                " without 'part', expected a part: bars, a "
@@ -148,7 +148,7 @@ std::optional<std::size_t> read_use(YamlSection& s, bool rigid, bool part) {
   if (!v) {
     if (rigid && part)
       s.error(ErrorCode::contradiction,
-              "found both rigid and flexible, expected a key 'use' that says which");
+              "found both rigid and flexible, expected a key 'use' with one of them");
     return std::nullopt;
   }
   const auto use = v->word({"rigid", "flexible"});

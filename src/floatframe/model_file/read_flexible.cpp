@@ -139,7 +139,7 @@ class FlexibleReader {
                                      "; remove this key");
     }
     if (analytic && basis)
-      basis->error(ErrorCode::exclusive, "found with analytic shapes, expected one of the two");
+      basis->error(ErrorCode::exclusive, "excludes analytic shapes; remove one of them");
     if (analytic) return;
     if (basis) {
       read_basis(*basis);

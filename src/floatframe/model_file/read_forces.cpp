@@ -219,7 +219,7 @@ std::optional<RoadSpectrum> read_spectrum(const YamlValue& value) {
   const auto word = s->get("class");
   const auto number = s->get("roughness");
   if (word && number) {
-    number->error(ErrorCode::exclusive, "found with 'class', expected one of the two");
+    number->error(ErrorCode::exclusive, "excludes 'class'; remove one of them");
   } else if (number) {
     spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
   } else if (const auto found = s->require("class")) {

@@ -210,7 +210,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
   const auto at = s.get("at"), node = s.get("node");
   if (!own) s.finish();
   if (at && node) {
-    node->error(ErrorCode::exclusive, "found with 'at', expected one of the two");
+    node->error(ErrorCode::exclusive, "excludes 'at'; remove one of them");
     if (!own) return std::nullopt;
   }
   const auto point = at ? self.read_point(*at) : std::nullopt;

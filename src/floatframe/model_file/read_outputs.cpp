@@ -249,9 +249,9 @@ class OutputReader {
     place->finish();
     bool good = body && put(moving_body(*body), o.at.body);
     if (node.has_value() == at.has_value()) {
-      place->error(
-          node ? ErrorCode::exclusive : ErrorCode::missing,
-          node ? "found 'node' and 'at', expected one of the two" : "missing key 'node' or 'at'");
+      place->error(node ? ErrorCode::exclusive : ErrorCode::missing,
+                   node ? "'node' and 'at' exclude each other; remove one of them"
+                        : "missing key 'node' or 'at'");
       good = false;
     } else {
       good = (at ? put(self_.read_point(*at), o.at.point) : node_of_gauge(*node, o)) && good;

@@ -39,7 +39,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   if (offset) d.origin.keys.emplace("offset", offset->mark());
   s->finish();
   if (equilibrium && state) {
-    state->error(ErrorCode::exclusive, "found with 'equilibrium', expected one of the two");
+    state->error(ErrorCode::exclusive, "excludes 'equilibrium'; remove one of them");
     return;
   }
   if (!equilibrium && !state && !offset) {

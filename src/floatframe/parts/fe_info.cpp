@@ -252,7 +252,7 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
                           f.grounded_springs));
   if (f.equations > 0) text += fmt::format("  equations     {}\n", f.equations);
   if (f.arms > 0)
-    text += fmt::format("  beam arms     at {}: ends of beams or bars beside them\n",
+    text += fmt::format("  beam arms     at {}: ends of beams or bars away from them\n",
                         plural(f.arms, "node"));
   if (f.supports > 0)
     text += fmt::format("  supports      on {} nodes (a hint, not applied)\n", f.supports);

@@ -82,11 +82,11 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
     case End::no_inputs:
       report.status = "failed";
       report.message =
-          fmt::format("no inputs came in answer to the outputs at t = {:.9g} s", report.time);
+          fmt::format("no inputs arrived in reply to the outputs at t = {:.9g} s", report.time);
       break;
     case End::silent:
       report.status = "failed";
-      report.message = fmt::format("no inputs came for {:g} s after t = {:.9g} s",
+      report.message = fmt::format("no inputs arrived for {:g} s after t = {:.9g} s",
                                    options.input_timeout, report.last_inputs);
       break;
   }

@@ -101,9 +101,10 @@ FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX 
       A_(K - sigma_ * M),
       factors_(A_, solver) {
   if (!(estimate > 0.0))
-    throw InputError(ErrorCode::singular,
-                     "there are no free modes: what the part can do beside moving rigidly moves no "
-                     "mass, or nothing resists it (a mechanism)");
+    throw InputError(
+        ErrorCode::singular,
+        "there are no free modes: what the part can do besides moving rigidly moves no "
+        "mass, or nothing resists it (a mechanism)");
   if (factors_.singular() >= 0)
     throw InputError(
         ErrorCode::singular,

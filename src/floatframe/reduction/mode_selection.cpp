@@ -137,7 +137,7 @@ Eigenpairs select_free_modes(const FreeStructure& structure, const PlacedPart& p
   if (count > most) {
     throw InputError(ErrorCode::out_of_range,
                      fmt::format("{} normal modes are requested, but of the {} degrees of freedom "
-                                 "of the free part only {} are left beside its six rigid motions",
+                                 "of the free part only {} remain besides its six rigid motions",
                                  count, system.size(), most));
   }
   // One at least is looked at: a mechanism is refused however few are kept.

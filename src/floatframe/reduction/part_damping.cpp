@@ -46,7 +46,7 @@ MatX given_damping(const FeMatrices& given, const FeSystem& system, const MatX& 
     throw InputError(
         ErrorCode::out_of_range,
         fmt::format("the damping matrix gives energy to a deformation (smallest eigenvalue in the "
-                    "modes {:.3g} beside {:.3g}), expected none below zero",
+                    "modes {:.3g}, largest {:.3g}), expected none below zero",
                     own.values(0), top));
   // Rounding must not give energy either.
   D = own.vectors * own.values.cwiseMax(0.0).asDiagonal() * own.vectors.transpose();

@@ -67,7 +67,7 @@ void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
               kind, name, turn.label, turn.every_way ? "in one point" : "on one line", advice));
     };
     const auto beside = [&](int node) {
-      return fmt::format("a force at {}, beside {}, would turn it", model.node_label(node),
+      return fmt::format("a force at {}, away from {}, would turn it", model.node_label(node),
                          turn.every_way ? "that point" : "that line");
     };
     for (const InterfacePlace& place : interfaces) {

@@ -91,7 +91,7 @@ std::string mechanism_text(const FeModel& model, const FeSystem& system, const V
   for (int k = 0; k < model.nodes(); ++k)
     of_node(k) = std::max(u.segment<3>(3 * k).norm(), size * turn.segment<3>(3 * k).norm());
   return fmt::format(
-      "the part is a mechanism: beside the six rigid motions there is at least one without "
+      "the part is a mechanism: besides the six rigid motions there is at least one without "
       "stiffness, which moves most at {}",
       largest_nodes(model, of_node));
 }

@@ -53,8 +53,8 @@ void require_page(const std::string& option) {
   throw InputError(
       ErrorCode::unavailable,
       option +
-          ": this program was built without the page, expected one that was built where there is "
-          "Node 18 or later with npm, or from a release archive, which holds the page");
+          ": this program was built without the page; build it with Node 18 or later and npm, or "
+          "from a release archive, which holds the page");
 }
 
 std::string check_page(const Model& model, const CheckedStart& start) {

@@ -54,8 +54,8 @@ std::string comparison_page(const ComparedResults& r, const PageCurves& a, const
   FactTable facts{"Compared",
                   {{"A", r.file_a},
                    {"B", r.file_b},
-                   {"A goes from", span(c.start_a, c.end_a)},
-                   {"B goes from", span(c.start_b, c.end_b)},
+                   {"A covers", span(c.start_a, c.end_a)},
+                   {"B covers", span(c.start_b, c.end_b)},
                    {"channels", std::to_string(c.channels.size())},
                    {"instants", std::to_string(c.instants)}}};
   Json page =

@@ -90,12 +90,11 @@ std::vector<PageTable> body_tables(const Model& model) {
 }
 
 PageTable bending_table(const Model& model) {
-  PageTable table{
-      "Bending of bars",
-      {"body", "bars", "bend along", "E I [N m2]", "bend along", "E I [N m2]"},
-      {},
-      "Directions in the design configuration; a rectangle that stands is stiffest along "
-      "its height."};
+  PageTable table{"Bending of bars",
+                  {"body", "bars", "bend along", "E I [N m2]", "bend along", "E I [N m2]"},
+                  {},
+                  "Directions in the design configuration; an upright rectangle is stiffest along "
+                  "its height."};
   for (const BarBending& b : model.hints.bending) {
     const std::string& body = model.bodies[b.body].name;
     const std::string stiffness = short_number(b.stiffness[0], "{:.5g}");

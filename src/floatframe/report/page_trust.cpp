@@ -143,8 +143,8 @@ void add_trust_curves(const StateHistory& history, Json& trust, PageBuffer& buff
       {"constraints", "After the steps since the recorded instant before, the largest."},
       {"energy",
        "Changes of energies since the start, and work done on the system up to each instant, "
-       "positive where it brings energy. Changes less work are the remainder: what the "
-       "integration loses or adds."},
+       "positive where it adds energy. Changes less work are the remainder: the energy error "
+       "of the integration."},
       {"effort", "Of the steps since the recorded instant before."},
       {"range",
        "Relative to the size of the body; of a modal amplitude the largest displacement that it "

@@ -222,7 +222,7 @@ FactTable setting_facts(const std::string& model_file, const std::vector<std::st
                    {"coordinates", rules::coordinates[index_of(s.coordinates)]},
                    {"inertia terms", rules::inertia_methods[index_of(s.inertia)]},
                    {"step", fmt::format("{:g} s", s.step)},
-                   {"duration asked", fmt::format("{:g} s", s.duration)},
+                   {"duration requested", fmt::format("{:g} s", s.duration)},
                    {"start", start_fact(s)},
                    {"spectral radius at infinity", fmt::format("{:g}", s.spectral_radius)},
                    {"Newton tolerance", fmt::format("{:g}", s.tolerance)},

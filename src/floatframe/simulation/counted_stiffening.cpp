@@ -60,7 +60,7 @@ void name_bodies(CountedStiffening& c) {
                    ? ""
                    : fmt::format(
                          "Geometric stiffening by loads and spin is counted in here ({}); 'run' "
-                         "leaves it out unless the model says geometric_stiffening: true",
+                         "leaves it out unless the model sets geometric_stiffening: true",
                          named_bodies(c.bodies));
 }
 

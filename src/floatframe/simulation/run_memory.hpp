@@ -63,7 +63,7 @@ RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& id
   if (watch) watch->serialize(in);
   if (!in.at_end())
     throw InputError(ErrorCode::damaged,
-                     std::string(checkpoint_name) + " is damaged: it goes on after its end");
+                     std::string(checkpoint_name) + " is damaged: there is data after its end");
   return memory;
 }
 

@@ -71,7 +71,7 @@ SimulationState SimulationState::from_bytes(std::span<const std::byte> bytes) {
   StateReader in(content.subspan(state_magic.size() + 8), saved_state);
   serialize(in, *data);
   if (!in.at_end())
-    throw InputError(ErrorCode::damaged, "the saved state is damaged: it goes on after its end");
+    throw InputError(ErrorCode::damaged, "the saved state is damaged: there is data after its end");
   return SimulationState(std::move(data));
 }
 

@@ -39,7 +39,7 @@ SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& o
   if (reactions_ && !reactions_->open_outputs().empty())
     start_.add_note(open_outputs_note(reactions_->open_outputs()));
   if (options.locate_edges && limits.bounded)
-    start_.add_note("locate_edges is left aside here: how often a step is divided is not bounded");
+    start_.add_note("locate_edges is ignored here: it would make the number of substeps unbounded");
 }
 
 template <class F>

@@ -87,8 +87,7 @@ void ProcessPool::give(int worker, const std::string& request) {
   w.request = request;
   w.start = std::chrono::steady_clock::now();
   if (!send_message(w.socket, request_kind, request))
-    throw RunError(ErrorCode::worker_lost,
-                   "the process that watches over a worker was ended from outside");
+    throw RunError(ErrorCode::worker_lost, "the watching process of a worker was killed");
 }
 
 std::vector<ProcessPool::Answer> ProcessPool::answers(std::chrono::milliseconds timeout) {
@@ -105,8 +104,7 @@ std::vector<ProcessPool::Answer> ProcessPool::answers(std::chrono::milliseconds 
     const MessageReader::State state = w.reader.read(w.socket, message);
     if (state == MessageReader::State::incomplete) continue;
     if (state == MessageReader::State::closed)
-      throw RunError(ErrorCode::worker_lost,
-                     "the process that watches over a worker was ended from outside");
+      throw RunError(ErrorCode::worker_lost, "the watching process of a worker was killed");
     if (message.kind == error_kind) throw cannot_start(message.text);
     Answer answer{static_cast<int>(k), std::move(w.request), "", "",
                   std::chrono::duration<double>(now - w.start).count()};

@@ -67,7 +67,7 @@ export class VibrationList {
       h(
         'p',
         { class: 'hint' },
-        `Each swings at one slow pace and does not die away: the place that moves most by ${percent(PART_OF_MODEL)} of the size of the model, or bodies turn by up to ${formatNumber((LARGEST_TURN * 180) / Math.PI, 2)}°, times the amplitude. What decays or grows without swinging is drawn as if it swung. Up and down arrows change the mode.`,
+        `All are animated at the same slow rate without decay: the place that moves most by ${percent(PART_OF_MODEL)} of the size of the model, or bodies turn by up to ${formatNumber((LARGEST_TURN * 180) / Math.PI, 2)}°, times the amplitude. Modes that do not oscillate are animated as if they did. Up and down arrows change the mode.`,
       ),
     );
     stage.shape = (time) => this.shape(time);

@@ -121,7 +121,7 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) 
   if (build.source.errors() != before) return;
   if (list.nodes.empty() && !only_nodes)
     return build.source.error(ErrorCode::missing, raw.where.at,
-                              "the rigid body or coupling has no nodes beside its reference");
+                              "the rigid body or coupling has no nodes but its reference");
   spider.nodes = list.nodes;
   if (spider.kind == Spider::Kind::mean) spider.weights = list.weights;
   build.model.spiders.push_back(std::move(spider));

@@ -148,7 +148,7 @@ void read_abaqus_rigid_body(AbaqusCard& card) {
   // Pinned nodes follow in translation only: for nodes without rotations there is no difference.
   if (card.has("PINNSET")) spider.in_model.mask = all_translations;
   if (card.has("PINNSET") && spider.nodes.size() != 1)
-    card.error(ErrorCode::unsupported, "has PIN NSET beside another set, which is not supported");
+    card.error(ErrorCode::unsupported, "has PIN NSET and another set, which is not supported");
   if (spider.nodes.empty() && spider.elements.empty())
     card.error(ErrorCode::incomplete, "needs the parameter NSET or ELSET");
   add_spider(card, spider);

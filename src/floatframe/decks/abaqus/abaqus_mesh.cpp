@@ -271,7 +271,7 @@ void read_abaqus_nodes(AbaqusCard& card) {
   }
   if (further.count > 0)
     content.note(card.source.mark(further.first),
-                 fmt::format("what stands behind the coordinates of {} is ignored",
+                 fmt::format("fields after the coordinates of {} are ignored",
                              plural(further.count, "node")));
 }
 

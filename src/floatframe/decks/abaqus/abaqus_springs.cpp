@@ -69,7 +69,7 @@ class AbaqusSpringBuilder {
       for (const Spider& s : b_.model.spiders) {
         if (s.rotation_node != node) continue;
         b_.error(e, ErrorCode::unsupported,
-                 ": node {} stands for the rotations of a rigid body, where springs are not "
+                 ": node {} carries the rotations of a rigid body, where springs are not "
                  "supported",
                  c_.element_nodes[e.first + k]);
         return false;

@@ -258,7 +258,7 @@ class AnsysElementBuilder {
     if (layered > 0)
       b_.file_note(
           "{} solids have layers: each layer has the points of its element here, in ANSYS as many "
-          "through its thickness as SECDATA says",
+          "through its thickness as SECDATA gives",
           layered);
     if (b_.content.materials.empty() && !b_.options.material)
       b_.file_note("the file has no material");

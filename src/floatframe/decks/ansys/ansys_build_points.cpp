@@ -141,7 +141,7 @@ bool add_point_mass(AnsysBuild& b, const AnsysItem& item) {
     for (std::size_t k = 7; k < 10; ++k)
       if (real->value(k) != 0.0)
         return b.error_once(ErrorCode::unsupported, real->at,
-                            "real constants {}: a mass beside its node (constant {} is {:g}) is "
+                            "real constants {}: a mass away from its node (constant {} is {:g}) is "
                             "not read; give it a node of its own",
                             e.real, k + 1, real->value(k));
     for (std::size_t k = 1; k < 3; ++k)

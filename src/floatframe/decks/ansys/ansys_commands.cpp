@@ -61,7 +61,7 @@ void check_target_shape(AnsysFields& f, AnsysContent&) {
 
 void note_units(AnsysFields& f, AnsysContent& c) {
   f.source().note(c.model, f.at(),
-                  "the file says that its units are {}; the units given with the file are taken",
+                  "the file declares units {}; the units given with the file are used",
                   shown(f.text(1)));
 }
 

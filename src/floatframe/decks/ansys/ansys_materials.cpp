@@ -104,10 +104,11 @@ class AnsysElastic {
     if (!m_.values.contains("PRXY")) compare("NUXY", "PRXY");
     for (const char* label : {"EY", "EZ", "PRYZ", "PRXZ", "NUYZ", "NUXZ", "GXY", "GYZ", "GXZ"})
       if (m_.values.contains(label))
-        error(ErrorCode::exclusive,
-              "{} by MP stands beside TB,ELASTIC, which is isotropic, leave one of the two in the "
-              "file",
-              label);
+        error(
+            ErrorCode::exclusive,
+            "{} by MP and TB,ELASTIC, which is isotropic, exclude each other; remove one from the "
+            "file",
+            label);
   }
 
   template <class... Args>
@@ -285,7 +286,7 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
   if (has_word(linear_beside, c.table))
     return f.source().note(
         c.model, f.at(),
-        "TB,{} of material {} is not linear: the part has the elastic constants beside it",
+        "TB,{} of material {} is not linear: the part has the elastic constants given with it",
         f.word(1), c.table_material);
   f.stop(ErrorCode::unsupported,
          "TB,{}: this table is not read; a part needs EX and PRXY, EX to GXZ, or TB,ANEL",

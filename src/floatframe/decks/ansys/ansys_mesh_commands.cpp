@@ -33,7 +33,7 @@ void note_count(AnsysFields& f, AnsysContent& c, double said, std::size_t found,
   if (said > 0.0 && said != static_cast<double>(found))
     f.source().note(
         c.model, f.at(),
-        "{} says {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
+        "{} announces {:.0f} {}, {} follow: if the file is not cut short, nothing is missing",
         f.command(), said, what, found);
 }
 

@@ -191,7 +191,7 @@ void add_step(CalculixText& deck, int modes) {
   if (const int most = static_cast<int>(std::max(1L, deck.dofs / 5)); modes > most) {
     modes = most;
     deck.note(
-        "the step asks for {}, a fifth of the {} of the deck: asked for more than it can find, "
+        "the step requests {}, a fifth of the {} of the deck: if more are requested than exist, "
         "CalculiX prints zeros",
         plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom"));
   }

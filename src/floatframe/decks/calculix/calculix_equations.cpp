@@ -315,7 +315,8 @@ void CalculixEquations::say_refused() {
   deck_.error(
       first_source_,
       "the rotation of node {}, of a beam or shell, is in an equation, a spring or the arm of an "
-      "end beside its node; CalculiX, which makes solids of beams and shells, would lose it (.vtu "
+      "end away from its node; CalculiX, which makes solids of beams and shells, would lose it "
+      "(.vtu "
       "and .msh show the mesh){}",
       first_refused_,
       more == 0 ? "" : "; the same holds for " + plural(more, "more node", "more nodes"));

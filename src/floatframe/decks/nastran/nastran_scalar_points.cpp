@@ -96,7 +96,7 @@ class ScalarPointBuilder {
         if (group.turns.value_or(turns) != turns)
           b_.error(ErrorCode::dependent, s,
                    "scalar point {} is tied to a rotation and to a displacement by springs; one of "
-                   "them must be tied by MPC, which says the lever",
+                   "them must be tied by MPC, which gives the lever",
                    id);
         group.turns = turns;
       }

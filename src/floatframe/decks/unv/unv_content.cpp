@@ -224,8 +224,7 @@ class UnvParser {
   void read_units() {
     const std::string text(trimmed(needed("the units are")));
     in_.note(c_.model, in_.here(),
-             "the file says that its units are {}; the units given with the file are taken",
-             shown(text));
+             "the file declares units {}; the units given with the file are used", shown(text));
     skip();
   }
 

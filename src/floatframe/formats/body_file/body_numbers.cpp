@@ -88,27 +88,28 @@ class Check {
             v.modes());
     if (!(std::abs(v.m - said.mass) <= same_number * said.mass))
       return arrays_.error(ErrorCode::contradiction, "m",
-                           "found {:.6g} kg, but the health report says {:.6g} kg", v.m, said.mass);
+                           "found {:.6g} kg, but the health report gives {:.6g} kg", v.m,
+                           said.mass);
     if (h.rotary_inertia) of_the_part(v, h);
     const Mat3 J = v.inertia_about_origin();
     const double length = std::sqrt(J.trace() / v.m);
     const Vec3 c = v.centre_of_mass();
     if (!((c - said.centre).norm() <= same_number * length))
       arrays_.error(ErrorCode::contradiction, "m_u",
-                    "found the centre of mass {} m, but the health report says {} m",
+                    "found the centre of mass {} m, but the health report gives {} m",
                     vector_text(c), vector_text(said.centre));
     if (!((J - said.J_origin).norm() <= same_number * J.norm()))
-      arrays_.error(
-          ErrorCode::contradiction, "P_u",
-          "found moments of inertia {} kg m2 about the origin, but the health report says {} kg m2",
-          vector_text(J.diagonal()), vector_text(said.J_origin.diagonal()));
+      arrays_.error(ErrorCode::contradiction, "P_u",
+                    "found moments of inertia {} kg m2 about the origin, but the health report "
+                    "gives {} kg m2",
+                    vector_text(J.diagonal()), vector_text(said.J_origin.diagonal()));
     for (const InterfaceHealth& interface : h.interfaces)
       for (const ModalNode& node : file_.part.body.nodes)
         if (node.name == interface.name &&
             !((node.p - interface.p).norm() <= same_number * (length + node.p.norm())))
           arrays_.error(ErrorCode::contradiction, "marker_p",
-                        "found {} m for '{}', but the health report says {} m", vector_text(node.p),
-                        node.name, vector_text(interface.p));
+                        "found {} m for '{}', but the health report gives {} m",
+                        vector_text(node.p), node.name, vector_text(interface.p));
   }
 
   /// What earlier programs wrote was not checked.
@@ -116,7 +117,7 @@ class Check {
     const double m = h.from_elements.mass;
     if (m > 0.0 && !(std::abs(v.m - m) <= same_number * m))
       arrays_.error(ErrorCode::contradiction, "m",
-                    "found {:.6g} kg, but the health report says {:.6g} kg of the elements", v.m,
+                    "found {:.6g} kg, but the health report gives {:.6g} kg of the elements", v.m,
                     m);
     normal_modes(h);
   }
@@ -134,8 +135,8 @@ class Check {
           std::abs(own - kept[k]) <= same_number * std::max(own, kept[k]))
         continue;
       arrays_.error(ErrorCode::contradiction, "frequencies",
-                    "found {:.6g} Hz for normal mode {}, but the health report says {:.6g} Hz", own,
-                    k + 1, kept[k]);
+                    "found {:.6g} Hz for normal mode {}, but the health report gives {:.6g} Hz",
+                    own, k + 1, kept[k]);
       return;
     }
   }

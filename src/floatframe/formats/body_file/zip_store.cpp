@@ -89,7 +89,7 @@ class ArchiveReader {
     }
     if (at != end)
       fail(ErrorCode::contradiction,
-           "the directory of the archive is longer than its number of members says");
+           "the directory of the archive is longer than its number of members");
     return out;
   }
 

@@ -209,7 +209,8 @@ class GltfReader {
     }
     if (!loader_ || name.find(':') != std::string::npos || name.find('\0') != std::string::npos)
       out_.stop(ErrorCode::unsupported,
-                "found a buffer at '{}', expected one inside or in a file beside", excerpt(uri));
+                "found a buffer at '{}', expected one inside or in a file in the same folder",
+                excerpt(uri));
     const auto place = std::filesystem::path(name).lexically_normal();
     if (name.empty() || place.is_absolute() || *place.begin() == "..")
       out_.stop(ErrorCode::unsupported,

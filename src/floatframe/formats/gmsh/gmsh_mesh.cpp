@@ -207,7 +207,7 @@ class GmshParser {
     }
     if (mesh_.nodes.size() != total)
       in_.stop(ErrorCode::contradiction, at_total,
-               "section $Nodes says {} nodes, its blocks have {}", total, mesh_.nodes.size());
+               "section $Nodes announces {} nodes, its blocks have {}", total, mesh_.nodes.size());
   }
 
   void nodes_2() {
@@ -263,7 +263,7 @@ class GmshParser {
     }
     if (mesh_.elements.size() != total)
       in_.stop(ErrorCode::contradiction, at_total,
-               "section $Elements says {} elements, its blocks have {}", total,
+               "section $Elements announces {} elements, its blocks have {}", total,
                mesh_.elements.size());
   }
 

@@ -34,9 +34,10 @@ Path companion(const Path& file, const Path& given, std::vector<Path> candidates
   std::string names;
   for (const Path& candidate : candidates)
     names += (names.empty() ? "" : " or ") + shown(candidate.filename().string());
-  errors.add(ErrorCode::missing, {file.string()},
-             fmt::format("{} missing: {}give the {} file", what,
-                         names.empty() ? "" : "there is no " + names + " beside it; ", option));
+  errors.add(
+      ErrorCode::missing, {file.string()},
+      fmt::format("{} missing: {}give the {} file", what,
+                  names.empty() ? "" : "there is no " + names + " in the same folder; ", option));
   return {};
 }
 

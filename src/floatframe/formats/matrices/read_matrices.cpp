@@ -130,7 +130,7 @@ void read_banner(TextSource& source) {
   for (std::size_t k = 0; k < 4; ++k)
     if (std::none_of(known[k].begin(), known[k].end(),
                      [&](std::string_view word) { return same_word(words[k + 1], word); }))
-      source.stop(ErrorCode::wrong_value, source.here(), "the banner says {}, expected {}",
+      source.stop(ErrorCode::wrong_value, source.here(), "the banner gives {}, expected {}",
                   shown(words[k + 1]), fmt::join(known[k], " or "));
 }
 

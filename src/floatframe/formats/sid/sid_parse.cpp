@@ -97,7 +97,7 @@ class SidParser {
         const auto n = parse_integer(item.value);
         if (!n || *n != content_.modes)
           source_.error(ErrorCode::contradiction,
-                        "nelastq is {}, the first line of the file says {} modes",
+                        "nelastq is {}, the first line of the file gives {} modes",
                         shown(item.value), content_.modes);
       } else if (item.key.starts_with("ielastq")) {
         mode_name(item);
@@ -137,7 +137,7 @@ class SidParser {
     }
     if (static_cast<int>(content_.frames.size()) != nodes_)
       source_.error(ErrorCode::contradiction, {0, frame_line_},
-                    "block frame has {} nodes, the first line of the file says {}",
+                    "block frame has {} nodes, the first line of the file gives {}",
                     content_.frames.size(), nodes_);
   }
 

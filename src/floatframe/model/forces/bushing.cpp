@@ -301,7 +301,7 @@ constinit const ForceKind bushing_element = {
         "elastic connection of two bodies with a law for each displacement along and each rotation "
         "about axes fixed in the body of `from`; the rotations are the components of the rotation "
         "vector of the other body in these axes, of less than half a turn, and the dampers of "
-        "rotations are laws of its rates unless `rotation_rate` says otherwise. Displacements of "
+        "rotations are laws of its rates unless `rotation_rate` is given. Displacements of "
         "laws that are a number count from the design configuration; a preload goes into the law. "
         "Results: size of the force, distance of the points and its rate",
     .keys = bushing_keys,
