@@ -11,7 +11,7 @@
 #include "floatframe/model/model.hpp"
 #include "support/descriptions.hpp"
 
-namespace floatframe::testing {
+namespace floatframe::trajectories {
 
 using nlohmann::json;
 
@@ -176,4 +176,4 @@ inline Csv read_csv(const std::string& path) {
   return c;
 }
 
-}  // namespace floatframe::testing
+}  // namespace floatframe::trajectories
