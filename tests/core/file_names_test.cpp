@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/growing_file.hpp"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -38,7 +37,7 @@ TEST_F(RegularFile, WholeAndBeginning) {
   EXPECT_EQ(read_regular_beginning(folder_ / "a", 4000, content), "");
   EXPECT_EQ(content, text);
   // No size of their own, but regular.
-  EXPECT_NE(regular_file("/proc/self/status").find("Name:"), std::string::npos);
+  EXPECT_TRUE(test::contains(regular_file("/proc/self/status"), "Name:"));
 }
 
 TEST_F(RegularFile, WhatIsNoRegularFile) {
@@ -54,17 +53,12 @@ TEST_F(RegularFile, WhatIsNoRegularFile) {
   EXPECT_EQ(why(folder_ / "nowhere" / "file"), "the file does not exist");
   EXPECT_EQ(why(folder_.write("a", "x") + "/b"), "the file does not exist");
   std::filesystem::create_symlink("loop", folder_ / "loop");
-  EXPECT_NE(why(folder_ / "loop").find("the file cannot be opened ("), std::string::npos);
+  EXPECT_TRUE(test::contains(why(folder_ / "loop"), "the file cannot be opened ("));
   EXPECT_EQ(why((folder_ / "a").string() + std::string("\0b", 2)),
             "the name of the file holds a NUL");
   std::string content;
   EXPECT_EQ(read_regular_beginning(pipe, 2, content), "this is not a regular file");
-  try {
-    regular_file(pipe);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(test::code_of(error.errors().front()), pipe.string() + ": unreadable");
-  }
+  EXPECT_EQ(test::error_of([&] { regular_file(pipe); }), pipe.string() + ": unreadable");
 }
 
 TEST_F(RegularFile, Size) {

@@ -6,29 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/fe/model_checks.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/math/dense.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
 FeModel sprung(const std::string& text, const FeReadOptions& options = {}) {
-  TextSource source(text, "arm.inp");
-  return read_abaqus(source, options);
-}
-
-std::string sprung_error(const std::string& text) {
-  return error_of([&] { validate(sprung(text)); });
-}
-
-std::string sprung_notes(const FeModel& model) {
-  std::string text;
-  for (const std::string& note : model.notes) text += note + '\n';
-  return text;
+  return read_inp(text, options, "arm.inp");
 }
 
 void expect_frequencies(const std::string& name, const std::vector<double>& expected,
@@ -113,13 +97,11 @@ TEST(AbaqusSprings, DirectionsOfNodes) {
         sprung(with_spring("SPRINGA", "5, 6", ", NONLINEAR\n" + std::string(table)));
     ASSERT_EQ(model.springs.size(), 1u);
     EXPECT_EQ(model.springs[0].stiffness, k);
-    EXPECT_NE(sprung_notes(model).find("*SPRING is not linear: its stiffness at zero elongation"),
-              std::string::npos);
+    EXPECT_TRUE(contains(model.notes, "*SPRING is not linear: its stiffness at zero elongation"));
   }
   const FeModel warm = sprung(with_spring("SPRINGA", "5, 6", "\n\n5., , 20.\n6., , 90.\n"));
   EXPECT_EQ(warm.springs.at(0).stiffness, 5.0);
-  EXPECT_NE(sprung_notes(warm).find("depends on temperature: its first stiffness is taken"),
-            std::string::npos);
+  EXPECT_TRUE(contains(warm.notes, "depends on temperature: its first stiffness is taken"));
 }
 
 TEST(AbaqusSprings, Rods) {
@@ -140,15 +122,13 @@ TEST(AbaqusSprings, Rods) {
 TEST(AbaqusSprings, DashpotsAndGaps) {
   const FeModel model =
       sprung(springs_deck + "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n8, 5, 6\n*DASHPOT, ELSET=D\n\n5.\n");
-  EXPECT_NE(sprung_notes(model).find("1 dashpots are ignored, the part has modal damping"),
-            std::string::npos);
+  EXPECT_TRUE(contains(model.notes, "1 dashpots are ignored, the part has modal damping"));
   const std::string gap =
       springs_deck + "*ELEMENT, TYPE=GAPUNI, ELSET=G\n8, 5, 6\n*GAP, ELSET=G\n0., 1.\n";
-  EXPECT_EQ(sprung_error(gap), "arm.inp:24: unsupported");
+  EXPECT_EQ(error_of([&] { validate(sprung(gap)); }), "arm.inp:24: unsupported");
   FeReadOptions options;
   options.contact = DeckContact::ignore;
-  EXPECT_NE(sprung_notes(sprung(gap, options)).find("*GAP is ignored, as the options say"),
-            std::string::npos);
+  EXPECT_TRUE(contains(sprung(gap, options).notes, "*GAP is ignored, as the options say"));
 }
 
 TEST(AbaqusSprings, Errors) {
@@ -168,7 +148,8 @@ TEST(AbaqusSprings, Errors) {
                       "MATERIAL=A\n",
        "arm.inp:24: incomplete"},
   };
-  for (const auto& [text, expected] : wrong) EXPECT_EQ(sprung_error(text), expected) << text;
+  for (const auto& [text, expected] : wrong)
+    EXPECT_EQ(error_of([&, &deck = text] { validate(sprung(deck)); }), expected) << text;
 }
 
 }  // namespace

@@ -6,19 +6,13 @@
 #include <numeric>
 #include <string>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/fe/element_faces.hpp"
-#include "floatframe/formats/fe_file.hpp"
 
-namespace floatframe {
+namespace floatframe::test {
 namespace {
 
 const std::string folder = FLOATFRAME_TEST_DATA "/fe/";
-
-FeModel deck(const std::string& text, const FeReadOptions& options = {}) {
-  TextSource source(text, "deck.inp");
-  return read_abaqus(source, options);
-}
 
 const std::string tetrahedron =
     "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 1., 1., 1.\n"
@@ -86,7 +80,7 @@ TEST(Abaqus, GmshsOwnDeckIsTheSameMesh) {
   // The skins of the bores, as sets of nodes.
   EXPECT_EQ(b.node_sets.at("SURFACE62").size(), 82u);
   ASSERT_EQ(b.notes.size(), 1u);
-  EXPECT_NE(b.notes[0].find("elements of type CPS6 have no section"), std::string::npos);
+  EXPECT_TRUE(contains(b.notes[0], "elements of type CPS6 have no section"));
 }
 
 TEST(Abaqus, AMeshWithoutMaterialIsReadAndSaysSo) {
@@ -184,7 +178,7 @@ TEST(Abaqus, BrickDecks) {
 }
 
 TEST(Abaqus, NumbersContinuationsAndCase) {
-  const FeModel model = deck(
+  const FeModel model = read_inp(
       "*Heading\n anything, *here\n** a comment\n*Node, nset = All Nodes\n"
       " 1, 0., 0., 0.\n2, 1.D0\n 3,, 1e0,\n4, 0, 0, +.1D+1,\n\n"
       "*element,\n type=c3d4,\n elset=Body\n1, 1,\n2, 3,\n4\n"
@@ -205,10 +199,10 @@ TEST(Abaqus, NumbersContinuationsAndCase) {
 }
 
 TEST(Abaqus, SetsOfSetsRangesAndSetsOpenedAgain) {
-  const FeModel model = deck(tetrahedron +
-                             "*NSET, NSET=A\n5, 1\n*NSET, NSET=B, GENERATE\n1, 5, 2\n6, 6\n"
-                             "*NSET, NSET=C\nA, 2, B\n*NSET, NSET=A\n4, A\n"
-                             "*NSET, NSET=GAPS, GENERATE\n4, 9\n*ELSET, ELSET=E\n2, BODY\n");
+  const FeModel model = read_inp(tetrahedron +
+                                 "*NSET, NSET=A\n5, 1\n*NSET, NSET=B, GENERATE\n1, 5, 2\n6, 6\n"
+                                 "*NSET, NSET=C\nA, 2, B\n*NSET, NSET=A\n4, A\n"
+                                 "*NSET, NSET=GAPS, GENERATE\n4, 9\n*ELSET, ELSET=E\n2, BODY\n");
   EXPECT_EQ(model.node_sets.at("A"), (std::vector<int>{4, 0, 3}));
   EXPECT_EQ(model.node_sets.at("B"), (std::vector<int>{0, 2, 4, 5}));
   EXPECT_EQ(model.node_sets.at("C"), (std::vector<int>{4, 0, 3, 1, 2, 5}));
@@ -219,7 +213,7 @@ TEST(Abaqus, SetsOfSetsRangesAndSetsOpenedAgain) {
 }
 
 TEST(Abaqus, OnePartAndOneInstance) {
-  const FeModel model = deck(
+  const FeModel model = read_inp(
       "*Heading\n*Part, name=Arm\n*Node\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n"
       "4, 0., 0., 1.\n*Element, type=C3D4\n1, 1, 2, 3, 4\n*Nset, nset=HOLE\n2, 3, 4\n"
       "*Elset, elset=ALL, internal\n1\n*Solid Section, elset=ALL, material=M\n,\n*End Part\n"
@@ -254,7 +248,7 @@ TEST(Abaqus, OnePartAndOneInstance) {
 }
 
 TEST(Abaqus, MassesEquationsAndCouplings) {
-  const FeModel model = deck(
+  const FeModel model = read_inp(
       tetrahedron +
       "*NODE\n10, 0., 0., 5.\n11, 0., 0., 5.\n"
       "*ELEMENT, TYPE=MASS, ELSET=LUMP\n20, 10\n*MASS, ELSET=LUMP\n2.5\n"
@@ -283,9 +277,9 @@ TEST(Abaqus, MassesEquationsAndCouplings) {
 }
 
 TEST(Abaqus, HarmlessKeywordsAreListedOnceEach) {
-  const FeModel model = deck(tetrahedron +
-                             "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*AMPLITUDE, NAME=B\n0., 0.\n"
-                             "*PLASTIC\n1., 0.\n*STEP\n*STATIC\n*CLOAD\n2, 1, 5.\n*END STEP\n");
+  const FeModel model = read_inp(tetrahedron +
+                                 "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*AMPLITUDE, NAME=B\n0., 0.\n"
+                                 "*PLASTIC\n1., 0.\n*STEP\n*STATIC\n*CLOAD\n2, 1, 5.\n*END STEP\n");
   ASSERT_EQ(model.notes.size(), 4u);  // and that of the mass
   EXPECT_EQ(model.notes[0], "deck.inp:17: *AMPLITUDE is ignored");
   EXPECT_EQ(model.notes[1], "deck.inp:21: *PLASTIC is ignored");
@@ -296,17 +290,17 @@ TEST(Abaqus, SectionsOfBeamsAndShells) {
   const std::string begin =
       "*NODE\n1\n2, 1.\n3, 1., 1.\n4, 0., 1.\n*MATERIAL, NAME=M\n*ELASTIC\n1., .25\n*DENSITY\n1.\n"
       "*ELEMENT, TYPE=B31, ELSET=E\n1, 1, 2\n*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=";
-  EXPECT_NEAR(deck(begin + "CIRC\n2.\n").sections[0].A, 4.0 * std::acos(-1.0), 1e-14);
-  EXPECT_EQ(deck(begin + "CIRC\n2.\n").elements[0].reference, Vec3(0, 0, -1));
-  const BeamSection pipe = deck(begin + "PIPE\n2., .5\n").sections[0];
+  EXPECT_NEAR(read_inp(begin + "CIRC\n2.\n").sections[0].A, 4.0 * std::acos(-1.0), 1e-14);
+  EXPECT_EQ(read_inp(begin + "CIRC\n2.\n").elements[0].reference, Vec3(0, 0, -1));
+  const BeamSection pipe = read_inp(begin + "PIPE\n2., .5\n").sections[0];
   EXPECT_NEAR(pipe.J, 0.5 * std::acos(-1.0) * (16.0 - 1.5 * 1.5 * 1.5 * 1.5), 1e-13);
   // Direction 1 is y: the width a lies along y.
-  const BeamSection box = deck(begin + "BOX\n4., 2., .2, .1, .2, .1\n0., 1., 0.\n").sections[0];
+  const BeamSection box = read_inp(begin + "BOX\n4., 2., .2, .1, .2, .1\n0., 1., 0.\n").sections[0];
   EXPECT_NEAR(box.A, 8.0 - 3.6 * 1.8, 1e-14);
   EXPECT_NEAR(box.Iz, (2.0 * 64.0 - 1.8 * 3.6 * 3.6 * 3.6) / 12.0, 1e-13);
   EXPECT_NEAR(box.Iy, (4.0 * 8.0 - 3.6 * 1.8 * 1.8 * 1.8) / 12.0, 1e-13);
   EXPECT_NEAR(box.J, 4.0 * std::pow(3.8 * 1.9, 2) / (2.0 * 3.8 / 0.1 + 2.0 * 1.9 / 0.2), 1e-12);
-  const FeModel shell = deck(
+  const FeModel shell = read_inp(
       "*NODE\n1\n2, 1.\n3, 1., 1.\n4, 0., 1.\n*MATERIAL, NAME=M\n*ELASTIC\n1., .25\n*DENSITY\n1.\n"
       "*ELEMENT, TYPE=S4R, ELSET=E\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=S3, ELSET=E\n2, 1, 2, 3\n"
       "*SHELL SECTION, ELSET=E, MATERIAL=M\n.75, 5\n");
@@ -317,4 +311,4 @@ TEST(Abaqus, SectionsOfBeamsAndShells) {
 }
 
 }  // namespace
-}  // namespace floatframe
+}  // namespace floatframe::test

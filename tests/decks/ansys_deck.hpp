@@ -19,14 +19,8 @@ inline FeModel ansys_of(const std::string& text, const FeReadOptions& options = 
   return read_ansys(source, options);
 }
 
-/// The text of the error, empty if there is none.
 inline std::string ansys_error(const std::string& text, const FeReadOptions& options = {}) {
-  try {
-    static_cast<void>(ansys_of(text, options));
-  } catch (const InputError& e) {
-    return test::codes_of(e);
-  }
-  return {};
+  return error_of([&] { ansys_of(text, options); });
 }
 
 inline const std::string cdb_head =

@@ -4,11 +4,9 @@
 
 #include <string>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/fe_file.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
-#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
@@ -124,22 +122,12 @@ const Case decks[] = {
 class BadDecks : public testing::TestWithParam<Case> {};
 
 TEST_P(BadDecks, SayWhatIsWrong) {
-  const std::string found = error_of([] {
-    TextSource source(deck_of(GetParam().text), "bad.inp");
-    read_abaqus(source, {});
-  });
-  EXPECT_EQ(found, GetParam().expected);
+  EXPECT_EQ(inp_error(deck_of(GetParam().text), {}, "bad.inp"), GetParam().expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Abaqus, BadDecks, testing::ValuesIn(decks), name_of);
 
-TEST(BadDecks, SoundDeckIsSound) {
-  EXPECT_EQ(error_of([] {
-              TextSource source(valid, "bad.inp");
-              read_abaqus(source, {});
-            }),
-            "no error");
-}
+TEST(BadDecks, SoundDeckIsSound) { EXPECT_EQ(inp_error(valid), "no error"); }
 
 // Two nodes with three degrees of freedom; "K" or "M" as lines "row column value".
 const std::string map_text = "1.1\n1.2\n2.1\n";

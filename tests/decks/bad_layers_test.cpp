@@ -3,9 +3,7 @@
 
 #include <string>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -39,30 +37,14 @@ std::string layers_with(std::string text, const LayerCase& c) {
   return at == std::string::npos ? text : text.replace(at, std::string(c.from).size(), c.to);
 }
 
-std::string inp_error(const std::string& text, DeckDialect dialect = DeckDialect::by_content) {
-  return error_of([&] {
-    TextSource source(text, "deck.inp");
-    FeReadOptions options;
-    options.dialect = dialect;
-    validate(read_abaqus(source, options));
-  });
-}
-
-std::string bdf_error(const std::string& text) {
-  return error_of([&] {
-    TextSource source(text, "deck.bdf");
-    validate(read_nastran(source, false, {}));
-  });
-}
-
 const char* const lamina = "*ELASTIC, TYPE=LAMINA\n1.4e5, 1.e4, .3, 5000., 5000., 3000.\n";
 const char* const section = "*SHELL SECTION, ELSET=SKIN, COMPOSITE, ORIENTATION=O\n";
 const char* const ortho = "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n";
 
 TEST(BadLayers, AbaqusDecks) {
-  ASSERT_EQ(inp_error(inp), "no error");
+  ASSERT_EQ(invalid_inp(inp), "no error");
   const std::string constants = std::string(ortho) + "1e5, 1e4, 1e4, .3, .3, .4, 5e3, 5e3,\n3e3\n";
-  ASSERT_EQ(inp_error(layers_with(inp, {lamina, constants.c_str(), ""})), "no error");
+  ASSERT_EQ(invalid_inp(layers_with(inp, {lamina, constants.c_str(), ""})), "no error");
   const LayerCase cases[] = {
       {"TYPE=LAMINA", "TYPE=SHEAR", "deck.inp:9: wrong_value"},
       {"1.4e5, 1.e4, .3, 5000., 5000., 3000.\n", "1.4e5, 1.e4, .3\n", "deck.inp:9: missing"},
@@ -123,58 +105,59 @@ TEST(BadLayers, AbaqusDecks) {
        "deck.inp:10: unsupported"},
       {section, "*SOLID SECTION, ELSET=SKIN, COMPOSITE\n", "deck.inp:16: unsupported"},
   };
-  for (const LayerCase& c : cases) EXPECT_EQ(inp_error(layers_with(inp, c)), c.expected) << c.to;
+  for (const LayerCase& c : cases) EXPECT_EQ(invalid_inp(layers_with(inp, c)), c.expected) << c.to;
   const std::string first = layers_with(inp, {"3, 10.\n", "", ""});
-  EXPECT_EQ(inp_error(first), "no error");
-  EXPECT_EQ(inp_error(first, DeckDialect::abaqus), "deck.inp:13: missing");
-  EXPECT_EQ(inp_error(layers_with(inp, {"3, 10.", "1, 10.", ""}), DeckDialect::calculix),
-            "deck.inp:13: unsupported");
+  EXPECT_EQ(invalid_inp(first), "no error");
+  EXPECT_EQ(invalid_inp(first, of_dialect(DeckDialect::abaqus)), "deck.inp:13: missing");
+  EXPECT_EQ(
+      invalid_inp(layers_with(inp, {"3, 10.", "1, 10.", ""}), of_dialect(DeckDialect::calculix)),
+      "deck.inp:13: unsupported");
 }
 
 TEST(BadLayers, NastranDecks) {
-  ASSERT_EQ(bdf_error(bdf), "no error");
+  ASSERT_EQ(invalid_bdf(bdf), "no error");
   const char* const mat8 = "MAT8,1,1.4+5,1.+4,.3,5000.,5000.,3000.,1.6-9";
   const LayerCase cases[] = {
-      {"MAT8,1,1.4+5,", "MAT8,1,,", "deck.bdf:5: missing"},
-      {"MAT8,1,1.4+5,1.+4", "MAT8,1,1.4+5,-1.+4", "deck.bdf:5: wrong_value"},
-      {".3,5000.,", ".3,,", "deck.bdf:5: wrong_value"},
-      {"1.+4,.3,", "1.+4,3.8,", "deck.bdf:5: wrong_value"},
-      {"3000.,1.6-9", "3000.,-1.6-9", "deck.bdf:5: out_of_range"},
-      {mat8, "MAT2,1,1.+5,1.+5,,1.+4,,5000.,1.6-9", "deck.bdf:5: wrong_value"},
-      {mat8, "MAT2,1,1.+5,,,1.+4,,,1.6-9", "deck.bdf:5: wrong_value"},
-      {mat8, "MAT9,1,1.+5", "deck.bdf:5: wrong_value"},
-      {"MAT1,2,500.,,.25,1.-10\n", "MAT8,1,1.4+5,1.+4,.3,5000.\n", "deck.bdf:6: duplicate"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PCOMP,3\n", "deck.bdf:8: missing"},
-      {",1,1.,0.", ",,1.,0.", "deck.bdf:9: missing"},
-      {",1,1.,0.", ",1,,0.", "deck.bdf:9: missing"},
-      {"2,2.,0.\n", "2,-2.,0.\n", "deck.bdf:8: out_of_range"},
-      {"2,2.,0.\n", "2,2.,a\n", "deck.bdf:9: not_a_number"},
-      {"2,2.,0.\n", "5,2.,0.\n", "deck.bdf:8: not_found"},
-      {"PCOMP,3\n", "PCOMP,3,,,,,,,BEND\n", "deck.bdf:8: wrong_value"},
-      {"CQUAD4,1,3,1,2,3,4,10.", "CQUAD4,1,3,1,2,3,4,9", "deck.bdf:7: not_found"},
+      {"MAT8,1,1.4+5,", "MAT8,1,,", "arm.bdf:5: missing"},
+      {"MAT8,1,1.4+5,1.+4", "MAT8,1,1.4+5,-1.+4", "arm.bdf:5: wrong_value"},
+      {".3,5000.,", ".3,,", "arm.bdf:5: wrong_value"},
+      {"1.+4,.3,", "1.+4,3.8,", "arm.bdf:5: wrong_value"},
+      {"3000.,1.6-9", "3000.,-1.6-9", "arm.bdf:5: out_of_range"},
+      {mat8, "MAT2,1,1.+5,1.+5,,1.+4,,5000.,1.6-9", "arm.bdf:5: wrong_value"},
+      {mat8, "MAT2,1,1.+5,,,1.+4,,,1.6-9", "arm.bdf:5: wrong_value"},
+      {mat8, "MAT9,1,1.+5", "arm.bdf:5: wrong_value"},
+      {"MAT1,2,500.,,.25,1.-10\n", "MAT8,1,1.4+5,1.+4,.3,5000.\n", "arm.bdf:6: duplicate"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PCOMP,3\n", "arm.bdf:8: missing"},
+      {",1,1.,0.", ",,1.,0.", "arm.bdf:9: missing"},
+      {",1,1.,0.", ",1,,0.", "arm.bdf:9: missing"},
+      {"2,2.,0.\n", "2,-2.,0.\n", "arm.bdf:8: out_of_range"},
+      {"2,2.,0.\n", "2,2.,a\n", "arm.bdf:9: not_a_number"},
+      {"2,2.,0.\n", "5,2.,0.\n", "arm.bdf:8: not_found"},
+      {"PCOMP,3\n", "PCOMP,3,,,,,,,BEND\n", "arm.bdf:8: wrong_value"},
+      {"CQUAD4,1,3,1,2,3,4,10.", "CQUAD4,1,3,1,2,3,4,9", "arm.bdf:7: not_found"},
       {"CQUAD4,1,3,1,2,3,4,10.", "CORD2C,9,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCQUAD4,1,3,1,2,3,4,9",
-       "deck.bdf:9: unsupported"},
+       "arm.bdf:9: unsupported"},
       {"CQUAD4,1,3,1,2,3,4,10.\nPCOMP,3\n", "CQUAD4,1,3,1,2,3,4,10.,.5\nPCOMP,3,-1.\n",
-       "deck.bdf:7: exclusive"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,,,1\n", "deck.bdf:8: contradiction"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,,1.,1\n", "deck.bdf:8: unsupported"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,-2.\n", "deck.bdf:8: out_of_range"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,1,-1.\n", "deck.bdf:8: out_of_range"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,2\n", "deck.bdf:8: unsupported"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,,\n,,,2\n", "deck.bdf:8: wrong_value"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,-1\n", "deck.bdf:8: unsupported"},
+       "arm.bdf:7: exclusive"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,,,1\n", "arm.bdf:8: contradiction"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,,1.,1\n", "arm.bdf:8: unsupported"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,-2.\n", "arm.bdf:8: out_of_range"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,1,-1.\n", "arm.bdf:8: out_of_range"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,2\n", "arm.bdf:8: unsupported"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,,\n,,,2\n", "arm.bdf:8: wrong_value"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,-1\n", "arm.bdf:8: unsupported"},
       {"CQUAD4,1,3,1,2,3,4,10.\nPCOMP,3\n,1,1.,0.,YES,2,2.,0.\n",
-       "GRID,5,,0.,0.,1.\nCTETRA,1,3,1,2,3,5\nPSOLID,3,1\n", "deck.bdf:9: wrong_value"},
+       "GRID,5,,0.,0.,1.\nCTETRA,1,3,1,2,3,5\nPSOLID,3,1\n", "arm.bdf:9: wrong_value"},
       {"CQUAD4,1,3,1,2,3,4,10.\nPCOMP,3\n,1,1.,0.,YES,2,2.,0.\n",
-       "CBAR,1,3,1,2,0.,0.,1.\nPBAR,3,1,1.,1.,1.,1.\n", "deck.bdf:8: wrong_value"},
+       "CBAR,1,3,1,2,0.,0.,1.\nPBAR,3,1,1.,1.,1.,1.\n", "arm.bdf:8: wrong_value"},
       {"CQUAD4,1,3,1,2,3,4,10.\nPCOMP,3\n,1,1.,0.,YES,2,2.,0.\n",
        "MAT9,5,9.,,,,,,9.\n,,,,,9.\n,9.,,,9.,,9.,1.\nGRID,5,,0.,0.,1.\nCTETRA,1,3,1,2,3,5\n"
        "PSOLID,3,5,-1\n",
-       "deck.bdf:12: unsupported"},
+       "arm.bdf:12: unsupported"},
       {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n",
-       "PSHELL,3,5,1.,5\nMAT9,5,9.,,,,,,9.\n,,,,,9.\n,9.,,,9.,,9.,1.\n", "deck.bdf:8: wrong_value"},
+       "PSHELL,3,5,1.,5\nMAT9,5,9.,,,,,,9.\n,,,,,9.\n,9.,,,9.,,9.,1.\n", "arm.bdf:8: wrong_value"},
   };
-  for (const LayerCase& c : cases) EXPECT_EQ(bdf_error(layers_with(bdf, c)), c.expected) << c.to;
+  for (const LayerCase& c : cases) EXPECT_EQ(invalid_bdf(layers_with(bdf, c)), c.expected) << c.to;
 }
 
 }  // namespace

@@ -1,22 +1,11 @@
 // Invalid decks and matrices of Nastran: each with the code and place of its error.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "floatframe/core/diagnostics.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
-
-std::string deck_error(const std::string& text) {
-  return error_of([&] {
-    TextSource source(text, "arm.bdf");
-    read_nastran(source, has_begin_bulk(text), {});
-  });
-}
 
 struct Error {
   const char* from;
@@ -41,7 +30,7 @@ const char* const deck =
     "ENDDATA\n";
 
 TEST(BadNastran, Decks) {
-  ASSERT_EQ(deck_error(deck), "no error");
+  ASSERT_EQ(bdf_error(deck), "no error");
   const Error errors[] = {
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,44", "arm.bdf:6: not_found"},
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3", "arm.bdf:6: missing"},
@@ -120,25 +109,24 @@ TEST(BadNastran, Decks) {
     const std::size_t at = text.find(error.from);
     ASSERT_NE(at, std::string::npos) << error.from;
     text.replace(at, std::string(error.from).size(), error.to);
-    EXPECT_EQ(deck_error(text), error.expected) << error.to;
+    EXPECT_EQ(bdf_error(text), error.expected) << error.to;
   }
 }
 
 TEST(BadNastran, WordsInLatin1) {
-  EXPECT_EQ(deck_error("GRID,1,,0.,0.,\xe4\n"), "arm.bdf:1: not_a_number");
-  EXPECT_EQ(deck_error("GRID,1,,0.,0.,0.\nTR\xc4GER,1\n"), "arm.bdf:2: unsupported");
+  EXPECT_EQ(bdf_error("GRID,1,,0.,0.,\xe4\n"), "arm.bdf:1: not_a_number");
+  EXPECT_EQ(bdf_error("GRID,1,,0.,0.,0.\nTR\xc4GER,1\n"), "arm.bdf:2: unsupported");
 }
 
 TEST(BadNastran, Lines) {
-  EXPECT_EQ(deck_error("+A      1\n"), "arm.bdf:1: wrong_value");
-  EXPECT_EQ(
-      deck_error("CTETRA  1       1       1       2       3       4       5       6       +A\n"
-                 "+B      7       8       9       10\n"),
-      "arm.bdf:2: incomplete");
-  EXPECT_EQ(deck_error("GRID,1,,0.,0.,0.,,,,,,,,1\n"), "arm.bdf:1: wrong_count");
-  EXPECT_EQ(deck_error("$ nothing\n"), "arm.bdf: missing");
-  EXPECT_EQ(deck_error("GRID,1,,0.,0.,0.\rGRID,2,,0.,0.,0.\r"), "arm.bdf: unreadable");
-  EXPECT_EQ(deck_error(std::string("GRID,1,,0.\0\1\2", 14)), "arm.bdf: unreadable");
+  EXPECT_EQ(bdf_error("+A      1\n"), "arm.bdf:1: wrong_value");
+  EXPECT_EQ(bdf_error("CTETRA  1       1       1       2       3       4       5       6       +A\n"
+                      "+B      7       8       9       10\n"),
+            "arm.bdf:2: incomplete");
+  EXPECT_EQ(bdf_error("GRID,1,,0.,0.,0.,,,,,,,,1\n"), "arm.bdf:1: wrong_count");
+  EXPECT_EQ(bdf_error("$ nothing\n"), "arm.bdf: missing");
+  EXPECT_EQ(bdf_error("GRID,1,,0.,0.,0.\rGRID,2,,0.,0.,0.\r"), "arm.bdf: unreadable");
+  EXPECT_EQ(bdf_error(std::string("GRID,1,,0.\0\1\2", 14)), "arm.bdf: unreadable");
 }
 
 /// One node with two degrees of freedom.

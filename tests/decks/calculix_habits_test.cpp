@@ -1,10 +1,7 @@
 // What CalculiX takes in decks beside the rules: fields too many, abbreviations, sections.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
@@ -12,21 +9,13 @@ namespace {
 
 FeModel habit_deck(const std::string& text) {
   const TemporaryFolder folder;
-  FeReadOptions options;
-  options.dialect = DeckDialect::calculix;
-  FeModel model = read_fe_file(folder.write("deck.inp", text), options);
+  FeModel model = read_fe_file(folder.write("deck.inp", text), of_dialect(DeckDialect::calculix));
   for (std::string& note : model.notes) note = folder.without(note);
   return model;
 }
 
 const char* const steel_of_deck =
     "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000, 0.3\n*DENSITY\n7.8E-9\n";
-
-bool habit_noted(const FeModel& model, const std::string& text) {
-  for (const std::string& note : model.notes)
-    if (note == text) return true;
-  return false;
-}
 
 TEST(CalculixHabits, FieldsBehindNodesAndElements) {
   const FeModel model = habit_deck(
@@ -38,10 +27,10 @@ TEST(CalculixHabits, FieldsBehindNodesAndElements) {
   ASSERT_EQ(model.elements.size(), 1u);
   EXPECT_EQ(model.elements[0].nodes[3], 3);
   EXPECT_TRUE(
-      habit_noted(model, "deck.inp:3: what stands behind the coordinates of 2 nodes is ignored"));
-  EXPECT_TRUE(habit_noted(model,
-                          "deck.inp:7: 1 element of type C3D4 with more than 4 nodes: the "
-                          "others are ignored, as CalculiX does"));
+      has_note(model, "deck.inp:3: what stands behind the coordinates of 2 nodes is ignored"));
+  EXPECT_TRUE(has_note(model,
+                       "deck.inp:7: 1 element of type C3D4 with more than 4 nodes: the "
+                       "others are ignored, as CalculiX does"));
 }
 
 TEST(CalculixHabits, FurtherNodesOfShellsAreAnError) {
@@ -83,9 +72,9 @@ TEST(CalculixHabits, SurfacesOpenedAgainGrow) {
   const FeModel model = habit_deck(deck);
   ASSERT_EQ(model.surfaces.at("S").size(), 2u);
   EXPECT_EQ(model.surfaces.at("S")[1].face, 2);
-  EXPECT_TRUE(habit_noted(model,
-                          "deck.inp:11: *SURFACE has 'S' again (deck.inp:9): what it names is "
-                          "added, as in CalculiX"));
+  EXPECT_TRUE(has_note(model,
+                       "deck.inp:11: *SURFACE has 'S' again (deck.inp:9): what it names is "
+                       "added, as in CalculiX"));
   // Nodes and faces are two surfaces there, of which those of faces have more to say.
   for (const char* both : {"*SURFACE, NAME=T, TYPE=NODE\n1\n*SURFACE, NAME=T\n7, S2\n",
                            "*SURFACE, NAME=T\n7, S2\n*SURFACE, NAME=T, TYPE=NODE\n1\n"}) {
@@ -95,13 +84,7 @@ TEST(CalculixHabits, SurfacesOpenedAgainGrow) {
     EXPECT_EQ(faces.notes[1].substr(13),
               "*SURFACE has 'T' again (deck.inp:18): of nodes and of faces those of faces count");
   }
-  EXPECT_EQ(error_of([&] {
-              TextSource source(deck, "deck.inp");
-              FeReadOptions options;
-              options.dialect = DeckDialect::abaqus;
-              read_abaqus(source, options);
-            }),
-            "deck.inp:11: duplicate");
+  EXPECT_EQ(inp_error(deck, of_dialect(DeckDialect::abaqus)), "deck.inp:11: duplicate");
 }
 
 TEST(CalculixHabits, TheLastSectionOfAnElementCounts) {
@@ -111,9 +94,9 @@ TEST(CalculixHabits, TheLastSectionOfAnElementCounts) {
       "*SOLID SECTION, ELSET=E, MATERIAL=AL\n*MATERIAL, NAME=AL\n*ELASTIC\n70000, .3\n" +
       std::string(steel_of_deck));
   EXPECT_EQ(model.materials[static_cast<std::size_t>(model.elements[0].material)].young, 70000);
-  EXPECT_TRUE(habit_noted(model,
-                          "deck.inp:9: *SOLID SECTION is the second one of element 7 (C3D4): the "
-                          "last one counts, as in CalculiX"));
+  EXPECT_TRUE(has_note(model,
+                       "deck.inp:9: *SOLID SECTION is the second one of element 7 (C3D4): the "
+                       "last one counts, as in CalculiX"));
 }
 
 }  // namespace

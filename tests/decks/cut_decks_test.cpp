@@ -2,12 +2,8 @@
 // analyses hold besides: errors and notes.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "decks/ansys_deck.hpp"
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -28,16 +24,11 @@ const std::string cut_elements =
     " "
     "   2        2        5        3        3        4        4        4        4\n";
 
-bool has_note_of(const FeModel& m, const std::string& text) {
-  return std::any_of(m.notes.begin(), m.notes.end(),
-                     [&](const std::string& n) { return n.find(text) != std::string::npos; });
-}
-
 TEST(CutDecks, AnsysBlocksEndWithMinusOne) {
   const std::string deck = cut_types + cut_nodes + "N,R5.3,LOC,-1\n" + cut_elements;
   const FeModel whole = ansys_of(deck + "      -1\n");
   EXPECT_EQ(whole.elements.size(), 2u);
-  EXPECT_FALSE(has_note_of(whole, "cut short"));
+  EXPECT_FALSE(contains(whole.notes, "cut short"));
   EXPECT_EQ(ansys_error(deck), "a.cdb:16: damaged");
   EXPECT_EQ(ansys_error(cut_types + cut_nodes), "a.cdb:11: damaged");
 }
@@ -47,10 +38,10 @@ TEST(CutDecks, CountsOfAnsysBlocksAreCompared) {
   nodes.replace(nodes.find("5,5"), 3, "9,7");
   elements.replace(elements.find("2,2"), 3, "9,3");
   const FeModel m = ansys_of(cut_types + nodes + "N,R5.3,LOC,-1\n" + elements + "      -1\n");
-  EXPECT_TRUE(has_note_of(m,
-                          "a.cdb:5: NBLOCK says 7 nodes, 5 follow: if the file is not cut short, "
-                          "nothing is missing"));
-  EXPECT_TRUE(has_note_of(m, "a.cdb:13: EBLOCK says 3 elements, 2 follow"));
+  EXPECT_TRUE(contains(m.notes,
+                       "a.cdb:5: NBLOCK says 7 nodes, 5 follow: if the file is not cut short, "
+                       "nothing is missing"));
+  EXPECT_TRUE(contains(m.notes, "a.cdb:13: EBLOCK says 3 elements, 2 follow"));
 }
 
 TEST(CutDecks, WhatWorkbenchWritesAroundTheMesh) {
@@ -70,30 +61,25 @@ const std::string nastran_cut =
     "MAT1,1,2.1+11,,.3,7800.\nPSOLID,1,1\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
     "GRID,4,,0.,0.,1.\nCTETRA,1,1,1,2,3,4\n";
 
-FeModel nastran_deck(const std::string& text) {
-  TextSource source(text, "a.bdf");
-  return read_nastran(source, true, {});
-}
-
 TEST(CutDecks, NastranSaysWhatIsMissingOrPassedOver) {
-  const FeModel whole = nastran_deck("SOL 103\nCEND\nBEGIN BULK\n" + nastran_cut + "ENDDATA\n");
-  EXPECT_FALSE(has_note_of(whole, "ENDDATA"));
-  EXPECT_FALSE(has_note_of(whole, "WTMASS"));
-  const FeModel m = nastran_deck(
-      "SOL 103\nCEND\nSTATSUB(PRELOAD) = 1\nBEGIN BULK\nPARAM,WTMASS,.5\n" + nastran_cut);
+  const FeModel whole = read_bdf("SOL 103\nCEND\nBEGIN BULK\n" + nastran_cut + "ENDDATA\n");
+  EXPECT_FALSE(contains(whole.notes, "ENDDATA"));
+  EXPECT_FALSE(contains(whole.notes, "WTMASS"));
+  const FeModel m =
+      read_bdf("SOL 103\nCEND\nSTATSUB(PRELOAD) = 1\nBEGIN BULK\nPARAM,WTMASS,.5\n" + nastran_cut);
   EXPECT_TRUE(
-      has_note_of(m, "the file has no ENDDATA: if it is not cut short, nothing is missing"));
-  EXPECT_TRUE(has_note_of(m, "PARAM WTMASS: the mass of the part is multiplied by 0.5"));
-  EXPECT_TRUE(has_note_of(m,
-                          "a.bdf:3: STATSUB is ignored: the part is free of the stress of a "
-                          "preload, the frequencies of Nastran are not"));
+      contains(m.notes, "the file has no ENDDATA: if it is not cut short, nothing is missing"));
+  EXPECT_TRUE(contains(m.notes, "PARAM WTMASS: the mass of the part is multiplied by 0.5"));
+  EXPECT_TRUE(contains(m.notes,
+                       "arm.bdf:3: STATSUB is ignored: the part is free of the stress of a "
+                       "preload, the frequencies of Nastran are not"));
   EXPECT_EQ(m.materials[0].density, 3900.0);
 }
 
 TEST(CutDecks, ALongLineOfNastranIsOneError) {
   const std::string text =
       "SOL 103\nCEND\nBEGIN BULK\n" + nastran_cut + "GRID,5,,1.,1.,1.,,,,,,7\nENDDATA\n";
-  EXPECT_EQ(error_of([&] { nastran_deck(text); }), "a.bdf:11: wrong_count");
+  EXPECT_EQ(error_of([&] { read_bdf(text); }), "arm.bdf:11: wrong_count");
 }
 
 const std::string two_blocks =
@@ -119,15 +105,15 @@ FeModel blocks_with(const std::string& more, DeckContact contact) {
 TEST(CutDecks, TiesCountNodesOnce) {
   const FeModel m =
       blocks_with("*TIE, NAME=T, POSITION TOLERANCE=0.1\nFOOT, TOP\n", DeckContact::refuse);
-  EXPECT_TRUE(has_note_of(
-      m, "4 of 6 nodes of 'FOOT' are tied to 'TOP' (within 0.1); not tied: node 22, ..."));
+  EXPECT_TRUE(contains(
+      m.notes, "4 of 6 nodes of 'FOOT' are tied to 'TOP' (within 0.1); not tied: node 22, ..."));
 }
 
 TEST(CutDecks, GeneralContactIsLeftOutOnRequest) {
   const std::string contact = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
   const FeModel m = blocks_with(contact, DeckContact::ignore);
   EXPECT_EQ(m.elements.size(), 3u);
-  EXPECT_TRUE(has_note_of(m, "*CONTACT is ignored, as the options say: its surfaces are free"));
+  EXPECT_TRUE(contains(m.notes, "*CONTACT is ignored, as the options say: its surfaces are free"));
   const auto refusal = [&](DeckContact how) {
     return error_of([&] { blocks_with(contact, how); });
   };

@@ -4,30 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
 FeModel assembly_of(const std::string& text, const FeReadOptions& options = {}) {
-  TextSource source(text, "a.inp");
-  return read_abaqus(source, options);
+  return read_inp(text, options, "a.inp");
 }
 
 std::string assembly_error(const std::string& text) {
-  try {
-    static_cast<void>(assembly_of(text));
-  } catch (const InputError& e) {
-    return test::codes_of(e);
-  }
-  return {};
+  return error_of([&] { assembly_of(text); });
 }
 
 /// A brick of 2 x 1 x 1 with an orthotropic material in axes of its own, sets and surfaces.
@@ -84,13 +75,11 @@ TEST(DeckAssembly, APartTwiceOnceTurnedAboutAnAxisBesideIt) {
   const FeModel m = assembly_of(deck);
   const Mat3 R = Eigen::AngleAxisd(std::acos(0.0), Vec3::UnitZ()).toRotationMatrix();
   const Vec3 a(1, 2, 0);
-  FeReadOptions abaqus;  // whose masses are lumped
-  abaqus.dialect = DeckDialect::abaqus;
   FeModel flat = assembly_of(flat_brick(1, Mat3::Identity(), Vec3::Zero()) +
                                  flat_brick(11, R, R * (Vec3(3, 4, 5) - a) + a) +
                                  flat_brick(21, Mat3::Identity(), Vec3(0, 0, 7)) +
                                  "*Node\n31, 9, 9, 9\n" + wood,
-                             abaqus);
+                             of_dialect(DeckDialect::abaqus));  // whose masses are lumped
   expect_same_matrices(m, flat);
   EXPECT_EQ(m.node_label(9), "node 'BRICK-2.2'");
   EXPECT_EQ(m.element_label(1), "element BRICK-2.1 (C3D8)");
@@ -133,10 +122,7 @@ TEST(DeckAssembly, SeveralParts) {
   EXPECT_NEAR(turn(0), std::sin(10 * std::acos(-1.0) / 180), 1e-14);
   EXPECT_NEAR(turn(1), std::sin(40 * std::acos(-1.0) / 180), 1e-14);
   EXPECT_EQ(m.equations.size(), 12u);  // four nodes tied
-  const auto spare = std::find_if(m.notes.begin(), m.notes.end(), [](const std::string& n) {
-    return n.find("part 'SPARE' has no instance and is left out") != std::string::npos;
-  });
-  EXPECT_NE(spare, m.notes.end());
+  EXPECT_TRUE(contains(m.notes, "part 'SPARE' has no instance and is left out"));
 }
 
 /// Independent instances have their mesh themselves.
@@ -200,7 +186,7 @@ TEST(DeckAssembly, EveryBlockHasAnEnd) {
                     two = "*Instance, name=TWO, part=P\n", ends = "*End Instance\n",
                     all = "*End Assembly\n", step = "*Step\n*End Step\n";
   const std::map<std::string, std::string> cases = {
-      {part + end + one + ends + all + wood, ""},
+      {part + end + one + ends + all + wood, "no error"},
       {part + wood, "a.inp:1: missing"},
       {part + one + ends + all + wood, "a.inp:1: missing"},
       {part + "*Part, name=Q\n" + end + one + ends + all + wood, "a.inp:1: missing"},

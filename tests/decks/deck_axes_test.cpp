@@ -5,28 +5,21 @@
 
 #include <numbers>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
 FeModel axes_deck(const std::string& system, const std::string& more = {},
                   DeckDialect dialect = DeckDialect::by_content) {
-  TextSource source(
+  return valid_inp(
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 2, 0, 0\n"
       "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n"
       "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n2e11, 1e10, 1e10, .3, .3, .3, 5e9, 5e9\n3e9\n"
       "*DENSITY\n7800\n*ORIENTATION, NAME=O, SYSTEM=" +
           system + "\n0, 0, 1, 1, 0, 0\n*SOLID SECTION, ELSET=E, MATERIAL=M, ORIENTATION=O\n" +
           more,
-      "axes.inp");
-  FeReadOptions options;
-  options.dialect = dialect;
-  FeModel model = read_abaqus(source, options);
-  validate(model);
-  return model;
+      of_dialect(dialect), "axes.inp");
 }
 
 const std::string axes_of_abaqus =
@@ -107,17 +100,15 @@ TEST(DeckAxes, PointAndTurnThatCalculixPassesOver) {
 // CalculiX 2.20: a plate of S4 has 285.29 and 421.70 Hz with and without ", 0.".
 TEST(DeckAxes, BlankAxisOfShells) {
   const auto notes = [](const std::string& line, DeckDialect dialect) {
-    TextSource source(
+    const FeModel model = read_inp(
         "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=S4, ELSET=E\n"
         "1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
         "2e11, 1e10, 1e10, .3, .3, .3, 5e9, 5e9\n3e9\n*DENSITY\n7800\n*ORIENTATION, NAME=O\n"
         "1, .2, .1, -.2, 1, .3\n" +
             line + "*SHELL SECTION, ELSET=E, MATERIAL=M, ORIENTATION=O\n.01\n",
-        "shell.inp");
-    FeReadOptions options;
-    options.dialect = dialect;
+        of_dialect(dialect), "shell.inp");
     std::string text;
-    for (const std::string& note : read_abaqus(source, options).notes)
+    for (const std::string& note : model.notes)
       if (note.find("orientation") != std::string::npos) text += note + "\n";
     return text;
   };

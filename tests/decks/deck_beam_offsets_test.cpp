@@ -1,14 +1,9 @@
 // Beams of decks whose centroid lies beside their nodes.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -17,12 +12,7 @@ const std::string stick_material =
     "*MATERIAL, NAME=M\n*ELASTIC\n7e10, .25\n*DENSITY\n2700.\n";  // 5 lines
 
 FeModel stick_deck(const std::string& text, DeckDialect dialect = DeckDialect::by_content) {
-  TextSource source(text, "stick.inp");
-  FeReadOptions options;
-  options.dialect = dialect;
-  FeModel model = read_abaqus(source, options);
-  validate(model);
-  return model;
+  return valid_inp(text, of_dialect(dialect), "stick.inp");
 }
 
 /// One or two beams of two elements along x on the same nodes; sections of SET1 and SET2.
@@ -165,14 +155,9 @@ TEST(DeckBeamOffsets, SaysWhatIsWrong) {
 
 TEST(DeckBeamOffsets, DirectionOneIsAcross) {
   const auto error = [](const std::string& type, const std::string& direction) {
-    return error_of([&] {
-      TextSource source(
-          sticks(type,
-                 "*BEAM SECTION, ELSET=SET1, MATERIAL=M, SECTION=RECT\n.05, .08\n" + direction,
-                 false),
-          "stick.inp");
-      read_abaqus(source, {});
-    });
+    const std::string section =
+        "*BEAM SECTION, ELSET=SET1, MATERIAL=M, SECTION=RECT\n.05, .08\n" + direction;
+    return inp_error(sticks(type, section, false), {}, "stick.inp");
   };
   EXPECT_EQ(error("B31", "2., 0., 0.\n"), "stick.inp:15: geometry");
   EXPECT_EQ(error("B32", "2., 0., 0.\n"), "stick.inp:15: geometry");

@@ -1,10 +1,7 @@
 // I sections, further nodes that direct beams, and places of sections of Abaqus decks.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -13,13 +10,10 @@ namespace {
 FeModel girder(const std::string& section, const std::string& element = "1, 1, 2",
                const std::string& node = "3, 0., 0., 5.",
                DeckDialect dialect = DeckDialect::by_content) {
-  TextSource source("*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n" + node +
-                        "\n*ELEMENT, TYPE=B33, ELSET=SET\n" + element +
-                        "\n*MATERIAL, NAME=M\n*ELASTIC\n2e11, .3\n" + section,
-                    "girder.inp");
-  FeReadOptions options;
-  options.dialect = dialect;
-  return read_abaqus(source, options);
+  return read_inp("*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n" + node +
+                      "\n*ELEMENT, TYPE=B33, ELSET=SET\n" + element +
+                      "\n*MATERIAL, NAME=M\n*ELASTIC\n2e11, .3\n" + section,
+                  of_dialect(dialect), "girder.inp");
 }
 
 std::string i_of(const std::string& numbers, const std::string& more = "0., 1., 0.\n") {
@@ -40,13 +34,10 @@ TEST(DeckBeamShapes, IOfEqualFlanges) {
   EXPECT_NEAR(s.Iz, (2 * .012 * std::pow(.08, 3) + .176 * std::pow(.006, 3)) / 12, 1e-18);
   EXPECT_NEAR(s.J, (2 * .08 * std::pow(.012, 3) + .176 * std::pow(.006, 3)) / 3, 1e-20);
   EXPECT_EQ(m.nodes(), 3);  // the node is in the middle
-  bool noted = false;
-  for (const std::string& note : m.notes)
-    noted = noted || note ==
-                         "girder.inp:10: *BEAM SECTION, SECTION=I: area and moments are those "
-                         "of its rectangles, the torsion constant is the sum of b t^3/3, about "
-                         "the centroid; Abaqus integrates along the middle of the walls";
-  EXPECT_TRUE(noted);
+  EXPECT_TRUE(has_note(m,
+                       "girder.inp:10: *BEAM SECTION, SECTION=I: area and moments are those "
+                       "of its rectangles, the torsion constant is the sum of b t^3/3, about "
+                       "the centroid; Abaqus integrates along the middle of the walls"));
 }
 
 // A T with its web down, the node at the lower end of the web, and the same with *BEAM SECTION

@@ -6,18 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
 FeModel deck_read(const std::string& text) {
-  TextSource source(text, "deck.inp");
-  FeReadOptions options;
-  options.dialect = DeckDialect::abaqus;
-  return read_abaqus(source, options);
+  return read_inp(text, of_dialect(DeckDialect::abaqus));
 }
 
 std::string coordinate_deck_error(const std::string& text) {
@@ -155,7 +150,7 @@ TEST(DeckCoordinates, Errors) {
     const std::string found = coordinate_deck_error(c.text);
     EXPECT_EQ(found.substr(0, found.find('\n')), c.message);
     if (c.message.find("a second time") != std::string::npos) {
-      EXPECT_EQ(found.find("another"), std::string::npos) << found;
+      EXPECT_FALSE(contains(found, "another"));
       EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 0) << found;
     }
   }

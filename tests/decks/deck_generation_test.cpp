@@ -5,22 +5,11 @@
 #include <cmath>
 #include <map>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/text/text_source.hpp"
+#include "decks/deck_text.hpp"
 #include "formats/mesh_checks.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel generated(const std::string& text) {
-  TextSource source(text, "deck.inp");
-  return read_abaqus(source, {});
-}
-
-std::string generation_error(const std::string& text) {
-  return error_of([&] { generated(text); });
-}
 
 /// 4 x 3 x 2 bricks of 1 x 2 x 3: node 1 + i + 10 j + 100 k.
 std::string written_out() {
@@ -65,14 +54,14 @@ void expect_equal_by_number(const FeModel& a, const FeModel& b) {
 }
 
 TEST(DeckGeneration, LinesRowsAndLayers) {
-  const FeModel model = generated(
+  const FeModel model = read_inp(
       std::string(corners_of_a_block) +
       "*NGEN, NSET=A0\n1, 5\n*NGEN, NSET=A1\n31, 35, 1\n*NGEN, NSET=B0\n201, 205\n*NGEN, NSET=B1\n"
       "231, 235\n*NFILL, NSET=LOW\nA0, A1, 3, 10\n*NFILL, NSET=UP\nB0, B1, 3, 10\n"
       "*NFILL, NSET=NALL\nLOW, UP, 2, 100\n*ELEMENT, TYPE=C3D8\n1, 1, 2, 12, 11, 101, 102, 112, "
       "111\n"
       "*ELGEN, ELSET=ALL\n1, 4, 1, 1, 3, 10, 10, 2, 100, 100\n");
-  expect_equal_by_number(generated(written_out()), model);
+  expect_equal_by_number(read_inp(written_out()), model);
   EXPECT_EQ(model.element_sets.at("ALL").size(), 24u);
   EXPECT_EQ(model.node_sets.at("A0").size(), 5u);
   EXPECT_EQ(model.node_sets.at("LOW").size(), 20u);
@@ -80,7 +69,7 @@ TEST(DeckGeneration, LinesRowsAndLayers) {
 }
 
 TEST(DeckGeneration, Copies) {
-  const FeModel model = generated(
+  const FeModel model = read_inp(
       std::string(corners_of_a_block) +
       "*NGEN, NSET=A0\n1, 5\n*NCOPY, OLD SET=A0, NEW SET=ROWS, CHANGE NUMBER=10, SHIFT, "
       "MULTIPLE=3\n"
@@ -89,12 +78,12 @@ TEST(DeckGeneration, Copies) {
       "*NCOPY, OLD SET=LOW, CHANGE NUMBER=200, SHIFT\n0, 0, 6\n\n"
       "*ELEMENT, TYPE=C3D8\n1, 1, 2, 12, 11, 101, 102, 112, 111\n*ELGEN, ELSET=FLAT\n"
       "1, 4, 1, 1, 3, 10, 10\n*ELCOPY, OLD SET=FLAT, ELEMENT SHIFT=100, SHIFT NODES=100\n");
-  expect_equal_by_number(generated(written_out()), model);
+  expect_equal_by_number(read_inp(written_out()), model);
   EXPECT_EQ(model.element_sets.at("FLAT").size(), 12u);
 }
 
 TEST(DeckGeneration, ArcsAndTurnedCopies) {
-  const FeModel model = generated(
+  const FeModel model = read_inp(
       "*NODE\n1, 2, 0, 0\n7, 0, 2, 0\n9, 0, 0, 0\n*NGEN, LINE=C, NSET=ARC\n1, 7, 2, 9\n"
       "*NSET, NSET=ENDS\n1\n*NCOPY, OLD SET=ENDS, CHANGE NUMBER=20, SHIFT, MULTIPLE=2\n1, 0, 0\n"
       "0, 0, 0, 0, 0, 1, 90\n*NODE\n102, 0, 0, 1\n"
@@ -115,45 +104,41 @@ TEST(DeckGeneration, ArcsAndTurnedCopies) {
 
 TEST(DeckGeneration, Errors) {
   const std::string n = "*NODE\n1, 0, 0, 0\n5, 4, 0, 0\n7, 0, 1, 0\n";
-  EXPECT_EQ(generation_error(n + "*NGEN\n1, 6\n"), "deck.inp:6: not_found");
-  EXPECT_EQ(generation_error(n + "*NGEN\n1, 5, 3\n"), "deck.inp:6: contradiction");
-  EXPECT_EQ(generation_error(n + "*NGEN\n5, 1\n"), "deck.inp:6: contradiction");
-  EXPECT_EQ(generation_error(n + "*NGEN\n1\n"), "deck.inp:6: incomplete");
-  EXPECT_EQ(generation_error(n + "*NGEN, LINE=P\n1, 5\n"), "deck.inp:5: wrong_count");
-  EXPECT_EQ(generation_error(n + "*NGEN, LINE=C\n1, 5, 1, 7\n"), "deck.inp:6: geometry");
-  EXPECT_EQ(generation_error(n + "*NGEN, LINE=C\n1, 5, 1, , 2, 0, 0\n"), "deck.inp:6: unsupported");
-  EXPECT_EQ(generation_error(n + "*NODE\n3, 9, 9, 9\n*NGEN\n1, 5\n"), "deck.inp:8: duplicate");
-  EXPECT_EQ(generation_error(n + "*NFILL\nA, B, 2, 10\n"),
-            "deck.inp:6: missing\ndeck.inp:6: missing");
-  EXPECT_EQ(generation_error(n + "*NSET, NSET=A\n1, 5\n*NFILL\nA, 7, 2, 10\n"),
+  EXPECT_EQ(inp_error(n + "*NGEN\n1, 6\n"), "deck.inp:6: not_found");
+  EXPECT_EQ(inp_error(n + "*NGEN\n1, 5, 3\n"), "deck.inp:6: contradiction");
+  EXPECT_EQ(inp_error(n + "*NGEN\n5, 1\n"), "deck.inp:6: contradiction");
+  EXPECT_EQ(inp_error(n + "*NGEN\n1\n"), "deck.inp:6: incomplete");
+  EXPECT_EQ(inp_error(n + "*NGEN, LINE=P\n1, 5\n"), "deck.inp:5: wrong_count");
+  EXPECT_EQ(inp_error(n + "*NGEN, LINE=C\n1, 5, 1, 7\n"), "deck.inp:6: geometry");
+  EXPECT_EQ(inp_error(n + "*NGEN, LINE=C\n1, 5, 1, , 2, 0, 0\n"), "deck.inp:6: unsupported");
+  EXPECT_EQ(inp_error(n + "*NODE\n3, 9, 9, 9\n*NGEN\n1, 5\n"), "deck.inp:8: duplicate");
+  EXPECT_EQ(inp_error(n + "*NFILL\nA, B, 2, 10\n"), "deck.inp:6: missing\ndeck.inp:6: missing");
+  EXPECT_EQ(inp_error(n + "*NSET, NSET=A\n1, 5\n*NFILL\nA, 7, 2, 10\n"),
             "deck.inp:8: contradiction");
-  EXPECT_EQ(generation_error(n + "*NFILL\n1, 7, 0, 10\n"), "deck.inp:6: out_of_range");
-  EXPECT_EQ(generation_error(n + "*NCOPY, OLD SET=A, CHANGE NUMBER=10, REFLECT=LINE\n1\n"),
+  EXPECT_EQ(inp_error(n + "*NFILL\n1, 7, 0, 10\n"), "deck.inp:6: out_of_range");
+  EXPECT_EQ(inp_error(n + "*NCOPY, OLD SET=A, CHANGE NUMBER=10, REFLECT=LINE\n1\n"),
             "deck.inp:5: unsupported");
   const std::string e = n + "8, 0, 0, 1\n*ELEMENT, TYPE=C3D4\n1, 1, 5, 7, 8\n";
-  EXPECT_EQ(generation_error(e + "*ELGEN\n2, 3, 1, 1\n"), "deck.inp:9: not_found");
-  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 0, 1, 1\n"), "deck.inp:9: out_of_range");
-  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2000, 0, 1, 3000\n"), "deck.inp:9: too_large");
+  EXPECT_EQ(inp_error(e + "*ELGEN\n2, 3, 1, 1\n"), "deck.inp:9: not_found");
+  EXPECT_EQ(inp_error(e + "*ELGEN\n1, 0, 1, 1\n"), "deck.inp:9: out_of_range");
+  EXPECT_EQ(inp_error(e + "*ELGEN\n1, 2000, 0, 1, 3000\n"), "deck.inp:9: too_large");
   std::string nested = n + "*NSET, NSET=S0\n1, 1, 1\n";
   for (int k = 1; k < 40; ++k)
     nested += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, k - 1);
-  EXPECT_EQ(generation_error(nested + "*NFILL\nS39, S39, 2, 1\n"), "deck.inp:86: too_large");
-  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2, 0, 0\n"), "deck.inp:9: duplicate");
-  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2, 0, -5\n"), "deck.inp:9: out_of_range");
-  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2, 1, 1\n"), "deck.inp:9: not_found");
+  EXPECT_EQ(inp_error(nested + "*NFILL\nS39, S39, 2, 1\n"), "deck.inp:86: too_large");
+  EXPECT_EQ(inp_error(e + "*ELGEN\n1, 2, 0, 0\n"), "deck.inp:9: duplicate");
+  EXPECT_EQ(inp_error(e + "*ELGEN\n1, 2, 0, -5\n"), "deck.inp:9: out_of_range");
+  EXPECT_EQ(inp_error(e + "*ELGEN\n1, 2, 1, 1\n"), "deck.inp:9: not_found");
 }
 
 TEST(DeckGeneration, ElementsWithTemperatures) {
-  const FeModel model = generated(
+  const FeModel model = read_inp(
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4T, ELSET=E\n1, 1, "
       "2, "
       "3, 4\n");
   ASSERT_EQ(model.elements.size(), 1u);
   EXPECT_EQ(model.elements[0].type, ElementType::tet4);
-  bool found = false;
-  for (const std::string& note : model.notes)
-    found = found || note.find("C3D4T are read without their temperatures") != std::string::npos;
-  EXPECT_TRUE(found);
+  EXPECT_TRUE(contains(model.notes, "C3D4T are read without their temperatures"));
 }
 
 }  // namespace

@@ -6,31 +6,13 @@
 #include <algorithm>
 #include <string>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/ansys/read_ansys.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/formats/fe_file.hpp"
+#include "decks/ansys_deck.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
-
-std::string abaqus_errors(const std::string& text) {
-  return error_of([&] {
-    TextSource source(text, "deck.inp");
-    read_abaqus(source, {});
-  });
-}
-
-std::string nastran_errors(const std::string& text) {
-  return error_of([&] {
-    TextSource source(text, "deck.bdf");
-    read_nastran(source, has_begin_bulk(text), {});
-  });
-}
 
 std::size_t lines_of(const std::string& text) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -52,26 +34,26 @@ TEST(DeckLimits, IncludesThatMultiply) {
   const TemporaryFolder folder;
   const std::string abaqus = include_errors(folder, "*INCLUDE, INPUT={}", ".inp", "abaqus");
   EXPECT_TRUE(abaqus.ends_with(": too_large")) << abaqus;
-  EXPECT_NE(abaqus.find(".inp:"), std::string::npos) << abaqus;
+  EXPECT_TRUE(contains(abaqus, ".inp:"));
   const std::string nastran = include_errors(folder, "INCLUDE '{}'", ".bdf", "nastran");
   EXPECT_TRUE(nastran.ends_with(": too_large")) << nastran;
 }
 
 TEST(DeckLimits, LongKeywordLines) {
-  EXPECT_EQ(abaqus_errors("*NODE\n1\n*" + std::string(20'000'000, 'A') + "\n1\n"),
+  EXPECT_EQ(inp_error("*NODE\n1\n*" + std::string(20'000'000, 'A') + "\n1\n"),
             "deck.inp:3: too_large");
   std::string parameters = "*NODE";
   for (int k = 0; k < 90; ++k) parameters += ",\n" + std::string(1000, 'B') + "=1";
-  EXPECT_EQ(abaqus_errors("** many lines\n" + parameters + "\n1\n"), "deck.inp:2: too_large");
+  EXPECT_EQ(inp_error("** many lines\n" + parameters + "\n1\n"), "deck.inp:2: too_large");
 }
 
 TEST(DeckLimits, UnknownKeywordsAreNamedOnce) {
   std::string text = "*NODE\n1\n";
   for (int k = 0; k < 200'000; ++k) text += "*SPECIAL LAYER, NAME=X\n";
-  EXPECT_EQ(lines_of(abaqus_errors(text)), 1u);
+  EXPECT_EQ(lines_of(inp_error(text)), 1u);
   std::string different = "*NODE\n1\n";
   for (int k = 0; k < 1000; ++k) different += fmt::format("*SPECIAL LAYER {}\n", k);
-  const std::string errors = abaqus_errors(different);
+  const std::string errors = inp_error(different);
   EXPECT_EQ(lines_of(errors), TextSource::most_errors + 1);
   EXPECT_EQ(errors,
             "deck.inp:3: unknown_key\ndeck.inp:4: unknown_key\ndeck.inp:5: "
@@ -94,7 +76,7 @@ TEST(DeckLimits, UnknownKeywordsAreNamedOnce) {
       << errors;
   std::string cards;
   for (int k = 0; k < 100'000; ++k) cards += fmt::format("X{},1\n", k);
-  EXPECT_EQ(lines_of(nastran_errors(cards)), TextSource::most_errors + 1);
+  EXPECT_EQ(lines_of(bdf_error(cards)), TextSource::most_errors + 1);
 }
 
 /// `count` nodes.
@@ -108,7 +90,7 @@ TEST(DeckLimits, SetsThatDouble) {
   // Each set names the one before it twice: the members are found once.
   std::string text = nodes(2) + "*NSET, NSET=S0\n1, 2\n";
   for (int k = 1; k < 150; ++k) text += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, k - 1);
-  EXPECT_EQ(abaqus_errors(text), "deck.inp: missing");
+  EXPECT_EQ(inp_error(text), "deck.inp: missing");
 }
 
 TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
@@ -121,7 +103,7 @@ TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
   }
   const std::string end = ": too_large";
   const auto ends = [&](const std::string& text) {
-    const std::string errors = abaqus_errors(text);
+    const std::string errors = inp_error(text);
     return errors.ends_with(end) ? end : errors;
   };
   const std::string body =
@@ -149,8 +131,7 @@ TEST(DeckLimits, AnsysElementsWithoutNumbersAndEdgesWithoutNodes) {
                         2 * k + 1, n + 2, 2 * k, n + 3, 2 * k, n + 4, 2 * k + 0.5);
     deck += fmt::format("EN,{},{},{},{},{},{}\n", count + 1 + k, n, n + 1, n + 2, n + 3, n + 4);
   }
-  TextSource source(deck, "a.cdb");
-  const FeModel model = read_ansys(source, {});
+  const FeModel model = ansys_of(deck);
   EXPECT_EQ(model.elements.size(), static_cast<std::size_t>(count + tetrahedra));
   EXPECT_EQ(model.nodes(), 2 + 10 * tetrahedra);
 }
@@ -165,12 +146,12 @@ TEST(DeckLimits, RangesOfNastranAgainAndAgain) {
     sets += "SET3,7,GRID,1,THRU,2000000000\n";
   }
   for (const std::string& more : {supports, sets}) {
-    const std::string errors = nastran_errors(text + more);
+    const std::string errors = bdf_error(text + more);
     EXPECT_TRUE(errors.ends_with(": too_large")) << errors;
   }
   // Masses with an offset get a node of their own each, and no number is above the largest.
-  EXPECT_EQ(nastran_errors("GRID,2147483647,,3.,0.,0.\n" + text + "CONM2,5,1,,1.,1.\n"),
-            "deck.bdf:1005: incomplete");
+  EXPECT_EQ(bdf_error("GRID,2147483647,,3.,0.,0.\n" + text + "CONM2,5,1,,1.,1.\n"),
+            "arm.bdf:1005: incomplete");
 }
 
 TEST(DeckLimits, GroupsOfGmshAgainAndAgain) {

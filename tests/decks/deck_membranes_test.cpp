@@ -1,12 +1,7 @@
 // Membranes of Abaqus and CalculiX decks: M3D with *MEMBRANE SECTION.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -22,12 +17,7 @@ const std::string foil_elements =
 const std::string foil_material = "*MATERIAL, NAME=AL\n*ELASTIC\n7e10, .25\n*DENSITY\n2700.\n";
 
 FeModel foil_deck(const std::string& text, DeckDialect dialect = DeckDialect::calculix) {
-  TextSource source(text, "foil.inp");
-  FeReadOptions options;
-  options.dialect = dialect;
-  FeModel model = read_abaqus(source, options);
-  validate(model);
-  return model;
+  return valid_inp(text, of_dialect(dialect), "foil.inp");
 }
 
 std::string foil(const std::string& section) {
@@ -65,12 +55,11 @@ TEST(DeckMembranes, StretchedStrip) {
 
 // The same matrices as those of the Nastran deck.
 TEST(DeckMembranes, AsInNastran) {
-  TextSource source(
+  const FeModel sheet = read_bdf(
       "GRID,1,,0.,0.,0.\nGRID,2,,.5,0.,0.\nGRID,3,,1.,0.,0.\nGRID,4,,0.,.5,0.\n"
       "GRID,5,,.5,.5,0.\nGRID,6,,1.,.5,0.\nCQUAD4,1,1,1,2,5,4\nCTRIA3,2,1,2,3,6\n"
-      "CTRIA3,3,1,2,6,5\nPARAM,COUPMASS,1\nPSHELL,1,1,.002\nMAT1,1,7.+10,,.25,2700.\n",
-      "foil.bdf");
-  const FeSystem nastran = assemble(read_nastran(source, false, {})),
+      "CTRIA3,3,1,2,6,5\nPARAM,COUPMASS,1\nPSHELL,1,1,.002\nMAT1,1,7.+10,,.25,2700.\n");
+  const FeSystem nastran = assemble(sheet),
                  deck = assemble(
                      foil_deck(foil("*MEMBRANE SECTION, ELSET=FOIL, MATERIAL=AL\n.002\n")));
   EXPECT_LE(MatX(nastran.K - deck.K).norm(), 1e-14 * MatX(deck.K).norm());

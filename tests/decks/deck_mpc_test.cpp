@@ -1,21 +1,17 @@
 // *MPC of Abaqus decks: rigid bars, pins and ties of two nodes.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
 FeModel mpc_deck(const std::string& mpc) {
-  TextSource source(
+  return read_inp(
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 3, 0, 0\n6, 1, 0, 0\n"
       "*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n*NSET, NSET=S\n2, 3, 4\n*MATERIAL, NAME=M\n"
       "*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n*SOLID SECTION, ELSET=E, MATERIAL=M\n*MPC\n" +
-          mpc,
-      "deck.inp");
-  return read_abaqus(source, {});
+      mpc);
 }
 
 TEST(DeckMpc, BarsToOneNodeAreOneSpider) {

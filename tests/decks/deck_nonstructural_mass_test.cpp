@@ -1,10 +1,7 @@
 // *NONSTRUCTURAL MASS: masses in closed form.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -22,12 +19,7 @@ const std::string three_things =
     "*SHELL SECTION, ELSET=PLATE, MATERIAL=M\n.01\n"
     "*BEAM SECTION, ELSET=BAR, MATERIAL=M, SECTION=RECT\n.1, .2\n0., 1., 0.\n";
 
-FeModel smeared(const std::string& more) {
-  TextSource source(three_things + more, "mass.inp");
-  FeModel model = read_abaqus(source, {});
-  validate(model);
-  return model;
-}
+FeModel smeared(const std::string& more) { return valid_inp(three_things + more, {}, "mass.inp"); }
 
 /// Masses of cube, plate and bar, from the motion of the nodes of each along z.
 Vec3 masses_of(const FeModel& m) {
@@ -69,9 +61,9 @@ TEST(NonstructuralMass, OfPlies) {
   std::string text = three_things;
   text.replace(at, text.find("*BEAM SECTION") - at,
                "*SHELL SECTION, ELSET=PLATE, COMPOSITE\n.004, 3, M, 0.\n.006, 3, M, 90.\n");
-  TextSource source(text + "*NONSTRUCTURAL MASS, ELSET=PLATE, UNITS=MASS PER VOLUME\n500.\n",
-                    "mass.inp");
-  EXPECT_LE((masses_of(read_abaqus(source, {})) - Vec3(1000, 30, 60)).norm(), 1e-9);
+  const FeModel model =
+      read_inp(text + "*NONSTRUCTURAL MASS, ELSET=PLATE, UNITS=MASS PER VOLUME\n500.\n");
+  EXPECT_LE((masses_of(model) - Vec3(1000, 30, 60)).norm(), 1e-9);
 }
 
 TEST(NonstructuralMass, SaysWhatIsWrong) {
@@ -92,12 +84,8 @@ TEST(NonstructuralMass, SaysWhatIsWrong) {
             "mass.inp:35: wrong_value");
   std::string light = three_things;
   light.erase(light.find("*DENSITY"), std::string("*DENSITY\n1000.\n").size());
-  EXPECT_EQ(error_of([&] {
-              TextSource source(light + "*NONSTRUCTURAL MASS, ELSET=ALL, UNITS=TOTAL MASS\n3.\n",
-                                "mass.inp");
-              read_abaqus(source, {});
-            }),
-            "mass.inp:33: wrong_value");
+  EXPECT_EQ(inp_error(light + "*NONSTRUCTURAL MASS, ELSET=ALL, UNITS=TOTAL MASS\n3.\n"),
+            "deck.inp:33: wrong_value");
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 // *NODAL THICKNESS: shells with the mean of their corners, where their section asks for it.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -22,18 +19,11 @@ std::string plate(const std::string& section, const std::string& more) {
 }
 
 FeModel thick(const std::string& section, const std::string& more) {
-  TextSource source(plate(section, more), "a.inp");
-  return read_abaqus(source, {});
+  return read_inp(plate(section, more), {}, "a.inp");
 }
 
 std::string thick_errors(const std::string& section, const std::string& more) {
   return error_of([&] { thick(section, more); });
-}
-
-bool thickness_note(const FeModel& m, const std::string& text) {
-  for (const std::string& note : m.notes)
-    if (note == text) return true;
-  return false;
 }
 
 TEST(NodalThickness, OneForAllIsThatOfTheSection) {
@@ -56,33 +46,31 @@ TEST(NodalThickness, MeanOfTheCorners) {
   EXPECT_NEAR(of(1).offset, -0.3, 1e-15);
   EXPECT_NEAR(of(1).shear, 0.5, 1e-15);
   EXPECT_EQ(m.elements[1].section, m.elements[2].section);
-  EXPECT_TRUE(thickness_note(m,
-                             "a.inp:13: 2 shells have nodes of different thickness, by 100.0 % at "
-                             "most: each has the mean of its corners"))
-      << fmt::format("{}", fmt::join(m.notes, "\n"));
+  EXPECT_TRUE(has_note(m,
+                       "a.inp:13: 2 shells have nodes of different thickness, by 100.0 % at "
+                       "most: each has the mean of its corners"))
+      << joined(m.notes);
 }
 
 /// CalculiX 2.20 gives the same frequencies with and without such lines.
 TEST(NodalThickness, WithoutTheParameterItHasNoEffect) {
   const FeModel m = thick("\n.1\n", "*NODAL THICKNESS\nALL, .4\n");
   EXPECT_EQ(m.shells.at(0).thickness, 0.1);
-  EXPECT_TRUE(
-      thickness_note(m,
-                     "a.inp:24: *NODAL THICKNESS has no effect, as in Abaqus and CalculiX: no "
-                     "section has the parameter NODAL THICKNESS"))
-      << fmt::format("{}", fmt::join(m.notes, "\n"));
+  EXPECT_TRUE(has_note(m,
+                       "a.inp:24: *NODAL THICKNESS has no effect, as in Abaqus and CalculiX: no "
+                       "section has the parameter NODAL THICKNESS"))
+      << joined(m.notes);
 }
 
 TEST(NodalThickness, OfPartsWithSeveralInstances) {
   const std::string part = plate(", NODAL THICKNESS\n", "*NODAL THICKNESS\nALL, .4\n");
   const std::size_t material = part.find("*MATERIAL"), section = part.find("*SHELL");
-  TextSource source("*PART, NAME=P\n" + part.substr(0, material) + part.substr(section) +
-                        "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n"
-                        "*END INSTANCE\n*INSTANCE, NAME=P-2, PART=P\n9., 0., 0.\n*END INSTANCE\n"
-                        "*END ASSEMBLY\n" +
-                        part.substr(material, section - material),
-                    "a.inp");
-  const FeModel m = read_abaqus(source, {});
+  const FeModel m =
+      read_inp("*PART, NAME=P\n" + part.substr(0, material) + part.substr(section) +
+               "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n"
+               "*END INSTANCE\n*INSTANCE, NAME=P-2, PART=P\n9., 0., 0.\n*END INSTANCE\n"
+               "*END ASSEMBLY\n" +
+               part.substr(material, section - material));
   ASSERT_EQ(m.elements.size(), 6u);
   for (const Element& e : m.elements) EXPECT_EQ(m.shells[e.section].thickness, 0.4);
 }

@@ -4,33 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/formats/fe_file.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel nastran(const std::string& text) {
-  TextSource source(text, "deck.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
-
-FeModel abaqus(const std::string& text) {
-  TextSource source(text, "deck.inp");
-  return read_abaqus(source, {}, DeckPart::all);
-}
-
-bool noted(const FeModel& model, const std::string& part) {
-  return std::any_of(model.notes.begin(), model.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
 
 const BeamSection& section_of(const FeModel& m, std::size_t element) {
   return m.sections[m.elements[element].section];
@@ -40,15 +20,15 @@ const std::string bar_nodes = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.
 
 TEST(ElementKinds, ShearFactorsOfNastran) {
   const FeModel m =
-      nastran(bar_nodes +
-              "CBAR,1,1,1,2,0.,0.,1.\nCBAR,2,2,1,2,0.,0.,1.\nCBEAM,3,3,1,2,0.,0.,1.\n"
-              "CBEAM,4,4,1,2,0.,0.,1.\nCBAR,5,5,1,2,0.,0.,1.\n"
-              "PBAR,1,1,1.-3,1.-7,2.-7,2.-7\n"                      // blank: none
-              "PBAR,2,1,1.-3,1.-7,2.-7,2.-7,,\n,,,,,,,,\n,.8,.5\n"  // K1: of plane 1, y
-              "PBEAM,3,1,1.-3,1.-7,2.-7,,2.-7\n"                    // blank: 1
-              "PBEAM,4,1,1.-3,1.-7,2.-7,,2.-7\n,,,,,,,,\n,.6,0.\n"  // 0: none
-              "PBARL,5,2,,BAR\n,.02,.04\n"
-              "MAT1,1,2.+11,,.3,8000.\nMAT1,2,2.6+11,2.+11,.3,8000.\n");
+      read_bdf(bar_nodes +
+               "CBAR,1,1,1,2,0.,0.,1.\nCBAR,2,2,1,2,0.,0.,1.\nCBEAM,3,3,1,2,0.,0.,1.\n"
+               "CBEAM,4,4,1,2,0.,0.,1.\nCBAR,5,5,1,2,0.,0.,1.\n"
+               "PBAR,1,1,1.-3,1.-7,2.-7,2.-7\n"                      // blank: none
+               "PBAR,2,1,1.-3,1.-7,2.-7,2.-7,,\n,,,,,,,,\n,.8,.5\n"  // K1: of plane 1, y
+               "PBEAM,3,1,1.-3,1.-7,2.-7,,2.-7\n"                    // blank: 1
+               "PBEAM,4,1,1.-3,1.-7,2.-7,,2.-7\n,,,,,,,,\n,.6,0.\n"  // 0: none
+               "PBARL,5,2,,BAR\n,.02,.04\n"
+               "MAT1,1,2.+11,,.3,8000.\nMAT1,2,2.6+11,2.+11,.3,8000.\n");
   const double A = 1e-3;
   const std::pair<double, double> expected[] = {{0, 0}, {0.8 * A, 0.5 * A}, {A, A}, {0.6 * A, 0}};
   for (std::size_t e = 0; e < 4; ++e) {
@@ -60,7 +40,7 @@ TEST(ElementKinds, ShearFactorsOfNastran) {
   const std::string negative = bar_nodes +
                                "CBAR,1,1,1,2,0.,0.,1.\nPBAR,1,1,1.-3,1.-7,2.-7,2.-7,,\n,,,,,,,,\n"
                                ",-.8,.5\nMAT1,1,2.+11,,.3,8000.\n";
-  EXPECT_EQ(error_of([&] { nastran(negative); }), "deck.bdf:5: out_of_range");
+  EXPECT_EQ(bdf_error(negative), "arm.bdf:5: out_of_range");
 }
 
 const std::string steel_deck = "*MATERIAL, NAME=M\n*ELASTIC\n2.e11, .3\n*DENSITY\n8000.\n";
@@ -75,7 +55,7 @@ TEST(ElementKinds, ShearFactorsOfAbaqus) {
                                                    {"PIPE\n.02, .001", 0.53},
                                                    {"BOX\n.03, .05, .002, .002, .002, .002", 0.44}};
   for (const auto& [shape, factor] : shapes) {
-    const FeModel b31 = abaqus(deck("B31", shape)), b33 = abaqus(deck("B33", shape));
+    const FeModel b31 = read_inp(deck("B31", shape)), b33 = read_inp(deck("B33", shape));
     EXPECT_DOUBLE_EQ(section_of(b31, 0).shear_y, factor * section_of(b31, 0).A) << shape;
     EXPECT_EQ(section_of(b31, 0).shear_z, section_of(b31, 0).shear_y);
     EXPECT_FALSE(section_of(b33, 0).has_shear());
@@ -92,25 +72,25 @@ TEST(ElementKinds, MassAsTheProgramOfTheDeck) {
       "ELSET=B\n1, 1, 2, 3, 4\n" +
       steel_deck + "*SOLID SECTION, ELSET=B, MATERIAL=M\n";
   const auto form = [](const FeModel& m) { return m.elements[0].mass_form; };
-  EXPECT_EQ(form(abaqus(tetra)), MassForm::consistent);  // nothing shows whose it is
-  EXPECT_EQ(form(abaqus(tetra + "*PREPRINT, ECHO=NO\n")), MassForm::lumped);
+  EXPECT_EQ(form(read_inp(tetra)), MassForm::consistent);  // nothing shows whose it is
+  EXPECT_EQ(form(read_inp(tetra + "*PREPRINT, ECHO=NO\n")), MassForm::lumped);
   const std::string bar = bar_nodes +
                           "CBAR,1,1,1,2,0.,0.,1.\nPBAR,1,1,1.-3,1.-7,2.-7,2.-7\n"
                           "MAT1,1,2.+11,,.3,8000.\n";
-  EXPECT_EQ(form(nastran(bar)), MassForm::lumped_without_rotation);
+  EXPECT_EQ(form(read_bdf(bar)), MassForm::lumped_without_rotation);
   for (const char* off : {"-1", "0", "NO"})
-    EXPECT_EQ(form(nastran(fmt::format("PARAM,COUPMASS,{}\n", off) + bar)),
+    EXPECT_EQ(form(read_bdf(fmt::format("PARAM,COUPMASS,{}\n", off) + bar)),
               MassForm::lumped_without_rotation);
-  EXPECT_EQ(form(nastran("PARAM,COUPMASS,1\n" + bar)), MassForm::consistent);
+  EXPECT_EQ(form(read_bdf("PARAM,COUPMASS,1\n" + bar)), MassForm::consistent);
 
   const TemporaryFolder folder;
   folder.write("arm.inp", tetra);
   folder.write("arm.bdf", bar);
   FeReadOptions options;
   const FeModel unclear = read_fe_file(folder / "arm.inp", options);
-  EXPECT_TRUE(noted(unclear,
-                    "the mass of all elements is consistent, as in CalculiX; Abaqus lumps that "
-                    "of elements of first order: --dialect abaqus"));
+  EXPECT_TRUE(contains(unclear.notes,
+                       "the mass of all elements is consistent, as in CalculiX; Abaqus lumps that "
+                       "of elements of first order: --dialect abaqus"));
   options.dialect = DeckDialect::abaqus;
   const FeModel theirs = read_fe_file(folder / "arm.inp", options);
   EXPECT_EQ(form(theirs), MassForm::lumped);
@@ -129,21 +109,20 @@ const std::string square =
     "PSHELL,1,1,.1,1\nMAT1,1,2.+11,,.3,8000.\n";
 
 TEST(ElementKinds, ShellsWithMiddles) {
-  const FeModel m = nastran(square +
-                            "CQUAD8,1,1,1,2,3,4,5,6\n,7,8\nCTRIA6,2,1,1,2,3,5,6,9\n"
-                            "CQUAD8,3,1,1,2,3,4\nCQUADR,4,1,1,2,3,4\nCTRIAR,5,1,1,2,3\n");
+  const FeModel m = read_bdf(square +
+                             "CQUAD8,1,1,1,2,3,4,5,6\n,7,8\nCTRIA6,2,1,1,2,3,5,6,9\n"
+                             "CQUAD8,3,1,1,2,3,4\nCQUADR,4,1,1,2,3,4\nCTRIAR,5,1,1,2,3\n");
   ASSERT_EQ(m.elements.size(), 5u);
   const ElementType types[] = {ElementType::quad8, ElementType::tri6, ElementType::quad4,
                                ElementType::quad4, ElementType::tri3};
   for (std::size_t e = 0; e < 5; ++e) EXPECT_EQ(m.elements[e].type, types[e]) << e;
   EXPECT_EQ(m.elements[0].nodes[7], 7);
   EXPECT_EQ(m.elements[1].nodes[5], 8);
-  EXPECT_TRUE(noted(m, "1 CQUAD8 elements without mid-side nodes are read as CQUAD4"));
-  EXPECT_TRUE(noted(m, "1 CQUADR elements are read as CQUAD4"));
-  EXPECT_EQ(error_of([] { nastran(square + "CQUAD8,1,1,1,2,3,4,5,6\n"); }),
-            "deck.bdf:12: incomplete");
+  EXPECT_TRUE(contains(m.notes, "1 CQUAD8 elements without mid-side nodes are read as CQUAD4"));
+  EXPECT_TRUE(contains(m.notes, "1 CQUADR elements are read as CQUAD4"));
+  EXPECT_EQ(bdf_error(square + "CQUAD8,1,1,1,2,3,4,5,6\n"), "arm.bdf:12: incomplete");
 
-  const FeModel s8 = abaqus(
+  const FeModel s8 = read_inp(
       "*NODE\n1\n2, 2.\n3, 2., 2.\n4, 0., 2.\n5, 1.\n6, 2., 1.\n7, 1., 2.\n8, 0., 1.\n9, 1., 1.\n"
       "*ELEMENT, TYPE=S8R, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
       "*ELEMENT, TYPE=STRI65, ELSET=E\n2, 1, 2, 3, 5, 6, 9\n" +
@@ -173,8 +152,8 @@ TEST(ElementKinds, Pyramids) {
     bulk += fmt::format("GRID,{},,{:.1f},{:.1f},{:.1f}\n", k + 1, p(0), p(1), p(2));
     msh += fmt::format("{} {} {} {}\n", k + 1, q(0), q(1), q(2));
   }
-  check(nastran(bulk + "CPYRAM,1,1,1,2,3,4,5,6\n,7,8,9,10,11,12,13\nPSOLID,1,1\n"
-                       "MAT1,1,2.+11,,.3,8000.\n"));
+  check(read_bdf(bulk + "CPYRAM,1,1,1,2,3,4,5,6\n,7,8,9,10,11,12,13\nPSOLID,1,1\n"
+                        "MAT1,1,2.+11,,.3,8000.\n"));
   FeReadOptions options;
   options.material = Material{2e11, 0.3, 8000};
   check(parse_gmsh(msh + "$EndNodes\n$Elements\n1\n1 19 2 1 1 1 2 3 4 5 6 7 8 9 10 11 12 13\n"

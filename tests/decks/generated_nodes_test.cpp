@@ -3,18 +3,12 @@
 
 #include <algorithm>
 
-#include "floatframe/decks/ansys/read_ansys.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
+#include "decks/ansys_deck.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/fe/interface_selection.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel nastran_part(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
 
 std::vector<int> nodes_at(const FeModel& model, NodeChoice::By by, const Vec3& point) {
   NodeChoice choice;
@@ -27,7 +21,7 @@ std::vector<int> nodes_at(const FeModel& model, NodeChoice::By by, const Vec3& p
 const std::string bar_cards = "PBAR,5,9,1.,1.,1.,1.\nMAT1,9,2e11,,.3,7800.\nENDDATA\n";
 
 TEST(MadeNodes, EndsOfBars) {
-  const FeModel model = nastran_part(
+  const FeModel model = read_bdf(
       "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\n"
       "CBAR,7,5,1,2,0.,0.,1.\n,456,,0.,0.,.1,0.,0.,.1\nCBAR,8,5,2,3,0.,0.,1.\n" +
       bar_cards);
@@ -39,7 +33,7 @@ TEST(MadeNodes, EndsOfBars) {
 }
 
 TEST(MadeNodes, PlacesOfMasses) {
-  const FeModel model = nastran_part(
+  const FeModel model = read_bdf(
       "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,7,5,1,2,0.,0.,1.\nCONM2,10,1,,2.,0.,.5,.5\n" +
       bar_cards);
   EXPECT_EQ(model.generated_nodes, std::vector<int>{2});
@@ -48,11 +42,9 @@ TEST(MadeNodes, PlacesOfMasses) {
 
 // Commands of one line, divided by $: the node is one of the file.
 TEST(MadeNodes, NotThoseOnTheLineOfAnElement) {
-  TextSource source(
+  const FeModel model = ansys_of(
       "/PREP7\nET,1,188\nMP,EX,1,2e11\nMP,PRXY,1,.3\nMP,DENS,1,7850\nSECTYPE,1,BEAM,RECT\n"
-      "SECDATA,.02,.03\nSECNUM,1\nN,2,1,0,0\nN,3,2,0,0\nE,2,3\nN,1,0,0,0 $ E,1,2\n",
-      "a.cdb");
-  const FeModel model = read_ansys(source, {});
+      "SECDATA,.02,.03\nSECNUM,1\nN,2,1,0,0\nN,3,2,0,0\nE,2,3\nN,1,0,0,0 $ E,1,2\n");
   EXPECT_TRUE(model.generated_nodes.empty());
   const std::vector<int> found = nodes_at(model, NodeChoice::By::nearest, Vec3::Zero());
   ASSERT_EQ(found.size(), 1u);

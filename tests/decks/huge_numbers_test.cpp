@@ -3,20 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "decks/ansys_deck.hpp"
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
 const std::string huge_material = "*MATERIAL, NAME=M\n*ELASTIC\n7e10, .25\n*DENSITY\n2700.\n";
 
-std::string huge_error(const std::string& text) {
-  return error_of([&] {
-    TextSource source(text, "huge.inp");
-    read_abaqus(source, {});
-  });
-}
+std::string huge_error(const std::string& text) { return inp_error(text, {}, "huge.inp"); }
 
 /// A beam along x; the section begins in line 11.
 std::string huge_stick(const std::string& section) {
@@ -36,8 +30,7 @@ TEST(HugeNumbers, OffsetsOfBeams) {
                                   "*SHEAR CENTER\n0., 2.\n")),
             "huge.inp:11: not_finite");
   // A direction 1 of that size is a direction.
-  TextSource source(huge_stick(square + "0., 1e300, 0.\n*BEAM SECTION OFFSET\n.5, 0.\n"), "a.inp");
-  const FeModel m = read_abaqus(source, {});
+  const FeModel m = read_inp(huge_stick(square + "0., 1e300, 0.\n*BEAM SECTION OFFSET\n.5, 0.\n"));
   ASSERT_EQ(m.nodes(), 4);
   EXPECT_LE((m.positions[2] - Vec3(0, .5, 0)).norm(), 1e-15);
 }

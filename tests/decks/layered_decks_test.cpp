@@ -5,29 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/model_checks.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
 
 FeModel layered_inp(const std::string& text, DeckDialect dialect = DeckDialect::abaqus) {
-  TextSource source(text, "deck.inp");
-  FeReadOptions options;
-  options.dialect = dialect;
-  FeModel model = read_abaqus(source, options);
-  validate(model);
-  return model;
-}
-
-FeModel layered_bdf(const std::string& text) {
-  TextSource source(text, "deck.bdf");
-  FeModel model = read_nastran(source, false, {});
-  validate(model);
-  return model;
+  return valid_inp(text, of_dialect(dialect));
 }
 
 /// Two elements in the xy plane, the first sides along x and along y.
@@ -56,10 +42,10 @@ TEST(LayeredDecks, TheSameLaminateInBothLanguages) {
       layered_inp(abaqus_mesh + "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 10.\n" +
                   "*SHELL SECTION, ELSET=SKIN, COMPOSITE, ORIENTATION=O\n" + plies);
   const FeModel n =
-      layered_bdf(nastran_mesh +
-                  "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.984807753012208,0.17364817766693,0.\n"
-                  "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
-                  "PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
+      valid_bdf(nastran_mesh +
+                "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.984807753012208,0.17364817766693,0.\n"
+                "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
+                "PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
   ASSERT_EQ(a.shells.at(0).plies.size(), 3u);
   EXPECT_NEAR(a.shells[0].thickness, 3.5, 1e-15);
   EXPECT_EQ(n.shells.at(0).plies.size(), 3u);
@@ -69,17 +55,17 @@ TEST(LayeredDecks, TheSameLaminateInBothLanguages) {
   // PCOMPG, and symmetric ones: half of the plies, or all of them.
   const std::string elements = "CQUAD4,1,3,1,2,3,4,10.\nCTRIA3,2,3,2,5,3,73.43494882\n";
   const FeModel g =
-      layered_bdf(nastran_mesh + elements + "PCOMPG,3\n,1,1,1.,0.,YES\n,2,2,2.,0.\n,3,1,.5,45.\n");
+      valid_bdf(nastran_mesh + elements + "PCOMPG,3\n,1,1,1.,0.,YES\n,2,2,2.,0.\n,3,1,.5,45.\n");
   EXPECT_EQ(g.shells.at(0).plies.size(), 3u);
   const FeModel symmetric = layered_inp(
       abaqus_mesh + "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 10.\n" +
       "*SHELL SECTION, ELSET=SKIN, COMPOSITE, SYMMETRIC, ORIENTATION=O, OFFSET=SNEG\n" + plies);
   ASSERT_EQ(symmetric.shells.at(0).plies.size(), 6u);
   const FeModel sym =
-      layered_bdf(nastran_mesh +
-                  "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.984807753012208,0.17364817766693,0.\n"
-                  "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
-                  "PCOMP,3,0.,,,,,,SYM\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
+      valid_bdf(nastran_mesh +
+                "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.984807753012208,0.17364817766693,0.\n"
+                "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
+                "PCOMP,3,0.,,,,,,SYM\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
   EXPECT_NEAR(sym.shells.at(0).offset, 3.5, 1e-15);
   expect_same(symmetric, sym);
 }
@@ -110,10 +96,10 @@ TEST(LayeredDecks, WhereAxisOneLies) {
   EXPECT_LT((axis_of(m, 1) - Vec3::UnitZ()).norm(), 1e-14);
   // Nastran: the side G1-G2, turned by THETA; or the x axis of MCID.
   const std::string ply = "PCOMP,3\n,1,1.,0.\n";
-  m = layered_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4\nCTRIA3,2,3,2,5,3,30.\n" + ply);
+  m = valid_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4\nCTRIA3,2,3,2,5,3,30.\n" + ply);
   EXPECT_LT((axis_of(m, 0) - Vec3::UnitX()).norm(), 1e-14);
   EXPECT_LT((axis_of(m, 1) - direction(to_5 + 30 * degree)).norm(), 1e-14);
-  m = layered_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,0\nCTRIA3,2,3,2,5,3,7\n" + ply);
+  m = valid_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,0\nCTRIA3,2,3,2,5,3,7\n" + ply);
   EXPECT_LT((axis_of(m, 1) - Vec3::UnitX()).norm(), 1e-14);
   // Abaqus: the axis after the one that is turned about. Here 2 is the normal: 3 is projected.
   m = layered_inp(abaqus_mesh + "*ORIENTATION, NAME=O\n1., 1., 0., 0., 0., 1.\n2, 0.\n" +
@@ -158,9 +144,9 @@ TEST(LayeredDecks, PshellOfSeveralMaterials) {
   char g4[200];
   std::snprintf(g4, sizeof g4, "MAT2,14,%.12g,0.,0.,%.12g\n", (q11 - q22) / 8.0, (q22 - q11) / 8.0);
   const std::string elements = "CQUAD4,1,3,1,2,3,4,15.\nCTRIA3,2,3,2,5,3,-5.\n";
-  const FeModel pcomp = layered_bdf(nastran_mesh + elements + "PCOMP,3\n,1,1.,0.,,1,1.,90.\n");
+  const FeModel pcomp = valid_bdf(nastran_mesh + elements + "PCOMP,3\n,1,1.,0.,,1,1.,90.\n");
   const FeModel pshell =
-      layered_bdf(nastran_mesh + elements + materials + g4 + "PSHELL,3,11,2.,12,1.,,,\n,,,14\n");
+      valid_bdf(nastran_mesh + elements + materials + g4 + "PSHELL,3,11,2.,12,1.,,,\n,,,14\n");
   FeModel layered = pcomp;
   layered.shells.at(0).shear = 0.0;
   const FeSystem x = assemble(layered), y = assemble(pshell);
@@ -170,13 +156,13 @@ TEST(LayeredDecks, PshellOfSeveralMaterials) {
 // ZOFFS and Z0 put the same plies at the same height; PSHELL takes ZOFFS too.
 TEST(LayeredDecks, Offsets) {
   const std::string plies = "\n,1,1.,0.,,1,1.,90.\n";
-  const FeModel zoffs = layered_bdf(
-      nastran_mesh + "CQUAD4,1,3,1,2,3,4,0.,.7\nCTRIA3,2,3,2,5,3,0.,.7\nPCOMP,3" + plies);
+  const FeModel zoffs =
+      valid_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,0.,.7\nCTRIA3,2,3,2,5,3,0.,.7\nPCOMP,3" + plies);
   const FeModel z0 =
-      layered_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,0.\nCTRIA3,2,3,2,5,3,0.\nPCOMP,3,-.3" + plies);
+      valid_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,0.\nCTRIA3,2,3,2,5,3,0.\nPCOMP,3,-.3" + plies);
   expect_same(zoffs, z0);
   const FeModel plain =
-      layered_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,,.7\nCTRIA3,2,3,2,5,3\nPSHELL,3,2,1.,2\n");
+      valid_bdf(nastran_mesh + "CQUAD4,1,3,1,2,3,4,,.7\nCTRIA3,2,3,2,5,3\nPSHELL,3,2,1.,2\n");
   EXPECT_EQ(plain.shells.size(), 2u);
   EXPECT_NEAR(plain.shells.at(0).offset, 0.7, 1e-15);
 }
@@ -200,7 +186,7 @@ TEST(LayeredDecks, SolidsInBothLanguages) {
       "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n1.4e5, 1.e4, 8.e3, .3, .35, .45, 5.e3, 4.e3,\n3.e3\n"
       "*DENSITY\n1.6e-9\n*ORIENTATION, NAME=O\n1., 1., 0., -1., 1., 0.\n"
       "*SOLID SECTION, ELSET=B, MATERIAL=M, ORIENTATION=O\n");
-  const FeModel n = layered_bdf(
+  const FeModel n = valid_bdf(
       "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
       "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\nCTETRA,1,1,1,2,3,4\nPSOLID,1,1,7\n" +
       mat9 + ",1.6-9\n");
@@ -211,7 +197,7 @@ TEST(LayeredDecks, SolidsInBothLanguages) {
 // The whole of A, B and D of a deck from the energies of constant strains and curvatures, against
 // classical laminate theory.
 TEST(LayeredDecks, PcompAgainstLaminateTheory) {
-  const FeModel m = layered_bdf(
+  const FeModel m = valid_bdf(
       "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,3.,.5,0.\n"
       "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nMAT8,1,1.4+5,1.+4,.3,5000.,,,1.6-9\n"
       "CQUAD4,1,3,1,2,3,4,7\nCTRIA3,2,3,2,5,3,7\n"

@@ -3,23 +3,16 @@
 // decks is what scripts/deck_suite.py shows.
 #include "floatframe/formats/written/mesh_writer.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <numbers>
 
+#include "decks/deck_text.hpp"
 #include "decks/written_mesh.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/math/dense.hpp"
 #include "formats/mesh_checks.hpp"
-#include "support/error_of.hpp"
-#include "support/fe_parts.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -89,16 +82,15 @@ TEST(MeshWriter, DecksOfEveryElement) {
     const FeModel model = single_element(type);
     if (is_membrane(type)) {
       const std::string text = written(model, ".inp").bytes;
-      EXPECT_NE(text.find("*ELEMENT, TYPE=M3D"), std::string::npos);
-      EXPECT_NE(text.find("*MEMBRANE SECTION, ELSET=SECTION_1, MATERIAL=STEEL\n0.02\n"),
-                std::string::npos);
+      EXPECT_TRUE(contains(text, "*ELEMENT, TYPE=M3D"));
+      EXPECT_TRUE(contains(text, "*MEMBRANE SECTION, ELSET=SECTION_1, MATERIAL=STEEL\n0.02\n"));
     }
     const FeModel again = there_and_back(model, ".inp");
     if (type == ElementType::pyramid5 || type == ElementType::pyramid13) {
       // A brick with one upper node has the volume of the pyramid.
       ASSERT_EQ(again.elements.size(), 1u);
       EXPECT_NEAR(corner_volume(again), corner_volume(model), 1e-12);
-      EXPECT_NE(written_notes(model, ".inp").find("CalculiX has no pyramids"), std::string::npos);
+      EXPECT_TRUE(contains(written_notes(model, ".inp"), "CalculiX has no pyramids"));
       continue;
     }
     ASSERT_EQ(again.elements.size(), 1u);
@@ -122,7 +114,7 @@ TEST(MeshWriter, GmshMeshesOfEveryElement) {
     const FeModel model = single_element(type);
     if (element_kernel(type).family != ElementFamily::solid) {
       const std::string text = written(model, ".msh").bytes;
-      EXPECT_NE(text.find("$Elements\n1 1 1 70\n"), std::string::npos) << text;
+      EXPECT_TRUE(contains(text, "$Elements\n1 1 1 70\n"));
       continue;
     }
     const FeModel again = there_and_back(model, ".msh");
@@ -170,8 +162,7 @@ TEST(MeshWriter, AxesFromPlaceToPlace) {
     o.axes = Mat3::Identity();
   }
   expect_same_system(model, there_and_back(model, ".inp"));
-  EXPECT_NE(written_notes(model, ".inp").find("are those of the middle of each element"),
-            std::string::npos);
+  EXPECT_TRUE(contains(written_notes(model, ".inp"), "are those of the middle of each element"));
 }
 
 /// Two bricks with a spider at their end that carries a mass, and an equation.
@@ -181,36 +172,22 @@ FeModel bricks_with(Spider::Kind kind) {
   for (int k = 0; k < 12; ++k)
     model.positions.push_back(Vec3(k / 4, k % 2, k / 2 % 2) * 0.1 +
                               Vec3(0.003 * k, 0.01 * std::sin(k), 0.001 * k * k));
-  for (const int a : {0, 4}) {
-    Element e;
-    e.type = ElementType::hex8;
-    e.nodes = {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3};
-    model.elements.push_back(e);
-  }
+  for (const int a : {0, 4})
+    add_element(model, ElementType::hex8, {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3});
   model.positions.emplace_back(0.4, 0.06, 0.04);
   model.masses = {{12, 1.5, Mat3::Zero()}, {2, 0.3, Mat3::Zero()}};
-  Spider s;
-  s.kind = kind;
-  s.name = "FLANGE";
-  s.reference = 12;
-  s.nodes = {8, 9, 10, 11};
-  model.spiders = {s};
+  add_spider(model, 12, {8, 9, 10, 11}, kind).name = "FLANGE";
   LinearEquation equation;
   equation.terms = {{0, 1, 2.0}, {1, 1, -1.0}, {3, 2, 0.5}};
   model.equations = {equation};
   return model;
 }
 
-VecX free_frequencies(const FeModel& model) {
-  const FeSystem system = assemble(model);
-  return generalised_eigenvalues(MatX(system.K), MatX(system.M)).values;
-}
-
 TEST(MeshWriter, SpidersAndEquationsAreEquationsOfADeck) {
   for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean}) {
     const FeModel model = bricks_with(kind);
-    const VecX expected = free_frequencies(model);
-    const VecX found = free_frequencies(there_and_back(model, ".inp"));
+    const VecX expected = free_eigenvalues(model);
+    const VecX found = free_eigenvalues(there_and_back(model, ".inp"));
     ASSERT_EQ(found.size(), expected.size());
     for (int k = 0; k < expected.size(); ++k)
       EXPECT_NEAR(found(k), expected(k), 1e-11 * expected.maxCoeff()) << k;
@@ -247,24 +224,22 @@ TEST(MeshWriter, NotesSayWhatIsLost) {
 TEST(MeshWriter, PipesAndIncompatibleModes) {
   FeModel pipe = single_element(ElementType::beam3);
   pipe.sections[0] = BeamSection::hollow_round(0.04, 0.03);
-  EXPECT_NE(written(pipe, ".inp").bytes.find("*ELEMENT, TYPE=B32R\n"), std::string::npos);
-  EXPECT_NE(written_notes(single_element(ElementType::rod2), ".inp")
-                .find("1 element are rods: what CalculiX makes of them bends by itself, with low "
-                      "frequencies of its own, and is clamped to beams at their nodes\n"),
-            std::string::npos);
-  EXPECT_NE(written_notes(single_element(ElementType::hex8i), ".inp")
-                .find("1 element of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these "
-                      "modes mass, its frequencies are lower, by some percent where the mesh is "
-                      "coarse\n"),
-            std::string::npos);
+  EXPECT_TRUE(contains(written(pipe, ".inp").bytes, "*ELEMENT, TYPE=B32R\n"));
+  EXPECT_TRUE(contains(written_notes(single_element(ElementType::rod2), ".inp"),
+                       "1 element are rods: what CalculiX makes of them bends by itself, with low "
+                       "frequencies of its own, and is clamped to beams at their nodes\n"));
+  EXPECT_TRUE(contains(written_notes(single_element(ElementType::hex8i), ".inp"),
+                       "1 element of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these "
+                       "modes mass, its frequencies are lower, by some percent where the mesh is "
+                       "coarse\n"));
 }
 
 TEST(MeshWriter, SupportsAreComments) {
   FeModel model = bricks_with(Spider::Kind::rigid);
   model.supports = {{0, 0b101, {}}};
   const std::string deck = written(model, ".inp", 5).bytes;
-  EXPECT_NE(deck.find("** *BOUNDARY\n** 1, 1, 1\n** 1, 3, 3\n"), std::string::npos);
-  EXPECT_NE(deck.find("*STEP\n*FREQUENCY\n5\n"), std::string::npos);
+  EXPECT_TRUE(contains(deck, "** *BOUNDARY\n** 1, 1, 1\n** 1, 3, 3\n"));
+  EXPECT_TRUE(contains(deck, "*STEP\n*FREQUENCY\n5\n"));
   EXPECT_TRUE(there_and_back(model, ".inp").supports.empty());
 }
 
@@ -277,15 +252,13 @@ TEST(MeshWriter, NamesThatOtherProgramsCannotRead) {
   EXPECT_EQ(deck.node_sets.at("_"), std::vector<int>{3});
   const std::string rule =
       "written otherwise (letters, digits, '_' and '-', at most 60, each once)";
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("2 names are " + rule + ": '' as _, 'left \"eye\"' as LEFT__EYE__2\n"),
-            std::string::npos);
-  EXPECT_NE(written_notes(model, ".msh").find("2 names are " + rule + ": '' as _, 'left \"eye\"'"),
-            std::string::npos);
-  EXPECT_NE(written_notes(model, ".vtu").find("1 name is " + rule + ": 'set_left"),
-            std::string::npos);
+  EXPECT_TRUE(contains(written_notes(model, ".inp"),
+                       "2 names are " + rule + ": '' as _, 'left \"eye\"' as LEFT__EYE__2\n"));
+  EXPECT_TRUE(
+      contains(written_notes(model, ".msh"), "2 names are " + rule + ": '' as _, 'left \"eye\"'"));
+  EXPECT_TRUE(contains(written_notes(model, ".vtu"), "1 name is " + rule + ": 'set_left"));
   model.node_sets = {{"eye", {0}}};
-  EXPECT_EQ(written_notes(model, ".inp").find("name"), std::string::npos);
+  EXPECT_FALSE(contains(written_notes(model, ".inp"), "name"));
 }
 
 TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {

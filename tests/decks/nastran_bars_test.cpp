@@ -7,47 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
+#include "decks/section_outline.hpp"
 
 namespace floatframe::test {
 namespace {
 
-FeModel bars_of(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
-
-std::string bars_error(const std::string& text) {
-  return test::error_of([&] { bars_of(text); });
-}
-
-using Outline = std::vector<std::array<double, 2>>;  // z, y counterclockwise; holes clockwise
-
-/// A, int y^2, int z^2, int y z about the centroid.
-std::array<double, 4> integrals(const std::vector<Outline>& outlines) {
-  double A = 0, Sz = 0, Sy = 0, zz = 0, yy = 0, zy = 0;
-  for (const Outline& o : outlines) {
-    for (std::size_t i = 0; i < o.size(); ++i) {
-      const auto& [z0, y0] = o[i];
-      const auto& [z1, y1] = o[(i + 1) % o.size()];
-      const double c = z0 * y1 - z1 * y0;
-      A += c / 2;
-      Sz += c * (z0 + z1) / 6;
-      Sy += c * (y0 + y1) / 6;
-      zz += c * (z0 * z0 + z0 * z1 + z1 * z1) / 12;
-      yy += c * (y0 * y0 + y0 * y1 + y1 * y1) / 12;
-      zy += c * (z0 * y1 + 2 * z0 * y0 + 2 * z1 * y1 + z1 * y0) / 24;
-    }
-  }
-  return {A, yy - Sy * Sy / A, zz - Sz * Sz / A, zy - Sy * Sz / A};
-}
-
 struct NamedSection {
-  const char* card;  ///< type and dimensions
-  std::vector<Outline> outlines;
+  const char* card;                      ///< type and dimensions
+  std::vector<SectionOutline> outlines;  ///< z, y
   double J;
 };
 
@@ -61,32 +29,10 @@ const std::vector<NamedSection>& named_sections() {
        {{{0, 0}, {4, 0}, {4, 6}, {0, 6}}, {{.2, .6}, {.2, 5.5}, {3.7, 5.5}, {3.7, .6}}},
        4 * std::pow(3.75 * 5.45, 2) / (3.75 / .5 + 3.75 / .6 + 5.45 / .2 + 5.45 / .3)},
       {"I\n,8.,4.,6.,.5,.7,.9",
-       {{{-2, 0},
-         {2, 0},
-         {2, .7},
-         {.25, .7},
-         {.25, 7.1},
-         {3, 7.1},
-         {3, 8},
-         {-3, 8},
-         {-3, 7.1},
-         {-.25, 7.1},
-         {-.25, .7},
-         {-2, .7}}},
+       mirrored({{2, 0}, {2, .7}, {.25, .7}, {.25, 7.1}, {3, 7.1}, {3, 8}}),
        (4 * .343 + 6.4 * .125 + 6 * .729) / 3},
       {"I1\n,3.,.5,5.,6.",
-       {{{-1.75, 0},
-         {1.75, 0},
-         {1.75, .5},
-         {.25, .5},
-         {.25, 5.5},
-         {1.75, 5.5},
-         {1.75, 6},
-         {-1.75, 6},
-         {-1.75, 5.5},
-         {-.25, 5.5},
-         {-.25, .5},
-         {-1.75, .5}}},
+       mirrored({{1.75, 0}, {1.75, .5}, {.25, .5}, {.25, 5.5}, {1.75, 5.5}, {1.75, 6}}),
        (3.5 + 3.5 + 5) * .125 / 3},
       {"T\n,4.,5.,.6,.5",
        {{{-.25, 0}, {.25, 0}, {.25, 4.4}, {2, 4.4}, {2, 5}, {-2, 5}, {-2, 4.4}, {-.25, 4.4}}},
@@ -109,47 +55,12 @@ const std::vector<NamedSection>& named_sections() {
       {"Z\n,2.,.4,5.,6.",
        {{{1.6, 0}, {4, 0}, {4, .5}, {2, .5}, {2, 6}, {-.4, 6}, {-.4, 5.5}, {1.6, 5.5}}},
        (6 * .064 + 2 * 2 * .125) / 3},
-      {"H\n,3.,1.,6.,.5",
-       {{{0, 0},
-         {.5, 0},
-         {.5, 2.75},
-         {3.5, 2.75},
-         {3.5, 0},
-         {4, 0},
-         {4, 6},
-         {3.5, 6},
-         {3.5, 3.25},
-         {.5, 3.25},
-         {.5, 6},
-         {0, 6}}},
+      {"H\n,3.,1.,6.,.5", mirrored({{1.5, 2.75}, {1.5, 0}, {2, 0}, {2, 6}, {1.5, 6}, {1.5, 3.25}}),
        (2 * 6 + 3) * .125 / 3},
       {"CROSS\n,3.,.5,6.,.4",
-       {{{-.25, -3},
-         {.25, -3},
-         {.25, -.2},
-         {1.75, -.2},
-         {1.75, .2},
-         {.25, .2},
-         {.25, 3},
-         {-.25, 3},
-         {-.25, .2},
-         {-1.75, .2},
-         {-1.75, -.2},
-         {-.25, -.2}}},
+       mirrored({{.25, -3}, {.25, -.2}, {1.75, -.2}, {1.75, .2}, {.25, .2}, {.25, 3}}),
        (6 * .125 + 3 * .064) / 3},
-      {"HAT\n,4.,.5,6.,2.",
-       {{{-5, 0},
-         {-2.5, 0},
-         {-2.5, 3.5},
-         {2.5, 3.5},
-         {2.5, 0},
-         {5, 0},
-         {5, .5},
-         {3, .5},
-         {3, 4},
-         {-3, 4},
-         {-3, .5},
-         {-5, .5}}},
+      {"HAT\n,4.,.5,6.,2.", mirrored({{2.5, 3.5}, {2.5, 0}, {5, 0}, {5, .5}, {3, .5}, {3, 4}}),
        (6 + 2 * 3 + 2 * 2.5) * .125 / 3},
       {"L\n,4.,6.,.5,.4",
        {{{0, 0}, {4, 0}, {4, .5}, {.4, .5}, {.4, 6}, {0, 6}}},
@@ -163,9 +74,10 @@ const std::string pin_deck =
 // Section axes y and z are the element's Y and Z here; the section's own y is the reference vector.
 TEST(NastranBars, SectionsAgainstIntegrals) {
   for (const NamedSection& n : named_sections()) {
-    const FeModel model = bars_of(pin_deck + "PBARL,1,1,," + n.card + "\n");
+    const FeModel model = read_bdf(pin_deck + "PBARL,1,1,," + n.card + "\n");
     const BeamSection& s = model.sections.at(0);
-    auto [A, I1, I2, I12] = integrals(n.outlines);
+    const OutlineSums o = outline_sums(n.outlines);
+    const double A = o.A, I1 = o.Iyy, I2 = o.Izz, I12 = o.Iyz;
     const Vec3 v = model.elements.at(0).reference.normalized();
     const double c = v(1), b = v(2);
     EXPECT_NEAR(s.A, A, 1e-12 * A) << n.card;
@@ -179,7 +91,7 @@ TEST(NastranBars, SectionsAgainstIntegrals) {
 }
 
 TEST(NastranBars, TurnOfThePrincipalAxes) {
-  const FeModel model = bars_of(pin_deck + "PBAR,1,1,1.,5.,4.,1.\n,,,,,,,,\n,,,2.\n");
+  const FeModel model = read_bdf(pin_deck + "PBAR,1,1,1.,5.,4.,1.\n,,,,,,,,\n,,,2.\n");
   const BeamSection& s = model.sections.at(0);
   EXPECT_NEAR(s.Iz, 4.5 + std::sqrt(4.25), 1e-12);
   EXPECT_NEAR(s.Iy, 4.5 - std::sqrt(4.25), 1e-12);
@@ -210,21 +122,21 @@ TEST(NastranBars, OffsetAgainstClosedForm) {
   const std::string property = "PBAR,1,1,.1,.2,.3,.4\n";
   std::string offset = pin_deck + property;
   offset.insert(offset.find("0.,1.,0.\n") + 8, "\n,,,0.,2.,0.,0.,2.,0.");
-  const FeModel model = bars_of(offset);
+  const FeModel model = read_bdf(offset);
   EXPECT_EQ(model.nodes(), 4);
   // The axial force bends the bar with F h.
   EXPECT_NEAR(compliance(model, 1, 0), L / (E * A) + h * h * L / (E * I), 1e-9);
-  EXPECT_NEAR(compliance(bars_of(pin_deck + property), 1, 0), L / (E * A), 1e-12);
+  EXPECT_NEAR(compliance(read_bdf(pin_deck + property), 1, 0), L / (E * A), 1e-12);
   EXPECT_NEAR(compliance(model, 1, 1), L * L * L / (3 * E * I), 1e-9);
   // Offsets in the axes of the element, of a bar along Y.
   const std::string upright =
       "GRID,1,,0.,0.,0.\nGRID,2,,0.,10.,0.\nMAT1,1,100.,,.25,2.\nPBAR,1,1,.1,.2,.3,.4\n"
       "CBAR,1,1,1,2,0.,0.,1.,";
-  const FeModel element = bars_of(upright + "GOO\n,,,0.,2.,0.,0.,2.,0.\n");
+  const FeModel element = read_bdf(upright + "GOO\n,,,0.,2.,0.,0.,2.,0.\n");
   EXPECT_LT((element.positions[2] - Vec3(0, 0, 2)).norm(), 1e-12);
   EXPECT_LT((element.positions[3] - Vec3(0, 10, 2)).norm(), 1e-12);
   EXPECT_NEAR(compliance(element, 1, 1), L / (E * A) + h * h * L / (E * I), 1e-9);
-  EXPECT_EQ(bars_error(upright + "GXO\n"), "arm.bdf:5: wrong_value");
+  EXPECT_EQ(bdf_error(upright + "GXO\n"), "arm.bdf:5: wrong_value");
 }
 
 TEST(NastranBars, PinsAgainstClosedForm) {
@@ -234,7 +146,7 @@ TEST(NastranBars, PinsAgainstClosedForm) {
     std::string deck = pin_deck + property;
     // A second bar holds the rotations of node 2.
     deck += "GRID,3,,20.,0.,0.\nCBAR,2,1,2,3,0.,1.,0.\n";
-    return bars_of(deck.insert(deck.find("0.,1.,0.\n") + 8, "\n," + pa + "," + pb));
+    return read_bdf(deck.insert(deck.find("0.,1.,0.\n") + 8, "\n," + pa + "," + pb));
   };
   // Two bars between held ends: the one that is pinned at the middle node carries 3EI/L^3.
   const auto middle = [&](const FeModel& model, int axis) {
@@ -266,12 +178,12 @@ TEST(NastranBars, PinsAgainstClosedForm) {
 /// A bar across space, pinned about its own axes: the same in the axes of the part.
 TEST(NastranBars, PinsTurnWithTheBar) {
   const std::string rest = "MAT1,1,100.,,.25,2.\nPBAR,1,1,.1,.2,.3,.4\n";
-  const FeModel straight = bars_of(
+  const FeModel straight = read_bdf(
       "GRID,1,,0.,0.,0.\nGRID,2,,3.,0.,0.\nGRID,3,,3.,4.,0.\nCBAR,1,1,1,2,0.,1.,0.\n,,25\n"
       "CBAR,2,1,2,3,1.,0.,0.\n" +
       rest);
   // Turned by rotating (x, y, z) to (y, z, x) and then by 30 degrees about z.
-  const FeModel turned = bars_of(
+  const FeModel turned = read_bdf(
       "CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,.86602540378443865,.5\n"
       "GRID,1,5,0.,0.,0.\nGRID,2,5,3.,0.,0.\nGRID,3,5,3.,4.,0.\nGRDSET,,,,,,5\n"
       "CBAR,1,1,1,2,0.,1.,0.\n,,25\nCBAR,2,1,2,3,1.,0.,0.\n" +
@@ -306,11 +218,11 @@ TEST(NastranBars, PinsTurnWithTheBar) {
 TEST(NastranBars, DefaultsOfBars) {
   const std::string nodes =
       "GRID,1,,0.,0.,0.\nGRID,2,,10.,0.,0.\nMAT1,1,100.,,.25,2.\nPBAR,7,1,.1,.2,.3,.4\n";
-  const FeModel model = bars_of(nodes + "CBAR,1,,1,2\nBAROR,,7,,,0.,0.6,0.8\n");
+  const FeModel model = read_bdf(nodes + "CBAR,1,,1,2\nBAROR,,7,,,0.,0.6,0.8\n");
   EXPECT_EQ(model.elements.at(0).reference, Vec3(0, 0.6, 0.8));
   EXPECT_EQ(model.element_sets.count("PID 7"), 1u);
-  EXPECT_EQ(bars_error(nodes + "CBAR,1,,1,2\nBEAMOR,,7,,,0.,0.6,0.8\n"), "arm.bdf:5: missing");
-  EXPECT_EQ(bars_error(nodes + "CBAR,1,,1,2\nBAROR,,7,,,0.,1.,0.\nBAROR,,7,,,0.,1.,0.\n"),
+  EXPECT_EQ(bdf_error(nodes + "CBAR,1,,1,2\nBEAMOR,,7,,,0.,0.6,0.8\n"), "arm.bdf:5: missing");
+  EXPECT_EQ(bdf_error(nodes + "CBAR,1,,1,2\nBAROR,,7,,,0.,1.,0.\nBAROR,,7,,,0.,1.,0.\n"),
             "arm.bdf:7: duplicate");
 }
 
@@ -320,7 +232,7 @@ TEST(NastranBars, BarsWithoutBending) {
       "GRID,1,,0.,0.,0.\nGRID,2,,10.,0.,0.\nMAT1,1,100.,,.25,2.\n"
       "CBEAM,9,9,1,2,0.,1.,0.\nPBEAM,9,1,1.,2.,3.,,4.\n";
   const auto same = [&](const std::string& bar, const std::string& rod) {
-    const FeModel a = bars_of(nodes + bar), b = bars_of(nodes + rod);
+    const FeModel a = read_bdf(nodes + bar), b = read_bdf(nodes + rod);
     const FeSystem x = assemble(a), y = assemble(b);
     ASSERT_EQ(x.size(), y.size());
     EXPECT_LT((x.K - y.K).norm(), 1e-14 * y.K.norm()) << bar;
@@ -330,12 +242,12 @@ TEST(NastranBars, BarsWithoutBending) {
   same("CBAR,1,1,1,2,0.,1.,0.\n,456,56\nPBAR,1,1,.5,,,.3,.7\n",
        "CROD,1,1,1,2\nPROD,1,1,.5,.3,,.7\n");
   same("CBEAM,1,1,1,2,0.,1.,0.\nPBEAM,1,1,.5,0.,0.,,.3\n", "CROD,1,1,1,2\nPROD,1,1,.5,.3\n");
-  const FeModel model = bars_of(nodes + "CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,.5,,,.3\n");
+  const FeModel model = read_bdf(nodes + "CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,.5,,,.3\n");
   EXPECT_EQ(model.notes.at(0),
             "arm.bdf:7: PBAR 1: without I1, I2 its elements are rods with torsion");
   // Beside the line of its nodes: a force of 1 turns them, which the beam resists.
   const FeModel beside =
-      bars_of(nodes + "CBAR,1,1,1,2,0.,1.,0.\n,,,0.,2.,0.,0.,2.,0.\nPBAR,1,1,.5\n");
+      read_bdf(nodes + "CBAR,1,1,1,2,0.,1.,0.\n,,,0.,2.,0.,0.,2.,0.\nPBAR,1,1,.5\n");
   const double axial = 10. / 100, k = 100 * .5 / 10, turn = 10. / (100 * 2.);
   // K of u and rz of node 2, rz of the other plane's stiffness EI/L: with f = k (u - 2 rz)
   Eigen::Matrix2d K;
@@ -352,8 +264,8 @@ TEST(NastranBars, BarsWithoutSomeOfTheirStiffness) {
     for (const auto& [weak, full] :
          {std::pair{".5,.2,,", ".5,.2,1.-13,1.-13"}, std::pair{".5,,.2,.3", ".5,1.-13,.2,.3"},
           std::pair{".5,.2,.3,", ".5,.2,.3,1.-13"}}) {
-      const FeModel a = bars_of(nodes + "PBAR,1,1," + weak + shear + "\n"),
-                    b = bars_of(nodes + "PBAR,1,1," + full + shear + "\n");
+      const FeModel a = read_bdf(nodes + "PBAR,1,1," + weak + shear + "\n"),
+                    b = read_bdf(nodes + "PBAR,1,1," + full + shear + "\n");
       const MatX x = assemble(a).K, y = assemble(b).K;
       ASSERT_EQ(x.rows(), y.rows());
       EXPECT_LT((x - y).norm(), 1e-11 * y.norm()) << weak;
@@ -364,16 +276,16 @@ TEST(NastranBars, BarsWithoutSomeOfTheirStiffness) {
   const std::string row =
       "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,4.,0.,0.\nMAT1,1,100.,,.25,2.\n"
       "CBAR,1,1,1,2,0.,1.,0.\nCBAR,2,1,2,3,0.,1.,0.\nPBAR,1,1,.5,.2\n";
-  const FeModel model = bars_of(row);
+  const FeModel model = read_bdf(row);
   const FeSystem system = assemble(model);
   ASSERT_EQ(system.size(), 9);
   EXPECT_NEAR(system.K.coeff(system.row(1, 1), system.row(1, 1)), 48 * 100 * .2 / 64, 1e-9);
   EXPECT_EQ(model.notes.at(0),
             "arm.bdf:7: PBAR 1: without I2, J its elements are rods and springs that bend as the "
             "beam does (without rotary inertia, stress and stress stiffness of bending)");
-  EXPECT_EQ(bars_error(nodes + "PBAR,1,1,.5,.2,-.3,.4\n"), "arm.bdf:7: out_of_range");
+  EXPECT_EQ(bdf_error(nodes + "PBAR,1,1,.5,.2,-.3,.4\n"), "arm.bdf:7: out_of_range");
   std::string pinned = nodes + "PBAR,1,1,.5,.2,.3\n";
-  EXPECT_EQ(bars_error(pinned.insert(pinned.find("PBAR"), ",45\n")), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(bdf_error(pinned.insert(pinned.find("PBAR"), ",45\n")), "arm.bdf:8: out_of_range");
 }
 
 }  // namespace

@@ -4,25 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel mass_deck(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  FeModel model = read_nastran(source, has_begin_bulk(text), {});
-  validate(model);
-  return model;
-}
-
-std::string mass_error(const std::string& text) {
-  return error_of([&] { mass_deck(text); });
-}
 
 const std::string bar =
     "CORD2R,7,,1.,2.,3.,2.,4.,5.\n,0.,1.,1.\n"                                        // 1, 2
@@ -48,7 +33,7 @@ Mat6 rigid_mass_of(const FeModel& model) {
 }
 
 void expect_same_rigid_mass(const std::string& a, const std::string& b) {
-  const Mat6 x = rigid_mass_of(mass_deck(bar + a)), y = rigid_mass_of(mass_deck(bar + b));
+  const Mat6 x = rigid_mass_of(valid_bdf(bar + a)), y = rigid_mass_of(valid_bdf(bar + b));
   EXPECT_LT((x - y).norm(), 1e-12 * y.norm()) << a;
 }
 
@@ -74,21 +59,21 @@ TEST(NastranMasses, MatrixOfARigidBody) {
 }
 
 TEST(NastranMasses, Errors) {
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1\nCMASS2,6,3.,1,2\n"), "arm.bdf:8: unsupported");
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,1,2,1\n"), "arm.bdf:8: unsupported");
-  EXPECT_EQ(mass_error(bar + "CMASS2,5,3.,1,12\n"), "arm.bdf:8: out_of_range");
-  EXPECT_EQ(mass_error(bar + "CMASS1,5,3,1,1\n"), "arm.bdf:8: not_found");
-  EXPECT_EQ(mass_error(bar + "CONM1,5,1,,2.,,2.,,\n,2.,.3\n"), "arm.bdf:8: unsupported");
+  EXPECT_EQ(invalid_bdf(bar + "CMASS2,5,3.,1,1\nCMASS2,6,3.,1,2\n"), "arm.bdf:8: unsupported");
+  EXPECT_EQ(invalid_bdf(bar + "CMASS2,5,3.,1,1,2,1\n"), "arm.bdf:8: unsupported");
+  EXPECT_EQ(invalid_bdf(bar + "CMASS2,5,3.,1,12\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(invalid_bdf(bar + "CMASS1,5,3,1,1\n"), "arm.bdf:8: not_found");
+  EXPECT_EQ(invalid_bdf(bar + "CONM1,5,1,,2.,,2.,,\n,2.,.3\n"), "arm.bdf:8: unsupported");
 }
 
 // What only the reduction refuses has the place of its card too.
 TEST(NastranMasses, NoBodies) {
-  EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,3.\n"), "arm.bdf:8: out_of_range");
-  EXPECT_EQ(mass_error(bar + "CMASS2,6,3.,2,4\n"), "arm.bdf:8: out_of_range");
-  EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.+300\n"), "arm.bdf:9: not_finite");
-  EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.\n,1.+300,,1.+300\n"),
+  EXPECT_EQ(invalid_bdf(bar + "CONM2,5,2,,3.\n,1.,,1.,,,3.\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(invalid_bdf(bar + "CMASS2,6,3.,2,4\n"), "arm.bdf:8: out_of_range");
+  EXPECT_EQ(invalid_bdf(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.+300\n"), "arm.bdf:9: not_finite");
+  EXPECT_EQ(invalid_bdf(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.\n,1.+300,,1.+300\n"),
             "arm.bdf:9: not_finite");
-  EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,2.\n"), "no error");  // a flat one
+  EXPECT_EQ(invalid_bdf(bar + "CONM2,5,2,,3.\n,1.,,1.,,,2.\n"), "no error");  // a flat one
 }
 
 const std::string shell =
@@ -97,7 +82,7 @@ const std::string shell =
 
 TEST(NastranMasses, CornersOfShells) {
   const auto section = [](const std::string& text) {
-    const FeModel m = mass_deck(shell + text);
+    const FeModel m = valid_bdf(shell + text);
     const FeSystem system = assemble(m);
     VecX u = VecX::Zero(system.size());
     for (int i = 0; i < m.nodes(); ++i)
@@ -117,9 +102,9 @@ TEST(NastranMasses, CornersOfShells) {
   EXPECT_EQ(section("CQUAD4,1,1,1,2,3,4,,,\n,,,.02,.02,.02,.02\n"), (std::pair{.02, 0l}));
   EXPECT_EQ(section("CQUAD4,1,1,1,2,3,4,,,\n,,1,2.,2.,2.,2.\n"), (std::pair{.02, 0l}));
   EXPECT_EQ(section("CQUAD4,1,1,1,2,3,4,,,\n,,,.03,.03\n"), (std::pair{.02, 1l}));
-  EXPECT_EQ(mass_error(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,2,.03,.03\n"), "arm.bdf:7: out_of_range");
-  EXPECT_EQ(mass_error(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,,.03,0.\n"), "arm.bdf:7: out_of_range");
-  EXPECT_EQ(mass_error(shell + "PCOMP,2\n,1,.01\nCQUAD4,1,2,1,2,3,4,,,\n,,,.03,.03\n"),
+  EXPECT_EQ(invalid_bdf(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,2,.03,.03\n"), "arm.bdf:7: out_of_range");
+  EXPECT_EQ(invalid_bdf(shell + "CQUAD4,1,1,1,2,3,4,,,\n,,,.03,0.\n"), "arm.bdf:7: out_of_range");
+  EXPECT_EQ(invalid_bdf(shell + "PCOMP,2\n,1,.01\nCQUAD4,1,2,1,2,3,4,,,\n,,,.03,.03\n"),
             "arm.bdf:9: contradiction");
 }
 

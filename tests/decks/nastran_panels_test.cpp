@@ -1,27 +1,14 @@
 // Shear panels of Nastran: closed forms of Garvey's panel, rods along its edges, mass.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "floatframe/decks/nastran/read_nastran.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/fe/element_kernel.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
 namespace {
 
 constexpr double E_mod = 7e10, nu = 0.25, G = E_mod / (2 * (1 + nu)), t = 0.002;
-
-FeModel panel_deck(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  FeModel model = read_nastran(source, has_begin_bulk(text), {});
-  validate(model);
-  return model;
-}
 
 std::string panel(const std::string& more = "") {
   return "GRID,1,,0.,0.,0.\nGRID,2,,.6,0.,0.\nGRID,3,,.6,.4,0.\nGRID,4,,0.,.4,0.\n"
@@ -48,7 +35,7 @@ double flexibility_of(const std::array<Vec3, 4>& p, double f1) {
 // A rectangle a x b: the force of a corner at unit flow is (a, b)/2, its flexibility a b/(G t).
 TEST(NastranPanels, Rectangle) {
   const double a = .6, b = .4;
-  const FeSystem system = assemble(panel_deck(panel()));
+  const FeSystem system = assemble(valid_bdf(panel()));
   MatX K(system.K);
   VecX f(12);
   f << a, b, 0, a, -b, 0, -a, -b, 0, -a, b, 0;
@@ -116,7 +103,7 @@ TEST(NastranPanels, QuadrilateralGoesOverToATrapezoid) {
 
 // F1 up to 1.01: the rods share the panel; F2 above: half a width of F2 t each.
 TEST(NastranPanels, RodsAlongTheEdges) {
-  const FeModel m = panel_deck(panel(",.5,1.,20."));
+  const FeModel m = valid_bdf(panel(",.5,1.,20."));
   ASSERT_EQ(m.elements.size(), 5u);
   for (int k = 0; k < 4; ++k) {
     const Element& rod = m.elements[static_cast<std::size_t>(k)];
@@ -137,14 +124,13 @@ TEST(NastranPanels, RodsAlongTheEdges) {
 }
 
 TEST(NastranPanels, Errors) {
-  const auto error = [](const std::string& text) { return error_of([&] { panel_deck(text); }); };
-  EXPECT_EQ(error(panel(",,-1.")), "arm.bdf:6: out_of_range");
+  EXPECT_EQ(invalid_bdf(panel(",,-1.")), "arm.bdf:6: out_of_range");
   std::string text = panel();
   text.replace(text.find("1,2,3,4"), 7, "1,3,2,4");
-  EXPECT_EQ(error(text), "arm.bdf:5: geometry");
+  EXPECT_EQ(invalid_bdf(text), "arm.bdf:5: geometry");
   text = panel();
   text.replace(text.find("MAT1,1,7.+10,,.25"), 17, "MAT8,1,7.+10,7.+10,.25,2.+10");
-  EXPECT_EQ(error(text), "arm.bdf:6: wrong_value");
+  EXPECT_EQ(invalid_bdf(text), "arm.bdf:6: wrong_value");
 }
 
 }  // namespace

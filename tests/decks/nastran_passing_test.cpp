@@ -5,23 +5,11 @@
 #include <algorithm>
 #include <string>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel passing_deck(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
-
-std::string passing_error(const std::string& text) {
-  return test::error_of([&] { passing_deck(text); });
-}
 
 const std::string tetra =
     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"  // 1 to 4
@@ -43,10 +31,10 @@ TEST(NastranPassing, HarmlessCards) {
         "PELAST,1,2",        "DTI,SPECSEL,1,2", "DMI,W2GJ,0,2",     "USETADD,1,2",
         "MATS1,1,,PLASTIC",  "MATHP,9,1.",      "TEMPD,1,20.",      "CORD3G,9,E321,1,2,3",
         "NLSTEP,1",          "echoon",          "SET2,1,2"}) {
-    EXPECT_EQ(passing_error(tetra + card + "\n"), "no error") << card;
+    EXPECT_EQ(bdf_error(tetra + card + "\n"), "no error") << card;
   }
   for (const char* name : {"SOLLIB", "SPARSTOR", "EQCHECK", "RCONDK", "PRTSTIFF", "GRIDSEQ"}) {
-    EXPECT_EQ(passing_error(tetra + "PARAM," + name + ",1\n"), "no error") << name;
+    EXPECT_EQ(bdf_error(tetra + "PARAM," + name + ",1\n"), "no error") << name;
   }
 }
 
@@ -74,69 +62,63 @@ TEST(NastranPassing, WhatIsRefused) {
                                  "SESET",   "SECONCT", "CSUPER",  "EXTRN",  "CYJOIN",  "CCONEAX",
                                  "CTRIAX6", "CPLSTN4", "BCONP",   "BCTSET", "BCTABLE"};
   for (const char* const card : refused)
-    EXPECT_EQ(passing_error(tetra + card + ",9,9,1,2\n"), "arm.bdf:8: unsupported") << card;
-  EXPECT_EQ(passing_error(tetra + "CGAP,9\nCGAP,10\n"), "arm.bdf:8: unsupported");
+    EXPECT_EQ(bdf_error(tetra + card + ",9,9,1,2\n"), "arm.bdf:8: unsupported") << card;
+  EXPECT_EQ(bdf_error(tetra + "CGAP,9\nCGAP,10\n"), "arm.bdf:8: unsupported");
 }
 
 // Matrices and nonstructural mass count only where the case control selects them.
 TEST(NastranPassing, WhatIsNotSelected) {
   const std::string cards = "NSM1,3,PSOLID,.2,1\nDMIG,K1,1,1,1.\n";
-  EXPECT_EQ(passing_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
-  EXPECT_EQ(passing_error(tetra + cards), "arm.bdf:9: unsupported\narm.bdf:8: unsupported");
-  EXPECT_EQ(passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards), "arm.bdf:2: unsupported");
+  EXPECT_EQ(bdf_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
+  EXPECT_EQ(bdf_error(tetra + cards), "arm.bdf:9: unsupported\narm.bdf:8: unsupported");
+  EXPECT_EQ(bdf_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards), "arm.bdf:2: unsupported");
 }
 
 // Each would stand for cards that are not written out; an equation may hold the sign.
 TEST(NastranPassing, FieldsThatRepeatTheCardBefore) {
   const std::string repeats = "unsupported";
   for (const char* card : {"GRID,5,=,*(1.),==", "GRID,5,,==", "=,*(1),==", "=3"})
-    EXPECT_EQ(passing_error(tetra + card + "\n"), "arm.bdf:8: " + repeats) << card;
-  EXPECT_EQ(passing_error(tetra + "DEQATN,1,F(A),=,A\n"), "no error");
+    EXPECT_EQ(bdf_error(tetra + card + "\n"), "arm.bdf:8: " + repeats) << card;
+  EXPECT_EQ(bdf_error(tetra + "DEQATN,1,F(A),=,A\n"), "no error");
 }
 
 // A line BEGIN BULK alone is no case control that could select something.
 TEST(NastranPassing, BeginBulkIsNoCaseControl) {
-  EXPECT_EQ(passing_error("BEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\n"),
-            "arm.bdf:9: unsupported");
-  EXPECT_EQ(passing_deck("BEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.size(), 1u);
-  EXPECT_TRUE(
-      passing_deck("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());
+  EXPECT_EQ(bdf_error("BEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\n"), "arm.bdf:9: unsupported");
+  EXPECT_EQ(read_bdf("BEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.size(), 1u);
+  EXPECT_TRUE(read_bdf("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());
 }
 
 TEST(NastranPassing, NotesSayWhatIsPassedOver) {
-  const FeModel m =
-      passing_deck("CEND\nBEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\nPBUSHT,9,K,3\n");
+  const FeModel m = read_bdf("CEND\nBEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\nPBUSHT,9,K,3\n");
   ASSERT_GE(m.notes.size(), 2u);
-  const auto has = [&](const std::string& note) {
-    return std::any_of(m.notes.begin(), m.notes.end(),
-                       [&](const std::string& n) { return n.find(note) != std::string::npos; });
-  };
   EXPECT_TRUE(
-      has("tables of stiffness and damping over frequency or load are ignored, the part "
-          "has the constant ones: PBUSHT"));
-  EXPECT_TRUE(has("cards that the case control does not select are ignored: NSM1"));
-  EXPECT_FALSE(has("change neither stiffness nor mass"));
+      contains(m.notes,
+               "tables of stiffness and damping over frequency or load are ignored, the part "
+               "has the constant ones: PBUSHT"));
+  EXPECT_TRUE(contains(m.notes, "cards that the case control does not select are ignored: NSM1"));
+  EXPECT_FALSE(contains(m.notes, "change neither stiffness nor mass"));
 }
 
 TEST(NastranPassing, MassesAndRigidElementsGivenTwice) {
   for (const char* card : {"CONM2,9,1,,5.", "CMASS2,9,5.,1,1", "CONM1,9,1", "RBE2,9,1,123,2",
                            "RBE3,9,,1,123,1.,123,2,3,4", "RBAR,9,1,2,123456"}) {
     const std::string line = std::string(card) + "\n";
-    EXPECT_EQ(passing_error(tetra + line + line), "arm.bdf:9: duplicate");
+    EXPECT_EQ(bdf_error(tetra + line + line), "arm.bdf:9: duplicate");
   }
   // Masses and rigid elements have numbers of their own.
-  EXPECT_EQ(passing_error(tetra + "CONM2,9,1,,5.\nRBE2,9,1,123,2\n"), "no error");
+  EXPECT_EQ(bdf_error(tetra + "CONM2,9,1,,5.\nRBE2,9,1,123,2\n"), "no error");
 }
 
 TEST(NastranPassing, FormsOfCards) {
-  const FeModel plain = passing_deck(tetra + "SPC1,1,123,1\n");
+  const FeModel plain = read_bdf(tetra + "SPC1,1,123,1\n");
   const std::string spc[] = {"SPC1    1       1 2 3   1\n",  // blanks between components
                              "spc1,1,321,1\nenddata\nwhatever\n",
                              "SPC1,1,1 23,1,,,,,,,,\n",  // more commas than fields
                              "SPC1\t1\t123\t1\n",
                              "SPC1    1       123     1" + std::string(47, ' ') + "a, b\n"};
   for (const std::string& card : spc) {
-    const FeModel model = passing_deck(tetra + card);
+    const FeModel model = read_bdf(tetra + card);
     ASSERT_EQ(model.supports.size(), 1u) << card;
     EXPECT_EQ(model.supports[0].mask, plain.supports[0].mask) << card;
     EXPECT_EQ(model.supports[0].node, plain.supports[0].node) << card;
@@ -145,8 +127,8 @@ TEST(NastranPassing, FormsOfCards) {
 
 TEST(NastranPassing, MarksWhoseFirstCharacterDiffers) {
   const auto conm = [](const std::string& mark, const std::string& follows) {
-    return passing_error(tetra + "RBE2,7,1,123,2\nCONM2   9       1               1.      " +
-                         std::string(32, ' ') + mark + "\n" + follows + "1.\n");
+    return bdf_error(tetra + "RBE2,7,1,123,2\nCONM2   9       1               1.      " +
+                     std::string(32, ' ') + mark + "\n" + follows + "1.\n");
   };
   EXPECT_EQ(conm("+C1     ", "+C1     "), "no error");
   EXPECT_EQ(conm(" C1     ", "+C1     "), "no error");

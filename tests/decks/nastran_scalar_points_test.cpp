@@ -1,30 +1,12 @@
 // Scalar points of Nastran bulk data: the same part by springs and equations between nodes.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/fe/unit_system.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel points_deck(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
-
-FeModel points_deck_without_check(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
-
-std::string points_error(const std::string& text) {
-  return error_of([&] { validate(points_deck(text)); });
-}
 
 /// Two tetrahedra, with displacements of node 8 about a cylinder, and two bodies with rotations.
 const std::string two_tetrahedra =
@@ -53,10 +35,10 @@ MatX stiffness_of(FeModel model, double length = 1.0) {
 
 /// The same stiffness, in the units of the file and in SI; what other dofs there are is none.
 void expect_same_stiffness(const std::string& points, const std::string& nodes) {
-  const FeModel a = points_deck(two_tetrahedra + points), b = points_deck(two_tetrahedra + nodes);
+  const FeModel a = read_bdf(two_tetrahedra + points), b = read_bdf(two_tetrahedra + nodes);
   EXPECT_EQ(assemble(a).size(), assemble(b).size()) << points;
   EXPECT_LT((assemble(a).M - assemble(b).M).norm(), 1e-15 * assemble(b).M.norm()) << points;
-  const MatX plain = stiffness_of(points_deck(two_tetrahedra));
+  const MatX plain = stiffness_of(read_bdf(two_tetrahedra));
   for (const double length : {1.0, 1e-3}) {
     const MatX K = stiffness_of(a, length), expected = stiffness_of(b, length);
     EXPECT_LT((K - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff())
@@ -96,12 +78,12 @@ TEST(NastranScalarPoints, Star) {
 TEST(NastranScalarPoints, HeldPointsAreTheGround) {
   for (const std::string held : {"SPC1,1,,21\n", "SPC,1,21,1\n", "SPC1,1,0,20,THRU,30\n"}) {
     const std::string chain = two_tetrahedra + "SPOINT,21\nCELAS2,11,2.+5,1,1,21\n" + held;
-    EXPECT_EQ(points_error(chain), "arm.bdf:24: unsupported");
-    FeModel model = points_deck(chain + "CELAS4,12,3.,21\nCELAS4,13,3.,21,21\n");
+    EXPECT_EQ(invalid_bdf(chain), "arm.bdf:24: unsupported");
+    FeModel model = read_bdf(chain + "CELAS4,12,3.,21\nCELAS4,13,3.,21,21\n");
     EXPECT_EQ(remove_grounded_springs(model), 1);
-    EXPECT_EQ(stiffness_of(model), stiffness_of(points_deck(two_tetrahedra)));
+    EXPECT_EQ(stiffness_of(model), stiffness_of(read_bdf(two_tetrahedra)));
   }
-  EXPECT_EQ(points_error(two_tetrahedra + "CELAS4,11,2.+5,21\nCELAS2,12,3.,1,1,21\n"),
+  EXPECT_EQ(invalid_bdf(two_tetrahedra + "CELAS4,11,2.+5,21\nCELAS2,12,3.,1,1,21\n"),
             "arm.bdf:23: unsupported");
 }
 
@@ -111,7 +93,7 @@ TEST(NastranScalarPoints, SelectedSupports) {
                            "SPOINT,21\nCELAS2,11,2.+5,1,1,21\nSPC1,9,,21\n"
                            "SPCADD,4,9\n";
   const auto grounded = [&](const std::string& control) {
-    FeModel model = points_deck_without_check("CEND\n" + control + "BEGIN BULK\n" + bulk);
+    FeModel model = read_bdf("CEND\n" + control + "BEGIN BULK\n" + bulk);
     return remove_grounded_springs(model);
   };
   EXPECT_EQ(grounded("SPC = 9\n"), 1);
@@ -167,9 +149,8 @@ TEST(NastranScalarPoints, Errors) {
        "arm.bdf:24: unsupported"},
   };
   for (const auto& [card, expected] : wrong)
-    EXPECT_EQ(points_error(two_tetrahedra + card + "\n"), expected) << card;
-  const FeModel held =
-      points_deck(two_tetrahedra + "CMASS4,11,2.,21\nSPC1,1,,21\nCMASS4,12,0.,22\n");
+    EXPECT_EQ(invalid_bdf(two_tetrahedra + card + "\n"), expected) << card;
+  const FeModel held = read_bdf(two_tetrahedra + "CMASS4,11,2.,21\nSPC1,1,,21\nCMASS4,12,0.,22\n");
   EXPECT_EQ(held.notes.back(),
             "arm.bdf:23: 1 masses of scalar points that are held (SPC) or of the ground are left "
             "out");
@@ -179,7 +160,7 @@ TEST(NastranScalarPoints, Errors) {
 TEST(NastranScalarPoints, VeryManyInFewBytes) {
   std::string text = two_tetrahedra;
   for (int i = 0; i < 2000; ++i) text += "SPOINT,100,THRU,2000000000\n";
-  const FeModel model = points_deck(text + "CELAS2,11,5.,1,1,1999999999\n");
+  const FeModel model = read_bdf(text + "CELAS2,11,5.,1,1,1999999999\n");
   EXPECT_EQ(model.nodes(), 11);
 }
 

@@ -4,36 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/fe/model_checks.hpp"
-#include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "floatframe/math/dense.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel spring_deck(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
-
-std::string spring_deck_error(const std::string& text) {
-  return error_of([&] { validate(spring_deck(text)); });
-}
-
-std::string spring_notes(const FeModel& model) {
-  std::string text;
-  for (const std::string& note : model.notes) text += note + '\n';
-  return text;
-}
-
-VecX spring_lambda(const FeModel& model) {
-  const FeSystem system = assemble(model);
-  return generalised_eigenvalues(MatX(system.K), MatX(system.M)).values;
-}
 
 /// A tetrahedron at the origin that carries nothing: a deck needs an element.
 const std::string block =
@@ -65,13 +40,11 @@ TEST(NastranSprings, ChainOfMasses) {
       text += i % 2 == 0 ? "CELAS1," + std::to_string(i) + ",1," + ends
                          : "CELAS2," + std::to_string(i) + ",2.+4," + ends;
   }
-  FeModel model = spring_deck(text);
-  validate(model);
+  FeModel model = valid_bdf(text);
   EXPECT_EQ(model.springs.size(), 5u);
-  EXPECT_NE(spring_notes(model).find("damping of springs and bushings (GE, B) is ignored"),
-            std::string::npos);
+  EXPECT_TRUE(contains(model.notes, "damping of springs and bushings (GE, B) is ignored"));
   model.elements.clear();
-  const VecX lambda = spring_lambda(model);
+  const VecX lambda = free_eigenvalues(model);
   ASSERT_EQ(lambda.size(), 3 * n);
   for (int j = 1; j < n; ++j) {
     const double s = 2 * std::sin(j * std::numbers::pi / (2 * n));
@@ -85,7 +58,7 @@ TEST(NastranSprings, DirectionsOfTheNodes) {
                              "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
                              "GRID,1,,3.,4.,0.,5\nGRID,2,,3.,4.,0.,5\nCONM2,51,1,,1.\n"
                              "CONM2,52,2,,1.\nCELAS2,3,50.,1,1,2,2\n";
-  const FeModel model = spring_deck(turned);
+  const FeModel model = read_bdf(turned);
   const MatX K = between(model, model.nodes() - 2, model.nodes() - 1, 3);
   VecX d(6);
   d << -0.6, -0.8, 0, -0.8, 0.6, 0;  // - radial of the first, around of the second
@@ -102,8 +75,7 @@ std::string bush(const std::string& card, const std::string& property) {
 
 TEST(NastranSprings, Bushings) {
   const auto matrix = [](const std::string& card, const std::string& k) {
-    const FeModel model = spring_deck(bush(card, k));
-    validate(model);
+    const FeModel model = valid_bdf(bush(card, k));
     return between(model, model.nodes() - 2, model.nodes() - 1, 6);
   };
   const std::string six = "10.,20.,30.,1.,2.,3.";
@@ -134,20 +106,18 @@ TEST(NastranSprings, Bushings) {
   EXPECT_NEAR(K(0, 0), 10.0, 1e-13);
   EXPECT_NEAR(K(3, 3), 1.0, 1e-13);
   EXPECT_EQ(K(1, 1), 0.0);
-  EXPECT_NE(spring_notes(spring_deck(bush("CBUSH,3,8,1,2", "10.\n,,B,5.\n,,GE,.01")))
-                .find("damping of springs and bushings (GE, B) is ignored"),
-            std::string::npos);
+  EXPECT_TRUE(contains(read_bdf(bush("CBUSH,3,8,1,2", "10.\n,,B,5.\n,,GE,.01")).notes,
+                       "damping of springs and bushings (GE, B) is ignored"));
 }
 
 // Along the line of the nodes, or axis 1 of CID.
 TEST(NastranSprings, BushingsOfOneDirection) {
   const auto direction = [](const std::string& card, const std::string& more = "") {
     const FeModel model =
-        spring_deck(block +
-                    "GRID,1,,0.,0.,0.\nGRID,2,,3.,4.,0.\nCONM2,51,1,,1.\nCONM2,52,2,,1.\n"
-                    "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,0.,1.\n" +
-                    card + "\nPBUSH1D,8,50." + more + "\n");
-    validate(model);
+        valid_bdf(block +
+                  "GRID,1,,0.,0.,0.\nGRID,2,,3.,4.,0.\nCONM2,51,1,,1.\nCONM2,52,2,,1.\n"
+                  "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,0.,1.\n" +
+                  card + "\nPBUSH1D,8,50." + more + "\n");
     return MatX(between(model, 4, 5, 3) / 50.0);
   };
   VecX d(6);
@@ -177,11 +147,10 @@ TEST(NastranSprings, Rods) {
   for (const std::string kind : {"CROD", "CONROD"}) {
     for (const bool coupled : {false, true}) {
       const FeModel model =
-          spring_deck(rods_of(kind, n, kind == "CROD" ? "PROD,4,1,2.-4,,,.78" : "") +
-                      (coupled ? "PARAM,COUPMASS,1\n" : ""));
-      validate(model);
+          valid_bdf(rods_of(kind, n, kind == "CROD" ? "PROD,4,1,2.-4,,,.78" : "") +
+                    (coupled ? "PARAM,COUPMASS,1\n" : ""));
       EXPECT_NEAR(volume_times_density(model), n * m, 1e-12);
-      const VecX lambda = spring_lambda(model);
+      const VecX lambda = free_eigenvalues(model);
       for (int j = 1; j <= n; ++j) {
         const double c = std::cos(j * std::numbers::pi / n);
         EXPECT_NEAR(
@@ -192,10 +161,10 @@ TEST(NastranSprings, Rods) {
       EXPECT_EQ(model.element_sets.size(), kind == "CROD" ? 1u : 0u);
     }
   }
-  const FeModel tube = spring_deck(rods_of("CTUBE", 2, "PTUBE,4,1,.1,.01"));
+  const FeModel tube = read_bdf(rods_of("CTUBE", 2, "PTUBE,4,1,.1,.01"));
   EXPECT_NEAR(tube.sections.at(0).A, std::numbers::pi / 4 * (0.01 - 0.0064), 1e-15);
   // Torsion, with the G of the material: two bodies on a shaft of two rods.
-  const FeModel shaft = spring_deck(
+  const FeModel shaft = read_bdf(
       "MAT1,1,2.1+11,8.+10,.3,7800.\nPROD,4,1,1.-4,2.-8\nGRID,1,,0.,0.,0.\nGRID,2,,0.,1.,0.\n"
       "GRID,3,,0.,2.,0.\nCROD,1,4,1,2\nCROD,2,4,2,3\nRBE2,10,1,123456,11,12,13\n"
       "GRID,11,,1.,0.,0.\nGRID,12,,0.,0.,1.\nGRID,13,,-1.,0.,0.\n"
@@ -236,11 +205,10 @@ TEST(NastranSprings, Errors) {
       {"PTUBE,4,91,.1,.01,,.2", "arm.bdf:8: unsupported"},
   };
   for (const auto& [card, expected] : wrong)
-    EXPECT_EQ(spring_deck_error(block + card + "\n"), expected) << card;
-  EXPECT_NE(spring_notes(spring_deck(block + "CDAMP2,1,5.,91,1\nCVISC,2,3,91,92\n"))
-                .find("dampers are ignored, the part has modal damping (--damping): 1 CDAMP2, "
-                      "1 CVISC"),
-            std::string::npos);
+    EXPECT_EQ(invalid_bdf(block + card + "\n"), expected) << card;
+  EXPECT_TRUE(contains(read_bdf(block + "CDAMP2,1,5.,91,1\nCVISC,2,3,91,92\n").notes,
+                       "dampers are ignored, the part has modal damping (--damping): 1 CDAMP2, "
+                       "1 CVISC"));
 }
 
 }  // namespace

@@ -3,21 +3,10 @@
 
 #include <cmath>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "floatframe/math/dense.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel taper_of(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  FeModel model = read_nastran(source, has_begin_bulk(text), {});
-  validate(model);
-  return model;
-}
 
 /// A cantilever of length 10 along x, held at node 1.
 std::string cantilever(const std::string& property, const std::string& more = "") {
@@ -73,8 +62,8 @@ TEST(NastranTapers, DeflectionsOfACantilever) {
   for (const double r : {1.02, 0.8, 2.0, 0.125}) {
     const auto times = [r](double x) { return std::to_string(r * x); };
     const FeModel model =
-        taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.," + times(.1) + "," + times(.2) + "," +
-                            times(.3) + ",," + times(.4) + "\n,0.,0.\n"));
+        valid_bdf(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.," + times(.1) + "," + times(.2) + "," +
+                             times(.3) + ",," + times(.4) + "\n,0.,0.\n"));
     const double E = 100, G = 40, L = 10, log_mean = (r - 1) / std::log(r);
     EXPECT_NEAR(tip(model, 0) / (L / (E * .1 * log_mean)), 1.0, 1e-3) << r;
     EXPECT_NEAR(tip(model, 3) / (L / (G * .4 * log_mean)), 1.0, 1e-9) << r;  // exact
@@ -118,8 +107,8 @@ TEST(NastranTapers, FrequenciesOfAFineChain) {
             "," + id + "," + id + "," + next + ",0.,1.,0.\nPBEAM," + id + ",1," +
             std::to_string(A) + "," + std::to_string(I) + ",.01,,.01\n,\n,0.,0.\n";
   }
-  const VecX reference = first(taper_of(fine));
-  const VecX found = first(taper_of(cantilever(
+  const VecX reference = first(valid_bdf(fine));
+  const VecX found = first(valid_bdf(cantilever(
       "PBEAM,1,1,.1,.02,.01,,.01\n,NO,1.,.01,.002,.01,,.01\n,0.,0.\n", "PARAM,COUPMASS,1\n")));
   EXPECT_NEAR(std::sqrt(found(0) / reference(0)), 1.0, 1e-3);
   EXPECT_NEAR(std::sqrt(found(1) / reference(1)), 1.0, 1.5e-3);
@@ -127,24 +116,24 @@ TEST(NastranTapers, FrequenciesOfAFineChain) {
 
 TEST(NastranTapers, StationsAndEnds) {
   // Constant to the middle, then to a half; stations in any order; end B blank is as end A.
-  const FeModel model = taper_of(
+  const FeModel model = valid_bdf(
       cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.05,.1,.15,,.2\n,NO,.5,.1,.2,.3,,.4\n,0.,0.\n"));
   EXPECT_NEAR(tip(model, 0), 5 / (100 * .1) + 5 / (100 * .1) * 2 * std::log(2.), 7e-4);
   const FeModel blank =
-      taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,.5,.05,.2,.3,,.4\n,0.,0.\n"));
+      valid_bdf(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,.5,.05,.2,.3,,.4\n,0.,0.\n"));
   EXPECT_NEAR(tip(blank, 0), 10 / (100 * .1) * 2 * std::log(2.), 7e-4);
   // What a station between the ends leaves blank lies between them.
-  const FeModel between = taper_of(
+  const FeModel between = valid_bdf(
       cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,.5,,.15,.3,,.4\n,NO,1.,.05,.1,.3,,.4\n,0.,0.\n"));
   EXPECT_NEAR(tip(between, 0), 10 / (100 * .1) * 2 * std::log(2.), 7e-4);
   // The same section along the beam is one beam.
-  EXPECT_EQ(taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.10005,.2,.3,,.4\n")).nodes(), 2);
+  EXPECT_EQ(valid_bdf(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.10005,.2,.3,,.4\n")).nodes(), 2);
   // Offsets and pins stay at the ends: a pin of the end bends nothing, the force moves the node.
   std::string offset = cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.05,.1,.15,,.2\n,0.,0.\n");
   offset.insert(offset.find("0.,1.,0.\n") + 8, "\n,,,0.,2.,0.,0.,2.,0.");
   const double axial = 10 / (100 * .1) * 2 * std::log(2.),
                bent = 4 * 10 / (100 * .2) * 2 * std::log(2.);
-  EXPECT_NEAR(tip(taper_of(offset), 0), axial + bent, 7e-4);
+  EXPECT_NEAR(tip(valid_bdf(offset), 0), axial + bent, 7e-4);
   // Sets, names and notes are of the element.
   EXPECT_EQ(model.element_sets.at("PID 1").size(), model.elements.size());
   EXPECT_EQ(model.elements.back().id, 1);
@@ -164,9 +153,9 @@ TEST(NastranTapers, MassAndNamedSections) {
     return u.dot(system.M * u);
   };
   EXPECT_NEAR(
-      mass(taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4,1.\n,NO,1.,.05,.1,.15,,.2,2.\n,0.,0.\n"))),
+      mass(valid_bdf(cantilever("PBEAM,1,1,.1,.2,.3,,.4,1.\n,NO,1.,.05,.1,.15,,.2,2.\n,0.,0.\n"))),
       2 * .075 * 10 + 15, 1e-12);
-  const FeModel bar = taper_of(cantilever("PBEAML,1,1,,BAR\n,.4,.6,1.,NO,1.,.2,.6,1.\n"));
+  const FeModel bar = valid_bdf(cantilever("PBEAML,1,1,,BAR\n,.4,.6,1.,NO,1.,.2,.6,1.\n"));
   EXPECT_NEAR(mass(bar), 2 * .18 * 10 + 10, 1e-12);
   EXPECT_NEAR(tip(bar, 0), 10 / (100 * .24) * 2 * std::log(2.), 7e-4);
   EXPECT_NEAR(bar.sections.back().width, .6, 1e-12);
@@ -174,7 +163,7 @@ TEST(NastranTapers, MassAndNamedSections) {
 
 TEST(NastranTapers, Errors) {
   const auto error = [](const std::string& stations) {
-    return error_of([&] { taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n," + stations)); });
+    return invalid_bdf(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n," + stations));
   };
   EXPECT_EQ(error("NO,1.5,.1,.1,.15,,.2\n"), "arm.bdf:6: out_of_range");
   EXPECT_EQ(error("NO,.5,.1,.1,.15,,.2\n,NO,.5,.1,.1,.15,,.2\n"), "arm.bdf:7: duplicate");
@@ -182,9 +171,7 @@ TEST(NastranTapers, Errors) {
   std::string many;
   for (int i = 1; i < 60; ++i) many += "NO,." + std::to_string(100 + i) + ",.1\n,";
   EXPECT_EQ(error(many), "arm.bdf:5: wrong_count");
-  EXPECT_EQ(error_of([&] {
-              taper_of(cantilever("PBEAML,1,1,,BAR\n,.4,.6,1.,NO,.5,.2,,\n,NO,1.,.2,.6\n"));
-            }),
+  EXPECT_EQ(invalid_bdf(cantilever("PBEAML,1,1,,BAR\n,.4,.6,1.,NO,.5,.2,,\n,NO,1.,.2,.6\n")),
             "arm.bdf:5: missing");
 }
 
@@ -194,7 +181,7 @@ TEST(NastranTapers, ErrorsOnce) {
   const auto error = [&](const std::string& from, const std::string& to) {
     std::string text = cantilever(beam);
     text.replace(text.find(from), from.size(), to);
-    return error_of([&] { taper_of(text); });
+    return invalid_bdf(text);
   };
   EXPECT_EQ(error("MAT1,1", "MAT1,2"), "arm.bdf:5: not_found");
   EXPECT_EQ(error("MAT1,1,100.,,.25,2.", "MAT8,1,100.,100.,.25,10."), "arm.bdf:5: wrong_value");
@@ -209,7 +196,7 @@ TEST(NastranTapers, ErrorsOnce) {
 // What changes alone.
 TEST(NastranTapers, NonstructuralMassAndI12) {
   const FeModel mass =
-      taper_of(cantilever("PBEAM,1,1,1.,2.,3.,,.4,0.\n,NO,1.,1.,2.,3.,,.4,20.\n,0.,0.\n"));
+      valid_bdf(cantilever("PBEAM,1,1,1.,2.,3.,,.4,0.\n,NO,1.,1.,2.,3.,,.4,20.\n,0.,0.\n"));
   EXPECT_GT(mass.elements.size(), 15u);
   const FeSystem system = assemble(mass);
   VecX shift = VecX::Zero(system.size()), turn = shift;
@@ -227,12 +214,12 @@ TEST(NastranTapers, NonstructuralMassAndI12) {
   const auto turned = [](const char* end) {
     return cantilever("PBEAM,1,1,1.,.2,.3,0.,.4\n,NO,1.,1.,.2,.3," + std::string(end) + ",.4\n");
   };
-  EXPECT_GT(taper_of(turned(".2")).elements.size(), 15u);
-  EXPECT_EQ(error_of([&] { taper_of(turned(".4")); }), "arm.bdf:5: out_of_range");
+  EXPECT_GT(valid_bdf(turned(".2")).elements.size(), 15u);
+  EXPECT_EQ(invalid_bdf(turned(".4")), "arm.bdf:5: out_of_range");
 }
 
 TEST(NastranTapers, TaperedToNothing) {
-  EXPECT_EQ(error_of([&] { taper_of(cantilever("PBEAML,1,1,,ROD\n,1.,0.,NO,1.,0.,0.\n")); }),
+  EXPECT_EQ(invalid_bdf(cantilever("PBEAML,1,1,,ROD\n,1.,0.,NO,1.,0.,0.\n")),
             "arm.bdf:5: out_of_range");
 }
 
@@ -243,10 +230,10 @@ TEST(NastranTapers, BoundedNumberOfPieces) {
       "PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.01,.02,.03,,.04\n,0.,0.\n";
   const int n = 3000;
   for (int i = 1; i <= n; ++i) text += "CBEAM," + std::to_string(i) + ",,1,2\n";
-  const FeModel model = taper_of(text);
+  const FeModel model = valid_bdf(text);
   EXPECT_LT(model.elements.size(), 1000u + 3u * n);
   EXPECT_GE(model.elements.size(), 2u * n);
-  EXPECT_NE(model.notes.at(0).find("(fewer than for 0.05 %, by "), std::string::npos);
+  EXPECT_TRUE(contains(model.notes.at(0), "(fewer than for 0.05 %, by "));
 }
 
 }  // namespace

@@ -9,18 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/nastran/nastran_cards.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
-
-FeModel turned_deck(const std::string& text) {
-  TextSource source(text, "arm.bdf");
-  return read_nastran(source, has_begin_bulk(text), {});
-}
 
 /// Stiffness of the whole as seen at some free nodes: what differs in the choice of dependent
 /// degrees of freedom is condensed away.
@@ -38,8 +30,7 @@ MatX stiffness_at(const FeModel& model, const std::vector<int>& nodes) {
 
 void expect_same_turned(const std::string& basic, const std::string& turned,
                         const std::vector<int>& nodes) {
-  const MatX a = stiffness_at(turned_deck(basic), nodes),
-             b = stiffness_at(turned_deck(turned), nodes);
+  const MatX a = stiffness_at(read_bdf(basic), nodes), b = stiffness_at(read_bdf(turned), nodes);
   ASSERT_EQ(a.rows(), b.rows()) << turned;
   EXPECT_LT((a - b).norm(), 1e-10 * a.norm()) << turned;
 }
@@ -151,7 +142,7 @@ TEST(NastranTurned, RigidElements) {
 
 /// Eigenvalues of the free part [rad2/s2], the smallest first.
 VecX turned_eigenvalues(const std::string& text) {
-  const FeSystem s = assemble(turned_deck(text));
+  const FeSystem s = assemble(read_bdf(text));
   return Eigen::GeneralizedSelfAdjointEigenSolver<MatX>(MatX(s.K), MatX(s.M),
                                                         Eigen::EigenvaluesOnly)
       .eigenvalues();
@@ -191,8 +182,7 @@ TEST(NastranTurned, DependentComponentsOfMeanSpiders) {
   const std::string deck =
       bars + nodes_3_and_4(0) + "GRID,8,,4.,2.,0.\nCONM2,9,8,,1.\nRBE3,9,,8,123456,1.,123,3,5\n,6";
   expect_same_turned(deck + "\n", deck + ",UM,3,123,5,12,6,3\n", {0, 1, 6});
-  EXPECT_EQ(test::error_of([&] { turned_deck(deck + ",UM,3,123,5,12\n"); }),
-            "arm.bdf:15: wrong_count");
+  EXPECT_EQ(bdf_error(deck + ",UM,3,123,5,12\n"), "arm.bdf:15: wrong_count");
 }
 
 TEST(NastranTurned, OrientationAndOffsetsOfBars) {
@@ -202,9 +192,9 @@ TEST(NastranTurned, OrientationAndOffsetsOfBars) {
       "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nGRID,5,,3.,1.,0.,7\nGRID,6,,6.,1.,0.,7\n"
       "GRID,7,,9.,1.,0.\nCBAR,2,1,6,7,0.,1.,0.\n";
   // x of system 7 is Y, its y is Z and its z is X.
-  const FeModel model = turned_deck(bar + turned +
-                                    "CBAR,1,1,5,6,.6,.8,0.\n,,,.1,.2,.3,.4,.5,.6\n"
-                                    "CBAR,3,1,1,2,0.,1.,0.\n");
+  const FeModel model = read_bdf(bar + turned +
+                                 "CBAR,1,1,5,6,.6,.8,0.\n,,,.1,.2,.3,.4,.5,.6\n"
+                                 "CBAR,3,1,1,2,0.,1.,0.\n");
   const auto position_of = [&](int end) {
     return model.positions.at(model.elements[1].nodes[end]);
   };
@@ -218,10 +208,10 @@ TEST(NastranTurned, OrientationAndOffsetsOfBars) {
 
 TEST(NastranTurned, Supports) {
   const FeModel model =
-      turned_deck(bars +
-                  "GRID,3,,5.,1.,.5,8\nGRID,4,,4.,2.,1.,9\nCORD2C,8,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
-                  "CORD2R,9,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nSPC1,1,3,3\nSPC1,1,12,3\nSPC1,1,1,3\n"
-                  "SPC1,1,16,4\n");
+      read_bdf(bars +
+               "GRID,3,,5.,1.,.5,8\nGRID,4,,4.,2.,1.,9\nCORD2C,8,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+               "CORD2R,9,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nSPC1,1,3,3\nSPC1,1,12,3\nSPC1,1,1,3\n"
+               "SPC1,1,16,4\n");
   ASSERT_EQ(model.supports.size(), 3u);  // radial alone is no basic direction
   EXPECT_EQ(model.supports[0].mask, 4u);
   EXPECT_EQ(model.supports[1].mask, 3u);
@@ -230,9 +220,7 @@ TEST(NastranTurned, Supports) {
 
 TEST(NastranTurned, ErrorsOfTurnedSystems) {
   const std::string deck = bars + systems + nodes_3_and_4(1);
-  const auto error = [&](const std::string& cards) {
-    return test::error_of([&] { turned_deck(deck + cards); });
-  };
+  const auto error = [&](const std::string& cards) { return bdf_error(deck + cards); };
   EXPECT_EQ(error("MPC,9,4,1,1.,3,1,-1.\nMPC,9,4,1,1.,2,1,-1.\n"), "arm.bdf:21: duplicate");
   EXPECT_EQ(error("RBE2,8,2,1,4\nRBE2,9,1,1,4\n"), "arm.bdf:21: duplicate");
 }

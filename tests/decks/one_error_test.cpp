@@ -1,9 +1,7 @@
 // A number that is none is one error, where it stands, and nothing that would follow from it.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
+#include "decks/deck_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -44,12 +42,7 @@ TEST(OneError, OfANumberThatIsNone) {
        "one.inp:17: out_of_range"},
   };
   for (const OneError& c : cases)
-    EXPECT_EQ(error_of([&] {
-                TextSource source(one_error_deck + c.text, "one.inp");
-                read_abaqus(source, {});
-              }),
-              c.expected)
-        << c.text;
+    EXPECT_EQ(inp_error(one_error_deck + c.text, {}, "one.inp"), c.expected) << c.text;
 }
 
 }  // namespace

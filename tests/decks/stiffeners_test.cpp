@@ -6,10 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
-#include "floatframe/decks/nastran/read_nastran.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/formats/text/text_source.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe::test {
@@ -93,10 +90,7 @@ FeModel nastran_plate(const std::string& property, const std::string& extra = ""
   }
   text +=
       fmt::format("PSHELL,1,1,{},1\nMAT1,1,2.1e11,,.3,7850.\n", plate_thickness) + property + extra;
-  TextSource source(text + "ENDDATA\n", "plate.bdf");
-  FeModel model = read_nastran(source, true, FeReadOptions{});
-  validate(model);
-  return model;
+  return valid_bdf(text + "ENDDATA\n");
 }
 
 std::string rib_property(const std::string& card) {
@@ -126,12 +120,7 @@ FeModel calculix_plate() {
       "MATERIAL=M\n{}\n*BEAM SECTION, ELSET=RIB, MATERIAL=M, SECTION=RECT, OFFSET2=0.6\n{}, "
       "{}\n{}\n",
       plate_thickness, rib_width, rib_height, plate_numbers(plate_axes() * Vec3(0.0, 1.0, 0.0)));
-  TextSource source(text, "plate.inp");
-  FeReadOptions options;
-  options.dialect = DeckDialect::calculix;
-  FeModel model = read_abaqus(source, options);
-  validate(model);
-  return model;
+  return valid_inp(text, of_dialect(DeckDialect::calculix));
 }
 
 /// Energy of the motion in which the plate is twisted and the nodes of the rib turn about the

@@ -169,11 +169,8 @@ TEST(Superelement, ModesOfTheFileAreNormalModes) {
   to_si(model, *find_unit_system("m-kg-s"));
   PartOptions options;
   for (int k = 0; k < 2; ++k) {
-    InterfaceDescription d;
-    d.name = k == 0 ? "A" : "B";
-    d.choice.by = NodeChoice::By::nearest;
-    d.choice.point = model.positions[k];
-    options.interfaces.push_back(d);
+    const NodeChoice place = nearest_to(model.positions[k]);
+    options.interfaces.push_back(interface_at(k == 0 ? "A" : "B", place));
   }
   options.modes = 8;
   options.stresses = false;
@@ -181,10 +178,7 @@ TEST(Superelement, ModesOfTheFileAreNormalModes) {
   EXPECT_EQ(part.body.modes(), 14);
   for (const FrequencyPair& pair : part.health.free_frequencies)
     EXPECT_LT(std::abs(pair.relative_error()), 1e-9);
-  EXPECT_EQ(
-      std::count_if(part.health.warnings.begin(), part.health.warnings.end(),
-                    [](const std::string& w) { return w.starts_with("the file has 8 ampl"); }),
-      1);
+  EXPECT_EQ(count_with(part.health.warnings, "the file has 8 ampl"), 1);
 }
 
 TEST(Superelement, Output4InAllItsForms) {
@@ -205,7 +199,7 @@ TEST(Superelement, Output4InAllItsForms) {
       EXPECT_EQ(MatX(read.matrices->M), M) << form;
       EXPECT_EQ(MatX(read.matrices->C), B) << form;
       EXPECT_EQ(read.matrices->scalars, model.matrices->scalars);
-      EXPECT_NE(read.notes.back().find("ignored: K4XX1"), std::string::npos);
+      EXPECT_TRUE(contains(read.notes.back(), "ignored: K4XX1"));
     }
   }
 }

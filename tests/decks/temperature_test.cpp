@@ -1,10 +1,8 @@
 // Materials that depend on the temperature: linear between the lines of a table, constant beyond.
 #include <gtest/gtest.h>
 
-#include "floatframe/decks/abaqus/read_abaqus.hpp"
+#include "decks/deck_text.hpp"
 #include "floatframe/decks/temperature_table.hpp"
-#include "floatframe/formats/text/text_source.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -28,12 +26,11 @@ TEST(Temperature, LinearBetweenTheLinesAndConstantBeyond) {
 FeModel warm(const std::string& material, std::optional<double> T) {
   FeReadOptions options;
   options.temperature = T;
-  TextSource source(
+  return read_inp(
       "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n"
       "*ELEMENT, TYPE=C3D4, ELSET=ALL\n1, 1, 2, 3, 4\n*MATERIAL, NAME=STEEL\n" +
           material + "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n",
-      "a.inp");
-  return read_abaqus(source, options);
+      options, "a.inp");
 }
 
 TEST(Temperature, TablesOfDecks) {

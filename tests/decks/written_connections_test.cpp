@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "decks/deck_text.hpp"
 #include "decks/written_mesh.hpp"
-#include "floatframe/fe/fe_system.hpp"
-#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -27,9 +26,8 @@ constexpr const char* sprung_bricks =
 
 TEST(WrittenConnections, SpringsOfAllDirections) {
   const TemporaryFolder folder;
-  FeReadOptions options;
-  options.dialect = DeckDialect::calculix;
-  FeModel model = read_fe_file(folder.write("sprung.inp", sprung_bricks), options);
+  FeModel model =
+      read_fe_file(folder.write("sprung.inp", sprung_bricks), of_dialect(DeckDialect::calculix));
   ASSERT_EQ(model.springs.size(), 10u);
   const FeModel same = there_and_back(model, ".inp");
   EXPECT_EQ(same.springs.size(), 10u);
@@ -86,11 +84,9 @@ TEST(WrittenConnections, SpringsOfAllDirections) {
   ASSERT_EQ(lc.size(), ld.size());
   EXPECT_LT((lc - ld).cwiseAbs().maxCoeff(), 1e-11 * lc.maxCoeff());
   EXPECT_LT(std::abs(lc(6) / ld(6) - 1.0), 1e-6);
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("5 springs that massless nodes or rotations of solids have an end at: the "
-                      "stiffness between the others is written, as springs of further nodes\n"),
-            std::string::npos)
-      << written_notes(model, ".inp");
+  EXPECT_TRUE(contains(written_notes(model, ".inp"),
+                       "5 springs that massless nodes or rotations of solids have an end at: the "
+                       "stiffness between the others is written, as springs of further nodes\n"));
 
   // A node that an equation moves.
   for (int axis = 0; axis < 3; ++axis) {
@@ -121,9 +117,8 @@ std::string two_legs(const std::string& words, const std::string& further = "") 
 
 FeModel legs_model(const std::string& words, const std::string& further = "") {
   const TemporaryFolder folder;
-  FeReadOptions options;
-  options.dialect = DeckDialect::calculix;
-  return read_fe_file(folder.write("frame.inp", two_legs(words, further)), options);
+  return read_fe_file(folder.write("frame.inp", two_legs(words, further)),
+                      of_dialect(DeckDialect::calculix));
 }
 
 int count_of(const std::string& text, const std::string& what) {
@@ -197,34 +192,30 @@ TEST(WrittenConnections, StraightBeamsTurn) {
       "*ELEMENT,TYPE=C3D8,ELSET=S\n1,1,2,3,4,5,6,7,8\n*ELEMENT,TYPE=B31,ELSET=B\n2,5,6\n"
       "*MATERIAL,NAME=M\n*ELASTIC\n2e11,.3\n*DENSITY\n7800.\n*SOLID SECTION,ELSET=S,MATERIAL=M\n"
       "*BEAM SECTION,ELSET=B,MATERIAL=M,SECTION=RECT\n.02,.03\n0.,1.,0.\n";
-  FeReadOptions options;
-  options.dialect = DeckDialect::calculix;
-  const FeModel model = read_fe_file(folder.write("bar.inp", bricks), options);
+  const FeModel model =
+      read_fe_file(folder.write("bar.inp", bricks), of_dialect(DeckDialect::calculix));
   EXPECT_EQ(count_of(written(model, ".inp").bytes, "*EQUATION"), 0);
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("1 straight group of beams can turn about the line that holds them: nodes "
-                      "without rotations; that is a frequency of zero of each in CalculiX\n"),
-            std::string::npos);
+  EXPECT_TRUE(contains(written_notes(model, ".inp"),
+                       "1 straight group of beams can turn about the line that holds them: nodes "
+                       "without rotations; that is a frequency of zero of each in CalculiX\n"));
 }
 
 // u1 = 2 u2 holds a part that moves along x; rigid spiders do not.
 TEST(WrittenConnections, EquationsThatHoldThePartHaveANote) {
   const auto bricks = [](const std::string& more) {
     const TemporaryFolder folder;
-    FeReadOptions options;
-    options.dialect = DeckDialect::calculix;
-    return written_notes(read_fe_file(folder.write("a.inp", sprung_bricks + more), options),
+    return written_notes(read_fe_file(folder.write("a.inp", sprung_bricks + more),
+                                      of_dialect(DeckDialect::calculix)),
                          ".inp");
   };
   const std::string words = "equations of the model that rigid motions do not satisfy";
-  EXPECT_NE(
-      bricks("*EQUATION\n2\n1, 1, 1., 2, 1, -2.\n")
-          .find("1 direction is bound by " + words + ": the part is not free; first: node 1 ux"),
-      std::string::npos);
+  EXPECT_TRUE(
+      contains(bricks("*EQUATION\n2\n1, 1, 1., 2, 1, -2.\n"),
+               "1 direction is bound by " + words + ": the part is not free; first: node 1 ux"));
   for (const char* rigid : {"", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n",
                             "*NODE\n99, 5, 5, 5\n*RIGID BODY, NSET=R, REF NODE=99\n*NSET, NSET=R\n"
                             "1, 2, 3\n"})
-    EXPECT_EQ(bricks(rigid).find(words), std::string::npos) << rigid;
+    EXPECT_FALSE(contains(bricks(rigid), words)) << rigid;
 }
 
 }  // namespace

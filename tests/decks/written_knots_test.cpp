@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "decks/deck_text.hpp"
 #include "decks/written_mesh.hpp"
-#include "support/error_of.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -35,9 +36,8 @@ struct KnottedFrames {
                           set, size);
     for (int k = 1; k <= 3; ++k) text += fmt::format("*EQUATION\n2\n113,{0},1.,13,{0},-1.\n", k);
     const TemporaryFolder folder;
-    FeReadOptions options;
-    options.dialect = DeckDialect::calculix;
-    return read_fe_file(folder.write("frames.inp", text + further), options);
+    return read_fe_file(folder.write("frames.inp", text + further),
+                        of_dialect(DeckDialect::calculix));
   }
 };
 
@@ -53,8 +53,7 @@ TEST(WrittenKnots, TurnsOfNodesWhereBeamsMeetAreKept) {
     const FeModel model = frames.read();
     const std::string text = written(model, ".inp").bytes;
     for (int axis = 4; axis <= 6; ++axis)
-      EXPECT_NE(text.find(fmt::format("113, {0}, -1, 13, {0}, 1\n", axis)), std::string::npos)
-          << text;
+      EXPECT_TRUE(contains(text, fmt::format("113, {0}, -1, 13, {0}, 1\n", axis)));
     expect_same_system(model, there_and_back(model, ".inp"));
   }
   // In one line, with one section, CalculiX makes one row of solids.
@@ -76,7 +75,7 @@ TEST(WrittenKnots, TurnsOfNodesWhereBeamsMeetAreKept) {
 // plate, where a shell of ours has some stiffness about its normal.
 TEST(WrittenKnots, BeamsOnShellsAreSaid) {
   FeModel model = KnottedFrames{}.read();
-  EXPECT_EQ(written_notes(model, ".inp").find("beams and shells share"), std::string::npos);
+  EXPECT_FALSE(contains(written_notes(model, ".inp"), "beams and shells share"));
   Element plate = model.elements[0];
   plate.type = ElementType::tri3;
   plate.nodes = {0, 12, 24};
@@ -84,12 +83,10 @@ TEST(WrittenKnots, BeamsOnShellsAreSaid) {
   plate.id = 900;
   model.elements.push_back(plate);
   model.shells = {{.thickness = 0.01, .shear = 0.01 * 5.0 / 6.0}};
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("beams and shells share 3 nodes: a shell of CalculiX does not resist that a "
-                      "beam turns there about the normal of the shell, which is a frequency of "
-                      "zero where nothing else does; first: node 1\n"),
-            std::string::npos)
-      << written_notes(model, ".inp");
+  EXPECT_TRUE(contains(written_notes(model, ".inp"),
+                       "beams and shells share 3 nodes: a shell of CalculiX does not resist that a "
+                       "beam turns there about the normal of the shell, which is a frequency of "
+                       "zero where nothing else does; first: node 1\n"));
 }
 
 // CalculiX 2.20 finds 43.9 Hz of a frame with a mass on three rods that have the larger numbers
@@ -102,11 +99,10 @@ TEST(WrittenKnots, RodsAreNumberedAfterBeams) {
         .read();
   };
   const std::string note = "1 rod is numbered anew, after the beams that they meet";
-  EXPECT_EQ(written_notes(with_rod(500), ".inp").find(note), std::string::npos);
+  EXPECT_FALSE(contains(written_notes(with_rod(500), ".inp"), note));
   const FeModel model = with_rod(13);  // beams have 1 to 12 and 101 to 112
-  EXPECT_NE(written_notes(model, ".inp").find(note), std::string::npos);
-  EXPECT_NE(written(model, ".inp").bytes.find("*ELEMENT, TYPE=T3D2\n113, 1, 25\n"),
-            std::string::npos);
+  EXPECT_TRUE(contains(written_notes(model, ".inp"), note));
+  EXPECT_TRUE(contains(written(model, ".inp").bytes, "*ELEMENT, TYPE=T3D2\n113, 1, 25\n"));
   expect_same_system(model, there_and_back(model, ".inp"));
 }
 
@@ -119,8 +115,8 @@ TEST(WrittenKnots, SpringsReachTurnsByEquations) {
         k);
   const FeModel model = KnottedFrames{.further = springs}.read();
   const std::string text = written(model, ".inp").bytes;
-  EXPECT_EQ(text.find("\n4, 4\n"), std::string::npos) << text;
-  EXPECT_NE(text.find(", 1, -1, 13, 4, 1\n"), std::string::npos) << text;
+  EXPECT_FALSE(contains(text, "\n4, 4\n"));
+  EXPECT_TRUE(contains(text, ", 1, -1, 13, 4, 1\n"));
   expect_same_system(model, there_and_back(model, ".inp"));
 }
 
@@ -130,18 +126,10 @@ FeModel coupled_bricks(unsigned mask) {
   model.materials = {steel};
   for (int k = 0; k < 12; ++k)
     model.positions.push_back(0.1 * Vec3(k % 2, k / 2 % 2, static_cast<double>(k / 4)));
-  for (const int a : {0, 4}) {
-    Element e;
-    e.type = ElementType::hex8;
-    e.nodes = {a, a + 1, a + 3, a + 2, a + 4, a + 5, a + 7, a + 6};
-    model.elements.push_back(e);
-  }
+  for (const int a : {0, 4})
+    add_element(model, ElementType::hex8, {a, a + 1, a + 3, a + 2, a + 4, a + 5, a + 7, a + 6});
   model.positions.emplace_back(0.04, 0.06, 0.25);
-  Spider s;
-  s.reference = 12;
-  s.nodes = {8, 9, 10, 11};
-  s.mask = mask;
-  model.spiders = {s};
+  add_spider(model, 12, {8, 9, 10, 11}).mask = mask;
   return model;
 }
 
@@ -149,16 +137,14 @@ TEST(WrittenKnots, CouplingsOfSomeDirections) {
   // In x and y of nodes in one plane: rx is uy there, ry is ux.
   const FeModel model = coupled_bricks(0b011);
   const std::string text = written(model, ".inp").bytes;
-  EXPECT_NE(text.find("*BOUNDARY\n14, 1, 1\n14, 2, 2\n"), std::string::npos) << text;
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("2 directions are held of nodes without elements: what shows that motion"),
-            std::string::npos)
-      << written_notes(model, ".inp");
+  EXPECT_TRUE(contains(text, "*BOUNDARY\n14, 1, 1\n14, 2, 2\n"));
+  EXPECT_TRUE(contains(written_notes(model, ".inp"),
+                       "2 directions are held of nodes without elements: what shows that motion"));
   // Three directions show all six motions; a mass makes them count.
-  EXPECT_EQ(written(coupled_bricks(0b111), ".inp").bytes.find("*BOUNDARY"), std::string::npos);
+  EXPECT_FALSE(contains(written(coupled_bricks(0b111), ".inp").bytes, "*BOUNDARY"));
   FeModel weighted = model;
   weighted.masses = {{12, 1.0, Mat3::Zero()}};
-  EXPECT_EQ(written(weighted, ".inp").bytes.find("*BOUNDARY"), std::string::npos);
+  EXPECT_FALSE(contains(written(weighted, ".inp").bytes, "*BOUNDARY"));
   // A spring along y at the reference tells rx from uy there, but not ry from ux.
   FeModel sprung = model;
   Spring s;
@@ -167,8 +153,7 @@ TEST(WrittenKnots, CouplingsOfSomeDirections) {
   s.directions[1] = Vec6::Unit(1);
   s.stiffness = 10.0;
   sprung.springs.push_back(s);
-  EXPECT_NE(written(sprung, ".inp").bytes.find("*BOUNDARY\n13, 3, 3\n14, 2, 2\n"),
-            std::string::npos);
+  EXPECT_TRUE(contains(written(sprung, ".inp").bytes, "*BOUNDARY\n13, 3, 3\n14, 2, 2\n"));
 }
 
 TEST(WrittenKnots, EquationsThatHoldThePartAreSaid) {
@@ -179,19 +164,17 @@ TEST(WrittenKnots, EquationsThatHoldThePartAreSaid) {
   model.equations = {nothing};
   EXPECT_EQ(written(model, ".inp").bytes, written(coupled_bricks(0b111), ".inp").bytes);
   model.equations = {nothing, held};
-  EXPECT_NE(written(model, ".inp").bytes.find("*BOUNDARY\n1, 2, 2\n"), std::string::npos);
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("1 direction is held by equations of the model, written as *BOUNDARY: the "
-                      "part is not free; first: node 0 uy\n"),
-            std::string::npos)
-      << written_notes(model, ".inp");
+  EXPECT_TRUE(contains(written(model, ".inp").bytes, "*BOUNDARY\n1, 2, 2\n"));
+  EXPECT_TRUE(contains(written_notes(model, ".inp"),
+                       "1 direction is held by equations of the model, written as *BOUNDARY: the "
+                       "part is not free; first: node 0 uy\n"));
 }
 
 // CalculiX 2.20 takes five vectors a mode and prints zeros if it has fewer degrees of freedom.
 TEST(WrittenKnots, NoMoreModesThanCalculixFinds) {
   const FeModel model = coupled_bricks(0b111);
-  EXPECT_NE(written(model, ".inp", 20).bytes.find("*FREQUENCY\n6\n"), std::string::npos);
-  EXPECT_NE(written(model, ".inp", 4).bytes.find("*FREQUENCY\n4\n"), std::string::npos);
+  EXPECT_TRUE(contains(written(model, ".inp", 20).bytes, "*FREQUENCY\n6\n"));
+  EXPECT_TRUE(contains(written(model, ".inp", 4).bytes, "*FREQUENCY\n4\n"));
   const std::vector<std::string> notes = written(model, ".inp", 20).notes;
   EXPECT_EQ(
       notes.back(),

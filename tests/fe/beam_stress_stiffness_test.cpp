@@ -2,10 +2,9 @@
 // second order.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "floatframe/fe/stress_stiffness.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/fe_models.hpp"
 #include "support/fe_parts.hpp"
 
 namespace floatframe::test {
@@ -20,13 +19,8 @@ FeModel row(ElementType type, const BeamSection& section, const Vec3& x) {
   model.sections = {section};
   const int step = type == ElementType::beam2 ? 1 : 2;
   for (int k = 0; k <= elements; ++k) model.positions.push_back(x * k / elements);
-  for (int k = 0; k < elements; k += step) {
-    Element e;
-    e.type = type;
-    e.nodes = {k, k + 1, k + 2};
-    e.reference = Vec3(0.3, -1.0, 0.2);
-    model.elements.push_back(e);
-  }
+  for (int k = 0; k < elements; k += step)
+    add_element(model, type, {k, k + 1, k + 2}).reference = Vec3(0.3, -1.0, 0.2);
   return model;
 }
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -15,6 +14,7 @@
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/fe_models.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
@@ -178,15 +178,9 @@ TEST(PointModels, ElementsWithRotaryInertiaAreExact) {
   model.elements.pop_back();
   model.shells = {{0.01}};
   model.positions.emplace_back(0.4, 0.2, 0.1);
-  Element shell;
-  shell.type = ElementType::tri3;
-  shell.nodes = {12, 13, 14};
-  model.elements.push_back(shell);
+  add_element(model, ElementType::tri3, {12, 13, 14});
   model.positions.emplace_back(0.35, 0.04, 0.06);
-  Element beam;
-  beam.type = ElementType::beam3;
-  beam.nodes = {12, 15, 13};
-  model.elements.push_back(beam);
+  add_element(model, ElementType::beam3, {12, 15, 13});
   validate(model);
   const FeSystem system = assemble(model);
   const PointModel points = point_model(model, system);

@@ -4,11 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "floatframe/fe/fe_system.hpp"
-#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/fe_models.hpp"
 #include "support/fe_parts.hpp"
 
 namespace floatframe::test {
@@ -22,13 +19,6 @@ int block_node(int i, int j, int k) { return 9 * i + 3 * j + k; }
 int add_node(FeModel& model, const Vec3& p) {
   model.positions.push_back(p);
   return model.nodes() - 1;
-}
-
-void add_rigid_spider(FeModel& model, int reference, std::vector<int> nodes) {
-  Spider s;
-  s.reference = reference;
-  s.nodes = std::move(nodes);
-  model.spiders.push_back(std::move(s));
 }
 
 /// e . (u_b - u_a) = 0
@@ -60,18 +50,13 @@ FeModel tied(FeModel model) {
   return model;
 }
 
-VecX tied_eigenvalues(const FeModel& model) {
-  const FeSystem system = assemble(model);
-  return generalised_eigenvalues(MatX(system.K), MatX(system.M)).values;
-}
-
 /// Six rigid motions, then the same eigenvalues.
 void expect_same(const FeModel& model, const FeModel& oracle, int count = 30) {
-  const VecX a = tied_eigenvalues(model), b = tied_eigenvalues(oracle);
+  const VecX a = free_eigenvalues(model), b = free_eigenvalues(oracle);
   ASSERT_EQ(a.size(), b.size());
   EXPECT_LT(a.head<6>().cwiseAbs().maxCoeff(), 1e-7 * a(6));
   for (int k = 6; k < 6 + count; ++k) EXPECT_NEAR(a(k) / b(k), 1.0, 1e-9) << k;
-  const VecX without = tied_eigenvalues(bar_block());  // it stiffens the block
+  const VecX without = free_eigenvalues(bar_block());  // it stiffens the block
   EXPECT_GT((a.segment(6, 20).array() / without.segment(6, 20).array()).maxCoeff(), 1.001);
 }
 
@@ -80,7 +65,7 @@ TEST(FreeTurns, ARigidBarKeepsALength) {
   const int a = block_node(0, 0, 0), b = block_node(4, 2, 1);
   FeModel oracle = model;
   keep_length(oracle, a, b);
-  add_rigid_spider(model, a, {b});
+  add_spider(model, a, {b});
   const std::vector<FreeTurn> turns = free_turns(model);
   ASSERT_EQ(turns.size(), 1u);
   EXPECT_FALSE(turns[0].every_way);
@@ -101,7 +86,7 @@ TEST(FreeTurns, ARigidBarKeepsALength) {
 
 TEST(FreeTurns, WithoutTheTieTheStiffnessIsSingular) {
   FeModel model = bar_block();
-  add_rigid_spider(model, block_node(0, 0, 0), {block_node(4, 2, 1)});
+  add_spider(model, block_node(0, 0, 0), {block_node(4, 2, 1)});
   const FeSystem system = assemble(model);
   const VecX loose = symmetric_eigenvalues(MatX(system.K));
   EXPECT_LT(loose(6), 1e-12 * loose(loose.size() - 1));
@@ -110,9 +95,8 @@ TEST(FreeTurns, WithoutTheTieTheStiffnessIsSingular) {
 
 TEST(FreeTurns, TheUnitOfLengthDoesNotMatter) {
   FeModel model = bar_block(1e-3), large = bar_block();
-  for (FeModel* m : {&model, &large})
-    add_rigid_spider(*m, block_node(0, 0, 0), {block_node(4, 2, 1)});
-  const VecX a = tied_eigenvalues(tied(model)), b = tied_eigenvalues(tied(large));
+  for (FeModel* m : {&model, &large}) add_spider(*m, block_node(0, 0, 0), {block_node(4, 2, 1)});
+  const VecX a = free_eigenvalues(tied(model)), b = free_eigenvalues(tied(large));
   for (int k = 6; k < 30; ++k) EXPECT_NEAR(1e-6 * a(k) / b(k), 1.0, 1e-9) << k;
 }
 
@@ -122,7 +106,7 @@ TEST(FreeTurns, ThreeNodesOnALine) {
   FeModel oracle = model;
   keep_length(oracle, a, b);
   keep_share(oracle, p, 0.5, a, b);
-  add_rigid_spider(model, p, {a, b});
+  add_spider(model, p, {a, b});
   expect_same(tied(model), oracle);
 }
 
@@ -133,7 +117,7 @@ TEST(FreeTurns, AReferenceThatNothingElseUses) {
   for (const double beside : {0.0, 0.02}) {  // on the line and beside it
     FeModel model = bar_block();
     const Vec3 p = 0.3 * model.positions[a] + 0.7 * model.positions[b] + Vec3(0, beside, 0);
-    add_rigid_spider(model, add_node(model, p), {a, b});
+    add_spider(model, add_node(model, p), {a, b});
     const FeModel with = tied(model);
     EXPECT_EQ(assemble(with).size(), assemble(oracle).size());
     expect_same(with, oracle);
@@ -147,8 +131,8 @@ TEST(FreeTurns, ChainsTurnTogether) {
   FeModel oracle = model;
   keep_length(oracle, a, b);
   keep_share(oracle, p, 0.5, a, b);
-  add_rigid_spider(model, a, {p});
-  add_rigid_spider(model, p, {b});
+  add_spider(model, a, {p});
+  add_spider(model, p, {b});
   ASSERT_EQ(free_turns(model).size(), 1u);
   expect_same(tied(model), oracle);
   model.spiders[1].nodes = {block_node(3, 2, 2)};  // no line: a rigid triangle
@@ -157,11 +141,11 @@ TEST(FreeTurns, ChainsTurnTogether) {
 
 TEST(FreeTurns, AnArmOnOneNodeDoesNothing) {
   FeModel model = bar_block();
-  add_rigid_spider(model, add_node(model, Vec3(0.5, 0.2, 0.3)), {block_node(4, 2, 1)});
+  add_spider(model, add_node(model, Vec3(0.5, 0.2, 0.3)), {block_node(4, 2, 1)});
   const std::vector<FreeTurn> turns = free_turns(model);
   ASSERT_EQ(turns.size(), 1u);
   EXPECT_TRUE(turns[0].every_way);
-  const VecX a = tied_eigenvalues(tied(model)), b = tied_eigenvalues(bar_block());
+  const VecX a = free_eigenvalues(tied(model)), b = free_eigenvalues(bar_block());
   ASSERT_EQ(a.size(), b.size());
   for (int k = 6; k < 36; ++k) EXPECT_NEAR(a(k) / b(k), 1.0, 1e-9) << k;
 }
@@ -170,7 +154,7 @@ TEST(FreeTurns, WhatHasMassBesideTheLineStaysAMechanism) {
   FeModel model = bar_block();
   const int a = block_node(0, 1, 0), b = block_node(3, 0, 2);
   const int beside = add_node(model, Vec3(0.2, 0.3, 0.05));
-  add_rigid_spider(model, beside, {a, b});
+  add_spider(model, beside, {a, b});
   model.masses.push_back({beside, 0.1, Mat3::Zero()});
   EXPECT_TRUE(free_turns(model).empty());
   model.masses[0] = {beside, 0.0, Mat3::Identity()};  // inertia turns
@@ -181,17 +165,17 @@ TEST(FreeTurns, WhatHasMassBesideTheLineStaysAMechanism) {
   EXPECT_EQ(free_turns(model).size(), 1u);
   model.spiders.clear();
   model.masses = {{block_node(2, 1, 1), 0.1, Mat3::Zero()}};
-  add_rigid_spider(model, beside, {block_node(4, 1, 1)});
+  add_spider(model, beside, {block_node(4, 1, 1)});
   EXPECT_EQ(free_turns(model).size(), 1u);  // a mass elsewhere
   model.masses[0].node = beside;            // a pendulum: two swings are left
-  const VecX lambda = tied_eigenvalues(tied(model));
+  const VecX lambda = free_eigenvalues(tied(model));
   EXPECT_LT(lambda(7), 1e-9 * lambda(8));
 }
 
 TEST(FreeTurns, WhatIsHeldHasNone) {
   FeModel model = bar_block();
   const int a = block_node(0, 1, 0), b = block_node(3, 0, 2);
-  add_rigid_spider(model, a, {b, block_node(2, 2, 2)});  // three nodes, no line
+  add_spider(model, a, {b, block_node(2, 2, 2)});  // three nodes, no line
   EXPECT_TRUE(free_turns(model).empty());
   model.spiders[0].nodes = {b};
   EXPECT_EQ(free_turns(model).size(), 1u);
@@ -213,9 +197,9 @@ TEST(FreeTurns, NeighbouringBars) {
   FeModel oracle = model;
   for (const auto& [a, b] : pairs) {
     keep_length(oracle, a, b);
-    add_rigid_spider(model, a, {b});
+    add_spider(model, a, {b});
   }
-  const VecX a = tied_eigenvalues(tied(model)), b = tied_eigenvalues(oracle);
+  const VecX a = free_eigenvalues(tied(model)), b = free_eigenvalues(oracle);
   ASSERT_EQ(a.size(), b.size());
   for (int k = 6; k < 36; ++k) EXPECT_NEAR(a(k) / b(k), 1.0, 1e-9) << k;
 }
@@ -250,7 +234,7 @@ TEST(FreeTurns, AStraightBarIsARod) {
   const MatX Kc = MatX(K(kept, kept)) - MatX(K(kept, gone)) * X;
   const VecX f =
       generalised_eigenvalues(MatX(0.5 * (Kc + Kc.transpose())), MatX(M(kept, kept))).values;
-  const VecX expected = tied_eigenvalues(rod);
+  const VecX expected = free_eigenvalues(rod);
   ASSERT_EQ(f.size(), expected.size());
   for (int k = 6; k < 40; ++k) EXPECT_NEAR(f(k) / expected(k), 1.0, 1e-8) << k;
 }

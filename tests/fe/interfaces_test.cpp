@@ -7,6 +7,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/interface_selection.hpp"
 #include "support/error_of.hpp"
+#include "support/fe_parts.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
@@ -56,11 +57,7 @@ FeModel tube() {
   return model;
 }
 
-NodeChoice by_set(const std::string& name) {
-  NodeChoice c;
-  c.set = name;
-  return c;
-}
+NodeChoice by_set(const std::string& name) { return {.set = name}; }
 
 NodeChoice shape(NodeChoice::By by, const Vec3& point, const Vec3& axis = Vec3::UnitZ(),
                  double radius = 0.0, double length = 0.0, double tolerance = 0.0) {
@@ -81,9 +78,7 @@ TEST(NodeChoices, EveryWay) {
   EXPECT_EQ(choose_nodes(model, by_set("bore_top")), (std::vector<int>{207, 192, 200}));
   EXPECT_EQ(choose_nodes(model, by_set("FIRST")), (std::vector<int>{0, 1, 16, 17, 48, 49, 64, 65}));
   EXPECT_EQ(choose_nodes(model, by_set("END")), (std::vector<int>{0, 1, 2, 16, 17, 18}));
-  NodeChoice number;
-  number.by = NodeChoice::By::node;
-  number.number = 105;
+  NodeChoice number = node_number(105);
   EXPECT_EQ(choose_nodes(model, number), std::vector<int>{4});
   using By = NodeChoice::By;
   // The nearest node belongs to the part, however near a loose one is.
@@ -105,12 +100,7 @@ TEST(NodeChoices, EveryWay) {
 }
 
 std::string refusal(FeModel model, const InterfaceDescription& d) {
-  try {
-    add_interface(model, d);
-  } catch (const InputError& error) {
-    return test::codes_of(error);
-  }
-  return "no error";
+  return error_of([&] { add_interface(model, d); });
 }
 
 InterfaceDescription interface(const NodeChoice& choice, Spider::Kind kind = Spider::Kind::rigid) {
@@ -164,17 +154,12 @@ TEST(Interfaces, ReferencePoints) {
 
 TEST(Interfaces, OneNode) {
   FeModel model = tube();
-  NodeChoice number;
-  number.by = NodeChoice::By::node;
-  number.number = 105;
+  NodeChoice number = node_number(105);
   InterfaceDescription d = interface(number);
   EXPECT_EQ(refusal(model, d), "wrong_value");
   FeModel rods = tube();
   rods.sections = {BeamSection::solid_round(0.01)};
-  Element rod;
-  rod.type = ElementType::rod2;
-  rod.nodes = {0, 240};
-  rods.elements.push_back(rod);
+  add_element(rods, ElementType::rod2, {0, 240});
   NodeChoice end = number;
   end.number = 999;
   EXPECT_EQ(refusal(rods, interface(end)), "wrong_value");
@@ -184,10 +169,7 @@ TEST(Interfaces, OneNode) {
   EXPECT_EQ(model.node_names[4], "BUSH");
   // The end of a beam has six degrees of freedom of its own.
   model.sections = {BeamSection::solid_round(0.01)};
-  Element beam;
-  beam.nodes = {0, 240};
-  beam.reference = Vec3::UnitY();
-  model.elements.push_back(beam);
+  add_element(model, ElementType::beam2, {0, 240}).reference = Vec3::UnitY();
   number.number = 999;
   d = interface(number);
   d.name = "END";
@@ -203,9 +185,7 @@ TEST(Interfaces, Refusals) {
   EXPECT_EQ(refusal(model, interface(by_set("LONE"))), "missing");
   EXPECT_EQ(refusal(model, interface(by_set("PAIR"))), "wrong_count");
   EXPECT_EQ(refusal(model, interface(by_set("LINE"))), "singular");
-  NodeChoice number;
-  number.by = By::node;
-  number.number = 5;
+  NodeChoice number = node_number(5);
   EXPECT_EQ(refusal(model, interface(number)), "not_found");
   EXPECT_EQ(refusal(model, interface(shape(By::cylinder, Vec3(0, 0, 0), Vec3::UnitZ(), 0.0102))),
             "not_found");

@@ -9,6 +9,7 @@
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/math/dense.hpp"
+#include "support/fe_models.hpp"
 #include "support/fe_parts.hpp"
 #include "support/quadratic_mesh.hpp"
 
@@ -52,12 +53,9 @@ TEST(LumpedMass, DispersionOfABar) {
   model.materials = {{2e11, 0.3, 7850}};
   model.sections = {BeamSection::rectangle(0.02, 0.03)};
   for (int k = 0; k <= n; ++k) model.positions.emplace_back(h * k, 0, 0);
-  for (int k = 0; k < n; ++k) {
-    Element e;
-    e.nodes = {k, k + 1};
-    e.mass_form = MassForm::lumped_without_rotation;
-    model.elements.push_back(e);
-  }
+  for (int k = 0; k < n; ++k)
+    add_element(model, ElementType::beam2, {k, k + 1}).mass_form =
+        MassForm::lumped_without_rotation;
   validate(model);
   const FeSystem system = assemble(model);
   MatX K(n, n), M(n, n);

@@ -3,6 +3,7 @@
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/fe_models.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
@@ -18,27 +19,16 @@ inline FeModel mixed_model(Spider::Kind kind) {
   }
   for (int k = 0; k < 2; ++k) {
     const int a = 4 * k;
-    Element e;
-    e.type = ElementType::hex8;
-    e.nodes = {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3};
-    model.elements.push_back(e);
+    add_element(model, ElementType::hex8, {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3});
   }
   model.positions.emplace_back(0.25, 0.06, 0.04);  // 12: reference
   model.positions.emplace_back(0.45, 0.03, 0.07);  // 13: end of the beam
-  Element beam;
-  beam.type = ElementType::beam2;
-  beam.nodes = {12, 13};
-  model.elements.push_back(beam);
+  add_element(model, ElementType::beam2, {12, 13});
   Mat3 J;
   J << 3, 0.2, 0.1, 0.2, 4, -0.3, 0.1, -0.3, 5;
   model.masses.push_back({13, 1.5, J * 1e-2});
   model.masses.push_back({2, 0.3, Mat3::Zero()});
-  Spider s;
-  s.kind = kind;
-  s.name = "FLANGE";
-  s.reference = 12;
-  s.nodes = {8, 9, 10, 11};
-  model.spiders.push_back(s);
+  add_spider(model, 12, {8, 9, 10, 11}, kind).name = "FLANGE";
   return model;
 }
 

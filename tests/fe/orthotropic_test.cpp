@@ -11,15 +11,8 @@
 namespace floatframe::test {
 namespace {
 
-constexpr EngineeringConstants wood{.E1 = 1.2e10,
-                                    .E2 = 9e8,
-                                    .E3 = 5e8,
-                                    .nu12 = 0.35,
-                                    .nu13 = 0.42,
-                                    .nu23 = 0.5,
-                                    .G12 = 8e8,
-                                    .G13 = 6e8,
-                                    .G23 = 6e7};
+// E1, E2, E3, nu12, nu13, nu23, G12, G13, G23
+constexpr EngineeringConstants wood{1.2e10, 9e8, 5e8, 0.35, 0.42, 0.5, 8e8, 6e8, 6e7};
 constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
 
 Mat6 turned_tensor(const Mat6& D, const Mat3& R) {

@@ -9,6 +9,7 @@
 #include "floatframe/fe/lumped_mass.hpp"
 #include "floatframe/fe/rigid_leaders.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/fe_models.hpp"
 #include "support/fe_parts.hpp"
 
 namespace floatframe::test {
@@ -21,13 +22,8 @@ FeModel bent_row(int n, const BeamSection& section) {
   model.sections = {section};
   for (int k = 0; k <= n; ++k)
     model.positions.emplace_back(0.2 * k, 0.01 * k * k, 0.1 * std::sin(0.7 * k));
-  for (int k = 0; k < n; ++k) {
-    Element e;
-    e.type = ElementType::beam2;
-    e.nodes = {k, k + 1};
-    e.reference = Vec3(0.1, 0.3 * k, 1.0);
-    model.elements.push_back(e);
-  }
+  for (int k = 0; k < n; ++k)
+    add_element(model, ElementType::beam2, {k, k + 1}).reference = Vec3(0.1, 0.3 * k, 1.0);
   return model;
 }
 
@@ -81,13 +77,8 @@ FeModel shells_with_offset() {
   model.shells = {{0.01}};
   model.shells[0].offset = 0.004;
   model.positions = {{0, 0, 0}, {0.2, 0, 0.01}, {0.22, 0.1, 0}, {0, 0.12, 0}, {0.4, 0.05, 0.02}};
-  Element e;
-  e.type = ElementType::quad4;
-  e.nodes = {0, 1, 2, 3};
-  model.elements.push_back(e);
-  e.type = ElementType::tri3;
-  e.nodes = {1, 4, 2};
-  model.elements.push_back(e);
+  add_element(model, ElementType::quad4, {0, 1, 2, 3});
+  add_element(model, ElementType::tri3, {1, 4, 2});
   return model;
 }
 
@@ -167,12 +158,10 @@ TEST(PointModels, StationsAreTheConsistentMass) {
 // points of a structure that turns as one about a node move on circles about it.
 TEST(PointModels, ArmsOfWhatIsFixed) {
   FeModel model = with_offsets();
-  Spider disc;  // a chain: fixed to a node that is fixed to a node
-  disc.reference = model.nodes() - 1;
   model.positions.emplace_back(0.9, 0.2, 0.3);
-  disc.nodes = {model.nodes() - 1};
-  model.masses.push_back({model.nodes() - 1, 0.5, Mat3::Zero()});
-  model.spiders.push_back(disc);
+  const int last = model.nodes() - 1;
+  model.masses.push_back({last, 0.5, Mat3::Zero()});
+  add_spider(model, last - 1, {last});  // a chain: fixed to a node that is fixed to a node
   validate(model);
   const FeSystem system = assemble(model);
   const std::vector<int> leaders = rigid_leaders(model, system);

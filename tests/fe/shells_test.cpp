@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "floatframe/fe/element_kernel.hpp"
+#include "support/fe_models.hpp"
 #include "support/random_body.hpp"
 #include "support/shell_sheets.hpp"
 
@@ -148,13 +149,9 @@ TEST(Beam3, CantileverAndQuarterRing) {
     model.materials = {material};
     model.sections = {section};
     for (int k = 0; k <= 2 * elements; ++k) model.positions.push_back(at(0.5 * k / elements));
-    for (int k = 0; k < elements; ++k) {
-      Element e;
-      e.type = ElementType::beam3;
-      e.nodes = {2 * k, 2 * k + 1, 2 * k + 2};
-      e.reference = Vec3::UnitY();
-      model.elements.push_back(e);
-    }
+    for (int k = 0; k < elements; ++k)
+      add_element(model, ElementType::beam3, {2 * k, 2 * k + 1, 2 * k + 2}).reference =
+          Vec3::UnitY();
     validate(model);
     return model;
   };

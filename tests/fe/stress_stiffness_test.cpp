@@ -16,6 +16,7 @@
 #include "support/fe_parts.hpp"
 #include "support/midside_sheets.hpp"
 #include "support/quadratic_mesh.hpp"
+#include "support/shell_sheets.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -70,38 +71,14 @@ TEST(StressStiffness, UniformStressInSolids) {
   }
 }
 
-/// A plate nx x ny in the xy plane.
-FeModel plate(int n, double size, double thickness, bool triangles) {
-  FeModel model;
-  model.materials = {steel};
-  model.shells = {{thickness}};
-  const auto at = [&](int i, int j) { return i * (n + 1) + j; };
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) model.positions.emplace_back(size * i / n, size * j / n, 0.0);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      Element e;
-      e.type = triangles ? ElementType::tri3 : ElementType::quad4;
-      e.nodes = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-      model.elements.push_back(e);
-      if (!triangles) continue;
-      e.nodes = {at(i, j), at(i + 1, j + 1), at(i, j + 1)};
-      model.elements.push_back(e);
-    }
-  return model;
-}
-
 /// 4 pi^2 D / b^2 of a square plate with simple supports under a force along x: the error of
 /// Rayleigh's quotient with the deflection under a pressure sin sin.
 double buckling_error(int n, ElementType type) {
   constexpr double b = 0.5, t = 0.005;
   const bool middles = type == ElementType::tri6 || type == ElementType::quad8;
-  const FeModel model =
-      middles ? midside_sheet(
-                    type, n / 2, n / 2, [](double x, double y) { return Vec3(b * x, b * y, 0); },
-                    steel, t)
-                    .model
-              : plate(n, b, t, type == ElementType::tri3);
+  const auto place = [](double x, double y) { return Vec3(b * x, b * y, 0); };
+  const FeModel model = middles ? midside_sheet(type, n / 2, n / 2, place, steel, t).model
+                                : sheet(type, n, n, place, steel, t);
   const FeSystem system = assemble(model);
   SparseMatrix K = system.K;
   VecX f = VecX::Zero(system.size());

@@ -6,6 +6,7 @@
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/math/dense.hpp"
+#include "support/fe_models.hpp"
 #include "support/shell_sheets.hpp"
 
 namespace floatframe::test {
@@ -21,12 +22,8 @@ FeModel stubby(int elements, double L) {
   model.sections[0].shear_y = 0.8 * model.sections[0].A;
   model.sections[0].shear_z = 0.5 * model.sections[0].A;
   for (int k = 0; k <= elements; ++k) model.positions.emplace_back(L * k / elements, 0, 0);
-  for (int k = 0; k < elements; ++k) {
-    Element e;
-    e.nodes = {k, k + 1};
-    e.reference = Vec3::UnitY();
-    model.elements.push_back(e);
-  }
+  for (int k = 0; k < elements; ++k)
+    add_element(model, ElementType::beam2, {k, k + 1}).reference = Vec3::UnitY();
   validate(model);
   return model;
 }
@@ -102,13 +99,7 @@ std::vector<int> supported_rows(const FeModel& model, const FeSystem& system, bo
 VecX supported(const FeModel& model, bool z) {
   const FeSystem system = assemble(model);
   const std::vector<int> rows = supported_rows(model, system, z);
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  MatX K(n, n), M(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) {
-      K(i, j) = system.K.coeff(rows[i], rows[j]);
-      M(i, j) = system.M.coeff(rows[i], rows[j]);
-    }
+  const MatX K = MatX(system.K)(rows, rows), M = MatX(system.M)(rows, rows);
   return generalised_eigen(K, M).values.cwiseSqrt();
 }
 
@@ -157,15 +148,9 @@ double buckling_load(const FeModel& model, bool z) {
     }
   }
   const std::vector<int> rows = supported_rows(model, system, z);
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  MatX K(n, n), G(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) {
-      K(i, j) = system.K.coeff(rows[i], rows[j]);
-      G(i, j) = -Kg(rows[i], rows[j]);
-    }
+  const MatX K = MatX(system.K)(rows, rows), G = -Kg(rows, rows);
   // K x = P G x with K > 0: the largest 1/P.
-  return 1.0 / generalised_eigen(G, K).values(n - 1);
+  return 1.0 / generalised_eigen(G, K).values.tail(1)(0);
 }
 
 // Engesser's load P = Pe/(1 + Pe/(G As)), from the axial force times the slopes of the centre line

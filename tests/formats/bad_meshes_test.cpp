@@ -1,5 +1,4 @@
 // Invalid Gmsh meshes and matrix files, each with the code and place of its error.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "floatframe/formats/fe_file.hpp"

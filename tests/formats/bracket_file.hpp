@@ -99,12 +99,7 @@ inline std::string member(const std::string& bytes, const std::string& name) {
 }
 
 inline std::string error_of_bytes(const std::string& bytes) {
-  try {
-    read_body_bytes(bytes, "arm.ffb");
-  } catch (const InputError& error) {
-    return test::codes_of(error);
-  }
-  return "no error";
+  return test::error_of([&] { read_body_bytes(bytes, "arm.ffb"); });
 }
 
 }  // namespace floatframe

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <filesystem>
 #include <random>
 
 #include "floatframe/core/base64.hpp"
@@ -109,13 +108,9 @@ double volume(const TriangleGeometry& g) {
 
 std::string geometry_error(const std::string& bytes, const std::string& name,
                            const GeometryLoader& loader = {}) {
-  try {
-    parse_geometry(bytes, name, loader);
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.errors().size(), 1u);
-    return test::codes_of(error);
-  }
-  return "no error";
+  const std::string text = test::error_of([&] { parse_geometry(bytes, name, loader); });
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  return text;
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {

@@ -5,9 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "floatframe/formats/fe_file.hpp"

@@ -3,6 +3,7 @@
 // joint. A joint type is covered by being in `all_joint_types`.
 #include <gtest/gtest.h>
 
+#include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -41,12 +42,7 @@ Model build_case(const Case& c) {
   s.add_joint("tested", c.type, reversed ? "far" : "near", 1, reversed ? "near" : "far", 2).cut =
       c.place == Place::cut;
   s.add_joint("probe", JointType::weld, ground_name, 0, "far", 3).cut = true;
-  RodDescription rod;
-  rod.name = "rod";
-  rod.a = s.at("near", 4);
-  rod.b = s.at("far", 5);
-  rod.length = 0.8;
-  s.d.rods.push_back(rod);
+  s.d.rods = {make_rod("rod", s.at("near", 4), s.at("far", 5), 0.8)};
   return build_model(s.d);
 }
 

@@ -4,6 +4,7 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
+#include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -81,11 +82,7 @@ class TwoFormulations : public ::testing::TestWithParam<std::tuple<unsigned, boo
       s.add_joint("loop_ball", JointType::spherical, "twig", 1, "body_free", 3).cut = true;
       s.add_joint("loop_universal", JointType::universal, ground_name, 1, "body_spherical", 2).cut =
           true;
-      RodDescription rod;
-      rod.name = "rod";
-      rod.a = s.at("body_weld", 4);
-      rod.b = s.at("twig", 4);
-      s.d.rods.push_back(rod);
+      s.d.rods = {make_rod("rod", s.at("body_weld", 4), s.at("twig", 4))};
     }
     Model m = build_model(s.d);
     Random random(3);
@@ -217,12 +214,8 @@ TEST_P(TwoFormulations, MassAndResidualAgree) {
 
 TEST_P(TwoFormulations, EnergiesAgree) {
   const Model m = build(false);
-  RelativeFormulation relative(m, InertiaMethod::preprocessing);
-  AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
-  Random random(13);
-  VecX q, v, qa, va;
-  random_configuration(relative, random, q, v);
-  absolute.start_from(relative, q, v, qa, va);
+  RandomPair pair(m, 13);
+  auto& [relative, absolute, random, q, v, qa, va] = pair;
   evaluate_at(relative, 0.0, q, v);
   evaluate_at(absolute, 0.0, qa, va);
   relative.dynamics();

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/math/dense.hpp"
+#include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -33,11 +34,6 @@ Model build_chain(JointType middle, Closure closure, int modes, bool massless = 
   spring.spring = PiecewisePolynomial::linear(30.0, 0.5);
   spring.a = s.at(closure == Closure::spring_between ? "a" : ground_name, 2);
   spring.b = s.at("c", 2);
-  RodDescription rod;
-  rod.name = "rod";
-  rod.a = s.at(ground_name, 0);
-  rod.b = s.at("c", 3);
-  rod.length = 0.8;
   switch (closure) {
     case Closure::none:
       break;
@@ -48,14 +44,11 @@ Model build_chain(JointType middle, Closure closure, int modes, bool massless = 
       s.add_joint("cut", JointType::revolute, ground_name, 0, "c", 3).cut = true;
       break;
     case Closure::rod:
-      s.d.rods.push_back(rod);
+      s.d.rods = {make_rod("rod", s.at(ground_name, 0), s.at("c", 3), 0.8)};
       break;
     case Closure::spring_to_ground:
     case Closure::spring_between: {
-      ForceDescription f;
-      f.name = "spring";
-      f.kind = spring;
-      s.d.forces.push_back(f);
+      s.d.forces = {{"spring", spring, {}}};
     }
   }
   return build_model(s.d);
@@ -131,12 +124,8 @@ class TangentOfJoint : public ::testing::TestWithParam<JointType> {
 TEST_P(TangentOfJoint, IsTheDerivativeOfTheResidualForRigidBodies) {
   for (const Closure closure : closures) {
     const Model m = build_chain(GetParam(), closure, 0);
-    RelativeFormulation relative(m, InertiaMethod::preprocessing);
-    AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
-    Random random(5);
-    VecX q, v, qa, va;
-    random_configuration(relative, random, q, v);
-    absolute.start_from(relative, q, v, qa, va);
+    RandomPair pair(m, 5);
+    auto& [relative, absolute, random, q, v, qa, va] = pair;
     const double s = 1e-2;
     if (closure != Closure::spring_between) {
       const Tangent t = compare(relative, q, s, 10.0);
@@ -154,12 +143,8 @@ TEST_P(TangentOfJoint, AbsoluteConstraintsOnFlexibleBodiesAreExactToo) {
   for (const Closure closure : closures) {
     if (closure == Closure::spring_to_ground || closure == Closure::spring_between) continue;
     const Model m = build_chain(GetParam(), closure, 2);
-    RelativeFormulation relative(m, InertiaMethod::preprocessing);
-    AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
-    Random random(5);
-    VecX q, v, qa, va;
-    random_configuration(relative, random, q, v);
-    absolute.start_from(relative, q, v, qa, va);
+    RandomPair pair(m, 5);
+    auto& [relative, absolute, random, q, v, qa, va] = pair;
     const Tangent t = compare(absolute, qa, 1e-2, 10.0);
     EXPECT_LT(t.difference, 1e-8 * (t.mass + t.stiffness)) << static_cast<int>(closure);
   }
@@ -167,12 +152,8 @@ TEST_P(TangentOfJoint, AbsoluteConstraintsOnFlexibleBodiesAreExactToo) {
 
 TEST_P(TangentOfJoint, TurningOfTheJointsOfABodyWithoutMassIsInIt) {
   const Model m = build_chain(GetParam(), Closure::none, 0, true);
-  RelativeFormulation relative(m, InertiaMethod::preprocessing);
-  AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
-  Random random(5);
-  VecX q, v, qa, va;
-  random_configuration(relative, random, q, v);
-  absolute.start_from(relative, q, v, qa, va);
+  RandomPair pair(m, 5);
+  auto& [relative, absolute, random, q, v, qa, va] = pair;
   const double s = 1e-2;
   const Tangent t = compare(absolute, qa, s, 10.0);
   EXPECT_LT(t.difference, 1e-9 * (t.mass + s * t.stiffness));
@@ -182,12 +163,8 @@ TEST_P(TangentOfJoint, TurningOfTheJointsOfABodyWithoutMassIsInIt) {
 TEST_P(TangentOfJoint, IsCloseForFlexibleBodiesAtSmallSteps) {
   for (const Closure closure : closures) {
     const Model m = build_chain(GetParam(), closure, 3);
-    RelativeFormulation relative(m, InertiaMethod::preprocessing);
-    AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
-    Random random(6);
-    VecX q, v, qa, va;
-    random_configuration(relative, random, q, v);
-    absolute.start_from(relative, q, v, qa, va);
+    RandomPair pair(m, 6);
+    auto& [relative, absolute, random, q, v, qa, va] = pair;
     const double s = 2.5e-7, alpha = 10.0 / s;
     const Tangent r = compare(relative, q, s, alpha);
     EXPECT_LT(r.symmetry, 1e-13);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "support/error_of.hpp"

@@ -4,7 +4,8 @@
 
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/constraint_part.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -43,13 +44,8 @@ TEST_P(PrescribedMotion, CoordinateFollowsTheFunction) {
   drive.motion = motion(table);
   drive.cut = place == Place::cut;
   s.add_joint("ball", JointType::spherical, "arm", 3, "tail", 0);
-  for (const OutputType quantity : {OutputType::joint_position, OutputType::joint_velocity}) {
-    OutputDescription o;
-    o.name = quantity == OutputType::joint_position ? "q" : "v";
-    o.type = quantity;
-    o.entity = "drive";
-    s.d.outputs.push_back(o);
-  }
+  s.d.outputs = {make_output("q", OutputType::joint_position, "drive"),
+                 make_output("v", OutputType::joint_velocity, "drive")};
   SimulationDescription& o = s.d.simulation;
   o.coordinates = coordinates;
   o.step = 1e-3;
@@ -57,8 +53,7 @@ TEST_P(PrescribedMotion, CoordinateFollowsTheFunction) {
   o.tolerance = 1e-9;
   o.position_tolerance = 1e-10;
   const Model m = build_model(s.d);
-  const RunResult r = run(m, o);
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(m, o);
   EXPECT_LT(r.summary.max_position_violation, 1e-10);
   EXPECT_LT(r.summary.max_velocity_violation, 1e-8);
   ASSERT_EQ(r.table.rows(), 301u);
@@ -83,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values(JointType::revolute, JointType::prismatic),
                        ::testing::Bool(),
                        ::testing::Values(Place::tree, Place::reversed, Place::cut),
-                       ::testing::Values(Coordinates::relative, Coordinates::absolute)),
+                       ::testing::ValuesIn(both_coordinates)),
     case_name);
 
 // A revolute drive goes on through several turns.
@@ -93,16 +88,10 @@ TEST(PrescribedRotation, SeveralTurns) {
     s.add_body("wheel", 0);
     JointDescription& j = s.add_joint("axle", JointType::revolute, ground_name, 0, "wheel", 0);
     j.motion = TimeFunction{PiecewisePolynomial::polynomial({0.0, 40.0}), 0.0, 0.0, 0.0};
-    OutputDescription o;
-    o.name = "angle";
-    o.type = OutputType::joint_position;
-    o.entity = "axle";
-    s.d.outputs.push_back(o);
+    s.d.outputs = {make_output("angle", OutputType::joint_position, "axle")};
     s.d.simulation.coordinates = coordinates;
     s.d.simulation.duration = 0.5;
-    const Model m = build_model(s.d);
-    const RunResult r = run(m, m.simulation);
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(s.d);
     EXPECT_NEAR(r.table.at(r.table.rows() - 1, 1), 20.0, 1e-9);
   }
 }

@@ -7,6 +7,7 @@
 
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -59,34 +60,22 @@ RigidDescription rod_body(double length) {
 ModelDescription double_pendulum() {
   ModelDescription d;
   for (int k = 0; k < 2; ++k) {
-    BodyDescription b;
-    b.name = k == 0 ? "upper" : "lower";
-    b.X_WB.p = Vec3(k, 0.0, 0.0);
-    b.kind = rod_body(1.0);
-    d.bodies.push_back(b);
-    JointDescription j;
-    j.name = b.name + "_hinge";
-    j.type = JointType::revolute;
-    j.axis = k == 0 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.3, 1.0, 0.2);
-    if (k == 1) j.parent.body = "upper";
-    j.child.body = b.name;
-    j.parent.point = j.child.point = b.X_WB.p;
-    j.velocity = {k == 0 ? 0.5 : -1.0};
-    d.joints.push_back(j);
+    const std::string name = k == 0 ? "upper" : "lower";
+    const Vec3 at(k, 0.0, 0.0);
+    d.bodies.push_back(make_body(name, rod_body(1.0), at));
+    d.joints.push_back(make_joint(name + "_hinge", JointType::revolute,
+                                  k == 0 ? ground_name : "upper", name, at,
+                                  k == 0 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.3, 1.0, 0.2)));
+    d.joints.back().velocity = {k == 0 ? 0.5 : -1.0};
   }
-  OutputDescription tip;
-  tip.name = "tip";
-  tip.at = {"lower", Vec3(2.0, 0.0, 0.0), std::nullopt, {}};
-  d.outputs.push_back(tip);
+  d.outputs = {make_output("tip", place_on("lower", {2.0, 0.0, 0.0}), 0)};
   return d;
 }
 
 /// Tip position at t = 0.5, by steps of h.
 template <class F>
 std::vector<Vec3> tip_path(const Model& m, double h, double rho) {
-  StepOptions o;
-  o.spectral_radius = rho;
-  o.tolerance = 1e-12;
+  const StepOptions o{.spectral_radius = rho, .tolerance = 1e-12};
   System<F> s(m, o);
   std::vector<Vec3> path;
   const long every = std::lround(0.05 / h);
@@ -133,18 +122,11 @@ TEST(Order, BothCoordinateSetsTakeTheSamePath) {
 Model top(JointType type) {
   ModelDescription d;
   d.gravity.setZero();
-  BodyDescription b;
-  b.name = "top";
+  const Mat3 J = Vec3(0.1, 0.2, 0.27).asDiagonal();
+  BodyDescription b = make_body("top", RigidDescription{2.0, Vec3::Zero(), J});
   b.X_WB.R = rotation_exp(Vec3(0.3, -0.4, 0.2));
-  RigidDescription r;
-  r.mass = 2.0;
-  r.J_C = Vec3(0.1, 0.2, 0.27).asDiagonal();
-  b.kind = r;
-  d.bodies.push_back(b);
-  JointDescription j;
-  j.name = "joint";
-  j.type = type;
-  j.child.body = "top";
+  d.bodies = {b};
+  JointDescription j = make_joint("joint", type, ground_name, "top");
   const Vec3 spin = b.X_WB.R * Vec3(0.3, 7.0, 0.2);
   j.velocity.assign(type == JointType::free ? 3 : 0, 0.4);
   for (int k = 0; k < 3; ++k) j.velocity.push_back(spin[k]);
@@ -159,8 +141,7 @@ struct Drift {
 template <class F>
 Drift spin(JointType type, double h) {
   const Model m = top(type);
-  StepOptions o;
-  o.tolerance = 1e-12;
+  const StepOptions o{.tolerance = 1e-12};
   System<F> s(m, o);
   const Mat3 J = Vec3(0.1, 0.2, 0.27).asDiagonal();
   const auto momentum = [&]() -> Vec3 {
@@ -204,55 +185,36 @@ Model four_bar() {
   const Vec3 points[] = {{0, 0, 0}, {0.3, 0, 0.4}, {1.2, 0, 0.6}, {1.0, 0, 0}};
   const char* names[] = {"crank", "coupler", "rocker"};
   for (int k = 0; k < 3; ++k) {
-    BodyDescription b;
-    b.name = names[k];
     const Vec3 x = points[k + 1] - points[k];
-    b.X_WB.p = points[k];
+    BodyDescription b = make_body(names[k], rod_body(x.norm()), points[k]);
     b.X_WB.R.col(0) = x.normalized();
     b.X_WB.R.col(1) = Vec3::UnitY();
     b.X_WB.R.col(2) = b.X_WB.R.col(0).cross(Vec3::UnitY());
-    b.kind = rod_body(x.norm());
     d.bodies.push_back(b);
   }
   for (int k = 0; k < 4; ++k) {
-    JointDescription j;
-    j.name = "joint_" + std::to_string(k);
     // One hinge, one universal and two balls: a spatial loop without redundant rows.
-    j.type = k == 0 ? JointType::revolute : k == 1 ? JointType::universal : JointType::spherical;
-    j.axis = Vec3::UnitY();
-    j.axis_2 = Vec3::UnitX();
-    if (k > 0) j.parent.body = names[k - 1];
-    if (k < 3) {
-      j.child.body = names[k];
-    } else {
-      j.child.body = names[2];
-      j.parent.body = ground_name;
-    }
-    j.parent.point = j.child.point = points[k];
+    const JointType type = k == 0   ? JointType::revolute
+                           : k == 1 ? JointType::universal
+                                    : JointType::spherical;
+    JointDescription j =
+        make_joint("joint_" + std::to_string(k), type, k % 3 == 0 ? ground_name : names[k - 1],
+                   names[std::min(k, 2)], points[k], Vec3::UnitY());
     if (k == 0) j.velocity = {3.0};
     d.joints.push_back(j);
   }
-  BodyDescription load;
-  load.name = "load";
-  load.X_WB.p = Vec3(0.3, 0.2, -0.3);
-  RigidDescription r;
-  r.mass = 0.5;
-  r.J_C = 0.001 * Mat3::Identity();
-  load.kind = r;
-  d.bodies.push_back(load);
-  RodDescription rod;
-  rod.name = "rod";
-  rod.a = {"crank", points[1], std::nullopt, {}};
-  rod.b = {"load", load.X_WB.p + Vec3(0, 0, 0.05), std::nullopt, {}};
-  d.rods.push_back(rod);
+  const Vec3 hung(0.3, 0.2, -0.3);
+  d.bodies.push_back(
+      make_body("load", RigidDescription{0.5, Vec3::Zero(), 0.001 * Mat3::Identity()}, hung));
+  d.rods = {
+      make_rod("rod", place_on("crank", points[1]), place_on("load", hung + Vec3(0, 0, 0.05)))};
   return build_model(d);
 }
 
 template <class F>
 void expect_constraints_held(double rho) {
   const Model m = four_bar();
-  StepOptions o;
-  o.spectral_radius = rho;
+  const StepOptions o{.spectral_radius = rho};
   System<F> s(m, o);
   VecX rates(s.f.constraints()), accelerations(s.f.constraints());
   for (int k = 0; k < 20; ++k) {
@@ -328,10 +290,7 @@ TEST(Failure, StepWithoutConvergenceLeavesTheStateAbsolute) {
 TEST(Failure, OpenConstraintIsNamed) {
   // Increments are accepted at once, constraints never.
   const Model m = four_bar();
-  StepOptions o;
-  o.max_iterations = 4;
-  o.tolerance = 1e30;
-  o.position_tolerance = 0.0;
+  const StepOptions o{.tolerance = 1e30, .max_iterations = 4, .position_tolerance = 0.0};
   System<RelativeFormulation> s(m, o);
   const State before = s.state;
   AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
@@ -364,41 +323,21 @@ TEST(Failure, MasslessFreedomIsASingularTangent) {
 /// is in balance at the start: what has no mass would jump to it.
 Model massless_arm() {
   ModelDescription d;
-  BodyDescription arm, stone;
-  arm.name = "arm";
-  arm.kind = RigidDescription{};
-  stone.name = "stone";
-  stone.X_WB.p = Vec3(1.0, 0.1, -0.8);
-  RigidDescription r;
-  r.mass = 1.0;
-  r.J_C = 0.01 * Mat3::Identity();
-  stone.kind = r;
-  d.bodies = {arm, stone};
-  JointDescription hinge;
-  hinge.name = "hinge";
-  hinge.type = JointType::revolute;
-  hinge.axis = Vec3::UnitY();
-  hinge.child.body = "arm";
-  d.joints.push_back(hinge);
-  ForceDescription f;
-  f.name = "torsion";
+  const Vec3 at(1.0, 0.1, -0.8);
+  d.bodies = {make_body("arm", RigidDescription{}),
+              make_body("stone", RigidDescription{1.0, Vec3::Zero(), 0.01 * Mat3::Identity()}, at)};
+  d.joints = {
+      make_joint("hinge", JointType::revolute, ground_name, "arm", Vec3::Zero(), Vec3::UnitY())};
   JointSpringDescription torsion;
   torsion.joint = "hinge";
   const double length = Vec3(0.0, 0.1, -0.8).norm(), pull = 50.0 * (length - 0.7);
   torsion.spring = PiecewisePolynomial::polynomial({pull * 0.8 / length, 20.0});
-  f.kind = torsion;
-  d.forces.push_back(f);
-  f.name = "string";
   SpringDamperDescription string;
-  string.a = {"arm", Vec3(1.0, 0.0, 0.0), std::nullopt, {}};
-  string.b = {"stone", stone.X_WB.p, std::nullopt, {}};
+  string.a = place_on("arm", {1.0, 0.0, 0.0});
+  string.b = place_on("stone", at);
   string.spring = PiecewisePolynomial::linear(50.0, 0.7);
-  f.kind = string;
-  d.forces.push_back(f);
-  OutputDescription tip;
-  tip.name = "tip";
-  tip.at = string.a;
-  d.outputs.push_back(tip);
+  d.forces = {{"torsion", torsion, {}}, {"string", string, {}}};
+  d.outputs = {make_output("tip", string.a, 0)};
   return build_model(d);
 }
 
@@ -406,8 +345,7 @@ Model massless_arm() {
 /// arm follows the stone at once, so that nothing but rounding tells the formulations apart.
 TEST(MasslessFreedom, HeldByASpringIsNoSingularTangent) {
   const Model m = massless_arm();
-  StepOptions o;
-  o.tolerance = 1e-12;
+  const StepOptions o{.tolerance = 1e-12};
   for (const double h : {1e-3, 2e-4, 1e-4}) {
     System<RelativeFormulation> r(m, o);
     System<AbsoluteFormulation> a(m, o);

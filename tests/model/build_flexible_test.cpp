@@ -13,13 +13,7 @@ namespace floatframe {
 namespace {
 
 using test::bar_description;
-
-BodyDescription body_of(FlexibleDescription f) {
-  BodyDescription body;
-  body.name = "frame";
-  body.kind = std::move(f);
-  return body;
-}
+using test::make_body;
 
 class BuildFlexible : public testing::Test {
  protected:
@@ -33,10 +27,10 @@ class BuildFlexible : public testing::Test {
 };
 
 TEST_F(BuildFlexible, TheSameFrameElsewhereIsReducedOnce) {
-  const auto first = build(body_of(bar_description()));
+  const auto first = build(make_body("frame", bar_description()));
   ASSERT_TRUE(first);
-  EXPECT_EQ(build(body_of(bar_description())), first);
-  BodyDescription moved = body_of(bar_description());
+  EXPECT_EQ(build(make_body("frame", bar_description())), first);
+  BodyDescription moved = make_body("frame", bar_description());
   moved.X_WT.p = Vec3(100.0, -20.0, 3.0);
   moved.X_WT.R = rotation_exp(Vec3(0.3, 0.2, 1.0));
   auto& f = std::get<FlexibleDescription>(moved.kind);
@@ -51,7 +45,7 @@ TEST_F(BuildFlexible, TheSameFrameElsewhereIsReducedOnce) {
 // For variants of a model: what they do not change is not reduced again.
 TEST_F(BuildFlexible, ModelsShareTheBodiesOfAnotherOne) {
   ModelDescription d;
-  d.bodies.push_back(body_of(bar_description()));
+  d.bodies.push_back(make_body("frame", bar_description()));
   const Model first = build_model(d, builder_);
   d.gravity = Vec3(0.0, 0.0, -1.0);
   EXPECT_EQ(build_model(d, builder_).bodies[0].data, first.bodies[0].data);
@@ -64,16 +58,18 @@ TEST_F(BuildFlexible, ModelsShareTheBodiesOfAnotherOne) {
 
 TEST_F(BuildFlexible, EveryChangeOfTheDescriptionMakesAnotherBody) {
   using F = FlexibleDescription;
+  const auto damp = [](F& f, DampingReference reference, double frequency) {
+    f.damping = 0.01;
+    f.damping.reference = reference;
+    f.damping.interface_frequency = frequency;
+  };
   const std::vector<std::pair<const char*, std::function<void(F&)>>> changes{
       {"young", [](F& f) { f.young *= 2.0; }},
       {"poisson", [](F& f) { f.poisson = 0.25; }},
       {"density", [](F& f) { f.density *= 2.0; }},
       {"point", [](F& f) { f.points["c"] += Vec3(1e-6, 0.0, 0.0); }},
       {"elements", [](F& f) { f.bars[1].elements = 3; }},
-      {"section",
-       [](F& f) {
-         f.bars[1].section = Rectangle{0.01, 0.03};
-       }},
+      {"section", [](F& f) { f.bars[1].section = Rectangle(0.01, 0.03); }},
       {"fraction", [](F& f) { f.bars[1].from_fraction = 0.25; }},
       {"reference", [](F& f) { f.bars[1].reference = Vec3(1.0, 1.0, 0.0); }},
       {"mass", [](F& f) { f.masses[0].mass = 0.2; }},
@@ -109,33 +105,20 @@ TEST_F(BuildFlexible, EveryChangeOfTheDescriptionMakesAnotherBody) {
       {"bands", [](F& f) { f.damping.bands = usual_damping_bands(); }},
       {"Rayleigh's alpha", [](F& f) { f.damping.alpha = 0.01; }},
       {"Rayleigh's beta", [](F& f) { f.damping.beta = 0.01; }},
-      {"reference of damping",
-       [](F& f) {
-         f.damping = 0.01;
-         f.damping.reference = DampingReference::free;
-       }},
-      {"mounted",
-       [](F& f) {
-         f.damping = 0.01;
-         f.damping.reference = DampingReference::mounted;
-       }},
-      {"mounted at a frequency",
-       [](F& f) {
-         f.damping = 0.01;
-         f.damping.reference = DampingReference::mounted;
-         f.damping.interface_frequency = 5.0;
-       }},
+      {"reference of damping", [&](F& f) { damp(f, DampingReference::free, 0.0); }},
+      {"mounted", [&](F& f) { damp(f, DampingReference::mounted, 0.0); }},
+      {"mounted at a frequency", [&](F& f) { damp(f, DampingReference::mounted, 5.0); }},
       {"one bar", [](F& f) { f.bars.pop_back(), f.masses.clear(); }},
       {"analytic",
        [](F& f) { f.bars.pop_back(), f.masses.clear(), f.analytic = AnalyticShapes{1}; }},
       {"other analytic",
        [](F& f) { f.bars.pop_back(), f.masses.clear(), f.analytic = AnalyticShapes{2}; }}};
   std::vector<std::pair<const char*, std::shared_ptr<const FlexibleBody>>> made{
-      {"as it is", build(body_of(bar_description()))}};
+      {"as it is", build(make_body("frame", bar_description()))}};
   for (const auto& [what, change] : changes) {
     FlexibleDescription f = bar_description();
     change(f);
-    const auto body = build(body_of(f));
+    const auto body = build(make_body("frame", f));
     ASSERT_TRUE(body) << what;
     for (const auto& [other, known] : made) EXPECT_NE(body, known) << what << " and " << other;
     made.emplace_back(what, body);

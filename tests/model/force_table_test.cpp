@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "floatframe/model/force_kind.hpp"
+#include "model/table_in_document.hpp"
 
 namespace floatframe {
 namespace {
@@ -107,23 +108,13 @@ std::string results_text(ForceType type) {
   return s;
 }
 
-/// The text of the document from the heading of a table to its end.
-std::string table_in_document(const std::string& head) {
-  std::ifstream file(FLOATFRAME_EXAMPLES "/../docs/model-file.md");
-  std::stringstream text;
-  text << file.rdbuf();
-  const std::size_t at = text.str().find(head);
-  if (at == std::string::npos) return "no such table";
-  return text.str().substr(at, text.str().find("\n\n", at) + 1 - at);
-}
-
 TEST(ForceTable, OfTheDocumentationIsThatOfTheList) {
   const std::string head = "| type | what it does | results |\n|---|---|---|\n";
   std::string table = head;
   for (const ForceType type : force_types)
     table += std::string("| `") + force_type_name(type) + "` | " + force_kind(type).about + " | " +
              results_text(type) + " |\n";
-  EXPECT_EQ(table_in_document(head), table);
+  EXPECT_EQ(test::table_in_document(head), table);
 }
 
 TEST(ForceTable, KeysOfTheDocumentationAreThoseOfTheList) {
@@ -137,7 +128,7 @@ TEST(ForceTable, KeysOfTheDocumentationAreThoseOfTheList) {
       name.clear();
     }
   }
-  EXPECT_EQ(table_in_document(head), table);
+  EXPECT_EQ(test::table_in_document(head), table);
 }
 
 }  // namespace

@@ -161,12 +161,7 @@ ModelDescription block_with_load(const std::string& input) {
 }
 
 std::string errors(const ModelDescription& d) {
-  try {
-    build_model(d);
-  } catch (const InputError& error) {
-    return test::codes_of(error);
-  }
-  return "";
+  return test::error_of([&] { build_model(d); });
 }
 
 TEST(BuildInputs, NamesBecomeIndices) {

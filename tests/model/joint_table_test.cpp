@@ -1,11 +1,10 @@
 // The table of joints in docs/model-file.md is what the list of joints says.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "floatframe/model/joint_kind.hpp"
+#include "model/table_in_document.hpp"
 
 namespace floatframe {
 namespace {
@@ -23,19 +22,12 @@ std::string row(JointType type) {
 }
 
 TEST(JointTable, OfTheDocumentationIsThatOfTheList) {
-  std::ifstream file(FLOATFRAME_EXAMPLES "/../docs/model-file.md");
-  ASSERT_TRUE(file);
-  std::stringstream text;
-  text << file.rdbuf();
   const std::string head =
       "| type | axes | the child, seen from the parent | coordinates, in this order |\n"
       "|---|---|---|---|\n";
   std::string table = head;
   for (const JointType type : joint_types) table += row(type);
-  const std::size_t at = text.str().find(head);
-  ASSERT_NE(at, std::string::npos);
-  const std::size_t end = text.str().find("\n\n", at);
-  EXPECT_EQ(text.str().substr(at, end + 1 - at), table);
+  EXPECT_EQ(test::table_in_document(head), table);
 }
 
 TEST(JointTable, EveryJointIsComplete) {

@@ -3,20 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/model/topology.hpp"
+#include "support/descriptions.hpp"
 #include "support/error_of.hpp"
 #include "support/valid_description.hpp"
 
-namespace floatframe {
+namespace floatframe::test {
 namespace {
 
 constexpr int n = 20000;
-
-AttachmentDescription place_on(const std::string& body, const Vec3& point) {
-  AttachmentDescription a;
-  a.body = body;
-  a.point = point;
-  return a;
-}
 
 std::string numbered(const char* word, int k) { return word + std::to_string(k); }
 
@@ -29,16 +23,11 @@ ModelDescription many_bodies() {
   rigid.J_C = 0.1 * Mat3::Identity();
   for (int k = n - 1; k >= 0; --k) {
     const Vec3 p(k % 20, k / 20, 0.0);
-    BodyDescription b;
-    b.name = numbered("b", k);
-    b.kind = rigid;
-    b.X_WB.p = b.X_WT.p = p;
-    d.bodies.push_back(b);
-    JointDescription j;
-    j.name = numbered("j", k);
-    j.type = JointType::revolute;
-    j.parent = place_on(k % 20 == 0 ? ground_name : numbered("b", k - 1), p);
-    j.child = place_on(b.name, p);
+    const std::string body = numbered("b", k);
+    d.bodies.push_back(make_body(body, rigid, p));
+    const JointDescription j =
+        make_joint(numbered("j", k), JointType::revolute,
+                   k % 20 == 0 ? ground_name : numbered("b", k - 1), body, p);
     if (k % 500 != 0) d.joints.push_back(j);  // chains that hang from free joints are left
     JointSpringDescription motor;
     motor.joint = k % 500 == 0 ? numbered("j", k + 1) : j.name;
@@ -46,24 +35,14 @@ ModelDescription many_bodies() {
     d.forces.push_back({numbered("motor", k), motor, {}});
     SpringDamperDescription spring;
     spring.a = place_on(ground_name, p + Vec3::UnitZ());
-    spring.b = place_on(b.name, p);
+    spring.b = place_on(body, p);
     spring.spring = PiecewisePolynomial::linear(5.0, 1.0);
     d.forces.push_back({numbered("spring", k), spring, {}});
-    OutputDescription o;
-    o.name = numbered("z", k);
-    o.at = place_on(b.name, p);
-    o.component = 2;
-    d.outputs.push_back(o);
-    o.name = motor.joint;
-    o.name[0] = k % 500 == 0 ? 'Q' : 'q';
-    o.type = OutputType::joint_position;
-    o.entity = motor.joint;
-    o.component = 0;
-    d.outputs.push_back(o);
-    o.name = numbered("F", k);
-    o.type = OutputType::force;
-    o.entity = numbered("spring", k);
-    d.outputs.push_back(o);
+    d.outputs.push_back(make_output(numbered("z", k), place_on(body, p), 2));
+    std::string angle = motor.joint;
+    angle[0] = k % 500 == 0 ? 'Q' : 'q';
+    d.outputs.push_back(make_output(angle, OutputType::joint_position, motor.joint));
+    d.outputs.push_back(make_output(numbered("F", k), OutputType::force, numbered("spring", k)));
   }
   return d;
 }
@@ -106,4 +85,4 @@ TEST(ManyBodies, AreRefused) {
 }
 
 }  // namespace
-}  // namespace floatframe
+}  // namespace floatframe::test

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/model_file/model_reader.hpp"
 #include "support/model_text.hpp"

@@ -23,12 +23,7 @@ std::string without_folder(std::string text) {
 
 std::string errors_of(const std::string& path,
                       const std::vector<ParameterOverride>& overrides = {}) {
-  try {
-    read_model(path, overrides);
-  } catch (const InputError& error) {
-    return without_folder(test::codes_of(error));
-  }
-  return "no error";
+  return without_folder(test::error_of([&] { read_model(path, overrides); }));
 }
 
 /// The errors a model must give stand beside it, in NAME.txt for NAME.yaml.

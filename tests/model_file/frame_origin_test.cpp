@@ -3,14 +3,12 @@
 // node leaves it where it is drawn.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
-#include "floatframe/formats/fe_file.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
+#include "support/fe_parts.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
@@ -20,21 +18,13 @@ namespace {
 /// frame is in the middle of the other bore.
 const ReducedPart& rod() {
   static const ReducedPart part = [] {
-    FeReadOptions reading;
-    reading.material = {210000.0, 0.3, 7.85e-9};
-    FeModel model =
-        read_fe_file(std::string(FLOATFRAME_TEST_DATA) + "/fe/conrod_coarse_mesh.inp.gz", reading);
-    to_si(model, *find_unit_system("mm-t-s"));
     PartOptions options;
-    InterfaceDescription end;
-    end.name = "END";
-    end.choice.set = "SMALL_END";
-    end.at = Vec3(0.14, 0.0, 0.0);
-    options.interfaces = {end};
+    options.interfaces = {test::bore("SMALL_END", Vec3(0.14, 0.0, 0.0))};
+    options.interfaces[0].name = "END";
     options.modes = 4;
     options.reference.kind = BodyReference::Kind::mean_axis;
     options.check_free_modes = options.stresses = false;
-    return reduce_part(std::move(model), options);
+    return reduce_part(test::steel_part("conrod_coarse_mesh.inp.gz", "mm-t-s"), options);
   }();
   return part;
 }
@@ -45,11 +35,8 @@ class FrameOrigin : public testing::Test {
     return read_model(folder_.write("model.yaml", "floatframe: 1\n" + text));
   }
   static ResultTable go(const ModelDescription& d, Coordinates coordinates) {
-    SimulationDescription options = d.simulation;
-    options.coordinates = coordinates;
-    const RunResult result = run(build_model(d), options);
-    EXPECT_EQ(result.summary.status, "completed") << result.summary.message;
-    return result.table;
+    const SimulationDescription options = test::with(d.simulation, coordinates);
+    return test::completed_run(build_model(d), options).table;
   }
   /// Column 0 is the time.
   static Vec3 vec(const ResultTable& t, std::size_t row, std::size_t column) {
@@ -130,21 +117,12 @@ TEST_F(FrameOrigin, AllQuantitiesInBothFormulations) {
 
 TEST_F(FrameOrigin, InDescriptionsOfPrograms) {
   ModelDescription d;
-  BodyDescription b;
-  b.name = "rod";
-  b.kind = rod().body;
-  b.X_WB.p = b.X_WT.p = Vec3(1, 2, 3);
-  d.bodies = {b};
+  d.bodies = {test::make_body("rod", rod().body, {1, 2, 3})};
   for (const OutputType type :
        {OutputType::position, OutputType::velocity, OutputType::acceleration})
     for (int k = 0; k < 3; ++k) {
-      OutputDescription o;
-      o.name = std::to_string(static_cast<int>(type)) + std::to_string(k);
-      o.type = type;
-      o.at.body = "rod";
-      o.at.point = Vec3(1, 2, 3);
-      o.component = k;
-      d.outputs.push_back(o);
+      const std::string name = std::to_string(static_cast<int>(type)) + std::to_string(k);
+      d.outputs.push_back(test::make_output(name, test::place_on("rod", {1, 2, 3}), k, type));
     }
   d.simulation.duration = 0.0;
   for (const Coordinates c : {Coordinates::absolute, Coordinates::relative}) {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
 
 namespace floatframe {
 namespace {
@@ -48,11 +48,8 @@ TEST(InputsInFiles, RunKeepsTheInitialValueAsIfItWereConstant) {
   for (const auto coordinates : {Coordinates::relative, Coordinates::absolute}) {
     const auto table = [&](const char* external) {
       const ModelDescription d = read_model(file, {{"external", external}});
-      SimulationDescription s = d.simulation;
-      s.coordinates = coordinates;
-      const RunResult r = run(build_model(d), s);
-      EXPECT_EQ(r.summary.status, "completed");
-      return r.table;
+      const SimulationDescription s = test::with(d.simulation, coordinates);
+      return test::completed_run(build_model(d), s).table;
     };
     const ResultTable a = table("true"), b = table("false");
     ASSERT_EQ(a.data.size(), b.data.size());

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numbers>
 
 #include "floatframe/math/so3.hpp"
@@ -288,17 +287,9 @@ TEST(Examples, IltisIsTheVehicleOfTheDataSheet) {
   EXPECT_EQ(kind<TyreDescription>(d, "rear_right.tyre").road, "stairs");
   // The road of the paper.
   const PiecewisePolynomial& road = named(d.roads, "stairs").pieces;
-  for (const auto& [x, z] : std::vector<std::pair<double, double>>{{0, 0},
-                                                                   {10, 1},
-                                                                   {17, 2},
-                                                                   {20.5, 1.7},
-                                                                   {21.5, 1.4},
-                                                                   {22.5, 1.1},
-                                                                   {23.5, 0.8},
-                                                                   {24.5, 0.5},
-                                                                   {25, 0},
-                                                                   {40, 0}})
-    EXPECT_NEAR(road(x).f, z, 1e-15) << x;
+  const double x[] = {0, 10, 17, 20.5, 21.5, 22.5, 23.5, 24.5, 25, 40},
+               z[] = {0, 1, 2, 1.7, 1.4, 1.1, 0.8, 0.5, 0, 0};
+  for (int k = 0; k < 10; ++k) EXPECT_NEAR(road(x[k]).f, z[k], 1e-15) << x[k];
 }
 
 TEST(Examples, IltisRigidVariant) {

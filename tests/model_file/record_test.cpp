@@ -48,8 +48,7 @@ TEST(Record, IsReadInAllItsForms) {
   EXPECT_EQ(r.every, 5);
   EXPECT_EQ(r.bodies, (std::vector<std::string>{"tip", "arm"}));
   EXPECT_FALSE(r.accelerations);
-  EXPECT_NE(error_of([] { record_of("{states: {bodies: [ground]}}"); }).find("bodies[1]: "),
-            std::string::npos);
+  EXPECT_TRUE(contains(error_of([] { record_of("{states: {bodies: [ground]}}"); }), "bodies[1]: "));
 }
 
 ModelFingerprint used_by(const std::string& path, ModelDescription& description) {
@@ -65,8 +64,8 @@ TEST(ResolvedText, IsTheModelFileWithTheValuesOfItsParameters) {
   const std::string path = folder.write("m.yaml", "floatframe: 1\n" + two_bodies);
   ModelDescription description;
   const ModelFingerprint used = used_by(path, description);
-  EXPECT_EQ(used.text.find("${"), std::string::npos) << used.text;
-  EXPECT_EQ(used.text.find("parameters"), std::string::npos);
+  EXPECT_FALSE(contains(used.text, "${"));
+  EXPECT_FALSE(contains(used.text, "parameters"));
   const std::string again = folder.write("again/m.yaml", used.text);
   EXPECT_EQ(model_hash(build_model(read_model(again))), model_hash(build_model(description)));
 }
@@ -82,10 +81,9 @@ TEST(ResolvedText, HasSubsystemsAsDocumentsOfTheirOwn) {
                    "parameters: {k: 7}}}\n");
   ModelDescription description;
   const std::string text = folder.without(used_by(path, description).text);
-  EXPECT_NE(text.find("\n--- # left (part.yaml)\nfloatframe: 1\nbodies:\n  a:\n    rigid:\n"
-                      "      mass: 7\n"),
-            std::string::npos)
-      << text;
+  EXPECT_TRUE(contains(text,
+                       "\n--- # left (part.yaml)\nfloatframe: 1\nbodies:\n  a:\n    rigid:\n"
+                       "      mass: 7\n"));
 }
 
 TEST(AddedOutputs, FollowThoseOfTheFile) {
@@ -99,7 +97,7 @@ TEST(AddedOutputs, FollowThoseOfTheFile) {
   EXPECT_EQ(d.outputs[5].name, "c.z");
   options.outputs = {"a: {joint_position: hinge, axis: x}", "[1", "3"};
   const std::string error = error_of([&] { read_model(path, {}, nullptr, options); });
-  EXPECT_NE(error.find("--add:1:"), std::string::npos) << error;
+  EXPECT_TRUE(contains(error, "--add:1:"));
 }
 
 TEST(Shapes, BarsKnowTheirSections) {

@@ -4,12 +4,12 @@
 
 #include "floatframe/simulation/simulation.hpp"
 #include "realtime/recorder.hpp"
+#include "support/contains.hpp"
+#include "support/coordinates.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
-
-constexpr Coordinates formulations[] = {Coordinates::relative, Coordinates::absolute};
 
 ModelDescription described(const char* name, Coordinates coordinates, double step = 0.0) {
   ModelDescription d = read_model(std::string(FLOATFRAME_TEST_DATA "/range/") + name + ".yaml");
@@ -33,7 +33,7 @@ std::vector<RangeWarning> plain_warnings(const ModelDescription& d) {
 }
 
 TEST(RealTimeRange, SentencesOfAPlainRun) {
-  for (const auto coordinates : formulations)
+  for (const auto coordinates : both_coordinates)
     for (const auto& [name, step, count] :
          {std::tuple{"cantilever", 0.0, 2u}, {"spinning_beam", 0.0, 1u}, {"pendulum", 0.5, 1u}}) {
       const ModelDescription d = described(name, coordinates, step);
@@ -47,7 +47,7 @@ TEST(RealTimeRange, SentencesOfAPlainRun) {
 TEST(RealTimeRange, WithoutOutputs) {
   // Nothing of the end of a step is known where nobody takes outputs and nothing is constrained:
   // some steps are looked at.
-  for (const auto coordinates : formulations)
+  for (const auto coordinates : both_coordinates)
     for (const auto& [name, step] : {std::pair{"cantilever", 0.0}, {"pendulum", 0.5}}) {
       ModelDescription d = described(name, coordinates, step);
       d.simulation.duration *= 10.0;
@@ -71,12 +71,11 @@ TEST(RealTimeRange, SinesThatTheStepDoesNotResolve) {
   const std::vector<RangeWarning> warnings = paced_warnings(d, nullptr);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].limit, RangeLimit::sine);
-  EXPECT_NE(warnings[0].sentence.find("its sine of 1000 Hz"), std::string::npos)
-      << warnings[0].sentence;
+  EXPECT_TRUE(contains(warnings[0].sentence, "its sine of 1000 Hz"));
 }
 
 TEST(RealTimeRange, LookingChangesNoResult) {
-  for (const auto coordinates : formulations)
+  for (const auto coordinates : both_coordinates)
     for (const bool outputs : {false, true}) {
       const ModelDescription d = described("cantilever", coordinates);
       Recorder ports[2];

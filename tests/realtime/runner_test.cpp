@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <thread>
 
@@ -60,8 +59,7 @@ TEST(RealTime, GivesTheResultsOfPlainSteps) {
       long iterations = 0;
       const std::vector<double> expected = stepped(m, s, iterations);
       Recorder port;
-      RealTimeOptions options;
-      options.paced = paced;
+      const RealTimeOptions options{.paced = paced};
       const RealTimeReport r = run_real_time(m, s, options, &port);
       EXPECT_EQ(r.status, "completed");
       EXPECT_EQ(r.steps, 11);
@@ -137,8 +135,7 @@ TEST(RealTime, OverrunsAreTheProgramsOrTheHosts) {
     }
     if (self.received == 6) std::this_thread::sleep_for(std::chrono::milliseconds(40));
   };
-  RealTimeOptions options;
-  options.max_lag = 10.0;
+  const RealTimeOptions options{.max_lag = 10.0};
   const RealTimeReport r = run_real_time(model(), simulation(0.2, 0.02), options, &port);
   EXPECT_EQ(r.steps, 10);
   EXPECT_GE(r.program_overruns, 1);
@@ -155,8 +152,7 @@ TEST(RealTime, MovesTheClockWhenItIsTooFarBehind) {
   port.answer = [](Recorder& self, InputBuffer&) {
     if (self.received == 2) std::this_thread::sleep_for(std::chrono::milliseconds(60));
   };
-  RealTimeOptions options;
-  options.max_lag = 0.0;
+  const RealTimeOptions options{.max_lag = 0.0};
   const RealTimeReport r = run_real_time(model(), simulation(0.05), options, &port);
   EXPECT_GE(r.slips, 1);
   EXPECT_GE(r.slipped, 0.05);
@@ -222,9 +218,7 @@ TEST(RealTime, AFailedStepNamesItsCulpritAndKeepsTheLastGoodState) {
 }
 
 TEST(RealTime, StrictRunsNeedWhatTheyAskFor) {
-  RealTimeOptions options;
-  options.priority = 99;
-  options.strict = true;
+  const RealTimeOptions options{.priority = 99, .strict = true};
   try {
     EXPECT_TRUE(run_real_time(model(), simulation(0.01), options, nullptr).priority);
   } catch (const RunError& error) {  // an ordinary user without the right to it
@@ -253,10 +247,8 @@ void check_allocations(bool paced) {
   const Model m = model();
   const SimulationDescription d = simulation(0.1, 0.001);
   SteppedModel<F> steps(m, d, {.duration = d.duration});
-  RealTimeOptions options;
-  options.paced = paced;
-  options.input_timeout = 0.003;
-  options.fallback = SilenceFallback::initial;
+  RealTimeOptions options{
+      .paced = paced, .input_timeout = 0.003, .fallback = SilenceFallback::initial};
   const TemporaryFolder folder;
   SignalLog log(m, folder.file("log.csv"), false);
   options.log = &log;

@@ -125,9 +125,7 @@ TEST(SignalLog, EachStepOfARunHasOneRow) {
   SimulationDescription s = d.simulation;
   s.duration = 0.05;
   SignalLog log(model, folder.file("log.csv"), true);
-  RealTimeOptions options;
-  options.paced = false;
-  options.log = &log;
+  const RealTimeOptions options{.paced = false, .log = &log};
   Counting port;
   const RealTimeReport r = run_real_time(model, s, options, &port);
   log.finish();

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/fe/bar_frame.hpp"
 #include "floatframe/inertia/inertia_terms.hpp"

@@ -2,12 +2,9 @@
 // interfaces there.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "floatframe/reduction/part.hpp"
 #include "reduction/part_beam.hpp"
 #include "support/error_of.hpp"
-#include "support/fe_parts.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -27,10 +24,7 @@ std::pair<int, int> two_nodes(const FeModel& model) {
 FeModel with_bar() {
   FeModel model = beam();
   const auto [a, b] = two_nodes(model);
-  Spider s;
-  s.reference = a;
-  s.nodes = {b};
-  model.spiders.push_back(s);
+  add_spider(model, a, {b});
   return model;
 }
 
@@ -63,8 +57,7 @@ TEST(FreeTurnsOfParts, RigidBarsAreReducedInEveryWay) {
     EXPECT_GT(stiffened, 1.01);
     EXPECT_LT(bar.rigid_residual, 1e-12);
     ASSERT_EQ(bar.notes.size(), 1u);
-    EXPECT_NE(bar.notes[0].find("nothing resists the turn of 1 rigid or straight group"),
-              std::string::npos);
+    EXPECT_TRUE(contains(bar.notes[0], "nothing resists the turn of 1 rigid or straight group"));
   }
 }
 
@@ -73,11 +66,7 @@ TEST(FreeTurnsOfParts, StraightBeamsAreReduced) {
   FeModel model = beam();
   const auto [a, b] = two_nodes(model);
   model.sections = {BeamSection::solid_round(0.01)};
-  Element e;
-  e.type = ElementType::beam2;
-  e.nodes[0] = a;
-  e.nodes[1] = b;
-  model.elements.push_back(e);
+  add_element(model, ElementType::beam2, {a, b});
   const ReducedPart part = reduce_part(model, both_ends(8));
   EXPECT_LT(part.health.rigid_residual, 1e-12);
   ASSERT_TRUE(part.health.rigid_eigenvalues.has_value());
@@ -93,11 +82,7 @@ TEST(FreeTurnsOfParts, AnInterfaceCannotHoldThem) {
   FeModel model = with_bar();
   const int a = model.spiders[0].reference;
   PartOptions options = both_ends(4);
-  InterfaceDescription d;
-  d.name = "BAR";
-  d.choice.by = NodeChoice::By::node;
-  d.choice.number = a + 1;
-  options.interfaces.push_back(d);
+  options.interfaces.push_back(interface_at("BAR", node_number(a + 1)));
   EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "singular");
   options.interfaces.back().mask = 7;
   const ReducedPart part = reduce_part(model, options);
@@ -109,21 +94,14 @@ TEST(FreeTurnsOfParts, AnInterfaceCannotHoldThem) {
 TEST(FreeTurnsOfParts, AForceBesideTheLineCannotTurnThem) {
   FeModel model = beam();
   const auto [a, b] = two_nodes(model);
-  Spider s;
-  s.reference = model.nodes();
-  s.nodes = {a, b};
+  add_spider(model, model.nodes(), {a, b});
   model.positions.push_back(model.positions[a] + Vec3(0.01, 0.3, 0.2));
-  model.spiders.push_back(s);
   PartOptions options = both_ends(4);
-  InterfaceDescription d;
-  d.name = "ARM";
-  d.mask = 7;
-  d.choice.by = NodeChoice::By::node;
-  d.choice.number = model.nodes();
-  options.interfaces.push_back(d);
+  options.interfaces.push_back(interface_at("ARM", node_number(model.nodes()), 7));
   EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "singular");
   options.interfaces.pop_back();
-  options.markers.push_back({.name = "TIP", .choice = d.choice, .at = {}, .residual = true});
+  options.markers.push_back(
+      {.name = "TIP", .choice = node_number(model.nodes()), .at = {}, .residual = true});
   EXPECT_EQ(error_of([&] { reduce_part(model, options); }), "singular");
   options.markers[0].residual = false;
   EXPECT_LT(reduce_part(model, options).health.rigid_residual, 1e-12);

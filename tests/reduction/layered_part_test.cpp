@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/body/body_stress.hpp"
-#include "floatframe/reduction/part.hpp"
+#include "reduction/part_beam.hpp"
 #include "support/shell_sheets.hpp"
 #include "support/solid_plies.hpp"
 
@@ -11,10 +11,7 @@ namespace floatframe::test {
 namespace {
 
 void check_layered(const FeModel& model) {
-  PartOptions options;
-  options.interfaces = {bore("A"), bore("B")};
-  options.modes = 20;
-  const ReducedPart part = reduce_part(model, options);
+  const ReducedPart part = reduce_part(model, both_ends(20));
   const HealthReport& h = part.health;
   EXPECT_LT(h.rigid_residual, 1e-9);
   EXPECT_NEAR(h.from_invariants.mass, h.from_elements.mass, 1e-10 * h.from_elements.mass);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/reduction/part.hpp"
 #include "reduction/part_beam.hpp"
 #include "support/error_of.hpp"
 
@@ -83,11 +82,8 @@ TEST(LineInterface, OnTheEdgeOfShells) {
     }
   for (int i = 0; i < nx; ++i)
     for (int s = 0; s < ns; ++s) {
-      Element e;
-      e.type = ElementType::quad4;
       const int a = i * (ns + 1) + s;
-      e.nodes[0] = a, e.nodes[1] = a + ns + 1, e.nodes[2] = a + ns + 2, e.nodes[3] = a + 1;
-      model.elements.push_back(e);
+      add_element(model, ElementType::quad4, {a, a + ns + 1, a + ns + 2, a + 1});
     }
   PartOptions options = both_ends(4);
   options.interfaces = {bore("ROOT"), bore("TOP")};

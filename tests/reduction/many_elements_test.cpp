@@ -91,10 +91,7 @@ TEST(ManyElements, StaticShapesAndStiffness) {
 /// The same model with and without long beams.
 TEST(ManyElements, LongBeamsAreExact) {
   FeModel chained = build_bar_frame(corner(120));
-  PointMass m;
-  m.node = 31;
-  m.mass = 0.2;
-  chained.masses = {m};
+  chained.masses = {{31, 0.2}};
   FeModel direct = chained;
   // Other sections by one rounding error: no rows of equal elements.
   const BeamSection s = direct.sections[0];
@@ -123,10 +120,8 @@ std::string error_of_unlike(int elements) {
 
 TEST(ManyElements, IsRefusedWhereDigitsAreLost) {
   EXPECT_EQ(error_of_unlike(150), "no error");
-  const std::string lost = error_of_unlike(6000);
-  EXPECT_EQ(lost, "too_large") << lost;
-  const std::string singular = error_of_unlike(20000);
-  EXPECT_EQ(singular, "too_large") << singular;
+  EXPECT_EQ(error_of_unlike(6000), "too_large");
+  EXPECT_EQ(error_of_unlike(20000), "too_large");
 }
 
 /// A basis of the user: the stiffness of its shapes.

@@ -2,10 +2,9 @@
 // limits and automatic choices keep them whole.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "floatframe/body/cut_pair.hpp"
 #include "reduction/part_beam.hpp"
+#include "support/contains.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -34,9 +33,7 @@ std::vector<double> frequencies(const HealthReport& health) {
 }
 
 bool notes_cut(const HealthReport& health, std::size_t kept) {
-  const std::string text = "modes: " + std::to_string(kept) + " cuts a pair";
-  return std::any_of(health.notes.begin(), health.notes.end(),
-                     [&](const std::string& n) { return n.find(text) != std::string::npos; });
+  return count_with(health.notes, "modes: " + std::to_string(kept) + " cuts a pair") > 0;
 }
 
 /// By the frequencies of more modes: the last has a partner that is left out.

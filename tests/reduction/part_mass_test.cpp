@@ -2,24 +2,16 @@
 // where masses differ between directions.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/reduction/part.hpp"
+#include "support/contains.hpp"
 #include "support/fe_parts.hpp"
 
 namespace floatframe::test {
 namespace {
-
-NodeChoice node_of(const FeModel& model, int node) {
-  NodeChoice choice;
-  choice.by = NodeChoice::By::nearest;
-  choice.point = model.positions[node];
-  return choice;
-}
 
 /// Interfaces at the ends, markers at all other nodes.
 PartOptions ends_and_nodes(const FeModel& model, int modes) {
@@ -27,16 +19,12 @@ PartOptions ends_and_nodes(const FeModel& model, int modes) {
   options.modes = modes;
   options.stresses = false;
   for (int k = 0; k < model.nodes(); ++k) {
+    const std::string name = "n" + std::to_string(k);
+    const NodeChoice place = nearest_to(model.positions[k]);
     if (k == 0 || k + 1 == model.nodes()) {
-      InterfaceDescription d;
-      d.name = "n" + std::to_string(k);
-      d.choice = node_of(model, k);
-      options.interfaces.push_back(d);
+      options.interfaces.push_back(interface_at(name, place));
     } else {
-      MarkerDescription d;
-      d.name = "n" + std::to_string(k);
-      d.choice = node_of(model, k);
-      options.markers.push_back(d);
+      options.markers.push_back({name, place, {}});
     }
   }
   return options;
@@ -107,8 +95,7 @@ TEST(PartMass, FreeFrequenciesOfAShaftOfBeams) {
         ++found;
       }
   EXPECT_EQ(found, 6);
-  for (const std::string& warning : health.warnings)
-    EXPECT_EQ(warning.find("directions"), std::string::npos) << warning;
+  EXPECT_FALSE(contains(health.warnings, "directions"));
 }
 
 // Two nodes of a Nastran superelement, the mass matrix of a beam: all modes are the file's.
@@ -122,10 +109,7 @@ TEST(PartMass, OfMatricesOfABeam) {
   const ReducedPart part = reduce_part(model, options);
   ASSERT_EQ(part.health.free_frequencies.size(), 6u);
   EXPECT_NEAR(part.health.free_frequencies[2].reduced, 326.7, 0.05);
-  int warned = 0;
-  for (const std::string& warning : part.health.warnings)
-    warned += warning.find("changes with the deformation is unknown") != std::string::npos ? 1 : 0;
-  EXPECT_EQ(warned, 1);
+  EXPECT_EQ(count_with(part.health.warnings, "changes with the deformation is unknown"), 1);
 }
 
 // Five bars with lumped mass: the fifth bending mode makes seven motions of six masses.
@@ -134,21 +118,14 @@ TEST(PartMass, MoreMotionsThanMasses) {
   to_si(model, *find_unit_system("m-kg-s"));
   PartOptions options;
   options.stresses = false;
-  InterfaceDescription d;
-  d.name = "A";
-  d.choice = node_of(model, 0);
-  options.interfaces.push_back(d);
+  options.interfaces.push_back(interface_at("A", nearest_to(model.positions[0])));
   options.modes = 9;
   const ReducedPart part = reduce_part(model, options);
   EXPECT_EQ(part.body.modes(), 8);
   const ModeHealth& last = part.health.normal_modes[8];
   EXPECT_TRUE(last.kept);
   EXPECT_NEAR(last.frequency, 1149.97529382, 1e-6);  // Bernoulli bars, rotations condensed
-  EXPECT_EQ(std::count_if(part.health.notes.begin(), part.health.notes.end(),
-                          [](const std::string& n) {
-                            return n.starts_with("of the modes 1 combined motions move no mass");
-                          }),
-            1);
+  EXPECT_EQ(count_with(part.health.notes, "of the modes 1 combined motions move no mass"), 1);
 }
 
 }  // namespace

@@ -2,11 +2,8 @@
 // masses with s^3, and what has no unit stays.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-
 #include "floatframe/fe/bar_frame.hpp"
-#include "floatframe/reduction/part.hpp"
-#include "support/fe_parts.hpp"
+#include "reduction/part_beam.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -81,17 +78,13 @@ TEST(PartScale, Bricks) {
   const FeModel model = brick_beam(8, 2, 2, 1.0, 0.06);
   for (const ModeMethod method :
        {ModeMethod::craig_bampton, ModeMethod::free_free, ModeMethod::craig_chang}) {
-    PartOptions options;
-    options.interfaces = {bore("A"), bore("B")};
+    PartOptions options = both_ends(8);
     options.interfaces[1].kind = Spider::Kind::mean;
     options.method = method;
-    options.modes = 8;
     expect_scaling(model, options);
   }
-  PartOptions tangent;
-  tangent.interfaces = {bore("A"), bore("B")};
+  PartOptions tangent = both_ends(8);
   tangent.reference = {BodyReference::Kind::node, "A"};
-  tangent.modes = 8;
   expect_scaling(model, tangent);
 }
 
@@ -110,18 +103,11 @@ TEST(PartScale, BeamsAndRotaryInertia) {
     frame.bars.push_back(bar);
   }
   FeModel model = build_bar_frame(frame);
-  PointMass wheel;
-  wheel.node = model.find_node("knee");
-  wheel.mass = 2.0;
-  wheel.J = Vec3(0.004, 0.003, 0.005).asDiagonal();
-  model.masses = {wheel};
+  model.masses = {{model.find_node("knee"), 2.0, Vec3(0.004, 0.003, 0.005).asDiagonal()}};
   model.node_sets["A"] = {model.find_node("A")};
   model.node_sets["B"] = {model.find_node("B")};
   model.node_names.clear();
-  PartOptions options;
-  options.interfaces = {bore("A"), bore("B")};
-  options.modes = 6;
-  expect_scaling(model, options);
+  expect_scaling(model, both_ends(6));
 }
 
 /// A real mesh: at 3 mm the condition of its modal mass was once 1e10 times that at 0.4 m.

@@ -88,10 +88,7 @@ TEST(PartSecondOrder, RotatingBeamOfCalculix) {
 
 TEST(PartSecondOrder, EulerLoadOfAColumn) {
   PartOptions options = clamped("A", 10);
-  MarkerDescription tip;
-  tip.name = "tip";
-  tip.choice.set = "B";
-  options.markers = {tip};
+  options.markers = {{"tip", {.set = "B"}, {}}};
   const FlexibleBody body = reduce_part(hex20_of(centred(20, 1, 1.0, 0.02)), options).body;
   ASSERT_EQ(body.second_order->nodes[1].node, 1);
   const VecX load = generalised_eigenvalues(MatX(-body.second_order->nodes[1].h[0]), body.K).values;
@@ -176,13 +173,8 @@ TEST(PartSecondOrder, BarsAsParts) {
   const FeModel model = build_bar_frame(frame);
   const int root = model.find_node("inner"), end = model.find_node("end");
   PartOptions options;
-  for (const auto& [name, node] : {std::pair{"start", root}, {"stop", end}}) {
-    InterfaceDescription d;
-    d.name = name;
-    d.choice.by = NodeChoice::By::nearest;
-    d.choice.point = model.positions[node];
-    options.interfaces.push_back(d);
-  }
+  for (const auto& [name, node] : {std::pair{"start", root}, {"stop", end}})
+    options.interfaces.push_back(interface_at(name, nearest_to(model.positions[node])));
   options.reference = {BodyReference::Kind::node, "start"};
   options.modes = 4;
   const FlexibleBody part = reduce_part(model, options).body;

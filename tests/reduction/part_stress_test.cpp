@@ -138,9 +138,7 @@ TEST(PartStress, LoadsOfTheArm) {
 /// A brick beam 0.6 m x 30 x 30 mm of quadratic elements that follows its end A.
 ReducedPart held_beam(bool tets) {
   const FeModel bricks = brick_beam(20, 2, 2, 0.6, 0.03);
-  PartOptions options;
-  options.interfaces = {bore("A"), bore("B")};
-  options.modes = 5;
+  PartOptions options = both_ends(5);
   options.check_free_modes = false;
   options.reference = {BodyReference::Kind::node, "A"};
   return reduce_part(tets ? tets_of(bricks, true) : hex20_of(bricks), options);

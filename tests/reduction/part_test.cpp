@@ -314,10 +314,8 @@ TEST(PartHealth, MassPropertiesAndWarnings) {
             "0.601 m");
   // It knows how the file was read.
   wrong.units = "m-kg-s";
-  EXPECT_NE(reduce_part(wrong, options)
-                .health.warnings[0]
-                .find("unusual; read as m-kg-s, it may be in mm-t-s: then it has"),
-            std::string::npos);
+  EXPECT_TRUE(contains(reduce_part(wrong, options).health.warnings[0],
+                       "unusual; read as m-kg-s, it may be in mm-t-s: then it has"));
 }
 
 TEST(Part, BeyondAllNumbersIsNotWithoutElasticity) {

@@ -9,9 +9,9 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/quadrature.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/reduction/part.hpp"
+#include "reduction/part_beam.hpp"
 #include "support/body_energy.hpp"
-#include "support/fe_parts.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -24,20 +24,11 @@ PartOptions all_nodes(const FeModel& model, int modes) {
   options.stresses = false;
   options.keep_projection = true;
   for (int k = 0; k < model.nodes(); ++k) {
-    NodeChoice choice;
-    choice.by = NodeChoice::By::nearest;
-    choice.point = model.positions[k];
-    if (k == 0) {
-      InterfaceDescription d;
-      d.name = "n0";
-      d.choice = choice;
-      options.interfaces.push_back(d);
-    } else {
-      MarkerDescription d;
-      d.name = "n" + std::to_string(k);
-      d.choice = choice;
-      options.markers.push_back(d);
-    }
+    const NodeChoice place = nearest_to(model.positions[k]);
+    if (k == 0)
+      options.interfaces.push_back(interface_at("n0", place));
+    else
+      options.markers.push_back({"n" + std::to_string(k), place, {}});
   }
   return options;
 }
@@ -51,24 +42,17 @@ FeModel rotor(bool straight) {
   for (int k = 0; k <= n; ++k)
     model.positions.emplace_back(0.2 * k, straight ? 0.0 : 0.02 * k * k,
                                  straight ? 0.0 : 0.1 * std::sin(0.7 * k));
-  for (int k = 0; k < n; ++k) {
-    Element e;
-    e.type = ElementType::beam2;
-    e.nodes = {k, k + 1};
-    e.reference = Vec3(0.1, straight ? 0.2 : 0.3 * k, 1.0);
-    model.elements.push_back(e);
-  }
+  for (int k = 0; k < n; ++k)
+    add_element(model, ElementType::beam2, {k, k + 1}).reference =
+        Vec3(0.1, straight ? 0.2 : 0.3 * k, 1.0);
   Mat3 J;
   J << 3, 0.2, 0.1, 0.2, 4, -0.3, 0.1, -0.3, 5;
   model.masses.push_back({1, 3.0, 1e-2 * J});
   if (straight) return model;
   int reference = 3;
   for (const Vec3& arm : {Vec3(0.0, 0.1, 0.15), Vec3(0.1, -0.05, 0.1)}) {
-    Spider s;
-    s.reference = reference;
-    s.nodes = {model.nodes()};
+    add_spider(model, reference, {model.nodes()});
     model.positions.push_back(model.positions[reference] + arm);
-    model.spiders.push_back(s);
     reference = model.nodes() - 1;
     model.masses.push_back({reference, 1.0 + arm.y(), 5e-3 * J});
   }
@@ -290,11 +274,8 @@ std::array<MatX, 3> circle(const MatX& theta, const Vec3& arm) {
 TEST(PartTurning, ProjectionDataHoldTheSame) {
   FeModel model = rotor(false);
   // A beam between arms of two nodes: its sections are fixed to both.
-  Spider arm;
-  arm.reference = 2;
-  arm.nodes = {model.nodes()};
+  add_spider(model, 2, {model.nodes()});
   model.positions.push_back(model.positions[2] + Vec3(0.0, -0.1, 0.12));
-  model.spiders.push_back(arm);
   Element beside = model.elements[0];
   beside.nodes = {5, model.nodes() - 1};
   model.elements.push_back(beside);
@@ -348,11 +329,7 @@ TEST(PartTurning, MarkersOnRigidArms) {
 
 // Of solids nothing turns with the nodes, with rigid interfaces too.
 TEST(PartTurning, SolidsHaveNone) {
-  PartOptions options;
-  options.interfaces = {bore("A"), bore("B")};
-  options.interfaces[0].kind = Spider::Kind::rigid;
-  options.modes = 4;
-  const FlexibleBody body = reduce_part(brick_beam(6, 1, 1, 0.6, 0.03), options).body;
+  const FlexibleBody body = reduce_part(brick_beam(6, 1, 1, 0.6, 0.03), both_ends(4)).body;
   EXPECT_FALSE(body.turning);
   EXPECT_TRUE(body.second_order);
 }

@@ -8,7 +8,7 @@
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/reduction/part.hpp"
+#include "support/fe_models.hpp"
 #include "support/fe_parts.hpp"
 
 namespace floatframe::test {
@@ -26,30 +26,18 @@ FeModel overhung(bool with_shear, MassForm form) {
   BeamSection& s = model.sections[0];
   if (with_shear) s.shear_y = s.shear_z = 0.9 * s.A;
   for (int k = 0; k <= shaft_elements; ++k) model.positions.emplace_back(0.1 * k, 0.0, 0.0);
-  for (int k = 0; k < shaft_elements; ++k) {
-    Element e;
-    e.type = ElementType::beam2;
-    e.nodes = {k, k + 1};
-    e.mass_form = form;
-    model.elements.push_back(e);
-  }
+  for (int k = 0; k < shaft_elements; ++k)
+    add_element(model, ElementType::beam2, {k, k + 1}).mass_form = form;
   model.masses.push_back({3, 20.0, disc(0.3, 0.16)});
-  Spider arm;
-  arm.reference = shaft_elements;
-  arm.nodes = {model.nodes()};
+  add_spider(model, shaft_elements, {model.nodes()});
   model.positions.emplace_back(0.67, 0.0, 0.0);
-  model.spiders.push_back(arm);
   model.masses.push_back({model.nodes() - 1, 8.0, disc(0.1, 0.06)});
   return model;
 }
 
 PartOptions clamped_shaft(const FeModel& model) {
   PartOptions options;
-  InterfaceDescription d;
-  d.name = "A";
-  d.choice.by = NodeChoice::By::nearest;
-  d.choice.point = model.positions[0];
-  options.interfaces = {d};
+  options.interfaces = {interface_at("A", nearest_to(model.positions[0]))};
   options.reference = {BodyReference::Kind::node, "A"};
   options.modes = 6 * shaft_elements;
   options.check_free_modes = false;
@@ -113,13 +101,18 @@ MatX gyroscopic(const FeModel& model, const FeSystem& system) {
   return G;
 }
 
-void expect_whirl(const FeModel& model, double speed) {
+/// In axes at rest, the first node held.
+std::vector<double> whirl_at_rest(const FeModel& model, double speed) {
   const FeSystem system = assemble(model);
-  const Eigen::Index free = system.size() - 6;  // the first node is held
+  const Eigen::Index free = system.size() - 6;
   const MatX K = MatX(system.K).bottomRightCorner(free, free);
   const MatX M = MatX(system.M).bottomRightCorner(free, free);
   const MatX G = gyroscopic(model, system).bottomRightCorner(free, free);
-  const std::vector<double> rest = whirl_frequencies(M, speed * G, K);
+  return whirl_frequencies(M, speed * G, K);
+}
+
+void expect_whirl(const FeModel& model, double speed) {
+  const std::vector<double> rest = whirl_at_rest(model, speed);
 
   const FlexibleBody body = reduce_part(model, clamped_shaft(model)).body;
   ASSERT_TRUE(body.turning);
@@ -154,13 +147,7 @@ TEST(RotorParts, WhirlOfAnOverhungShaft) {
 // At the speeds above the gyroscopic moments are not small.
 TEST(RotorParts, TheOrderOfTheEffect) {
   const FeModel model = overhung(false, MassForm::consistent);
-  const FeSystem system = assemble(model);
-  const Eigen::Index free = system.size() - 6;
-  const MatX K = MatX(system.K).bottomRightCorner(free, free);
-  const MatX M = MatX(system.M).bottomRightCorner(free, free);
-  const MatX G = gyroscopic(model, system).bottomRightCorner(free, free);
-  const std::vector<double> still = whirl_frequencies(M, 0.0 * G, K),
-                            spun = whirl_frequencies(M, 1000.0 * G, K);
+  const std::vector<double> still = whirl_at_rest(model, 0.0), spun = whirl_at_rest(model, 1000.0);
   EXPECT_GT(spun[1] / still[1], 1.1);
   EXPECT_LT(spun[0] / still[0], 0.9);
 }

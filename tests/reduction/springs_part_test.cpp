@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/reduction/part.hpp"
 #include "floatframe/reduction/part_health.hpp"
 #include "support/error_of.hpp"
+#include "support/fe_parts.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -21,12 +20,8 @@ void add_row(FeModel& model, double x, int cubes, double size) {
     for (int j = 0; j < 4; ++j)
       model.positions.emplace_back(x + size * i, size * (j == 1 || j == 2), size * (j / 2));
   for (int i = 0; i < cubes; ++i) {
-    Element e;
-    e.type = ElementType::hex8i;
     const int a = first + 4 * i, b = a + 4;
-    const int nodes[8] = {a, b, b + 1, a + 1, a + 3, b + 3, b + 2, a + 2};
-    std::copy(nodes, nodes + 8, e.nodes.begin());
-    model.elements.push_back(e);
+    add_element(model, ElementType::hex8i, {a, b, b + 1, a + 1, a + 3, b + 3, b + 2, a + 2});
   }
 }
 
@@ -39,11 +34,8 @@ FeModel jointed() {
   add_row(model, 0.24, 4, 0.05);
   const Vec3 joint(0.22, 0.025, 0.025);
   for (const int first : {16, 20}) {
-    Spider s;
-    s.reference = model.nodes();
-    s.nodes = {first, first + 1, first + 2, first + 3};
+    add_spider(model, model.nodes(), {first, first + 1, first + 2, first + 3});
     model.positions.push_back(joint);
-    model.spiders.push_back(s);
   }
   Vec6 k;
   k << 1e8, 2e8, 3e8, 1e5, 2e5, 3e5;
@@ -54,13 +46,21 @@ FeModel jointed() {
   return model;
 }
 
+/// With a spring along y from node 0, beside the line of its nodes.
+FeModel with_spring(int node, double stiffness) {
+  FeModel model = jointed();
+  Spring& s = model.springs.emplace_back();
+  s.name = "CELAS1 9";
+  s.nodes = {0, node};
+  s.directions = {-Vec6::Unit(1), Vec6::Unit(1)};
+  s.stiffness = stiffness;
+  return model;
+}
+
 PartOptions held_at_the_end() {
   PartOptions options;
-  InterfaceDescription end;
-  end.name = "end";
-  end.choice.by = NodeChoice::By::plane;
-  end.choice.axis = Vec3::UnitX();
-  options.interfaces = {end};
+  options.interfaces = {
+      interface_at("end", {.by = NodeChoice::By::plane, .set = {}, .axis = Vec3::UnitX()})};
   options.modes = 12;
   return options;
 }
@@ -106,11 +106,7 @@ TEST(SpringsPart, StiffnessOfTheJointDecides) {
 
 TEST(SpringsPart, AnEndMayBeAnInterface) {
   PartOptions options = held_at_the_end();
-  InterfaceDescription mount;
-  mount.name = "mount";
-  mount.choice.by = NodeChoice::By::node;
-  mount.choice.number = 43;
-  options.interfaces.push_back(mount);
+  options.interfaces.push_back(interface_at("mount", node_number(43)));
   const ReducedPart part = reduce_part(jointed(), options);
   EXPECT_LT(part.health.interfaces.at(1).static_error, 1e-6);
   EXPECT_EQ(part.body.nodes.at(1).name, "mount");
@@ -123,36 +119,19 @@ TEST(SpringsPart, Errors) {
   EXPECT_EQ(error_of([&] { reduce_part(grounded, held_at_the_end()); }),
             "unsupported\nunsupported\nunsupported\nunsupported\nunsupported\nunsupported");
   // Too soft to be seen beside the stiffness of the part, not beside its bending.
-  FeModel beside = jointed();
-  Spring skew;
-  skew.name = "CELAS1 9";
-  skew.nodes = {0, 40};
-  skew.directions[0] = -Vec6::Unit(1);
-  skew.directions[1] = Vec6::Unit(1);
-  skew.stiffness = 1e6;
-  beside.springs.push_back(skew);
-  EXPECT_EQ(error_of([&] { reduce_part(beside, held_at_the_end()); }), "contradiction");
+  EXPECT_EQ(error_of([&] { reduce_part(with_spring(40, 1e6), held_at_the_end()); }),
+            "contradiction");
   // A bushing at a node without rotations turns with nothing.
   FeModel loose = jointed();
   loose.springs.resize(6);
   k << 1e8, 2e8, 3e8, 1e5, 2e5, 3e5;
   add_bushing(loose, 37, 42, loose.positions[37], Mat3::Identity(), k, "mount", {});
   PartOptions options = held_at_the_end();
-  options.interfaces.push_back({});
-  options.interfaces[1].name = "mount";
-  options.interfaces[1].choice.by = NodeChoice::By::node;
-  options.interfaces[1].choice.number = 43;
+  options.interfaces.push_back(interface_at("mount", node_number(43)));
   const std::string what = error_of([&] { reduce_part(loose, options); });
   EXPECT_EQ(what, "singular") << what;
   // A spring across the line of its nodes.
-  FeModel across = jointed();
-  Spring s;
-  s.nodes = {0, 36};
-  s.directions[0].head<3>() = -Vec3::UnitY();
-  s.directions[1].head<3>() = Vec3::UnitY();
-  s.stiffness = 1e9;
-  across.springs.push_back(s);
-  const std::string text = error_of([&] { reduce_part(across, held_at_the_end()); });
+  const std::string text = error_of([&] { reduce_part(with_spring(36, 1e9), held_at_the_end()); });
   EXPECT_EQ(text, "contradiction") << text;
   // Without its turns the joint is a mechanism.
   FeModel hinge = jointed();
@@ -164,14 +143,7 @@ TEST(SpringsPart, Errors) {
 
 // A spring beside the line of its nodes holds the part, also if no mode is kept that would show it.
 TEST(SpringsPart, HeldWithoutModes) {
-  FeModel held = jointed();
-  Spring skew;
-  skew.name = "CELAS1 9";
-  skew.nodes = {0, 40};
-  skew.directions[0] = -Vec6::Unit(1);
-  skew.directions[1] = Vec6::Unit(1);
-  skew.stiffness = 1e6;
-  held.springs.push_back(skew);
+  const FeModel held = with_spring(40, 1e6);
   PartOptions options = held_at_the_end();
   options.modes = 0;
   EXPECT_EQ(error_of([&] { reduce_part(held, options); }), "contradiction");
@@ -192,6 +164,13 @@ FeModel two_masses() {
   return model;
 }
 
+/// Nothing resists the turn about x.
+FeModel loose_masses() {
+  FeModel model = two_masses();
+  std::erase_if(model.springs, [](const Spring& s) { return s.directions[0](3) != 0.0; });
+  return model;
+}
+
 TEST(MassesOnSprings, ClosedForm) {
   const VecX k = (VecX(6) << 1e5, 2e5, 3e5, 100.0, 200.0, 300.0).finished();
   // Reduced masses and inertias.
@@ -203,11 +182,8 @@ TEST(MassesOnSprings, ClosedForm) {
        {ModeMethod::free_free, ModeMethod::craig_chang, ModeMethod::craig_bampton}) {
     PartOptions options;
     options.method = method;
-    if (method != ModeMethod::free_free) {
-      options.interfaces.resize(1);
-      options.interfaces[0].name = "A";
-      options.interfaces[0].choice.by = NodeChoice::By::nearest;
-    }
+    if (method != ModeMethod::free_free)
+      options.interfaces = {interface_at("A", nearest_to(Vec3::Zero()))};
     const HealthReport health = reduce_part(two_masses(), options).health;
     ASSERT_EQ(health.modes, 6);
     for (std::size_t i = 0; i < 6; ++i)
@@ -218,8 +194,7 @@ TEST(MassesOnSprings, ClosedForm) {
   seven.modes = 7;
   EXPECT_EQ(error_of([&] { reduce_part(two_masses(), seven); }), "out_of_range");
   // A mechanism is one still: nothing resists the turn about x.
-  FeModel loose = two_masses();
-  std::erase_if(loose.springs, [](const Spring& s) { return s.directions[0](3) != 0.0; });
+  const FeModel loose = loose_masses();
   PartOptions free;
   free.method = ModeMethod::free_free;
   EXPECT_EQ(error_of([&] { reduce_part(loose, free); }), "singular");
@@ -230,12 +205,8 @@ TEST(MassesOnSprings, WithoutInertiaAboutAnAxis) {
   const auto error = [](const FeModel& model, ModeMethod method) {
     PartOptions options;
     options.method = method;
-    options.interfaces.resize(method == ModeMethod::free_free ? 0 : 1);
-    for (InterfaceDescription& d : options.interfaces) {
-      d.name = "A";
-      d.choice.by = NodeChoice::By::nearest;
-      d.mask = 7u;
-    }
+    if (method != ModeMethod::free_free)
+      options.interfaces = {interface_at("A", nearest_to(Vec3::Zero()), 7u)};
     return error_of([&] { reduce_part(model, options); });
   };
   FeModel model = two_masses();
@@ -255,8 +226,7 @@ TEST(MassesOnSprings, NoUnitsAreProposed) {
 
 // However few modes are kept.
 TEST(MassesOnSprings, MechanismsWithoutNormalModes) {
-  FeModel loose = two_masses();
-  std::erase_if(loose.springs, [](const Spring& s) { return s.directions[0](3) != 0.0; });
+  const FeModel loose = loose_masses();
   PartOptions options;
   options.method = ModeMethod::free_free;
   options.modes = 0;

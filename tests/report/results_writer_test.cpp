@@ -60,29 +60,12 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   summary.step = 0.01;
   summary.energy.total_end = 2.5;
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"model",
-                                            "coordinates",
-                                            "inertia",
-                                            "step_s",
-                                            "duration_s",
-                                            "steps",
-                                            "substeps",
-                                            "iterations",
-                                            "factorizations",
-                                            "edges",
-                                            "corners",
-                                            "cpu_s",
-                                            "real_time_factor",
-                                            "step_times",
-                                            "max_position_violation",
-                                            "max_velocity_violation",
-                                            "energy",
-                                            "warnings",
-                                            "start",
-                                            "status",
-                                            "message"}));
+  std::string keys;
+  for (const auto& [key, value] : json.items()) keys += key + ' ';
+  EXPECT_EQ(keys,
+            "model coordinates inertia step_s duration_s steps substeps iterations "
+            "factorizations edges corners cpu_s real_time_factor step_times "
+            "max_position_violation max_velocity_violation energy warnings start status message ");
   EXPECT_EQ(json["coordinates"], "relative");
   EXPECT_EQ(json["step_s"], 0.01);
   EXPECT_EQ(json["energy"]["end"]["total_J"], 2.5);

@@ -195,6 +195,20 @@ TEST(Scene, PointsMoveAsTheOutputsOfTheRunSay) {
   }
 }
 
+/// Of a closed surface, normals outward.
+template <class Vertices, class Triangles>
+double volume_within(const Vertices& vertices, const Triangles& triangles) {
+  double volume = 0.0;
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    Vec3 p[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        p[k][static_cast<Eigen::Index>(c)] = vertices[3 * triangles[t + k] + c];
+    volume += p[0].dot(p[1].cross(p[2])) / 6.0;
+  }
+  return volume;
+}
+
 TEST(Scene, SurfacesOfBarsBendWithTheirModes) {
   Drawn d;
   draw(std::string(recorded_machine) + tip_output, d);
@@ -218,16 +232,8 @@ TEST(Scene, SurfacesOfBarsBendWithTheirModes) {
       }
     }
   }
-  const auto triangles = indices_of(d.buffer, shape["triangles"]);
-  double volume = 0.0;  // closed, normals outward
-  for (std::size_t t = 0; t < triangles.size(); t += 3) {
-    Vec3 p[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        p[k][static_cast<Eigen::Index>(c)] = vertices[3 * triangles[t + k] + c];
-    volume += p[0].dot(p[1].cross(p[2])) / 6.0;
-  }
-  EXPECT_NEAR(volume, 0.6 * 0.02 * 0.01, 1e-9);
+  EXPECT_NEAR(volume_within(vertices, indices_of(d.buffer, shape["triangles"])), 0.6 * 0.02 * 0.01,
+              1e-9);
 }
 
 TEST(Scene, RoundBarsAreClosedToo) {
@@ -242,16 +248,9 @@ bodies:
       normal_modes: 2
 )");
   const SceneMesh mesh = scene_mesh(*m.bodies[0].data);
-  double volume = 0.0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    Vec3 p[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t c = 0; c < 3; ++c)
-        p[k][static_cast<Eigen::Index>(c)] = mesh.vertices[3 * mesh.triangles[t + k] + c];
-    volume += p[0].dot(p[1].cross(p[2])) / 6.0;
-  }
   // A prism on twelve corners.
-  EXPECT_NEAR(volume, std::sqrt(2.0) * 0.5 * 12 * 0.05 * 0.05 * std::sin(M_PI / 6.0), 1e-7);
+  EXPECT_NEAR(volume_within(mesh.vertices, mesh.triangles),
+              std::sqrt(2.0) * 0.5 * 12 * 0.05 * 0.05 * std::sin(M_PI / 6.0), 1e-7);
 }
 
 TEST(Scene, RigidBodiesAreBoxesOfTheirInertia) {

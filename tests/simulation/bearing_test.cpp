@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -23,35 +24,22 @@ struct BearingDisc {
 ModelDescription disc_model(const BearingDisc& disc, const Vec5& start) {
   ModelDescription d;
   d.gravity.setZero();
-  BodyDescription b;
-  b.name = "disc";
-  RigidDescription rigid;
-  rigid.mass = disc.mass;
-  rigid.J_C = Vec3(disc.across, disc.across, disc.polar).asDiagonal();
-  b.kind = rigid;
-  d.bodies.push_back(b);
-  JointDescription j;
-  j.name = "free";
-  j.child.body = "disc";
+  const Mat3 J = Vec3(disc.across, disc.across, disc.polar).asDiagonal();
+  d.bodies = {make_body("disc", RigidDescription{disc.mass, Vec3::Zero(), J})};
+  JointDescription j = make_joint("free", JointType::free, "ground", "disc");
   j.position = {start[0], start[1], start[2], start[3], start[4], 0.0};
   j.velocity = {0.0, 0.0, 0.0, 0.0, 0.0, disc.spin};
-  d.joints.push_back(j);
-  AttachmentDescription ground, body;
-  body.body = "disc";
-  ForceDescription f;
-  f.name = "bearing";
-  f.kind =
-      ForceValues{ForceType::bearing,
-                  {{"from", ground}, {"to", body}, {"stiffness", disc.K}, {"damping", disc.C}}};
-  d.forces.push_back(f);
-  for (int k = 0; k < 3; ++k) {
-    OutputDescription o;
-    o.name = std::string("r") + std::to_string(k);
-    o.type = OutputType::joint_position;
-    o.entity = "free";
-    o.component = k;
-    d.outputs.push_back(o);
-  }
+  d.joints = {j};
+  d.forces = {{"bearing",
+               ForceValues{ForceType::bearing,
+                           {{"from", place_on("ground")},
+                            {"to", place_on("disc")},
+                            {"stiffness", disc.K},
+                            {"damping", disc.C}}},
+               {}}};
+  for (int k = 0; k < 3; ++k)
+    d.outputs.push_back(
+        make_output("r" + std::to_string(k), OutputType::joint_position, "free", k));
   return d;
 }
 
@@ -65,9 +53,7 @@ double distance_from_equations(const BearingDisc& disc, double step, Coordinates
   d.simulation.duration = 0.1;
   d.simulation.step = step;
   d.simulation.tolerance = 1e-13;
-  const Model model = build_model(d);
-  const RunResult r = run(model, model.simulation);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(d);
 
   const double J = disc.across, m = disc.mass;
   Vec5 mass;
@@ -117,7 +103,7 @@ BearingDisc cross_coupled() {
 
 TEST(Bearing, GyroscopicDiscInAFullBearingFollowsItsEquations) {
   const BearingDisc disc = cross_coupled();
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     const double at_2 = distance_from_equations(disc, 2e-4, c),
                  at_1 = distance_from_equations(disc, 1e-4, c);
     EXPECT_LT(at_1, 5e-3);
@@ -141,9 +127,7 @@ double whirl_growth(double cross) {
   d.simulation.duration = 2.0;
   d.simulation.step = 5e-4;
   d.simulation.tolerance = 1e-13;
-  const Model model = build_model(d);
-  const RunResult r = run(model, model.simulation);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(d);
   double middle = 0.0, end = 0.0;
   for (std::size_t row = 0; row < r.table.rows(); ++row) {
     const double size = std::hypot(r.table.at(row, 1), r.table.at(row, 2)), t = r.table.at(row, 0);

@@ -8,7 +8,8 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/force_evaluation.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -23,29 +24,15 @@ constexpr const char* laws[] = {"spring_x",  "spring_y",  "spring_z",
 ModelDescription on_bushing(const RigidDescription& rigid, const Vec3& at) {
   ModelDescription d;
   d.gravity.setZero();
-  BodyDescription b;
-  b.name = "block";
-  b.kind = rigid;
-  d.bodies.push_back(b);
-  JointDescription j;
-  j.name = "free";
-  j.child.body = "block";
-  d.joints.push_back(j);
-  AttachmentDescription ground, block;
-  ground.point = block.point = at;
-  block.body = "block";
-  ForceDescription f;
-  f.name = "bushing";
-  f.kind = ForceValues{ForceType::bushing, {{"from", ground}, {"to", block}}};
-  d.forces.push_back(f);
-  for (int k = 0; k < 6; ++k) {
-    OutputDescription o;
-    o.name = std::string("q") + std::to_string(k);
-    o.type = OutputType::joint_position;
-    o.entity = "free";
-    o.component = k;
-    d.outputs.push_back(o);
-  }
+  d.bodies = {make_body("block", rigid)};
+  d.joints = {make_joint("free", JointType::free, "ground", "block")};
+  d.forces = {{"bushing",
+               ForceValues{ForceType::bushing,
+                           {{"from", place_on("ground", at)}, {"to", place_on("block", at)}}},
+               {}}};
+  for (int k = 0; k < 6; ++k)
+    d.outputs.push_back(
+        make_output("q" + std::to_string(k), OutputType::joint_position, "free", k));
   return d;
 }
 
@@ -82,7 +69,7 @@ TEST(Bushing, EigenfrequenciesOfABodyAreThoseOfItsMatrices) {
   M.bottomRightCorner<3, 3>() = rigid.J_C;
   const SymmetricEigen modes = generalised_eigen(K, M);
   ASSERT_TRUE(modes.found);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute})
+  for (const Coordinates coordinates : both_coordinates)
     for (int mode = 0; mode < 6; ++mode) {
       const double half_period = std::numbers::pi / std::sqrt(modes.values[mode]);
       const VecX shape = 1e-5 * modes.vectors.col(mode) / modes.vectors.col(mode).norm();
@@ -91,9 +78,7 @@ TEST(Bushing, EigenfrequenciesOfABodyAreThoseOfItsMatrices) {
       d.simulation.duration = half_period;
       d.simulation.step = half_period / 500.0;  // the error of the period: (omega h)^2 / 12, 3e-6
       d.simulation.tolerance = 1e-13;
-      const Model model = build_model(d);
-      const RunResult r = run(model, model.simulation);
-      ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+      const RunResult r = completed_run(d);
       const std::size_t end = r.table.rows() - 1;
       for (int i = 0; i < 6; ++i)
         EXPECT_NEAR(r.table.at(end, 1 + i), -shape[i], 1e-4 * 1e-5) << mode << " " << i;
@@ -105,9 +90,7 @@ TEST(Bushing, EigenfrequenciesOfABodyAreThoseOfItsMatrices) {
 TEST(Bushing, LargeRotationsAboutAnyAxisAreHarmonic) {
   const double J = 0.02, k = 3.0, theta = 2.6, omega = std::sqrt(k / J);
   const Vec3 about = Vec3(0.5, -0.7, 0.4).normalized();
-  RigidDescription ball;
-  ball.mass = 1.0;
-  ball.J_C = J * Mat3::Identity();
+  const RigidDescription ball{1.0, Vec3::Zero(), J * Mat3::Identity()};
   ModelDescription d = on_bushing(ball, Vec3::Zero());
   values(d)["axis"] = Vec3(1.0, 1.0, 0.2);
   for (int i = 0; i < 3; ++i) values(d)[laws[i]] = PiecewisePolynomial::linear(500.0, 0.0);
@@ -116,11 +99,9 @@ TEST(Bushing, LargeRotationsAboutAnyAxisAreHarmonic) {
   d.joints[0].position = {0.0, 0.0, 0.0, start.x(), start.y(), start.z()};
   d.simulation.duration = 0.4;
   d.simulation.step = 2e-4;
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     d.simulation.coordinates = coordinates;
-    const Model model = build_model(d);
-    const RunResult r = run(model, model.simulation);
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(d);
     EXPECT_NEAR(r.summary.energy.total_start, 0.5 * k * theta * theta, 1e-12);
     for (std::size_t row = 0; row < r.table.rows(); row += 50) {
       const Vec3 exact = std::cos(omega * r.table.at(row, 0)) * start;
@@ -135,18 +116,14 @@ TEST(Bushing, LargeRotationsAboutAnyAxisAreHarmonic) {
 // A damper about one axis alone: theta decays as that of a damped oscillator.
 TEST(Bushing, DampersActOnTheRatesOfTheirAngles) {
   const double J = 0.02, k = 3.0, c = 0.1, theta = 0.8;
-  RigidDescription ball;
-  ball.mass = 1.0;
-  ball.J_C = J * Mat3::Identity();
+  const RigidDescription ball{1.0, Vec3::Zero(), J * Mat3::Identity()};
   ModelDescription d = on_bushing(ball, Vec3::Zero());
   values(d)["spring_ry"] = PiecewisePolynomial::linear(k, 0.0);
   values(d)["damper_ry"] = PiecewisePolynomial::linear(c, 0.0);
   d.joints[0].position = {0.0, 0.0, 0.0, 0.0, theta, 0.0};
   d.simulation.duration = 0.5;
   d.simulation.step = 2e-4;
-  const Model model = build_model(d);
-  const RunResult r = run(model, model.simulation);
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(d);
   const double decay = 0.5 * c / J, omega = std::sqrt(k / J - decay * decay);
   for (std::size_t row = 0; row < r.table.rows(); row += 100) {
     const double t = r.table.at(row, 0);
@@ -162,9 +139,7 @@ TEST(Bushing, DampersActOnTheRatesOfTheirAngles) {
 TEST(Bushing, ViscousBallJointTurnsWithoutEnd) {
   const double J = 0.02, c = 0.01, w0 = 20.0, end = 1.0;
   const Vec3 about = Vec3(0.5, -0.7, 0.4).normalized();
-  RigidDescription ball;
-  ball.mass = 1.0;
-  ball.J_C = J * Mat3::Identity();
+  const RigidDescription ball{1.0, Vec3::Zero(), J * Mat3::Identity()};
   ModelDescription d = on_bushing(ball, Vec3::Zero());
   values(d)["axis"] = Vec3(1.0, 1.0, 0.2);
   for (const char* law : {"damper_rx", "damper_ry", "damper_rz"})
@@ -172,18 +147,13 @@ TEST(Bushing, ViscousBallJointTurnsWithoutEnd) {
   values(d)["rotation_rate"] = std::string("angular_velocity");
   const Vec3 w = w0 * about;
   d.joints[0].velocity = {0.0, 0.0, 0.0, w.x(), w.y(), w.z()};
-  for (int k = 0; k < 3; ++k) {
-    OutputDescription o;
-    o.name = std::string("w") + std::to_string(k);
-    o.type = OutputType::angular_velocity;
-    o.at.body = "block";
-    o.component = k;
-    d.outputs.push_back(o);
-  }
+  for (int k = 0; k < 3; ++k)
+    d.outputs.push_back(
+        make_output("w" + std::to_string(k), place_on("block"), k, OutputType::angular_velocity));
   d.simulation.duration = end;
   const double exact = w0 * std::exp(-c * end / J);
   EXPECT_GT(w0 * J / c * (1.0 - std::exp(-c * end / J)), 2.0 * 2.0 * std::numbers::pi);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     d.simulation.coordinates = coordinates;
     double error[3];
     for (int k = 0; k < 3; ++k) {
@@ -191,9 +161,7 @@ TEST(Bushing, ViscousBallJointTurnsWithoutEnd) {
       const double turn = w0 * 0.005 / std::pow(2.0, k);
       const double part = coordinates == Coordinates::relative ? 1e-6 : turn * turn / 4.0;
       d.simulation.step = 0.005 / std::pow(2.0, k);
-      const Model model = build_model(d);
-      const RunResult r = run(model, model.simulation);
-      ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+      const RunResult r = completed_run(d);
       const std::size_t last = r.table.rows() - 1;
       const Vec3 found(r.table.at(last, 7), r.table.at(last, 8), r.table.at(last, 9));
       EXPECT_LT(found.cross(about).norm(), 1e-9);

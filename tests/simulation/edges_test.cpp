@@ -16,10 +16,7 @@ constexpr double interval = 0.02, duration = 0.8;
 class Edges : public ::testing::TestWithParam<Coordinates> {
  protected:
   SimulationDescription options(const Model& model, double step, bool locate) const {
-    SimulationDescription o = model.simulation;
-    o.coordinates = GetParam();
-    o.step = step;
-    o.duration = duration;
+    SimulationDescription o = with(model.simulation, GetParam(), step, duration);
     o.output_interval = interval;
     o.locate_edges = locate;
     return o;
@@ -47,8 +44,7 @@ TEST_P(Edges, LocatedTheErrorFallsWithTheSquareOfTheStep) {
       for (int start = 0; start < starts; ++start) {
         const double begin = 0.5 + 0.00137 * start;
         const Model model = model_of(quarter_car(begin, "step: 0.001"));
-        const RunResult r = run(model, options(model, h, locate));
-        ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+        const RunResult r = completed_run(model, options(model, h, locate));
         EXPECT_EQ(r.table.rows(), static_cast<std::size_t>(count + 1)) << "rows of the grid only";
         if (locate) {
           EXPECT_GE(r.summary.edges, 10);
@@ -96,10 +92,7 @@ TEST_P(Edges, TheEnergyBalanceClosesWithTheSquareOfTheStep) {
 
 TEST_P(Edges, StatesAndCheckpointsGoOnWithEqualBits) {
   const Model model = model_of(quarter_car(0.503, "step: 0.001"));
-  SimulationOptions o;
-  o.step = 1e-3;
-  o.coordinates = GetParam();
-  o.locate_edges = true;
+  const SimulationOptions o{.step = 1e-3, .coordinates = GetParam(), .locate_edges = true};
   const auto rows = [](Simulation& s, int steps) {
     std::vector<double> all;
     for (int k = 0; k < steps; ++k) {
@@ -144,10 +137,7 @@ TEST_P(Edges, StatesAndCheckpointsGoOnWithEqualBits) {
 TEST_P(Edges, NoStepAllocates) {
   if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
   const Model model = model_of(quarter_car(0.503, "step: 0.001"));
-  SimulationOptions o;
-  o.step = 2e-3;
-  o.coordinates = GetParam();
-  o.locate_edges = true;
+  const SimulationOptions o{.step = 2e-3, .coordinates = GetParam(), .locate_edges = true};
   Simulation s(model, o);
   s.step();
   const AllocationScope scope;
@@ -162,8 +152,7 @@ TEST_P(Edges, AWheelAtRestOnAnEdgeStaysThere) {
   const std::string moving = "motion: {polynomial: [0, 5]}";
   text.replace(text.find(moving), moving.size(), "motion: {polynomial: [0.5]}");
   const Model model = model_of(text);
-  const RunResult r = run(model, options(model, 2e-3, true));
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(model, options(model, 2e-3, true));
   EXPECT_LE(r.summary.edges, 60);
   EXPECT_EQ(r.summary.edges_passed, 0);
 }
@@ -183,11 +172,8 @@ simulation: {step: 0.001}
   EXPECT_EQ(with.summary.edges, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Edges,
-                         ::testing::Values(Coordinates::relative, Coordinates::absolute),
-                         [](const auto& x) {
-                           return x.param == Coordinates::relative ? "relative" : "absolute";
-                         });
+INSTANTIATE_TEST_SUITE_P(Both, Edges, ::testing::ValuesIn(both_coordinates),
+                         [](const auto& x) { return name_of(x.param); });
 
 }  // namespace
 }  // namespace floatframe::test

@@ -7,8 +7,8 @@
 
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/energy_cause.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/figures.hpp"
+#include "support/contains.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -16,11 +16,8 @@ namespace {
 
 #define RANGE(name) FLOATFRAME_TEST_DATA "/range/" name ".yaml"
 
-constexpr Coordinates alarm_coordinates[] = {Coordinates::relative, Coordinates::absolute};
-
 RunSummary alarm_run(const ModelDescription& d, Coordinates coordinates, double step = 0.0) {
-  SimulationDescription s = d.simulation;
-  s.coordinates = coordinates;
+  SimulationDescription s = with(d.simulation, coordinates);
   if (step > 0.0) s.step = step;
   return run(build_model(d), s).summary;
 }
@@ -35,7 +32,7 @@ std::string balance_sentence(const RunSummary& s) {
 // actuator: nothing is missing, and what is left falls with the step.
 TEST(EnergyAlarm, StepOfASetPoint) {
   const ModelDescription d = read_model(RANGE("set_point_step"));
-  for (const Coordinates c : alarm_coordinates) {
+  for (const Coordinates c : both_coordinates) {
     double part[2];
     for (int k = 0; k < 2; ++k) {
       const RunSummary s = alarm_run(d, c, k == 0 ? 0.01 : 0.005);
@@ -77,7 +74,7 @@ simulation: {step: 0.002, duration: 2}
 // Torque-free: all energy stays where it is, so the error is all that changes.
 TEST(EnergyAlarm, FreeTop) {
   const ModelDescription d = read_model(RANGE("free_top"));
-  for (const Coordinates c : alarm_coordinates) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = alarm_run(d, c);
     EXPECT_EQ(sentences(s.warnings), std::vector<std::string>{});
     EXPECT_NEAR(s.energy.present, 100.0, 0.01);
@@ -89,9 +86,9 @@ TEST(EnergyAlarm, FreeTop) {
 // A step that is too long for it is said all the same.
 TEST(EnergyAlarm, FreeTopInLongSteps) {
   const ModelDescription d = read_model(RANGE("free_top"));
-  for (const Coordinates c : alarm_coordinates) {
+  for (const Coordinates c : both_coordinates) {
     const std::string said = balance_sentence(alarm_run(d, c, 0.04));
-    EXPECT_NE(said.find("take a smaller step than 0.04 s"), std::string::npos) << said;
+    EXPECT_TRUE(contains(said, "take a smaller step than 0.04 s"));
   }
 }
 
@@ -112,7 +109,7 @@ TEST(EnergyAlarm, WeightlessMechanisms) {
           "  wrist: {type: revolute, parent: rod, child: block, at: c, axis: y}\n"
           "  guide: {type: prismatic, parent: ground, child: block, at: c, axis: x}\n"
           "simulation: {step: 0.002, duration: 2}\n");
-      for (const Coordinates c : alarm_coordinates) {
+      for (const Coordinates c : both_coordinates) {
         const RunSummary s = alarm_run(d, c);
         ASSERT_EQ(s.status, "completed") << s.message;
         EXPECT_EQ(balance_sentence(s), "") << mass << motion;
@@ -135,23 +132,21 @@ simulation: {step: 0.01, duration: 1.5}
 
 TEST(EnergyAlarm, NamesTheCornerOfAMotion) {
   const ModelDescription d = test::description_of(cornered_motion);
-  for (const Coordinates c : alarm_coordinates)
+  for (const Coordinates c : both_coordinates)
     for (const double step : {0.01, 0.005, 0.0025}) {
       const std::string said = balance_sentence(alarm_run(d, c, step));
       ASSERT_NE(said, "");
-      EXPECT_EQ(said.find("smaller step"), std::string::npos) << said;
-      EXPECT_NE(said.find("the velocity of the motion of joint 'p' jumps by -2 m/s at t = 1 s: no "
-                          "step resolves that, round the corner"),
-                std::string::npos)
-          << said;
+      EXPECT_FALSE(contains(said, "smaller step"));
+      EXPECT_TRUE(contains(said,
+                           "the velocity of the motion of joint 'p' jumps by -2 m/s at t = 1 s: no "
+                           "step resolves that, round the corner"));
     }
 }
 
 TEST(EnergyCause, OfMotionsLiesInTheWindow) {
   const Model model = model_of(cornered_motion);
   EXPECT_EQ(energy_cause(model, 0.0, 0.4, 0.01, {}), "");
-  EXPECT_NE(energy_cause(model, 0.9, 1.2, 0.01, {}).find("jumps by -2 m/s at t = 1 s"),
-            std::string::npos);
+  EXPECT_TRUE(contains(energy_cause(model, 0.9, 1.2, 0.01, {}), "jumps by -2 m/s at t = 1 s"));
   EXPECT_EQ(energy_cause(model, 1.1, 1.5, 0.01, {}), "");
   // Cubic: no corner.
   std::string smooth = cornered_motion;

@@ -25,14 +25,12 @@ TEST_P(Balance, ClosesWithTheSquareOfTheStep) {
   const Balanced& x = GetParam();
   const ModelDescription d = read_model(x.file, x.set);
   const Model model = build_model(d);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationDescription s = d.simulation;
-    s.coordinates = coordinates;
+  for (const Coordinates coordinates : both_coordinates) {
+    SimulationDescription s = with(d.simulation, coordinates);
     double previous = 0.0;
     for (int k = 0; k < 3; ++k) {
       s.step = x.step / std::pow(2.0, k);
-      const RunResult r = run(model, s);
-      ASSERT_EQ(r.summary.status, "completed");
+      const RunResult r = completed_run(model, s);
       const EnergySummary& e = r.summary.energy;
       ASSERT_TRUE(e.balanced);
       EXPECT_NEAR(e.remainder, e.total_end - e.total_start - e.work.total(), 1e-9 * e.exchanged);
@@ -79,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
 // A tyre that drops off a step of the road loses at once what its spring held, and that is work of
 // the road, not an error of the step.
 TEST(EnergyBalance, RoadsWithSteps) {
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     ModelDescription stairs =
         read_model(FLOATFRAME_EXAMPLES "/iltis/iltis.yaml", {{"flexible", "false"},
                                                              {"step", "0.001"},
@@ -108,7 +106,7 @@ TEST(EnergyBalance, NumericalDissipationIsWhatRemains) {
 
 TEST(EnergyBalance, OutputsRecordedSeldomChangeNothing) {
   for (const char* file : {RANGE("springs"), RANGE("driven_arm")})
-    for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    for (const Coordinates coordinates : both_coordinates) {
       ModelDescription d = read_model(file);
       d.simulation.coordinates = coordinates;
       const Model model = build_model(d);

@@ -1,5 +1,6 @@
 // Equilibria that the smallest push leaves are said to be unstable, with the time in which what
 // leaves grows by e in closed form; those that are stable or neutral are not.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/coordinates.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -80,22 +82,29 @@ TEST(Stability, NeutralIsNotUnstable) {
             Notes{});
 }
 
-// Beside modes of 100 kHz, whose stiffnesses are 1e12 times that of the fall.
-TEST(Stability, StiffColumnOnAHinge) {
-  const std::string column = R"(
-points: {o: [0, 0, 0], e: [0, 0, 1]}
+/// A column of 1 m with a square section.
+std::string square_column(int elements, double side, int modes, const std::string& more) {
+  return fmt::format(R"(
+points: {{o: [0, 0, 0], e: [0, 0, 1]}}
 bodies:
   column:
     flexible:
-      material: {young: 2.1e11, poisson: 0.3, density: 7850}
-      bars: {a: {from: o, to: e, elements: 8, section: {rectangle: [0.05, 0.05]}, reference: x}}
+      material: {{young: 2.1e11, poisson: 0.3, density: 7850}}
+      bars:
+        a: {{from: o, to: e, elements: {0}, section: {{rectangle: [{1}, {1}]}}, reference: x}}
       clamped: [o]
-      static_modes: [{point: e, dofs: [x, y, z]}]
-      normal_modes: 8
+      static_modes: [{{point: e, dofs: [x, y, z]}}]
+      normal_modes: {2}
       mass_model: hermite
-joints: {hinge: {type: revolute, child: column, at: o, axis: y}}
-)";
-  const Notes notes = notes_of(column);
+)",
+                     elements, side, modes) +
+         more;
+}
+
+// Beside modes of 100 kHz, whose stiffnesses are 1e12 times that of the fall.
+TEST(Stability, StiffColumnOnAHinge) {
+  const Notes notes = notes_of(square_column(
+      8, 0.05, 8, "joints: {hinge: {type: revolute, child: column, at: o, axis: y}}\n"));
   ASSERT_EQ(notes.size(), 1u);
   // A rod: s^2 = (m g L/2) / (m L^2/3), its bending and section leave 1e-3.
   EXPECT_NEAR(growth_time(notes[0]), std::sqrt(2.0 / 3.0 / 9.81), 1e-3);
@@ -107,21 +116,12 @@ TEST(Stability, EulersColumn) {
   const double a = 0.02,
                load = std::numbers::pi * std::numbers::pi * 2.1e11 * std::pow(a, 4) / 12.0 / 4.0;
   const auto notes = [&](double part) {
-    return notes_of(R"(
-gravity: [0, 0, 0]
-points: {o: [0, 0, 0], e: [0, 0, 1]}
-bodies:
-  column:
-    flexible:
-      material: {young: 2.1e11, poisson: 0.3, density: 7850}
-      bars: {a: {from: o, to: e, elements: 10, section: {rectangle: [0.02, 0.02]}, reference: x}}
-      clamped: [o]
-      static_modes: [{point: e, dofs: [x, y, z]}]
-      normal_modes: 4
-      mass_model: hermite
+    return notes_of(square_column(10, a, 4,
+                                  R"(gravity: [0, 0, 0]
 joints: {foot: {type: weld, child: column, at: o}}
 forces: {p: {type: force, body: column, node: e, direction: [0, 0, -1], magnitude: )" +
-                    std::to_string(part * load) + "}}\nsimulation: {geometric_stiffening: true}\n");
+                                      std::to_string(part * load) +
+                                      "}}\nsimulation: {geometric_stiffening: true}\n"));
   };
   EXPECT_EQ(notes(0.99), Notes{});
   EXPECT_EQ(notes(1.01).size(), 1u);
@@ -168,7 +168,7 @@ forces:
 TEST(Stability, IsSaidOfStartsToo) {
   ModelDescription d = read_model(FLOATFRAME_TEST_DATA "/hints/inverted.yaml");
   const Model model = build_model(d);
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     d.simulation.coordinates = c;
     const Notes notes = run(model, d.simulation).summary.start.notes;
     ASSERT_EQ(notes.size(), 1u);

@@ -7,6 +7,7 @@
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "simulation/iltis.hpp"
+#include "support/descriptions.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -29,15 +30,6 @@ TEST(Equilibrium, SliderCrankFromAnyAngle) {
   }
 }
 
-std::string run_error_of(const Model& model) {
-  try {
-    statics(model);
-  } catch (const RunError& error) {
-    return test::codes_of(error);
-  }
-  return "no error";
-}
-
 TEST(Equilibrium, SliderCrankOfTheExampleHangsDown) {
   EXPECT_NEAR(body_of(slider_crank(M_PI / 4), "rod").position.y(), -0.15, 1e-9);
 }
@@ -47,21 +39,12 @@ TEST(Equilibrium, OfTooManyCoordinatesIsRefused) {
   ModelDescription d;
   d.name = "stones";
   for (int k = 0; k < 1667; ++k) {
-    BodyDescription stone;
-    stone.name = "s" + std::to_string(k);
-    RigidDescription rigid;
-    rigid.mass = 1.0;
-    rigid.J_C = Mat3::Identity();
-    stone.kind = rigid;
-    JointDescription free;
-    free.name = "f" + std::to_string(k);
-    free.type = JointType::free;
-    free.child.body = stone.name;
-    d.bodies.push_back(stone);
-    d.joints.push_back(free);
+    const std::string stone = "s" + std::to_string(k);
+    d.bodies.push_back(make_body(stone, RigidDescription{1.0, Vec3::Zero(), Mat3::Identity()}));
+    d.joints.push_back(make_joint("f" + std::to_string(k), JointType::free, "ground", stone));
   }
   const Model model = build_model(d);
-  EXPECT_EQ(run_error_of(model), "too_large");
+  EXPECT_EQ(error_of([&] { statics(model); }), "too_large");
 }
 
 /// Displacement of the node of the first force.

@@ -10,7 +10,7 @@
 #include <exception>
 #include <string>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
 
 namespace floatframe::test {
 
@@ -23,7 +23,7 @@ struct Combination {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
   std::string name() const {
-    return std::string(coordinates == Coordinates::relative ? "relative" : "absolute") +
+    return name_of(coordinates) +
            (inertia == InertiaMethod::preprocessing ? "_preprocessing" : "_projection");
   }
 };
@@ -48,6 +48,10 @@ inline RunResult run_of(const Model& model, const Combination& c) {
   const SimulationDescription& s = model.simulation;
   return run(model, with(s, c, s.step, s.duration));
 }
+inline RunResult completed_run(const Model& model, const Combination& c) {
+  const SimulationDescription& s = model.simulation;
+  return completed_run(model, with(s, c, s.step, s.duration));
+}
 
 /// The message of the error that `f` throws.
 template <class Error = std::exception, class Function>
@@ -71,6 +75,10 @@ inline std::size_t column(const ResultTable& table, const std::string& name) {
     if (table.columns[k].name == name) return k;
   ADD_FAILURE() << "no column " << name;
   return 0;
+}
+
+inline double entry(const ResultTable& table, std::size_t row, const std::string& name) {
+  return table.at(row, column(table, name));
 }
 
 struct Extreme {

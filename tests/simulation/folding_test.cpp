@@ -9,7 +9,8 @@
 #include <cmath>
 #include <string>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/contains.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -67,6 +68,17 @@ double largest_error(int n, const RunResult& r) {
   return worst;
 }
 
+void expect_one_branch(const RunResult& r, const std::string& part) {
+  std::size_t branches = 0;
+  for (const RangeWarning& w : r.summary.warnings) {
+    if (w.limit != RangeLimit::branch) continue;
+    ++branches;
+    std::printf("[ figure ] %s\n", w.sentence.c_str());
+    EXPECT_TRUE(contains(w.sentence, part));
+  }
+  EXPECT_EQ(branches, 1u);
+}
+
 struct Fold {
   int windows;
   Coordinates coordinates;
@@ -78,29 +90,18 @@ class Folding : public ::testing::TestWithParam<Fold> {};
 TEST_P(Folding, PassesSingularPositions) {
   const Fold& p = GetParam();
   const Model model = model_of(windows_text(p.windows));
-  SimulationDescription o = model.simulation;
-  o.coordinates = p.coordinates;
-  o.step = p.step;
-  o.duration = p.duration;
+  SimulationDescription o = with(model.simulation, p.coordinates, p.step, p.duration);
   o.tolerance = 1e-9;
-  const RunResult r = run(model, o);
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(model, o);
   const double error = largest_error(p.windows, r);
   std::printf(
       "[ figure ] folding: %d windows, %s, step %g, %g s: largest error [m] %.2g, %ld of %ld steps "
       "halved\n",
-      p.windows, p.coordinates == Coordinates::relative ? "relative" : "absolute", p.step,
-      p.duration, error, r.summary.substeps, r.summary.steps);
+      p.windows, name_of(p.coordinates).c_str(), p.step, p.duration, error, r.summary.substeps,
+      r.summary.steps);
   EXPECT_LT(error, p.error);
   // It says where it passed.
-  std::size_t branches = 0;
-  for (const RangeWarning& w : r.summary.warnings) {
-    if (w.limit != RangeLimit::branch) continue;
-    ++branches;
-    std::printf("[ figure ] %s\n", w.sentence.c_str());
-    EXPECT_NE(w.sentence.find("constraints of joint '"), std::string::npos) << w.sentence;
-  }
-  EXPECT_EQ(branches, 1u);
+  expect_one_branch(r, "constraints of joint '");
 }
 
 // Forty windows fold for the first time at about 0.7 s.
@@ -116,21 +117,11 @@ INSTANTIATE_TEST_SUITE_P(Rows, Folding,
 
 TEST(FoldingThinBars, SaysWhereItPassesInBothFormulations) {
   const Model model = model_of(windows_text(2, true));
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationDescription o = model.simulation;
-    o.coordinates = coordinates;
-    o.step = 1e-3;
-    o.duration = 1.0;
+  for (const Coordinates coordinates : both_coordinates) {
+    SimulationDescription o = with(model.simulation, coordinates, 1e-3, 1.0);
     o.tolerance = 1e-9;
-    const RunResult r = run(model, o);
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
-    std::size_t branches = 0;
-    for (const RangeWarning& w : r.summary.warnings)
-      if (w.limit == RangeLimit::branch) {
-        ++branches;
-        EXPECT_NE(w.sentence.find("t = 0.714 s"), std::string::npos) << w.sentence;
-      }
-    EXPECT_EQ(branches, 1u);
+    const RunResult r = completed_run(model, o);
+    expect_one_branch(r, "t = 0.714 s");
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/coordinates.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
@@ -41,7 +42,7 @@ TEST_F(Forcings, SineThatTheStepTakesForAnother) {
   const std::string words =
       "the step of 0.001 s is too long for the load 's': its sine of 1000 Hz goes through 6.28 rad "
       "of phase in each step (limit 1 rad), 1 steps per period; take a step of at most 0.00016 s";
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute})
+  for (const Coordinates c : both_coordinates)
     EXPECT_TRUE(says(warnings("", "sine: {amplitude: 1000, frequency: 1000}", c), words));
   for (const char* f : {"999", "1500", "400", "170"})
     EXPECT_TRUE(says(warnings("", std::string("sine: {amplitude: 1000, frequency: ") + f + "}"),

@@ -10,6 +10,7 @@
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/model/gauge_place.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
+#include "simulation/figures.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
@@ -21,20 +22,8 @@ namespace {
 ResultTable table_of(const std::string& text, Coordinates coordinates) {
   ModelDescription d = description_of(text);
   d.simulation.coordinates = coordinates;
-  const Model model = build_model(d);
-  const RunResult r = run(model, model.simulation);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
-  return r.table;
+  return completed_run(d).table;
 }
-
-double entry(const ResultTable& t, std::size_t row, const std::string& name) {
-  for (std::size_t c = 0; c < t.columns.size(); ++c)
-    if (t.columns[c].name == name) return t.at(row, c);
-  ADD_FAILURE() << "no column " << name;
-  return 0.0;
-}
-
-constexpr Coordinates formulations[] = {Coordinates::relative, Coordinates::absolute};
 
 // A rod that turns about its end at W: stress rho W^2 (L^2 - x^2) / 2, whatever its modes.
 const char* const turning_rod = R"(
@@ -61,13 +50,13 @@ simulation: {step: 1e-3, duration: 0.1, output_interval: 0.01}
 )";
 
 TEST(Gauges, TurningRod) {
-  for (const Coordinates coordinates : formulations) {
+  for (const Coordinates coordinates : both_coordinates) {
     const ResultTable t = table_of(turning_rod, coordinates);
     const double W = 60.0, L = 0.8, root = 0.5 * 7850.0 * W * W * L * L;
     const std::size_t row = t.rows() - 1;
     std::printf("[ figure ] turning rod, %s: root %.6f of rho W^2 L^2 / 2, by modes alone %.4f\n",
-                coordinates == Coordinates::relative ? "relative" : "absolute",
-                entry(t, row, "root") / root, entry(t, row, "modes") / root);
+                name_of(coordinates).c_str(), entry(t, row, "root") / root,
+                entry(t, row, "modes") / root);
     EXPECT_NEAR(entry(t, row, "root") / root, 1.0, 1e-2);
     EXPECT_NEAR(entry(t, row, "middle") / (0.75 * root), 1.0, 1e-2);
     EXPECT_NEAR(entry(t, row, "force") / (0.75 * root * 1e-4 * M_PI), 1.0, 1e-2);
@@ -103,7 +92,7 @@ simulation: {step: 1e-3, duration: 0.002, start: equilibrium}
 )";
 
 TEST(Gauges, CantileverInEquilibrium) {
-  for (const Coordinates coordinates : formulations) {
+  for (const Coordinates coordinates : both_coordinates) {
     const ResultTable t = table_of(cantilever, coordinates);
     const double q = 7850.0 * 8e-4 * 9.81, M = 100.0 + 0.5 * q, W = 0.02 * 0.04 * 0.04 / 6.0;
     std::printf("[ figure ] cantilever: stress at the root %.7g MPa, beam theory %.7g MPa\n",
@@ -140,8 +129,7 @@ TEST(Gauges, PrincipalStressesAreEigenvalues) {
 template <class F>
 void check_allocations_of_gauges(Coordinates coordinates) {
   const Model model = model_of(turning_rod);
-  SimulationDescription options = model.simulation;
-  options.coordinates = coordinates;
+  const SimulationDescription options = with(model.simulation, coordinates);
   SteppedModel<F> steps(model, options, {.duration = 0.02});
   std::vector<double> row(model.outputs.size() + 1);
   ASSERT_TRUE(steps.advance());
@@ -168,30 +156,24 @@ std::string with_output(const std::string& output) {
          "\nsimulation: {step: 1e-3, duration: 0.002}\n";
 }
 
+/// The code and place of what is wrong with a model.
+std::string refused(const std::string& text) {
+  return without_folders(error_of([&] { build_model(description_of(text)); }));
+}
+
 TEST(Gauges, WhatCannotBe) {
-  const auto says = [](const std::string& output) {
-    return error_of([&] { build_model(description_of(with_output(output))); });
-  };
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, node: root}}")),
-            "model.yaml:20:3: wrong_value")
-      << says("{stress: {body: beam, node: root}}");
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, node: rot, toward: y}}")),
-            "model.yaml:20:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, node: 7, toward: y}}")),
-            "model.yaml:20:3: wrong_value");
-  EXPECT_EQ(
-      test::without_folders(says("{stress: {body: beam, node: root, layer: top, toward: y}}")),
-      "model.yaml:20:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, at: [9, 0, 0]}}")),
-            "model.yaml:20:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{strain: {body: beam, node: root, toward: y}}")),
-            "model.yaml:20:3: outputs.a: missing");
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam}}")),
-            "model.yaml:20:7: outputs.a.stress: missing");
-  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, node: 3}}")),
-            "model.yaml:20:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{stress: {body: ground, node: 3}}")),
-            "model.yaml:20:22: outputs.a.stress.body: wrong_value");
+  const std::pair<const char*, const char*> cases[] = {
+      {"{stress: {body: beam, node: root}}", "3: wrong_value"},
+      {"{stress: {body: beam, node: rot, toward: y}}", "3: wrong_value"},
+      {"{stress: {body: beam, node: 7, toward: y}}", "3: wrong_value"},
+      {"{stress: {body: beam, node: root, layer: top, toward: y}}", "3: wrong_value"},
+      {"{stress: {body: beam, at: [9, 0, 0]}}", "3: wrong_value"},
+      {"{strain: {body: beam, node: root, toward: y}}", "3: outputs.a: missing"},
+      {"{stress: {body: beam}}", "7: outputs.a.stress: missing"},
+      {"{section_force: {body: beam, node: 3}}", "3: wrong_value"},
+      {"{stress: {body: ground, node: 3}}", "22: outputs.a.stress.body: wrong_value"}};
+  for (const auto& [output, expected] : cases)
+    EXPECT_EQ(refused(with_output(output)), std::string("model.yaml:20:") + expected) << output;
 }
 
 // Two bars in a line and one that leaves them at `mid`.
@@ -222,20 +204,14 @@ std::string frame_with(const std::string& output) {
 
 /// What a description does not tell apart is asked for, never chosen by rounding.
 TEST(Gauges, DoubtfulPlacesAreAskedFor) {
-  const auto says = [](const std::string& output) {
-    return error_of([&] { build_model(description_of(frame_with(output))); });
-  };
-  // On the axis of a bar: four places at the edges of the flat sides are equally near.
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, at: [0.2, 0, 0]}}")),
-            "model.yaml:18:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{stress: {body: beam, at: [0.2, 0, 0], material: STEEL}}")),
-            "model.yaml:18:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, node: mid}}")),
-            "model.yaml:18:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, node: mid, along: z}}")),
-            "model.yaml:18:3: wrong_value");
-  EXPECT_EQ(test::without_folders(says("{section_force: {body: beam, at: [3, 0, 0]}}")),
-            "model.yaml:18:3: wrong_value");
+  for (const char* output :
+       {// On the axis of a bar: four places at the edges of the flat sides are equally near.
+        "{stress: {body: beam, at: [0.2, 0, 0]}}",
+        "{stress: {body: beam, at: [0.2, 0, 0], material: STEEL}}",
+        "{section_force: {body: beam, node: mid}}",
+        "{section_force: {body: beam, node: mid, along: z}}",
+        "{section_force: {body: beam, at: [3, 0, 0]}}"})
+    EXPECT_EQ(refused(frame_with(output)), "model.yaml:18:3: wrong_value") << output;
   EXPECT_EQ(
       model_of(frame_with("{section_force: {body: beam, node: mid, along: y}}")).gauges.size(), 1u);
   // Two elements of a straight bar: no question.
@@ -254,9 +230,8 @@ TEST(Gauges, ABarIsChosenByItsDirection) {
     while (stress.first_place[k + 1] <= place) ++k;
     return stress.sections[k].name;
   };
-  EXPECT_EQ(test::without_folders(error_of([&] { on(""); })), "model.yaml:18:3: wrong_value");
-  EXPECT_EQ(test::without_folders(error_of([&] { on(", along: z"); })),
-            "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(without_folders(error_of([&] { on(""); })), "model.yaml:18:3: wrong_value");
+  EXPECT_EQ(without_folders(error_of([&] { on(", along: z"); })), "model.yaml:18:3: wrong_value");
   EXPECT_EQ(on(", along: -x"), "bar 'one', element 2");
   EXPECT_EQ(on(", along: x"), "bar 'two', element 1");
   EXPECT_EQ(on(", along: [-0.1, 1, 0]"), "bar 'arm', element 1");
@@ -264,27 +239,19 @@ TEST(Gauges, ABarIsChosenByItsDirection) {
 
 /// All six components of a place that is not there: one sentence.
 TEST(Gauges, AWrongPlaceIsSaidOnce) {
-  try {
-    build_model(description_of(frame_with("{stress: {body: beam, node: nowhere}}")));
-    ADD_FAILURE() << "was built";
-  } catch (const InputError& error) {
-    ASSERT_EQ(error.errors().size(), 1u) << error.what();
-    EXPECT_NE(error.errors()[0].message.find("body 'beam' has no node 'nowhere'"),
-              std::string::npos);
-  }
+  const std::string said = sentences_of(
+      [] { build_model(description_of(frame_with("{stress: {body: beam, node: nowhere}}"))); });
+  EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  EXPECT_TRUE(contains(said, "body 'beam' has no node 'nowhere'"));
 }
 
 TEST(Gauges, OfASectionGivenByConstants) {
   std::string text = turning_rod;
   const std::string round = "{round: 0.02}";
   text.replace(text.find(round), round.size(), "{area: 3e-4, Iy: 8e-9, Iz: 8e-9, J: 1.6e-8}");
-  const std::string said = error_of([&] { build_model(description_of(text)); });
-  EXPECT_EQ(test::without_folders(said),
-            "model.yaml:17:3: "
-            "wrong_value\nmodel.yaml:18:3: "
-            "wrong_value\nmodel.yaml:19:3: "
-            "wrong_value\nmodel.yaml:21:3: wrong_value")
-      << said;
+  EXPECT_EQ(refused(text),
+            "model.yaml:17:3: wrong_value\nmodel.yaml:18:3: wrong_value\n"
+            "model.yaml:19:3: wrong_value\nmodel.yaml:21:3: wrong_value");
 }
 
 /// Towards a flat side the middle of its edge, not one of its corners.
@@ -323,8 +290,7 @@ TEST(Gauges, MaterialsAndLayersOfANode) {
             "expected 'material', the name of the one that is meant");
   EXPECT_EQ(found(7, up).place, -1);  // no direction tells them apart
   EXPECT_EQ(found(0, none, &none).place, -1);
-  EXPECT_NE(found(8, none).error.find("(top of STEEL, bottom of STEEL), expected 'toward'"),
-            std::string::npos);
+  EXPECT_TRUE(contains(found(8, none).error, "(top of STEEL, bottom of STEEL), expected 'toward'"));
   EXPECT_EQ(found(0, none, &middle).place, -1);  // between the two sides
   EXPECT_EQ(found(8, up).place, 2);
   EXPECT_EQ(found(0, -up, &middle).place, 3);
@@ -334,7 +300,7 @@ TEST(Gauges, MaterialsAndLayersOfANode) {
   gauge.material = "SOFT";
   EXPECT_EQ(found(7, none).place, 1);
   EXPECT_EQ(found(0, none, &none).place, 1);
-  EXPECT_NE(found(8, none).error.find("in the material 'SOFT'"), std::string::npos);
+  EXPECT_TRUE(contains(found(8, none).error, "in the material 'SOFT'"));
 }
 
 }  // namespace

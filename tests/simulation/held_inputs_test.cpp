@@ -35,10 +35,7 @@ simulation: {step: 0.01}
 class HeldInputs : public ::testing::TestWithParam<Coordinates> {
  protected:
   SimulationOptions options(double step, double rho = 1.0) const {
-    SimulationOptions o;
-    o.step = step;
-    o.coordinates = GetParam();
-    o.spectral_radius = rho;
+    const SimulationOptions o{.step = step, .coordinates = GetParam(), .spectral_radius = rho};
     return o;
   }
 };
@@ -99,10 +96,7 @@ double exact_growth(double h, double part) {
 
 double growth(Coordinates coordinates, double h, double part, double rho) {
   const double w2 = std::pow(10.0 * std::numbers::pi, 2);
-  SimulationOptions o;
-  o.step = h;
-  o.coordinates = coordinates;
-  o.spectral_radius = rho;
+  const SimulationOptions o{.step = h, .coordinates = coordinates, .spectral_radius = rho};
   Simulation s(pushed_mass((1.0 - part) * w2), o);
   s.on_force([&](double, std::span<const double> outputs, std::span<double> inputs) {
     inputs[0] = -part * w2 * outputs[0];
@@ -138,11 +132,8 @@ TEST_P(HeldInputs, ALawOfAProgramIsAZeroOrderHold) {
 
 /// Slider crank, motors with targets and loads, whose inputs jump every 8 ms.
 std::vector<double> driven_machine(Coordinates coordinates, double h, double rho) {
-  SimulationOptions o;
-  o.step = h;
-  o.coordinates = coordinates;
-  o.spectral_radius = rho;
-  o.tolerance = 1e-11;
+  const SimulationOptions o{
+      .step = h, .coordinates = coordinates, .tolerance = 1e-11, .spectral_radius = rho};
   Simulation s(model_of(stepped_machine), o);
   const long every = std::lround(8e-3 / h);
   for (long k = 0; k < 25 * every; ++k) {
@@ -234,8 +225,7 @@ EnergySummary balance(const Model& model, const SimulationDescription& d, double
 // that of the mean of two of them.
 TEST_P(HeldInputs, WorkIsTheValueTimesTheTravel) {
   const Model model = pushed_mass(200.0);
-  SimulationDescription d = model.simulation;
-  d.coordinates = GetParam();
+  SimulationDescription d = with(model.simulation, GetParam());
   d.duration = 1.0;
   double travelled = 0.0;
   const EnergySummary e = GetParam() == Coordinates::relative
@@ -262,11 +252,9 @@ class Pusher final : public SignalPort {
 
 TEST_P(HeldInputs, RealTimeHoldsThemToo) {
   const Model model = pushed_mass();
-  SimulationDescription d = model.simulation;
-  d.coordinates = GetParam();
+  SimulationDescription d = with(model.simulation, GetParam());
   d.duration = 0.1;
-  RealTimeOptions o;
-  o.paced = false;
+  const RealTimeOptions o{.paced = false};
   for (const InputUse use : {InputUse::held, InputUse::ramp}) {
     d.input = use;
     Pusher port;
@@ -312,11 +300,8 @@ TEST_P(HeldInputs, NoStepAllocates) {
   EXPECT_EQ(scope.count(), 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, HeldInputs,
-                         ::testing::Values(Coordinates::relative, Coordinates::absolute),
-                         [](const auto& x) {
-                           return x.param == Coordinates::relative ? "relative" : "absolute";
-                         });
+INSTANTIATE_TEST_SUITE_P(Both, HeldInputs, ::testing::ValuesIn(both_coordinates),
+                         [](const auto& x) { return name_of(x.param); });
 
 }  // namespace
 }  // namespace floatframe::test

@@ -17,6 +17,7 @@
 #include <cstdlib>
 
 #include "simulation/iltis.hpp"
+#include "support/completed_run.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -62,8 +63,7 @@ TEST_P(IltisStairs, OrderTwoWithEdgesLocated) {
   o.output_interval = 0.01;
   RunOptions keep;
   keep.keep_state = true;
-  const RunResult start = run(model, o, keep);
-  ASSERT_EQ(start.summary.status, "completed") << start.summary.message;
+  const RunResult start = completed_run(model, o, keep);
   o.start = Start::state;
   o.state = start.state;
   o.velocity = Vec3::Zero();
@@ -71,8 +71,7 @@ TEST_P(IltisStairs, OrderTwoWithEdgesLocated) {
   const auto made = [&](double step, bool locate) {
     o.step = step;
     o.locate_edges = locate;
-    const RunResult r = run(model, o);
-    EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(model, o);
     EXPECT_EQ(r.summary.edges > 0, locate);
     EXPECT_EQ(r.summary.edges_passed, 0);
     return r;

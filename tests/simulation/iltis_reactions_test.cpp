@@ -5,6 +5,8 @@
 #include "floatframe/simulation/stepped_model.hpp"
 #include "simulation/iltis.hpp"
 #include "support/body_balance.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -48,12 +50,8 @@ TEST(IltisReactions, BalanceEveryBodyOnTheStairs) {
 /// With forces of joints of all kinds - of the tree, cut, of a rod - as outputs.
 ModelDescription with_reactions(ModelDescription d, bool flexible) {
   const auto add = [&](OutputType type, const std::string& entity, int axis) {
-    OutputDescription o;
-    o.name = "reaction " + entity + (axis < 0 ? "" : std::string(1, "xyz"[axis]));
-    o.type = type;
-    o.entity = entity;
-    o.component = std::max(axis, 0);
-    d.outputs.push_back(o);
+    const std::string name = "reaction " + entity + (axis < 0 ? "" : std::string(1, "xyz"[axis]));
+    d.outputs.push_back(make_output(name, type, entity, std::max(axis, 0)));
   };
   for (const char* joint : {"front_left.arm_hinge", "front_left.arm_ball", "rear_right.link_hinge",
                             "rear_right.link_ball"})
@@ -75,9 +73,7 @@ double reaction_difference(const Model& model, const ResultTable& a, const Resul
 
 ResultTable reaction_table(const Model& model, const ModelDescription& d, int combination,
                            double h) {
-  RunResult r = run(model, with(d.simulation, combinations[combination], h, 3.5, 0.01));
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
-  return std::move(r.table);
+  return completed_run(model, with(d.simulation, combinations[combination], h, 3.5, 0.01)).table;
 }
 
 const std::vector<ParameterOverride> undamped{{"spectral_radius", "1"}, {"tolerance", "1e-11"}};

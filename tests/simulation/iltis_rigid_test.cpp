@@ -92,12 +92,11 @@ TEST(IltisRigid, RampAndPlateauAgainstAnIndependentModel) {
   // Every 10 ms up to the first stair. The history was integrated with fixed steps of 0.5 ms and
   // printed to 0.01 mm; where a wheel meets a corner of the road the two differ by a part of a
   // step.
-  const testing::Csv reference =
-      testing::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/trajectories/iltis_rigid.csv");
+  const trajectories::Csv reference =
+      trajectories::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/trajectories/iltis_rigid.csv");
   const ModelDescription d = iltis({{"flexible", "false"}});
   const Model model = build_model(d);
-  const RunResult r = run(model, with(d.simulation, combinations[0], 5e-4, 3.7, 0.01));
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(model, with(d.simulation, combinations[0], 5e-4, 3.7, 0.01));
   ASSERT_EQ(r.table.rows(), reference.rows.size());
   const auto worst = [&](const char* ours, const char* theirs, double scale) {
     const std::size_t k = column(r.table, ours), j = reference.column(theirs);
@@ -137,10 +136,9 @@ TEST_P(IltisBump, StepConvergedExtremes) {
       iltis({{"flexible", "false"}, {"road", "bump"}, {"speed", b.speed}, {"tyre_law", b.law}});
   const Model model = build_model(d);
   const std::string label = std::string(b.speed) + " m/s " + b.law + " ";
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     const Combination c{coordinates, InertiaMethod::preprocessing};
-    const RunResult r = run(model, with(d.simulation, c, 1e-4, b.duration));
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(model, with(d.simulation, c, 1e-4, b.duration));
     const ResultTable& t = r.table;
     const Extreme z_max = maximum(t, "chassis.z"), z_min = minimum(t, "chassis.z");
     const std::string name = label + c.name() + " ";

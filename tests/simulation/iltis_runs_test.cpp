@@ -21,10 +21,8 @@ TEST(IltisRuns, AbsoluteAndRelativeMeetWithTheSquareOfTheStep) {
   const Model model = build_model(d);
   double previous = 0.0;
   for (const double h : {2e-3, 1e-3, 5e-4, 2.5e-4}) {
-    const RunResult a = run(model, with(d.simulation, combinations[2], h, 3.5, 0.01));
-    const RunResult b = run(model, with(d.simulation, combinations[0], h, 3.5, 0.01));
-    ASSERT_EQ(a.summary.status, "completed") << a.summary.message;
-    ASSERT_EQ(b.summary.status, "completed") << b.summary.message;
+    const RunResult a = completed_run(model, with(d.simulation, combinations[2], h, 3.5, 0.01));
+    const RunResult b = completed_run(model, with(d.simulation, combinations[0], h, 3.5, 0.01));
     const double chassis = difference(a.table, b.table, heights[0]);
     const double wheel = difference(a.table, b.table, heights[1]);
     const double both = std::max(chassis, wheel);
@@ -45,10 +43,9 @@ TEST(IltisRuns, ProjectionEqualsPreprocessingBeforeTheStairs) {
   const Model model = build_model(d);
   for (const double h : {0.01, 0.001}) {
     for (const int k : {0, 2}) {
-      const RunResult p = run(model, with(d.simulation, combinations[k], h, 3.5, 0.01));
-      const RunResult b = run(model, with(d.simulation, combinations[k + 1], h, 3.5, 0.01));
-      ASSERT_EQ(p.summary.status, "completed") << p.summary.message;
-      ASSERT_EQ(b.summary.status, "completed") << b.summary.message;
+      const RunResult p = completed_run(model, with(d.simulation, combinations[k], h, 3.5, 0.01));
+      const RunResult b =
+          completed_run(model, with(d.simulation, combinations[k + 1], h, 3.5, 0.01));
       for (const char* name : heights) {
         const double x = difference(p.table, b.table, name);
         figure("step " + std::to_string(h) + " s, " + (k == 0 ? "relative" : "absolute") +
@@ -64,8 +61,7 @@ TEST(IltisRuns, ConstraintLevelsThroughoutTheManoeuvre) {
   const ModelDescription d = iltis();
   const Model model = build_model(d);
   for (const Combination& c : combinations) {
-    const RunResult r = run(model, with(d.simulation, c, 0.01, 8.0));
-    ASSERT_EQ(r.summary.status, "completed") << c.name() << ": " << r.summary.message;
+    const RunResult r = completed_run(model, with(d.simulation, c, 0.01, 8.0));
     EXPECT_EQ(r.summary.steps, 800);
     figure(c.name() + " position constraints [m]", r.summary.max_position_violation);
     figure(c.name() + " velocity constraints [m/s]", r.summary.max_velocity_violation);
@@ -93,8 +89,7 @@ TEST(IltisRuns, LeftAndRightStayEqual) {
   const ModelDescription d = iltis();
   const Model model = build_model(d);
   for (const Combination& c : combinations) {
-    const RunResult r = run(model, with(d.simulation, c, 0.01, 8.0));
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(model, with(d.simulation, c, 0.01, 8.0));
     double worst = 0.0, before_stairs = 0.0;
     for (const std::string axle : {"front", "rear"}) {
       const std::size_t left = column(r.table, axle + "_left.wheel.z");
@@ -124,10 +119,9 @@ TEST(IltisRuns, GrowthOfAPerturbation) {
     std::vector<std::vector<double>> z;
     for (const double shift : {0.0, 1e-13}) {
       RelativeFormulation f(model, InertiaMethod::preprocessing);
-      StepOptions options;
-      options.spectral_radius = d.simulation.spectral_radius;
-      options.tolerance = d.simulation.tolerance;
-      options.penalty_mass = default_penalty_mass(model, Coordinates::relative);
+      const StepOptions options{.spectral_radius = d.simulation.spectral_radius,
+                                .tolerance = d.simulation.tolerance,
+                                .penalty_mass = default_penalty_mass(model, Coordinates::relative)};
       Runner<RelativeFormulation> runner(f, options, h / 1024.0);
       runner.state() = relative_start(f, Start::equilibrium);
       runner.state().q[2] += shift;

@@ -4,6 +4,7 @@
 
 #include "floatframe/body/with_modes.hpp"
 #include "simulation/iltis.hpp"
+#include "support/completed_run.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -57,13 +58,12 @@ TEST(IltisSolid, DrivesLikeTheBarModel) {
       b.kind = with_modes(std::get<FlexibleBody>(b.kind), {});
   }
   const Model rigid = build_model(rigid_arms);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     SimulationDescription s = solid_model().simulation;
     s.coordinates = coordinates;
     const RunResult reference = run(bars, s);
     for (const Model* model : {&solid_model(), &rigid}) {
-      const RunResult r = run(*model, s);
-      ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+      const RunResult r = completed_run(*model, s);
       EXPECT_EQ(r.summary.substeps, 0);
       EXPECT_LT(r.summary.max_position_violation, 1e-9);
       EXPECT_LT(r.summary.max_velocity_violation, 1e-8);

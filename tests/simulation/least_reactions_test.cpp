@@ -12,6 +12,7 @@
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/coordinates.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -54,9 +55,8 @@ TEST(LeastReactions, AreThoseOfDenseLinearAlgebra) {
     text += fmt::format("  F_{0}: {{joint_force: {0}}}\n  T_{0}: {{joint_torque: {0}}}\n", j.name);
   const Model model = model_of(text + "simulation: {step: 1e-3, duration: 1e-3}\n");
   const StaticsResult dense = statics(model);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationDescription o = model.simulation;
-    o.coordinates = coordinates;
+  for (const Coordinates coordinates : both_coordinates) {
+    const SimulationDescription o = with(model.simulation, coordinates);
     const RunResult sparse = run(model, o);
     double worst = 0.0, largest = 0.0;
     for (const StaticsJoint& j : dense.joints)

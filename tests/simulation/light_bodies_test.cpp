@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -59,10 +59,9 @@ double formulations_apart(const std::string& text, double step) {
   o.spectral_radius = 0.9;
   o.output_interval = 0.01;
   ResultTable tables[2];
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     o.coordinates = c;
-    const RunResult result = run(model_of(text), o);
-    EXPECT_EQ(result.summary.status, "completed") << result.summary.message;
+    const RunResult result = completed_run(model_of(text), o);
     tables[c == Coordinates::absolute] = result.table;
   }
   double most = 0.0;

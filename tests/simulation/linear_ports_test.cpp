@@ -9,8 +9,8 @@
 #include <complex>
 
 #include "floatframe/simulation/frequency_response.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/figures.hpp"
+#include "simulation/linear_models.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -18,8 +18,6 @@ namespace floatframe::test {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Coordinates ports_of_either[] = {Coordinates::relative, Coordinates::absolute};
-
 // A body on a wheel on a road, an actuator between them; beside it the same on a plate that a motor
 // lifts instead of the road.
 const char* const two_quarter_cars = R"(
@@ -84,7 +82,7 @@ QuarterCarForm closed_form(Complex s) {
 
 TEST(LinearPorts, QuarterCarIsItsClosedForm) {
   const Model model = model_of(two_quarter_cars);
-  for (const Coordinates c : ports_of_either) {
+  for (const Coordinates c : both_coordinates) {
     const LinearModel linear = linear_model(model, {}, {.coordinates = c});
     ASSERT_EQ(linear.inputs.size(), 3u);
     EXPECT_EQ(linear.inputs[0].name, "active");
@@ -223,22 +221,12 @@ simulation: {start: equilibrium, step: 0.001, duration: 1}
 // m r'' + (k - m W^2) r = 2 m W rho u' for a small angle u of the motor more, with the torque
 // (I + m rho^2) u'' + 2 m rho W r'.
 TEST(LinearPorts, MotorOfAnArmThatTurns) {
-  const Model model = model_of(R"(
-gravity: [0, 0, 0]
-bodies:
-  arm: {position: [0, 0, 0], rigid: {mass: 1, inertia: [1, 1, 0.3]}}
-  bead: {position: [0.5, 0, 0], rigid: {mass: 0.2}}
-joints:
-  drive: {type: revolute, child: arm, at: [0, 0, 0], axis: z, motion: {polynomial: [0, 12]}}
-  slide: {type: prismatic, parent: arm, child: bead, at: [0.5, 0, 0], axis: x}
-forces: {s: {type: joint_spring, joint: slide, spring: {linear: {stiffness: 90, preload: -14.4}}}}
-outputs:
+  const Model model = arm_and_bead("[1, 1, 0.3]", "motion: {polynomial: [0, 12]}", R"(outputs:
   r: {joint_position: slide}
   x: {position: bead, axis: x}
   y: {position: bead, axis: y}
   vx: {velocity: bead, axis: x}
-  motor: {motion_force: drive}
-simulation: {step: 0.001, duration: 1}
+  motor: {motion_force: pin}
 )");
   const LinearModel linear = linear_model(model);
   ASSERT_EQ(linear.inputs.size(), 1u);
@@ -318,7 +306,7 @@ void expect_second_order_in_the_amplitude(const char* stiffening) {
   const LinearModel linear = linear_model(model_of(leaning_arm(0.0, stiffening)));
   const StateSpace s = state_space(linear);
   ASSERT_EQ(s.inputs[0].name, "load");
-  for (const Coordinates c : ports_of_either) {
+  for (const Coordinates c : both_coordinates) {
     std::vector<VecX> errors;
     for (double e = 0.4; e > 0.04; e *= 0.5) {
       Simulation run(model_of(leaning_arm(e, stiffening)), {.coordinates = c});

@@ -8,6 +8,8 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/run_error.hpp"
+#include "simulation/linear_models.hpp"
+#include "support/coordinates.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -17,16 +19,9 @@ std::vector<LinearMode> modes_of(const Model& model, const SimulationOptions& op
   return linear_modes(linear_system(model, options));
 }
 
-constexpr Coordinates either_formulation[] = {Coordinates::relative, Coordinates::absolute};
-
 TEST(LinearSystem, DampedOscillator) {
-  const Model model = model_of(R"(
-bodies: {box: {position: [0, 0, 0], rigid: {mass: 3}}}
-joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x}}
-forces: {s: {type: joint_spring, joint: slide, spring: 40, damper: 7}}
-simulation: {step: 0.001, duration: 1}
-)");
-  for (const Coordinates c : either_formulation) {
+  const Model model = model_of(oscillator);
+  for (const Coordinates c : both_coordinates) {
     const LinearSystem s = linear_system(model, {.coordinates = c});
     ASSERT_EQ(s.degrees, 1);
     EXPECT_EQ(s.massless, 0);
@@ -68,17 +63,7 @@ simulation: {step: 0.001, duration: 1}
 // Two point masses on an arm that turns at a constant rate: the outer one slides along the arm on a
 // spring, w^2 = k / m - W^2, with the Coriolis force taken by the drive.
 TEST(LinearSystem, SpringOnATurningArm) {
-  const Model model = model_of(R"(
-gravity: [0, 0, 0]
-bodies:
-  arm: {position: [0, 0, 0], rigid: {mass: 1, inertia: [1, 1, 1]}}
-  bead: {position: [0.5, 0, 0], rigid: {mass: 0.2}}
-joints:
-  drive: {type: revolute, child: arm, at: [0, 0, 0], axis: z, motion: {polynomial: [0, 12]}}
-  slide: {type: prismatic, parent: arm, child: bead, at: [0.5, 0, 0], axis: x}
-forces: {s: {type: joint_spring, joint: slide, spring: {linear: {stiffness: 90, preload: -14.4}}}}
-simulation: {step: 0.001, duration: 1}
-)");
+  const Model model = arm_and_bead("[1, 1, 1]", "motion: {polynomial: [0, 12]}");
   const LinearSystem s = linear_system(model, {.coordinates = Coordinates::relative});
   ASSERT_EQ(s.degrees, 1);
   const auto modes = linear_modes(s);
@@ -111,17 +96,7 @@ simulation: {step: 0.001, duration: 1}
 // The same without the drive: the arm's angle follows its momentum. With L the momentum and the
 // bead at rho in steady turning W, small radial motions have w^2 = k/m - W^2 + 4 W^2 m rho^2 / I.
 TEST(LinearSystem, FreelyTurningArm) {
-  const Model model = model_of(R"(
-gravity: [0, 0, 0]
-bodies:
-  arm: {position: [0, 0, 0], rigid: {mass: 1, inertia: [1, 1, 0.1]}}
-  bead: {position: [0.5, 0, 0], rigid: {mass: 0.2}}
-joints:
-  pin: {type: revolute, child: arm, at: [0, 0, 0], axis: z, velocity: 12}
-  slide: {type: prismatic, parent: arm, child: bead, at: [0.5, 0, 0], axis: x}
-forces: {s: {type: joint_spring, joint: slide, spring: {linear: {stiffness: 90, preload: -14.4}}}}
-simulation: {step: 0.001, duration: 1}
-)");
+  const Model model = arm_and_bead("[1, 1, 0.1]", "velocity: 12");
   const auto modes = modes_of(model, {.coordinates = Coordinates::relative});
   const double I = 0.1 + 0.2 * 0.25, W2 = 144.0;
   const double w = std::sqrt(90.0 / 0.2 - W2 + 4.0 * W2 * 0.2 * 0.25 / I);
@@ -130,31 +105,8 @@ simulation: {step: 0.001, duration: 1}
   EXPECT_LT(std::abs(modes[1].lambda), 1e-3 * w);
 }
 
-const char* const loop = R"(
-points: {a: [0, 0, 0], b: [0.3, 0, 0], c: [0.8, 0, 0.3]}
-bodies:
-  crank:
-    flexible:
-      material: {young: 2e9, poisson: 0.3, density: 2700}
-      bars: {one: {from: a, to: b, elements: 4, section: {round: 0.02}}}
-      clamped: [a]
-      static_modes: [{point: b, dofs: [x, y, z]}]
-      normal_modes: 2
-  rod: {rigid: {mass: 0.5, centre_of_mass: [0.55, 0, 0.15], inertia: [0.001, 0.01, 0.01]}}
-  slider: {rigid: {mass: 2, centre_of_mass: c, inertia: [0.01, 0.01, 0.01]}}
-joints:
-  hinge: {type: revolute, child: crank, at: a, axis: y}
-  pin: {type: spherical, parent: crank, child: rod, at: b}
-  eye: {type: universal, parent: rod, child: slider, at: c, axis: y, axis_2: x}
-  guide: {type: prismatic, child: slider, at: c, axis: x}
-forces:
-  turn: {type: joint_spring, joint: hinge, spring: 60, damper: 0.1}
-  push: {type: joint_spring, joint: guide, spring: 900, damper: 3}
-simulation: {step: 0.001, duration: 1, start: equilibrium}
-)";
-
 TEST(LinearSystem, BothFormulationsHaveTheSameEigenvalues) {
-  const Model model = model_of(loop);
+  const Model model = model_of(flexible_loop);
   const auto relative = modes_of(model, {.coordinates = Coordinates::relative});
   const auto absolute = modes_of(model, {.coordinates = Coordinates::absolute});
   ASSERT_EQ(relative.size(), absolute.size());

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/simulation/small_motions.hpp"
+#include "simulation/linear_models.hpp"
 #include "support/model_text.hpp"
 #include "support/random_model.hpp"
 
@@ -39,12 +39,7 @@ simulation: {step: 0.001, duration: 1}
 }
 
 TEST(Linearization, SlidingMassOnSpringAndDamper) {
-  const Model model = model_of(R"(
-bodies: {box: {position: [0, 0, 0], rigid: {mass: 3}}}
-joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x}}
-forces: {s: {type: joint_spring, joint: slide, spring: 40, damper: 7}}
-simulation: {step: 0.001, duration: 1}
-)");
+  const Model model = model_of(oscillator);
   RelativeFormulation f(model, InertiaMethod::preprocessing);
   VecX q, v;
   f.start(q, v);
@@ -94,12 +89,8 @@ void expect_second_order(F& f, const VecX& q, const VecX& v) {
 
 TEST(Linearization, InertiaForcesInBothFormulations) {
   const Model model = mechanism(true);
-  RelativeFormulation relative(model, InertiaMethod::preprocessing);
-  AbsoluteFormulation absolute(model, InertiaMethod::preprocessing);
-  Random random(7);
-  VecX q, v, qa, va;
-  random_configuration(relative, random, q, v);
-  absolute.start_from(relative, q, v, qa, va);
+  RandomPair pair(model, 7);
+  auto& [relative, absolute, random, q, v, qa, va] = pair;
   expect_second_order(relative, q, v);
   expect_second_order(absolute, qa, va);
   // The same masses, and rows of the cut joint, seen through the map of velocities.
@@ -194,12 +185,8 @@ TEST(SmallMotions, DerivativesAgainstCentralDifferences) {
   double worst = 0.0;
   for (const std::uint64_t seed : {11, 12, 13}) {
     const Model model = mechanism(true);
-    RelativeFormulation relative(model, InertiaMethod::preprocessing);
-    AbsoluteFormulation absolute(model, InertiaMethod::preprocessing);
-    Random random(seed);
-    VecX q, v, qa, va;
-    random_configuration(relative, random, q, v);
-    absolute.start_from(relative, q, v, qa, va);
+    RandomPair pair(model, seed);
+    auto& [relative, absolute, random, q, v, qa, va] = pair;
     worst = std::max({worst, distance_from_differences(relative, at(relative, q, v), random),
                       distance_from_differences(absolute, at(absolute, qa, va), random)});
   }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/math/dense.hpp"
+#include "simulation/linear_models.hpp"
+#include "support/coordinates.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -27,15 +29,8 @@ VecX squares(const Linearization& l) {
   return e.values;
 }
 
-constexpr Coordinates either_coordinates[] = {Coordinates::relative, Coordinates::absolute};
-
 TEST(Linearize, MassOnASpring) {
-  const Model model = model_of(R"(
-bodies: {box: {position: [0, 0, 0], rigid: {mass: 3}}}
-joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x}}
-forces: {s: {type: joint_spring, joint: slide, spring: 40, damper: 7}}
-simulation: {step: 0.001, duration: 1}
-)");
+  const Model model = model_of(oscillator);
   const Linearization l = linearize(model);
   ASSERT_EQ(l.M.rows(), 1);
   EXPECT_NEAR(l.M(0, 0), 3, 1e-12);
@@ -44,7 +39,7 @@ simulation: {step: 0.001, duration: 1}
   EXPECT_EQ(l.J.rows(), 0);
   EXPECT_EQ(l.coordinates, std::vector<std::string>{"joint 'slide'"});
   EXPECT_TRUE(l.constraints.empty());
-  for (const Coordinates coordinates : either_coordinates) {
+  for (const Coordinates coordinates : both_coordinates) {
     const VecX w2 = squares(linearize(model, {.coordinates = coordinates}));
     ASSERT_EQ(w2.size(), 1);
     EXPECT_NEAR(std::sqrt(w2[0]), std::sqrt(40.0 / 3.0), 1e-8);
@@ -61,7 +56,7 @@ constexpr double inertia = 2 * 1.5 * 1.5 + 0.3, moment = 2 * 1.5 * 9.81;
 TEST(Linearize, PendulumInBothCoordinates) {
   const Model model = model_of(pendulum);
   ASSERT_NEAR(model.gravity.norm(), 9.81, 1e-12);
-  for (const Coordinates coordinates : either_coordinates) {
+  for (const Coordinates coordinates : both_coordinates) {
     const Linearization l = linearize(model, {.coordinates = coordinates});
     const VecX w2 = squares(l);
     ASSERT_EQ(w2.size(), 1);
@@ -109,7 +104,7 @@ joints:
   second: {type: revolute, parent: one, child: two, at: [0, 0, -1], axis: y}
 simulation: {step: 0.001, duration: 1}
 )");
-  for (const Coordinates coordinates : either_coordinates) {
+  for (const Coordinates coordinates : both_coordinates) {
     const VecX w2 = squares(linearize(model, {.coordinates = coordinates}));
     ASSERT_EQ(w2.size(), 2);
     EXPECT_NEAR(w2[0], 9.81 * (2.0 - std::sqrt(2.0)), 1e-6);
@@ -118,29 +113,7 @@ simulation: {step: 0.001, duration: 1}
 }
 
 TEST(Linearize, AFlexibleLoopInEquilibrium) {
-  // A flexible crank, a rod and a slider on a spring, sunk under their weights.
-  const Model model = model_of(R"(
-points: {a: [0, 0, 0], b: [0.3, 0, 0], c: [0.8, 0, 0.3]}
-bodies:
-  crank:
-    flexible:
-      material: {young: 2e9, poisson: 0.3, density: 2700}
-      bars: {one: {from: a, to: b, elements: 4, section: {round: 0.02}}}
-      clamped: [a]
-      static_modes: [{point: b, dofs: [x, y, z]}]
-      normal_modes: 2
-  rod: {rigid: {mass: 0.5, centre_of_mass: [0.55, 0, 0.15], inertia: [0.001, 0.01, 0.01]}}
-  slider: {rigid: {mass: 2, centre_of_mass: c, inertia: [0.01, 0.01, 0.01]}}
-joints:
-  hinge: {type: revolute, child: crank, at: a, axis: y}
-  pin: {type: spherical, parent: crank, child: rod, at: b}
-  eye: {type: universal, parent: rod, child: slider, at: c, axis: y, axis_2: x}
-  guide: {type: prismatic, child: slider, at: c, axis: x}
-forces:
-  turn: {type: joint_spring, joint: hinge, spring: 60, damper: 0.1}
-  push: {type: joint_spring, joint: guide, spring: 900}
-simulation: {step: 0.001, duration: 1, start: equilibrium}
-)");
+  const Model model = model_of(flexible_loop);
   const Linearization relative = linearize(model, {.coordinates = Coordinates::relative});
   const Linearization absolute = linearize(model, {.coordinates = Coordinates::absolute});
   EXPECT_GT(relative.J.rows(), 0) << "the loop is cut somewhere";
@@ -155,7 +128,7 @@ simulation: {step: 0.001, duration: 1, start: equilibrium}
 
 TEST(Linearize, RefusesWhatASimulationRefuses) {
   const Model model = model_of(pendulum);
-  EXPECT_NE(error_of([&] { linearize(model, {.step = -1.0}); }).find("step"), std::string::npos);
+  EXPECT_TRUE(contains(error_of([&] { linearize(model, {.step = -1.0}); }), "step"));
   SystemState other;
   other.model = "another";
   EXPECT_EQ(error_of([&] { linearize(model, {.state = std::make_shared<SystemState>(other)}); }),

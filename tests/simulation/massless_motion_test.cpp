@@ -8,9 +8,9 @@
 #include <string>
 
 #include "floatframe/model_file/load_model.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/stepping.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/completed_run.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -21,12 +21,10 @@ Model bar_on_ball_joint() {
 
 /// The largest change of the energy [J].
 double energy_error(const Model& model, Coordinates coordinates, double step, double duration) {
-  SimulationDescription o = model.simulation;
-  o.coordinates = coordinates;
+  SimulationDescription o = with(model.simulation, coordinates);
   o.step = o.output_interval = step;
   o.duration = duration;
-  const RunResult r = run(model, o);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(model, o);
   const auto energy = [&](std::size_t row) {
     double sum = 0.0;
     for (const char* part : {"T1", "T2", "V1", "V2", "U"})
@@ -44,7 +42,7 @@ double energy_error(const Model& model, Coordinates coordinates, double step, do
 
 TEST(MasslessMotion, EnergyOfABarOnABallJointIsOfSecondOrder) {
   const Model model = bar_on_ball_joint();
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     double first = 0.0, last = 1e-3;  // 6e3 J with a trapezoidal rule
     for (const double step : {1e-3, 5e-4, 2e-4, 1e-4, 5e-5}) {
       const double error = energy_error(model, coordinates, step, 20.0);
@@ -62,8 +60,7 @@ TEST(MasslessMotion, FormulationsAgree) {
   model.simulation.duration = 2.0;
   model.simulation.step = 2e-4;
   model.simulation.output_interval = 0.01;
-  SimulationDescription o = model.simulation;
-  o.coordinates = Coordinates::relative;
+  SimulationDescription o = with(model.simulation, Coordinates::relative);
   const RunResult a = run(model, o);
   o.coordinates = Coordinates::absolute;
   const RunResult b = run(model, o);
@@ -78,7 +75,7 @@ TEST(MasslessMotion, FormulationsAgree) {
 TEST(MasslessMotion, StepsDoNotAllocate) {
   if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
   const Model model = bar_on_ball_joint();
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     Simulation s(model, {.step = 2e-4, .coordinates = coordinates});
     const AllocationScope scope;
     for (int k = 0; k < 50; ++k) EXPECT_TRUE(s.step());

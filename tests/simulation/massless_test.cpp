@@ -9,9 +9,9 @@
 #include <cmath>
 #include <string>
 
-#include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/stepping.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/completed_run.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -74,12 +74,8 @@ std::string slides_text(const Slides& p) {
 
 RunResult run_slides(const Slides& p, Coordinates coordinates) {
   const Model model = model_of(slides_text(p));
-  SimulationDescription o = model.simulation;
-  o.coordinates = coordinates;
-  o.step = p.step;
-  o.duration = 2.0;
-  const RunResult r = run(model, o);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  const SimulationDescription o = with(model.simulation, coordinates, p.step, 2.0);
+  const RunResult r = completed_run(model, o);
   EXPECT_EQ(r.summary.substeps, 0);
   std::printf("[ figure ] massless slides, %g kg, step %g, %s: %.2f iterations a step\n", p.mass,
               p.step, coordinates == Coordinates::relative ? "relative" : "absolute",
@@ -148,11 +144,10 @@ TEST(MasslessLink, IsNotThrownByItsFirstGuess) {
     o.step = step;
     o.duration = 1.0;
     RunResult runs[2];
-    for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+    for (const Coordinates c : both_coordinates) {
       o.coordinates = c;
       RunResult& r = runs[c == Coordinates::relative ? 0 : 1];
-      r = run(model, o);
-      EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+      r = completed_run(model, o);
       EXPECT_LT(r.summary.substeps, 50);
       EXPECT_LT(r.summary.iterations, 8 * r.summary.steps);
     }

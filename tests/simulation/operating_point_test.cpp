@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/model_file/load_model.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/error_of.hpp"

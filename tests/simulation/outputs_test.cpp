@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -40,33 +40,20 @@ simulation: {step: 1.0e-3, duration: 0}
 )";
 
 std::string columns_of_type(OutputType type) {
-  const auto reference = [&]() -> std::string {
-    switch (output_kind(type).of) {
-      case OutputOf::point:
-        return "{body: arm, at: tip}";
-      case OutputOf::two_points:
-        return "{from: puck, to: {body: arm, at: tip}}";
-      case OutputOf::body:
-        return "puck";
-      case OutputOf::joint:
-        return "loose, coordinate: 5";
-      case OutputOf::mode:
-        return "arm, mode: 2";
-      case OutputOf::force:
-        return "coil";
-      case OutputOf::reaction:
-        return "hinge, in: child";
-      case OutputOf::rod:
-        return "tie";
-      case OutputOf::motion:
-        return "drive";
-      case OutputOf::gauge:
-        return "{body: arm, at: tip, toward: [0.3, 1, 0.5]}";
-    }
-    return "";
-  };
+  // In the order of OutputOf.
+  static const char* const references[] = {"{body: arm, at: tip}",
+                                           "{from: puck, to: {body: arm, at: tip}}",
+                                           "puck",
+                                           "loose, coordinate: 5",
+                                           "arm, mode: 2",
+                                           "coil",
+                                           "hinge, in: child",
+                                           "tie",
+                                           "drive",
+                                           "{body: arm, at: tip, toward: [0.3, 1, 0.5]}"};
+  static_assert(std::size(references) == index_of(OutputOf::gauge) + 1);
   const std::string word = output_type_name(type);
-  std::string what = reference();
+  std::string what = references[index_of(output_kind(type).of)];
   if (type == OutputType::joint_torque) what += ", about: {body: arm, at: tip}";
   if (type == OutputType::joint_force) what = "{rod: tie}, in: {body: arm}";
   if (type == OutputType::elastic_energy) what = "arm";
@@ -78,10 +65,7 @@ ResultTable sampled(const std::string& columns, Coordinates coordinates, double 
   ModelDescription d = description_of(moving + "outputs:\n" + columns);
   d.simulation.coordinates = coordinates;
   d.simulation.duration = duration;
-  const Model model = build_model(d);
-  const RunResult r = run(model, model.simulation);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
-  return r.table;
+  return completed_run(d).table;
 }
 
 TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {

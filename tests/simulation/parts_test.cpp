@@ -6,33 +6,21 @@
 #include <cmath>
 #include <map>
 
-#include "floatframe/fe/unit_system.hpp"
-#include "floatframe/formats/fe_file.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/reduction/part.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "simulation/figures.hpp"
+#include "support/descriptions.hpp"
+#include "support/fe_parts.hpp"
 #include "support/random_model.hpp"
 #include "support/trajectory_models.hpp"
 
 namespace floatframe::test {
 namespace {
 
-FeModel deck(const std::string& name, const std::string& units, const Material& material) {
-  FeReadOptions options;
-  options.material = material;
-  FeModel model = read_fe_file(std::string(FLOATFRAME_TEST_DATA) + "/fe/" + name, options);
-  to_si(model, *find_unit_system(units));
-  return model;
-}
-
-InterfaceDescription on_set(const std::string& name, const Vec3& at) {
-  InterfaceDescription i;
-  i.name = i.choice.set = name;
-  i.at = at;
-  return i;
+OutputDescription node_output(const std::string& body, const std::string& node, int axis) {
+  return make_output(fmt::format("{}.{}", node, axis), {body, Vec3::Zero(), node, {}}, axis);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -46,14 +34,14 @@ const ReducedPart& rod(BodyReference::Kind kind) {
   static std::map<BodyReference::Kind, ReducedPart> known;
   const auto it = known.find(kind);
   if (it != known.end()) return it->second;
-  FeModel model = deck("conrod_coarse_mesh.inp.gz", "mm-t-s", {210000.0, 0.3, 7.85e-9});
-  const InterfaceDescription small = on_set("SMALL_END", {0.14, 0.0, 0.0});
-  InterfaceDescription bore = small;  // the interface is the spider that holds the pin
-  bore.name = "pin";
-  const int pin = add_interface(model, bore);
+  FeModel model = steel_part("conrod_coarse_mesh.inp.gz", "mm-t-s");
+  const InterfaceDescription small = bore("SMALL_END", Vec3(0.14, 0.0, 0.0));
+  InterfaceDescription spider = small;  // the interface is the spider that holds the pin
+  spider.name = "pin";
+  const int pin = add_interface(model, spider);
   model.masses.push_back({pin, 0.2, Mat3::Zero()});
   PartOptions options;
-  options.interfaces = {on_set("BIG_END", Vec3::Zero()), small};
+  options.interfaces = {bore("BIG_END", Vec3::Zero()), small};
   options.modes = 6;
   options.reference.kind = kind;
   if (kind == BodyReference::Kind::node) options.reference.node = "BIG_END";
@@ -138,13 +126,8 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
   EXPECT_LT(residual, 1e-8) << "the frames share one space of shapes";
   ModelDescription d;
   d.gravity.setZero();
-  BodyDescription b;
-  b.name = "rod";
-  b.kind = part.body;
-  d.bodies.push_back(b);
-  JointDescription j;
-  j.name = "joint";
-  j.child.body = "rod";
+  d.bodies = {make_body("rod", part.body)};
+  JointDescription j = make_joint("joint", JointType::free, "ground", "rod");
   // The joint's displacement is that of the node at the origin, the big end; its rotation is the
   // frame's.
   const Vec3 v = flight + start.v + part.body.nodes.front().X * start.rates;
@@ -152,21 +135,12 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
   j.velocity = {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
   d.joints.push_back(j);
   d.amplitude_rates["rod"] = start.rates;
-  for (const char* node : {"BIG_END", "SMALL_END"}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      OutputDescription o;
-      o.name = fmt::format("{}.{}", node, axis);
-      o.at.body = "rod";
-      o.at.node = node;
-      o.component = axis;
-      d.outputs.push_back(o);
-    }
-  }
+  for (const char* node : {"BIG_END", "SMALL_END"})
+    for (int axis = 0; axis < 3; ++axis) d.outputs.push_back(node_output("rod", node, axis));
   const Model model = build_model(d);
   RelativeFormulation f(model, InertiaMethod::preprocessing);
-  StepOptions options;
-  options.tolerance = 1e-14;
-  options.penalty_mass = default_penalty_mass(model, Coordinates::relative);
+  const StepOptions options{.tolerance = 1e-14,
+                            .penalty_mass = default_penalty_mass(model, Coordinates::relative)};
   State s = relative_start(f, Start::given);
   start_accelerations(f, s, options.penalty_mass);
   evaluate_at(f, 0.0, s.q, s.v);
@@ -256,9 +230,10 @@ TEST(TumblingRod, EnergyAndMomentaDriftWithTheSquareOfTheStep) {
 
 double pendulum_deviation(double young, const std::string& reference, BodyReference::Kind kind,
                           bool stiffening = false) {
-  FeModel model = deck("pend_c3d20r_mesh.inp.gz", "m-kg-s", {young, 0.3, 7850.0});
+  FeModel model = steel_part("pend_c3d20r_mesh.inp.gz", "m-kg-s");
+  model.materials[0].young = young;
   PartOptions options;
-  options.interfaces = {on_set("END_A", Vec3::Zero()), on_set("END_B", {1.0, 0.0, 0.0})};
+  options.interfaces = {bore("END_A", Vec3::Zero()), bore("END_B", Vec3(1.0, 0.0, 0.0))};
   MarkerDescription middle;
   middle.name = middle.choice.set = "MID";
   options.markers = {middle};
@@ -268,35 +243,19 @@ double pendulum_deviation(double young, const std::string& reference, BodyRefere
   options.check_free_modes = options.stresses = false;
 
   ModelDescription d;
-  BodyDescription b;
-  b.name = "beam";
-  b.kind = reduce_part(std::move(model), options).body;
-  d.bodies.push_back(b);
-  JointDescription j;
-  j.name = "hinge";
-  j.type = JointType::revolute;
-  j.axis = Vec3::UnitY();
-  j.child.body = "beam";
-  j.child.node = "END_A";
-  d.joints.push_back(j);
-  for (const char* node : {"END_B", "MID"}) {
-    for (const int axis : {0, 2}) {
-      OutputDescription o;
-      o.name = fmt::format("{}.{}", node, axis);
-      o.at.body = "beam";
-      o.at.node = node;
-      o.component = axis;
-      d.outputs.push_back(o);
-    }
-  }
+  d.bodies = {make_body("beam", reduce_part(std::move(model), options).body)};
+  d.joints = {
+      make_joint("hinge", JointType::revolute, "ground", "beam", Vec3::Zero(), Vec3::UnitY())};
+  d.joints[0].child.node = "END_A";
+  for (const char* node : {"END_B", "MID"})
+    for (const int axis : {0, 2}) d.outputs.push_back(node_output("beam", node, axis));
   d.simulation.geometric_stiffening = stiffening;
   d.simulation.step = 5e-4;
   d.simulation.duration = 1.0;
   d.simulation.output_interval = 0.01;
-  const RunResult r = run(build_model(d), d.simulation);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
-  const testing::Csv csv =
-      testing::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/fe/" + reference);
+  const RunResult r = completed_run(d);
+  const trajectories::Csv csv =
+      trajectories::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/fe/" + reference);
   double worst = 0.0;
   for (std::size_t i = 0; i < csv.rows.size() && i + 1 < r.table.rows(); ++i) {
     EXPECT_NEAR(csv.rows[i][0], r.table.at(i + 1, 0), 1e-9);

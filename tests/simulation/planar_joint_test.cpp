@@ -2,61 +2,44 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/model/model.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
 
-namespace floatframe {
+namespace floatframe::test {
 namespace {
 
 ModelDescription puck(bool reversed) {
   ModelDescription d;
   d.name = "puck";
   d.gravity = Vec3(0.0, 0.0, -9.81);
-  RigidDescription rigid;
-  rigid.mass = 1.7;
-  rigid.J_C = Vec3(0.03, 0.03, 0.05).asDiagonal();
+  const Mat3 J = Vec3(0.03, 0.03, 0.05).asDiagonal();
   // The plane is a body that is welded to the ground, so that the joint can be met from either
   // side.
-  for (const char* name : {"table", "puck"}) {
-    BodyDescription b;
-    b.name = name;
-    b.kind = rigid;
-    d.bodies.push_back(b);
-  }
-  JointDescription weld, plane;
-  weld.name = "weld";
-  weld.type = JointType::weld;
-  weld.child.body = reversed ? "puck" : "table";
-  plane.name = "plane";
-  plane.type = JointType::planar;
-  plane.parent.body = "table";
-  plane.child.body = "puck";
-  plane.axis = Vec3(0.2, -0.1, 1.0);
+  for (const char* name : {"table", "puck"})
+    d.bodies.push_back(make_body(name, RigidDescription{1.7, Vec3::Zero(), J}));
+  JointDescription plane =
+      make_joint("plane", JointType::planar, "table", "puck", Vec3::Zero(), Vec3(0.2, -0.1, 1.0));
   plane.axis_2 = Vec3(1.0, 0.3, 0.4);
   plane.position = {0.1, -0.2, 0.4};
   plane.velocity = {0.5, 0.3, 2.0};
-  d.joints = {weld, plane};
-  for (int k = 0; k < 3; ++k)
-    for (const OutputType type : {OutputType::joint_position, OutputType::joint_velocity}) {
-      OutputDescription o;
-      o.name = (type == OutputType::joint_position ? "q" : "v") + std::to_string(k);
-      o.type = type;
-      o.entity = "plane";
-      o.component = k;
-      d.outputs.push_back(o);
-    }
+  d.joints = {make_joint("weld", JointType::weld, "ground", reversed ? "puck" : "table"), plane};
+  for (int k = 0; k < 3; ++k) {
+    const std::string number = std::to_string(k);
+    d.outputs.push_back(make_output("q" + number, OutputType::joint_position, "plane", k));
+    d.outputs.push_back(make_output("v" + number, OutputType::joint_velocity, "plane", k));
+  }
   d.simulation.step = 1e-3;
   d.simulation.duration = 0.5;
   return d;
 }
 
 TEST(PlanarJoint, PuckOnAnInclinedPlane) {
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     ModelDescription d = puck(false);
     d.simulation.coordinates = coordinates;
     const Model m = build_model(d);
     EXPECT_EQ(m.outputs[0].unit + " " + m.outputs[1].unit + " " + m.outputs[4].unit, "m m/s rad");
-    const RunResult r = run(m, m.simulation);
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(m, m.simulation);
     const Vec3 z = d.joints[1].axis.normalized();
     const Vec3 e1 = (d.joints[1].axis_2 - z.dot(d.joints[1].axis_2) * z).normalized();
     const Vec3 e2 = z.cross(e1);
@@ -77,10 +60,8 @@ TEST(PlanarJoint, MetFromTheChild) {
   RunResult results[2];
   for (int k = 0; k < 2; ++k) {
     ModelDescription d = puck(true);
-    d.simulation.coordinates = k == 0 ? Coordinates::relative : Coordinates::absolute;
-    const Model m = build_model(d);
-    results[k] = run(m, m.simulation);
-    ASSERT_EQ(results[k].summary.status, "completed") << results[k].summary.message;
+    d.simulation.coordinates = both_coordinates[k];
+    results[k] = completed_run(d);
   }
   const std::size_t last = results[0].table.rows() - 1;
   for (std::size_t c = 1; c <= 6; ++c) {
@@ -94,4 +75,4 @@ TEST(PlanarJoint, MetFromTheChild) {
 }
 
 }  // namespace
-}  // namespace floatframe
+}  // namespace floatframe::test

@@ -72,7 +72,7 @@ TEST(ProgramMisuse, StepsThatAreTooSmall) {
   Simulation s(model);
   for (const double h : {1e-300, 1e-160, 1e-20, 1e-14}) {
     EXPECT_EQ(s.step(h).status, StepStatus::invalid_step);
-    EXPECT_NE(s.failure().find("expected a positive number [s] of at least"), std::string::npos);
+    EXPECT_TRUE(contains(s.failure(), "expected a positive number [s] of at least"));
   }
   EXPECT_TRUE(s.step());
   EXPECT_TRUE(s.step(1e-6));

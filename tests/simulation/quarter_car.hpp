@@ -3,7 +3,6 @@
 // that a rule of fourth order integrates from edge to edge.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 

@@ -7,6 +7,7 @@
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/coordinates.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -42,10 +43,10 @@ class RangeOfParts : public ::testing::Test {
 };
 
 TEST_F(RangeOfParts, SurfaceBetweenMarkersThatStandStill) {
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     const std::string sentence = far(0.4, c);
-    EXPECT_NE(sentence.find("s the surface point at ("), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find(" m is displaced by 0.436 m ("), std::string::npos) << sentence;
+    EXPECT_TRUE(contains(sentence, "s the surface point at ("));
+    EXPECT_TRUE(contains(sentence, " m is displaced by 0.436 m ("));
     EXPECT_EQ(far(0.04, c), "");
   }
 }

@@ -5,12 +5,11 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <sstream>
 
 #include "floatframe/math/so3.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/figures.hpp"
+#include "support/descriptions.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -68,11 +67,9 @@ outputs:
   r: {rotation: bob}
 simulation: {step: 0.001, duration: 5, output_interval: 0.1}
 )");
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     d.simulation.coordinates = c;
-    const Model model = build_model(d);
-    const RunResult run_of = run(model, model.simulation);
-    ASSERT_EQ(run_of.summary.status, "completed") << run_of.summary.message;
+    const RunResult run_of = completed_run(d);
     const ResultTable& t = run_of.table;
     const auto& q0 = rows.front();
     const Mat3 R0 =
@@ -125,58 +122,33 @@ INSTANTIATE_TEST_SUITE_P(
 
 // -- the slider-crank
 
-/// p (crank and rod angle, slider), q (2 bending, 2 axial), their rates and accelerations, lambda.
-using CrankState = std::array<double, 24>;
+struct CrankState {
+  std::array<double, 3> p;  ///< crank and rod angle, slider
+  std::array<double, 4> q;  ///< 2 bending, 2 axial
+  std::array<double, 3> p_rate;
+  std::array<double, 4> q_rate;
+  std::array<double, 3> p_acceleration;
+  std::array<double, 4> q_acceleration;
+  std::array<double, 3> lambda;
+};
 
-constexpr CrankState crank_start = {0,
-                                    0,
-                                    0.450016933,
-                                    0,
-                                    0,
-                                    1.03339863e-05,
-                                    1.69327969e-05,
-                                    150.0,
-                                    -74.99576703969453,
-                                    -2.68938671997904e-06,
-                                    0.444896112581599,
-                                    0.00463433931923867,
-                                    -1.78591076000055e-06,
-                                    -2.68938671997904e-06,
-                                    0,
-                                    -0.001344541576709835,
-                                    -5062.194924490193,
-                                    -6.82972566598631e-05,
-                                    1.813207639590617e-20,
-                                    -4.268463266810281,
-                                    0.2098339029337557,
-                                    -6.552727150584648e-08,
-                                    382.4589509350831,
-                                    -4.635908708561371e-09};
+constexpr CrankState crank_start = {
+    {0, 0, 0.450016933},
+    {0, 0, 1.03339863e-05, 1.69327969e-05},
+    {150.0, -74.99576703969453, -2.68938671997904e-06},
+    {0.444896112581599, 0.00463433931923867, -1.78591076000055e-06, -2.68938671997904e-06},
+    {0, -0.001344541576709835, -5062.194924490193},
+    {-6.82972566598631e-05, 1.813207639590617e-20, -4.268463266810281, 0.2098339029337557},
+    {-6.552727150584648e-08, 382.4589509350831, -4.635908708561371e-09}};
 /// At t = 0.1.
-constexpr CrankState crank_end = {15.00000000000104,
-                                  -0.331173498825626,
-                                  0.169737332842786,
-                                  0.0001893192899613509,
-                                  2.375751249879174e-05,
-                                  -5.323896770569702e-06,
-                                  -8.363313279112129e-06,
-                                  150.0,
-                                  60.25346755138369,
-                                  -8.753116326670527,
-                                  -0.03005541400289738,
-                                  -0.005500431812571696,
-                                  0.0004974111734266989,
-                                  0.001105560003626645,
-                                  0.0,
-                                  6488.737541276957,
-                                  2167.938629509884,
-                                  33.91137060286523,
-                                  0.1715134772216488,
-                                  -1.422449408912512,
-                                  1.00394642812481,
-                                  -62.32935833287916,
-                                  -163.7920993367306,
-                                  25.29857947066878};
+constexpr CrankState crank_end = {
+    {15.00000000000104, -0.331173498825626, 0.169737332842786},
+    {0.0001893192899613509, 2.375751249879174e-05, -5.323896770569702e-06, -8.363313279112129e-06},
+    {150.0, 60.25346755138369, -8.753116326670527},
+    {-0.03005541400289738, -0.005500431812571696, 0.0004974111734266989, 0.001105560003626645},
+    {0.0, 6488.737541276957, 2167.938629509884},
+    {33.91137060286523, 0.1715134772216488, -1.422449408912512, 1.00394642812481},
+    {-62.32935833287916, -163.7920993367306, 25.29857947066878}};
 
 /// The start of the benchmark is rounded: its slider is so far beyond the tip of the rod, and stays
 /// there, since its loop is closed by accelerations [m].
@@ -235,11 +207,11 @@ bodies:
 joints:
   drive: {type: revolute, child: crank, at: [0, 0, 0], axis: z,
           motion: {piecewise: [{polynomial: [)"
-       << x[0] << R"(, 150]}]}}
+       << x.p[0] << R"(, 150]}]}}
   pin: {type: revolute, parent: crank, child: rod, at: [0.15, 0, 0], axis: z, position: )"
-       << x[1] - x[0] << ", velocity: " << x[8] - x[7] << R"(}
+       << x.p[1] - x.p[0] << ", velocity: " << x.p_rate[1] - x.p_rate[0] << R"(}
   guide: {type: prismatic, child: slider, at: [0.45, 0, 0], axis: x, position: )"
-       << x[2] - crank_gap - 0.45 << ", velocity: " << x[9] << R"(}
+       << x.p[2] - crank_gap - 0.45 << ", velocity: " << x.p_rate[2] << R"(}
   tip: {type: revolute, parent: rod, child: slider, at: [0.45, 0, 0], axis: z}
 outputs:
   rod: {rotation: rod, angle: yaw}
@@ -255,16 +227,12 @@ simulation: {step: 1.0e-5, duration: 0, tolerance: 1.0e-12}
   d.bodies[1].kind = crank_rod();
   d.joints[1].child.node = "pin";
   d.joints[3].parent.node = "tip";
-  d.amplitudes["rod"] = Eigen::Map<const VecX>(x.data() + 3, 4);
-  d.amplitude_rates["rod"] = Eigen::Map<const VecX>(x.data() + 10, 4);
+  d.amplitudes["rod"] = Eigen::Map<const VecX>(x.q.data(), 4);
+  d.amplitude_rates["rod"] = Eigen::Map<const VecX>(x.q_rate.data(), 4);
   for (const OutputType type : {OutputType::modal_amplitude, OutputType::modal_acceleration})
     for (int k = 0; k < 4; ++k) {
-      OutputDescription o;
-      o.name = (type == OutputType::modal_amplitude ? "q" : "qdd") + std::to_string(k + 1);
-      o.type = type;
-      o.at.body = "rod";
-      o.component = k;
-      d.outputs.push_back(o);
+      const char* name = type == OutputType::modal_amplitude ? "q" : "qdd";
+      d.outputs.push_back(make_output(name + std::to_string(k + 1), place_on("rod"), k, type));
     }
   return d;
 }
@@ -274,31 +242,28 @@ simulation: {step: 1.0e-5, duration: 0, tolerance: 1.0e-12}
 /// -lambda2 in x, the motor turns the crank by -lambda3.
 void expect_multipliers(const ResultTable& t, std::size_t row, const CrankState& x,
                         const std::string& who) {
-  const auto of = [&](const std::string& name) { return t.at(row, column(t, name)); };
+  const auto of = [&](const std::string& name) { return entry(t, row, name); };
   const double lambda[] = {-of("F.y"), -of("tip.x"), -of("motor")};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double error = std::abs(lambda[k] - x[21 + k]) / std::max(1.0, std::abs(x[21 + k]));
+    const double error = std::abs(lambda[k] - x.lambda[k]) / std::max(1.0, std::abs(x.lambda[k]));
     figure(who + ", multiplier " + std::to_string(k + 1) + ", relative error", error);
     EXPECT_LT(error, 1e-5) << who << " " << k;
   }
 }
 
 TEST(SliderCrankBenchmark, MultipliersAndAccelerationsAtItsStates) {
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute})
+  for (const Coordinates c : both_coordinates)
     for (const CrankState* x : {&crank_start, &crank_end}) {
       ModelDescription d = crank_model(*x);
       d.simulation.coordinates = c;
-      const Model model = build_model(d);
-      const RunResult r = run(model, model.simulation);
-      ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
-      const std::string who = std::string(c == Coordinates::relative ? "relative" : "absolute") +
-                              (x == &crank_start ? ", start" : ", end");
+      const RunResult r = completed_run(d);
+      const std::string who = name_of(c) + (x == &crank_start ? ", start" : ", end");
       expect_multipliers(r.table, 0, *x, who);
-      const auto of = [&](const std::string& name) { return r.table.at(0, column(r.table, name)); };
-      EXPECT_NEAR(of("alpha"), (*x)[15], 1e-5 * 6489);
-      EXPECT_NEAR(of("a3"), (*x)[16], 1e-5 * 5062);
+      const auto of = [&](const std::string& name) { return entry(r.table, 0, name); };
+      EXPECT_NEAR(of("alpha"), x->p_acceleration[1], 1e-5 * 6489);
+      EXPECT_NEAR(of("a3"), x->p_acceleration[2], 1e-5 * 5062);
       for (std::size_t k = 0; k < 4; ++k)
-        EXPECT_NEAR(of("qdd" + std::to_string(k + 1)), (*x)[17 + k], 1e-4 * 34) << who << k;
+        EXPECT_NEAR(of("qdd" + std::to_string(k + 1)), x->q_acceleration[k], 1e-4 * 34) << who << k;
     }
 }
 
@@ -308,10 +273,7 @@ ResultTable crank_run(Coordinates coordinates, double step) {
   d.simulation.duration = 0.1;
   d.simulation.output_interval = 0.1;
   d.simulation.step = step;
-  const Model model = build_model(d);
-  RunResult r = run(model, model.simulation);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
-  return std::move(r.table);
+  return completed_run(d).table;
 }
 
 // The whole run, extrapolated from two steps of a method of second order. The axial modes (2e4
@@ -321,15 +283,15 @@ TEST(SliderCrankBenchmark, MultipliersAtTheEndOfARun) {
   ResultTable t = crank_run(Coordinates::relative, 0.625e-6);
   for (std::size_t k = 1; k < t.columns.size(); ++k)
     t.data[t.columns.size() + k] = (4.0 * t.at(1, k) - coarse.at(1, k)) / 3.0;
-  const auto of = [&](const std::string& name) { return t.at(1, column(t, name)); };
-  figure("rod angle", std::abs(of("rod") - crank_end[1]));
-  figure("slider", std::abs(of("x3") + crank_gap - crank_end[2]));
-  EXPECT_NEAR(of("rod"), crank_end[1], 1e-8 * 0.33);
-  EXPECT_NEAR(of("x3") + crank_gap, crank_end[2], 1e-8 * 0.17);
+  const auto of = [&](const std::string& name) { return entry(t, 1, name); };
+  figure("rod angle", std::abs(of("rod") - crank_end.p[1]));
+  figure("slider", std::abs(of("x3") + crank_gap - crank_end.p[2]));
+  EXPECT_NEAR(of("rod"), crank_end.p[1], 1e-8 * 0.33);
+  EXPECT_NEAR(of("x3") + crank_gap, crank_end.p[2], 1e-8 * 0.17);
   for (std::size_t k = 0; k < 4; ++k) {
     const std::string name = "q" + std::to_string(k + 1);
-    figure(name, std::abs(of(name) / crank_end[3 + k] - 1.0));
-    EXPECT_NEAR(of(name), crank_end[3 + k], 1e-4 * std::abs(crank_end[3 + k])) << name;
+    figure(name, std::abs(of(name) / crank_end.q[k] - 1.0));
+    EXPECT_NEAR(of(name), crank_end.q[k], 1e-4 * std::abs(crank_end.q[k])) << name;
   }
   expect_multipliers(t, 1, crank_end, "run");
 }

@@ -6,10 +6,11 @@
 
 #include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/reaction_solver.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
+#include "simulation/figures.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/body_balance.hpp"
+#include "support/descriptions.hpp"
 #include "support/model_text.hpp"
 #include "support/random_mechanism.hpp"
 
@@ -17,21 +18,10 @@ namespace floatframe::test {
 namespace {
 
 RunResult reaction_run(const Model& model, Coordinates coordinates) {
-  SimulationDescription o = model.simulation;
-  o.coordinates = coordinates;
-  const RunResult r = run(model, o);
-  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  const SimulationDescription o = with(model.simulation, coordinates);
+  const RunResult r = completed_run(model, o);
   return r;
 }
-
-double reaction_cell(const ResultTable& t, std::size_t row, const std::string& name) {
-  for (std::size_t k = 0; k < t.columns.size(); ++k)
-    if (t.columns[k].name == name) return t.at(row, k);
-  ADD_FAILURE() << name;
-  return 0.0;
-}
-
-constexpr Coordinates each_of_both[] = {Coordinates::relative, Coordinates::absolute};
 
 // A rod of mass m and inertia I about its centre at the distance l from the hinge, at the angle p
 // below the x axis, rate w, moves about y: (I + m l^2) wdot = m g l cos p.
@@ -55,30 +45,29 @@ outputs:
 simulation: {step: 0.001, duration: 0.2, output_interval: 0.02}
 )");
   const double m = 3.0, I = 0.4, l = 2.0, g = 9.81;
-  for (const Coordinates c : each_of_both) {
+  for (const Coordinates c : both_coordinates) {
     const ResultTable t = reaction_run(model, c).table;
     ASSERT_EQ(t.rows(), 11u);
     for (std::size_t i = 0; i < t.rows(); ++i) {
-      const double p = reaction_cell(t, i, "p"), w = reaction_cell(t, i, "w"), tol = 1e-9;
+      const double p = entry(t, i, "p"), w = entry(t, i, "w"), tol = 1e-9;
       const double wdot = m * g * l * std::cos(p) / (I + m * l * l);
       const double along = -m * l * w * w - m * g * std::sin(p);  // on the rod, outwards
       const double across = -m * l * wdot + m * g * std::cos(p);  // its own z axis
-      EXPECT_NEAR(reaction_cell(t, i, "wdot"), wdot, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "along"), along, 60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "across"), across, 60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "F.x"), along * std::cos(p) + across * std::sin(p), 60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "F.z"), -along * std::sin(p) + across * std::cos(p),
-                  60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "F.y"), 0.0, tol);
+      EXPECT_NEAR(entry(t, i, "wdot"), wdot, tol);
+      EXPECT_NEAR(entry(t, i, "along"), along, 60 * tol);
+      EXPECT_NEAR(entry(t, i, "across"), across, 60 * tol);
+      EXPECT_NEAR(entry(t, i, "F.x"), along * std::cos(p) + across * std::sin(p), 60 * tol);
+      EXPECT_NEAR(entry(t, i, "F.z"), -along * std::sin(p) + across * std::cos(p), 60 * tol);
+      EXPECT_NEAR(entry(t, i, "F.y"), 0.0, tol);
       for (const char* axis : {"T.x", "T.y", "T.z"})
-        EXPECT_NEAR(reaction_cell(t, i, axis), 0.0, 60 * tol) << axis;
+        EXPECT_NEAR(entry(t, i, axis), 0.0, 60 * tol) << axis;
       // Joint frames: z along the axis.
-      EXPECT_NEAR(reaction_cell(t, i, "in_child"), 0.0, 60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "in_parent"), 0.0, 60 * tol);
+      EXPECT_NEAR(entry(t, i, "in_child"), 0.0, 60 * tol);
+      EXPECT_NEAR(entry(t, i, "in_parent"), 0.0, 60 * tol);
       // The moment of the force about the centre turns the rod.
-      EXPECT_NEAR(reaction_cell(t, i, "centre"), I * wdot, 60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "kinetic"), 0.5 * (I + m * l * l) * w * w, 60 * tol);
-      EXPECT_NEAR(reaction_cell(t, i, "potential"), -m * g * l * std::sin(p), 60 * tol);
+      EXPECT_NEAR(entry(t, i, "centre"), I * wdot, 60 * tol);
+      EXPECT_NEAR(entry(t, i, "kinetic"), 0.5 * (I + m * l * l) * w * w, 60 * tol);
+      EXPECT_NEAR(entry(t, i, "potential"), -m * g * l * std::sin(p), 60 * tol);
     }
   }
 }
@@ -108,20 +97,20 @@ outputs:
   moment: {joint_torque: {rod: tie}, about: {body: ground, at: [0, 0, 0]}, axis: y}
 simulation: {step: 0.01, duration: 0.3, output_interval: 0.1}
 )");
-  for (const Coordinates c : each_of_both) {
+  for (const Coordinates c : both_coordinates) {
     const ResultTable t = reaction_run(model, c).table;
     for (std::size_t i = 0; i < t.rows(); ++i) {
       const double time = t.at(i, 0), tol = 1e-7;
-      EXPECT_NEAR(reaction_cell(t, i, "push"), 4 * 12 * time, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "push_power"), 4 * 12 * time * (0.3 + 6 * time * time), tol);
-      EXPECT_NEAR(reaction_cell(t, i, "turn"), 0.5 * 3, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "turn_power"), 1.5 * (1 + 3 * time), tol);
-      EXPECT_NEAR(reaction_cell(t, i, "slide.x"), 4 * 12 * time, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "slide.z"), 4 * 9.81, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "tie"), 2 * 9.81, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "hang.z"), 2 * 9.81, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "hang.x"), 0.0, tol);
-      EXPECT_NEAR(reaction_cell(t, i, "moment"), -2 * 9.81, tol);
+      EXPECT_NEAR(entry(t, i, "push"), 4 * 12 * time, tol);
+      EXPECT_NEAR(entry(t, i, "push_power"), 4 * 12 * time * (0.3 + 6 * time * time), tol);
+      EXPECT_NEAR(entry(t, i, "turn"), 0.5 * 3, tol);
+      EXPECT_NEAR(entry(t, i, "turn_power"), 1.5 * (1 + 3 * time), tol);
+      EXPECT_NEAR(entry(t, i, "slide.x"), 4 * 12 * time, tol);
+      EXPECT_NEAR(entry(t, i, "slide.z"), 4 * 9.81, tol);
+      EXPECT_NEAR(entry(t, i, "tie"), 2 * 9.81, tol);
+      EXPECT_NEAR(entry(t, i, "hang.z"), 2 * 9.81, tol);
+      EXPECT_NEAR(entry(t, i, "hang.x"), 0.0, tol);
+      EXPECT_NEAR(entry(t, i, "moment"), -2 * 9.81, tol);
     }
   }
 }
@@ -206,12 +195,12 @@ outputs:
   one_torque: {joint_torque: weld_1, axis: y}
 simulation: {step: 0.01, duration: 0.02}
 )");
-  for (const Coordinates c : each_of_both) {
+  for (const Coordinates c : both_coordinates) {
     const RunResult r = reaction_run(model, c);
     for (std::size_t i = 0; i < r.table.rows(); ++i) {
-      EXPECT_NEAR(reaction_cell(r.table, i, "one"), 49.05, 1e-7);
-      EXPECT_NEAR(reaction_cell(r.table, i, "two"), 49.05, 1e-7);
-      EXPECT_NEAR(reaction_cell(r.table, i, "one_torque"), 0.0, 1e-7);
+      EXPECT_NEAR(entry(r.table, i, "one"), 49.05, 1e-7);
+      EXPECT_NEAR(entry(r.table, i, "two"), 49.05, 1e-7);
+      EXPECT_NEAR(entry(r.table, i, "one_torque"), 0.0, 1e-7);
     }
     ASSERT_EQ(r.summary.start.notes.size(), 2u);
     EXPECT_EQ(r.summary.start.notes[1],
@@ -235,16 +224,14 @@ outputs:
 simulation: {step: 0.01, duration: 0}
 )");
   const StaticsResult s = statics(model);
-  for (const Coordinates c : each_of_both) {
+  for (const Coordinates c : both_coordinates) {
     const RunResult r = reaction_run(model, c);
     const char* const axes[] = {".x", ".y", ".z"};
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(reaction_cell(r.table, 0, std::string("low") + axes[k]), s.joints[0].force[k],
+      EXPECT_NEAR(entry(r.table, 0, std::string("low") + axes[k]), s.joints[0].force[k], 1e-7);
+      EXPECT_NEAR(entry(r.table, 0, std::string("high") + axes[k]), s.joints[1].force[k], 1e-7);
+      EXPECT_NEAR(entry(r.table, 0, std::string("low_torque") + axes[k]), s.joints[0].torque[k],
                   1e-7);
-      EXPECT_NEAR(reaction_cell(r.table, 0, std::string("high") + axes[k]), s.joints[1].force[k],
-                  1e-7);
-      EXPECT_NEAR(reaction_cell(r.table, 0, std::string("low_torque") + axes[k]),
-                  s.joints[0].torque[k], 1e-7);
     }
     // The torque about the line of the hinges is zero, whatever the shares.
     ASSERT_EQ(r.summary.start.notes.size(), 2u);
@@ -335,15 +322,10 @@ TEST(Reactions, ImpulsesOfTheProjectionsAreTheChangeOfMomentum) {
 TEST(Reactions, OfTheProjectionsAreAnOutputOfTheirOwn) {
   ModelDescription d = description_of(spatial_linkage);
   d.outputs.clear();
-  for (const JointDescription& j : d.joints) {
-    OutputDescription o;
-    o.name = j.name;
-    o.type = OutputType::projection_impulse;
-    o.entity = j.name;
-    d.outputs.push_back(o);
-  }
+  for (const JointDescription& j : d.joints)
+    d.outputs.push_back(make_output(j.name, OutputType::projection_impulse, j.name));
   d.simulation.duration = 0.2;
-  for (const Coordinates c : each_of_both) {
+  for (const Coordinates c : both_coordinates) {
     const ResultTable t = reaction_run(build_model(d), c).table;
     std::size_t moved = 0;
     for (std::size_t column = 1; column < t.columns.size(); ++column) {
@@ -361,24 +343,19 @@ TEST(Reactions, OfTheProjectionsAreAnOutputOfTheirOwn) {
 // Whether reactions are looked at or not, the steps are the same.
 TEST(Reactions, LeaveTheStepsAlone) {
   ModelDescription d = description_of(spatial_linkage);
-  for (const Coordinates c : each_of_both) {
+  for (const Coordinates c : both_coordinates) {
     d.simulation.coordinates = c;
     d.simulation.duration = 0.1;
     const Model with = build_model(d);
     ModelDescription plain = d;
-    plain.outputs.clear();
-    OutputDescription o;
-    o.name = "x";
-    o.type = OutputType::position;
-    o.at.body = "top";
-    plain.outputs.push_back(o);
+    const OutputDescription o = make_output("x", place_on("top"), 0);
+    plain.outputs = {o};
     ModelDescription more = d;
     more.outputs.push_back(o);
     const ResultTable a = reaction_run(build_model(plain), c).table,
                       b = reaction_run(build_model(more), c).table;
     ASSERT_EQ(a.rows(), b.rows());
-    for (std::size_t i = 0; i < a.rows(); ++i)
-      EXPECT_EQ(reaction_cell(a, i, "x"), reaction_cell(b, i, "x"));
+    for (std::size_t i = 0; i < a.rows(); ++i) EXPECT_EQ(entry(a, i, "x"), entry(b, i, "x"));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/coordinates.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -50,9 +51,8 @@ TEST(Redundancy, IsNamedByCheckAndRun) {
   const ModelCounts c = check(model);
   EXPECT_EQ(c.redundant_constraints, 6);
   EXPECT_EQ(c.start.redundant.size(), 6u);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationDescription o = model.simulation;
-    o.coordinates = coordinates;
+  for (const Coordinates coordinates : both_coordinates) {
+    const SimulationDescription o = with(model.simulation, coordinates);
     const RunSummary s = run(model, o).summary;
     EXPECT_EQ(s.status, "completed");
     EXPECT_EQ(s.start.redundant.size(), 6u);

@@ -19,10 +19,9 @@ constexpr double step = 0.01;
 constexpr long steps = 800;
 
 StepOptions options_of(const Model& model) {
-  StepOptions o;
-  o.spectral_radius = model.simulation.spectral_radius;
-  o.tolerance = model.simulation.tolerance;
-  o.penalty_mass = default_penalty_mass(model, Coordinates::relative);
+  const StepOptions o{.spectral_radius = model.simulation.spectral_radius,
+                      .tolerance = model.simulation.tolerance,
+                      .penalty_mass = default_penalty_mass(model, Coordinates::relative)};
   return o;
 }
 

@@ -10,7 +10,6 @@
 #include "floatframe/model/road_spectrum.hpp"
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/figures.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"

@@ -5,6 +5,7 @@
 #include "floatframe/simulation/state_layout.hpp"
 #include "simulation/stepping_models.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/coordinates.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe::test {
@@ -197,8 +198,7 @@ outputs: {t: {position: {body: beam, node: tip}}}
 gravity: [0, 0, 0]
 simulation: {step: 1.0e-3, duration: 0.1}
 )");
-  SimulationDescription o = model.simulation;
-  o.coordinates = GetParam();
+  const SimulationDescription o = with(model.simulation, GetParam());
   Health h;
   const ResultTable table = run(model, o).table;
   run(model, o, keeping_health(h));
@@ -216,8 +216,7 @@ simulation: {step: 1.0e-3, duration: 0.1}
   EXPECT_GT(most, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RunStates,
-                         ::testing::Values(Coordinates::relative, Coordinates::absolute));
+INSTANTIATE_TEST_SUITE_P(All, RunStates, ::testing::ValuesIn(both_coordinates));
 
 }  // namespace
 }  // namespace floatframe::test

@@ -7,9 +7,9 @@
 #include "floatframe/core/output_error.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/summary_json.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/stepping_models.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/completed_run.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe::test {
@@ -71,8 +71,7 @@ TEST_P(RunStream, ResumedRunsGoOnWithEqualBits) {
   const SimulationDescription o = streamed_options(GetParam());
   RunOptions plain;
   plain.keep_state = true;
-  const RunResult whole = run(streamed_model(), o, plain);
-  ASSERT_EQ(whole.summary.status, "completed") << whole.summary.message;
+  const RunResult whole = completed_run(streamed_model(), o, plain);
   if (GetParam().substeps) {
     EXPECT_GT(whole.summary.substeps, 0);
   }
@@ -170,9 +169,7 @@ TEST(RunStream, WhatCannotBeWrittenEndsTheRun) {
   RunResult r = run(streamed_model(), streamed_model().simulation, options);
   EXPECT_EQ(r.summary.status, "failed");
   EXPECT_EQ(r.summary.message.substr(0, 7), "at t = ");
-  EXPECT_NE(r.summary.message.find(" s the file 'x' cannot be written: No space"),
-            std::string::npos)
-      << r.summary.message;
+  EXPECT_TRUE(contains(r.summary.message, " s the file 'x' cannot be written: No space"));
   EXPECT_EQ(calls, 2);
 
   std::vector<double> rows;

@@ -63,8 +63,7 @@ simulation: {duration: 0}
 /// Accelerations at the start.
 std::vector<double> scaled_start(const char* text, const std::string& scale, const Combination& c) {
   const Model model = model_of("parameters: {s: " + scale + "}" + text);
-  const RunResult r = run_of(model, c);
-  EXPECT_EQ(r.summary.status, "completed") << scale << ' ' << c.name() << ": " << r.summary.message;
+  const RunResult r = completed_run(model, c);
   std::vector<double> a;
   for (std::size_t k = 1; k < r.table.columns.size(); ++k) a.push_back(r.table.at(0, k));
   return a;

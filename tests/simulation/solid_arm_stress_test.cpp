@@ -3,11 +3,11 @@
 #include <cstdlib>
 
 #include "floatframe/formulation/relative.hpp"
-#include "floatframe/math/so3.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_view.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 #include "simulation/iltis.hpp"
+#include "support/coordinates.hpp"
 #include "support/fe_parts.hpp"
 #include "support/stressed_part.hpp"
 
@@ -38,8 +38,7 @@ struct Instant {
 };
 
 Instant hardest_moment(const Model& model, int body, const BodyStress& stress) {
-  SimulationDescription options = model.simulation;
-  options.coordinates = Coordinates::relative;
+  const SimulationDescription options = with(model.simulation, Coordinates::relative);
   SteppedModel<RelativeFormulation> steps(model, options, {.duration = 8.0});
   std::vector<double> row(model.outputs.size() + 1);
   Instant found;

@@ -53,8 +53,7 @@ outputs:
 simulation: {step: 0.001, duration: 0.2}
 )");
   for (const Combination& c : combinations) {
-    const RunResult r = run_of(model, c);
-    ASSERT_EQ(r.summary.status, "completed") << c.name();
+    const RunResult r = completed_run(model, c);
     for (const std::size_t row : {std::size_t{0}, r.table.rows() - 1}) {
       const double t = r.table.at(row, 0), angle = 0.3 + 2 * t + 1.5 * t * t, w = 2 + 3 * t;
       const double s = std::sin(angle), k = std::cos(angle);
@@ -91,8 +90,7 @@ outputs: {a: {acceleration: coupler}}
 simulation: {step: 0.001, duration: 0.1}
 )");
   for (const Combination& c : combinations) {
-    const RunResult r = run_of(model, c);
-    ASSERT_EQ(r.summary.status, "completed") << c.name();
+    const RunResult r = completed_run(model, c);
     const std::size_t last = r.table.rows() - 1;
     for (const std::size_t row : {std::size_t{0}, last}) {
       const double t = r.table.at(row, 0), angle = 2 * t + t * t, w = 2 + 2 * t;
@@ -113,8 +111,7 @@ outputs: {end: {acceleration: {body: lever, at: [0.6, 0, 0]}}, angle: {joint_pos
 simulation: {step: 1e-5, duration: 1e-3}
 )");
   for (const Combination& c : combinations) {
-    const RunResult r = run_of(model, c);
-    ASSERT_EQ(r.summary.status, "completed") << c.name() << r.summary.message;
+    const RunResult r = completed_run(model, c);
     EXPECT_NEAR(r.table.at(0, column(r.table, "end.z")), -0.6 * 2e7, 1.0) << c.name();
     EXPECT_NEAR(r.table.at(r.table.rows() - 1, column(r.table, "angle")), 10.0, 1e-6) << c.name();
   }
@@ -136,8 +133,7 @@ outputs: {z: {position: hat, axis: z}}
 simulation: {step: 0.01, duration: 0.1}
 )");
   for (const Combination& c : combinations) {
-    const RunResult r = run_of(model, c);
-    ASSERT_EQ(r.summary.status, "completed") << c.name() << r.summary.message;
+    const RunResult r = completed_run(model, c);
     EXPECT_NEAR(r.table.at(r.table.rows() - 1, 1), 1.0, 1e-12) << c.name();
     SimulationDescription s = with(model.simulation, c, 0.01, 0.1);
     s.start = Start::equilibrium;

@@ -6,9 +6,9 @@
 
 #include "floatframe/realtime/realtime.hpp"
 #include "floatframe/simulation/bench_stepper.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/stepping_models.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/completed_run.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -74,8 +74,7 @@ TEST(TimeGrid, AStepOfAnotherSizeBeginsItAnew) {
 constexpr int last = 25;
 
 SimulationDescription description_of(const Model& m, Coordinates coordinates) {
-  SimulationDescription d = m.simulation;
-  d.coordinates = coordinates;
+  SimulationDescription d = with(m.simulation, coordinates);
   d.duration = last * d.step;
   return d;
 }
@@ -117,8 +116,7 @@ void check_starts(Coordinates coordinates) {
   EXPECT_TRUE(equal_bits(rows_of(first), rows)) << "restarted";
   EXPECT_EQ(first.counters().iterations, before.iterations);
 
-  const RunResult r = run(machine(), d);
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(machine(), d);
   const auto width = static_cast<std::ptrdiff_t>(r.table.columns.size());
   EXPECT_TRUE(equal_bits({r.table.data.begin() + width, r.table.data.end()}, rows)) << "a run";
   EXPECT_EQ(r.summary.iterations, before.iterations);
@@ -141,19 +139,17 @@ class Rows final : public SignalPort {
 };
 
 TEST(SteppedModel, AllLoopsMakeTheSameSteps) {
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     SimulationDescription d = description_of(machine(), coordinates);
     d.duration = (last - 0.4) * d.step;  // the last step is a part of one
     d.min_step = d.step / 8;             // as in real time
-    const RunResult r = run(machine(), d);
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(machine(), d);
     ASSERT_EQ(r.table.rows(), last + 1u);
     const std::size_t width = r.table.columns.size();
 
     for (const bool paced : {false, true}) {
       Rows port;
-      RealTimeOptions options;
-      options.paced = paced;
+      const RealTimeOptions options{.paced = paced};
       const RealTimeReport report = run_real_time(machine(), d, options, &port);
       EXPECT_EQ(report.status, "completed") << report.message;
       EXPECT_EQ(report.steps, last);

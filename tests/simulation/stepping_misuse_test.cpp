@@ -9,6 +9,7 @@
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "simulation/stepping_models.hpp"
+#include "support/coordinates.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe::test {
@@ -47,13 +48,10 @@ TEST(SteppingMisuse, Inputs) {
   const auto add = [&](auto which, double value, const std::string& expected) {
     cases.push_back({[=](Simulation& s) { s.set_input(which, value); }, expected});
   };
-  for (const double x : {not_a_number, infinite, -infinite, 50.000001, -51.0, 1e308})
-    for (const bool by_name : {false, true}) {
-      if (by_name)
-        add("push", x, "out_of_range");
-      else
-        add(0, x, "out_of_range");
-    }
+  for (const double x : {not_a_number, infinite, -infinite, 50.000001, -51.0, 1e308}) {
+    add(0, x, "out_of_range");
+    add("push", x, "out_of_range");
+  }
   for (const double x : {not_a_number, infinite, -infinite}) {
     add("aim", x, "out_of_range");
     add("shove", x, "out_of_range");
@@ -286,7 +284,7 @@ TEST(SteppingMisuse, DamagedBytes) {
 /// Every word of a state replaced by one that cannot be, with a checksum that fits: refused, or the
 /// next steps end with a status.
 TEST(SteppingMisuse, ForgedBytes) {
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     SimulationOptions o;
     o.coordinates = c;
     o.min_step = 5e-4;  // steps that cannot be are given up soon

@@ -2,7 +2,6 @@
 // A machine with all that a saved simulation has to hold, and what drives it.
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,19 +10,14 @@
 
 namespace floatframe::test {
 
-/// A driven crank with a slider behind it (a loop), a flexible beam, discs on springs that count
-/// turns (`spin` in the tree, `cut` where a loop would be cut), free bodies, inputs of each kind.
-inline const char* const stepped_machine = R"(
-points:
+/// A driven crank with a slider behind it (a loop) and a flexible beam on a hinge: lists open
+/// for more bodies and joints.
+inline const std::string machine_bodies = R"(points:
   a: [0, 0, 0]
   b: [0.1, 0, 0]
   c: [0.5, 0, 0]
   p: [0, 1, 0]
   tip: [0.6, 1, 0]
-inputs:
-  push: {unit: N, min: -50, max: 50}
-  aim: {unit: rad, initial: 0.1, min: -1, max: 1, clamp: true}
-  shove: {}
 bodies:
   crank: {rigid: {mass: 1, centre_of_mass: [0.05, 0, 0], inertia: [0.001, 0.002, 0.002]}}
   rod: {rigid: {mass: 0.5, centre_of_mass: [0.3, 0, 0], inertia: [0.0001, 0.007, 0.007]}}
@@ -36,16 +30,29 @@ bodies:
       static_modes: [{point: tip, dofs: [y, z]}]
       normal_modes: 2
       damping: 0.01
-  disc: {rigid: {mass: 1, centre_of_mass: [0, 2, 0], inertia: [0.02, 0.02, 0.02]}}
-  wheel: {rigid: {mass: 1, centre_of_mass: [0, 3, 0], inertia: [0.02, 0.02, 0.02]}}
-  stone: {rigid: {mass: 1, centre_of_mass: [0, 4, 0], inertia: [0.02, 0.03, 0.04]}}
-joints:
+)";
+inline const std::string machine_joints = R"(joints:
   drive: {type: revolute, child: crank, at: a, axis: z, motion: {polynomial: [0.3, 40]}}
   pin: {type: revolute, parent: crank, child: rod, at: b, axis: z}
   eye: {type: revolute, parent: rod, child: slider, at: c, axis: z}
   guide: {type: prismatic, child: slider, at: c, axis: x}
   hinge: {type: revolute, child: beam, at: p, axis: y, position: 0.4}
-  spin: {type: revolute, child: disc, at: [0, 2, 0], axis: z, position: 14}
+)";
+
+/// A driven crank with a slider behind it (a loop), a flexible beam, discs on springs that count
+/// turns (`spin` in the tree, `cut` where a loop would be cut), free bodies, inputs of each kind.
+inline const std::string stepped_machine =
+    R"(
+inputs:
+  push: {unit: N, min: -50, max: 50}
+  aim: {unit: rad, initial: 0.1, min: -1, max: 1, clamp: true}
+  shove: {}
+)" + machine_bodies +
+    R"(  disc: {rigid: {mass: 1, centre_of_mass: [0, 2, 0], inertia: [0.02, 0.02, 0.02]}}
+  wheel: {rigid: {mass: 1, centre_of_mass: [0, 3, 0], inertia: [0.02, 0.02, 0.02]}}
+  stone: {rigid: {mass: 1, centre_of_mass: [0, 4, 0], inertia: [0.02, 0.03, 0.04]}}
+)" + machine_joints +
+    R"(  spin: {type: revolute, child: disc, at: [0, 2, 0], axis: z, position: 14}
   cut: {type: revolute, child: wheel, at: [0, 3, 0], axis: x, position: 14, cut: true}
   loose: {type: free, child: stone, at: [0, 4, 0], velocity: [1, 0, 2, 1, 9, 2]}
 forces:

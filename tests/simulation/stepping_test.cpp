@@ -9,9 +9,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "floatframe/simulation/simulation.hpp"
 #include "simulation/stepping_models.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/completed_run.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -32,9 +32,7 @@ class Stepping : public ::testing::TestWithParam<Kind> {
   }
   /// With `substeps` few iterations are allowed, so that steps are divided.
   static SimulationOptions options() {
-    SimulationOptions o;
-    o.coordinates = GetParam().coordinates;
-    o.inertia = GetParam().inertia;
+    SimulationOptions o{.coordinates = GetParam().coordinates, .inertia = GetParam().inertia};
     if (GetParam().substeps) {
       o.max_iterations = 2;
       o.tolerance = 1e-11;
@@ -45,8 +43,7 @@ class Stepping : public ::testing::TestWithParam<Kind> {
 
 TEST_P(Stepping, StepsAreThoseOfARun) {
   Simulation s(model(), options());
-  const RunResult r = run(model(), s.options());
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(model(), s.options());
   const std::size_t width = r.table.columns.size();
   ASSERT_EQ(r.table.rows(), 201u);
   for (std::size_t k = 0; k < r.table.rows(); ++k) {
@@ -128,7 +125,7 @@ TEST_P(Stepping, GoesOnAfterAFailedStep) {
   EXPECT_FALSE(r.where.empty()) << step_status_name(r.status);
   EXPECT_EQ(s.time(), before);
   const std::string why = s.failure();
-  EXPECT_NE(why.find("step failed at t = 0.0"), std::string::npos) << why;
+  EXPECT_TRUE(contains(why, "step failed at t = 0.0"));
   EXPECT_EQ(s.failure(), why);
   EXPECT_EQ(s.step().status, StepStatus::failed_before);
   EXPECT_EQ(s.step(1e-3).status, StepStatus::failed_before);
@@ -232,16 +229,13 @@ TEST(SteppingStart, ReportsWhatBecameOfTheStart) {
 TEST(SteppingProcess, DISABLED_GoesOn) {
   const char* folder = std::getenv("FLOATFRAME_STEPPING");
   ASSERT_NE(folder, nullptr);
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates c : both_coordinates) {
     const std::string name =
         std::string(folder) + (c == Coordinates::relative ? "/relative" : "/absolute");
     std::ifstream in(name + ".state", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     const auto* data = reinterpret_cast<const std::byte*>(text.data());
-    SimulationOptions o;
-    o.coordinates = c;
-    o.max_iterations = 2;
-    o.tolerance = 1e-11;
+    const SimulationOptions o{.coordinates = c, .tolerance = 1e-11, .max_iterations = 2};
     Simulation s(model_of(stepped_machine), o);
     s.restore(SimulationState::from_bytes({data, text.size()}));
     const std::vector<double> numbers = trace(s, 40, 90);
@@ -255,11 +249,8 @@ TEST(SteppingProcess, AnotherProcessGoesOnWithEqualBits) {
   const TemporaryFolder folder;
   std::vector<std::string> expected;
   long substeps = 0;
-  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationOptions o;
-    o.coordinates = c;
-    o.max_iterations = 2;
-    o.tolerance = 1e-11;
+  for (const Coordinates c : both_coordinates) {
+    const SimulationOptions o{.coordinates = c, .tolerance = 1e-11, .max_iterations = 2};
     Simulation s(model_of(stepped_machine), o);
     trace(s, 0, 40);
     const std::vector<std::byte> bytes = s.save().to_bytes();

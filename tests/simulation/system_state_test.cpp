@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/state_json.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "simulation/stepping_models.hpp"
+#include "support/completed_run.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -16,35 +16,13 @@ namespace {
 
 /// All kinds of joints that a state must hold: a driven crank that turns many times with a slider
 /// behind it (a loop), a flexible pendulum, a universal joint, a ball joint, a free body.
-const char* const machine = R"(floatframe: 1
-points:
-  a: [0, 0, 0]
-  b: [0.1, 0, 0]
-  c: [0.5, 0, 0]
-  p: [0, 1, 0]
-  tip: [0.6, 1, 0]
-bodies:
-  crank: {rigid: {mass: 1, centre_of_mass: [0.05, 0, 0], inertia: [0.001, 0.002, 0.002]}}
-  rod: {rigid: {mass: 0.5, centre_of_mass: [0.3, 0, 0], inertia: [0.0001, 0.007, 0.007]}}
-  slider: {rigid: {mass: 2, centre_of_mass: c, inertia: [0.01, 0.01, 0.01]}}
-  beam:
-    flexible:
-      material: {young: 7e10, poisson: 0.3, density: 2700}
-      bars: {one: {from: p, to: tip, elements: 4, section: {round: 0.01}}}
-      clamped: [p]
-      static_modes: [{point: tip, dofs: [y, z]}]
-      normal_modes: 2
-      damping: 0.01
-  top: {rigid: {mass: 1, centre_of_mass: [0, 2, 0.1], inertia: [0.02, 0.03, 0.04]}}
+const std::string machine =
+    "floatframe: 1\n" + test::machine_bodies +
+    R"(  top: {rigid: {mass: 1, centre_of_mass: [0, 2, 0.1], inertia: [0.02, 0.03, 0.04]}}
   bob: {rigid: {mass: 1, centre_of_mass: [0, 3, -0.3], inertia: [0.02, 0.02, 0.01]}}
   stone: {rigid: {mass: 1, centre_of_mass: [0, 4, 0], inertia: [0.02, 0.03, 0.04]}}
-joints:
-  drive: {type: revolute, child: crank, at: a, axis: z, motion: {polynomial: [0.3, 40]}}
-  pin: {type: revolute, parent: crank, child: rod, at: b, axis: z}
-  eye: {type: revolute, parent: rod, child: slider, at: c, axis: z}
-  guide: {type: prismatic, child: slider, at: c, axis: x}
-  hinge: {type: revolute, child: beam, at: p, axis: y, position: 0.4}
-  cross: {type: universal, child: top, at: [0, 2, 0], axis: x, axis_2: y, velocity: [1, 2]}
+)" + test::machine_joints +
+    R"(  cross: {type: universal, child: top, at: [0, 2, 0], axis: x, axis_2: y, velocity: [1, 2]}
   ball: {type: spherical, child: bob, at: [0, 3, 0], position: [0.2, 0.1, 0], velocity: [0.5, 1, 3]}
   loose: {type: free, child: stone, at: [0, 4, 0], position: [0, 0, 0.1, 0.3, 0.2, 0.1],
       velocity: [1, 0, 2, 1, 9, 2]}
@@ -83,17 +61,6 @@ RunResult run_keeping(const Model& model, const SimulationDescription& o) {
   return run(model, o, options);
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return test::codes_of(error);
-  } catch (const RunError& error) {
-    return test::codes_of(error);
-  }
-  return "no error";
-}
-
 TEST(SystemState, FilesHoldEveryBit) {
   const Model model = build_model(read_text(machine));
   const SystemState s = *run_keeping(model, model.simulation).state;
@@ -124,10 +91,9 @@ TEST(SystemState, FilesHoldEveryBit) {
 /// finds anew and a step carries along with the error of its Newton iterations.
 TEST(SystemState, TwoRunsAreOne) {
   const Model model = build_model(read_text(machine));
-  for (const Coordinates first : {Coordinates::relative, Coordinates::absolute})
-    for (const Coordinates second : {Coordinates::relative, Coordinates::absolute}) {
-      SimulationDescription o = model.simulation;
-      o.coordinates = second;
+  for (const Coordinates first : test::both_coordinates)
+    for (const Coordinates second : test::both_coordinates) {
+      SimulationDescription o = test::with(model.simulation, second);
       o.duration = 0.8;
       const ResultTable whole = run(model, o).table;
       o.duration = 0.4;
@@ -136,8 +102,7 @@ TEST(SystemState, TwoRunsAreOne) {
       o.coordinates = second;
       o.start = Start::state;
       o.state = std::make_shared<const SystemState>(copy_through_file(*begun.state));
-      const RunResult continued = run(model, o);
-      EXPECT_EQ(continued.summary.status, "completed");
+      const RunResult continued = test::completed_run(model, o);
       EXPECT_NEAR(continued.summary.duration, 0.4, 1e-12);
       ASSERT_EQ(continued.table.rows(), 41u);
       ASSERT_EQ(whole.rows(), 81u);
@@ -157,9 +122,8 @@ TEST(SystemState, TwoRunsAreOne) {
 
 TEST(SystemState, ContinuesInTheOtherFormulation) {
   const Model model = build_model(read_text(machine));
-  for (const Coordinates first : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationDescription o = model.simulation;
-    o.coordinates = first;
+  for (const Coordinates first : test::both_coordinates) {
+    SimulationDescription o = test::with(model.simulation, first);
     const RunResult begun = run_keeping(model, o);
     o.coordinates = first == Coordinates::relative ? Coordinates::absolute : Coordinates::relative;
     o.start = Start::state;
@@ -204,7 +168,7 @@ TEST(SystemState, OfTheStaticsStartsInTheEquilibrium) {
   const SystemState state = copy_through_file(*equilibrium.state);
   EXPECT_EQ(state.time, 0.0);
   EXPECT_LT((state.bodies[0].position - equilibrium.bodies[0].position).norm(), 1e-14);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : test::both_coordinates) {
     o.coordinates = coordinates;
     o.start = Start::equilibrium;
     const ResultTable a = run(model, o).table;
@@ -222,7 +186,7 @@ TEST(SystemState, OffsetsFromTheEquilibrium) {
   o.duration = 0.0;
   const ResultTable rest = run(model, o).table;
   const SystemState::Body level = statics(model).state->bodies[0];
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : test::both_coordinates) {
     o.coordinates = coordinates;
     // The chassis goes up as it is oriented, the wheel on its arm goes with it.
     o.offset = {{"chassis", {Vec3(0, 0, 0.05), std::nullopt}}};
@@ -242,10 +206,10 @@ TEST(SystemState, OffsetsFromTheEquilibrium) {
     // What the joint does not let move is turned about it: the wheel's origin goes on its circle.
     o.offset = {{"wheel", {Vec3(0, 0, 0.05), std::nullopt}},
                 {"chassis", {Vec3::Zero(), Vec3::Zero()}}};
-    EXPECT_NE(error_of([&] { run(model, o); }), "no error");
+    EXPECT_NE(test::error_of([&] { run(model, o); }), "no error");
   }
   o.offset = {{"nobody", {Vec3(0, 0, 0.05), std::nullopt}}};
-  EXPECT_EQ(error_of([&] { run(model, o); }), "not_found");
+  EXPECT_EQ(test::error_of([&] { run(model, o); }), "not_found");
 }
 
 TEST(SystemState, OffsetsFromAState) {
@@ -264,7 +228,7 @@ TEST(SystemState, OffsetsFromAState) {
   EXPECT_NEAR(moved.at(0, 0), 0.4, 1e-15);
   // A driven crank stays where its motion has it.
   o.offset = {{"crank", {Vec3(0, 0.1, 0), std::nullopt}}};
-  const std::string text = error_of([&] { run(model, o); });
+  const std::string text = test::error_of([&] { run(model, o); });
   const std::string expected = "not_assembled";
   EXPECT_EQ(text.substr(0, expected.size()), expected);
 }
@@ -279,7 +243,7 @@ TEST(SystemState, OfAnotherModel) {
     SimulationDescription o = model.simulation;
     o.start = Start::state;
     o.state = s;
-    std::string text = error_of([&] { run(model, o); });
+    std::string text = test::error_of([&] { run(model, o); });
     const std::size_t end = text.find(" (the state was taken of");
     return end == std::string::npos ? text : text.substr(0, end);
   };
@@ -308,7 +272,7 @@ TEST(SystemState, DamagedFiles) {
   const auto read = [](const std::string& text) {
     const test::TemporaryFolder folder;
     const std::string file = folder.write("damaged.json", text) + ": ";
-    const std::string error = error_of([&] { read_state(folder.file("damaged.json")); });
+    const std::string error = test::error_of([&] { read_state(folder.file("damaged.json")); });
     return error.starts_with(file) ? error.substr(file.size()) : error;
   };
   EXPECT_EQ(read(""), "wrong_file");

@@ -9,11 +9,12 @@
 namespace floatframe::test {
 namespace {
 
-using testing::Csv;
-using testing::TrajectoryCase;
+using trajectories::Csv;
+using trajectories::TrajectoryCase;
 
 Csv reference_history(const std::string& name) {
-  return testing::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/trajectories/" + name + ".csv");
+  return trajectories::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/trajectories/" + name +
+                                ".csv");
 }
 
 /// Largest deviation of any output at any time of the reference [m].
@@ -39,23 +40,25 @@ struct Expectation {
   double whole_energy;     ///< bound of |energy at the end - at the start| [J]
 };
 
-class Trajectories : public ::testing::TestWithParam<Expectation> {};
-
-TEST_P(Trajectories, ConvergeWithTheSquareOfTheStep) {
+class Trajectories : public ::testing::TestWithParam<Expectation> {
+ protected:
   const Expectation& e = GetParam();
   const std::string name = std::string(e.mechanism) + "_" + e.mass;
   const Csv reference = reference_history(name);
-  const bool pendulum = e.mechanism == std::string("pendulum");
-  const TrajectoryCase c = pendulum ? testing::pendulum(e.mass) : testing::slider_crank(e.mass);
+  const bool swings = e.mechanism == std::string("pendulum");
+  const TrajectoryCase c =
+      swings ? trajectories::pendulum(e.mass) : trajectories::slider_crank(e.mass);
   const Model model = build_model(c.description);
+};
+
+TEST_P(Trajectories, ConvergeWithTheSquareOfTheStep) {
   for (const Combination& combination : combinations) {
     if (e.mass == std::string("eb") && combination.inertia == InertiaMethod::projection) continue;
     const std::string label = name + " " + combination.name();
     double previous = 0.0;
     for (const double h : e.steps) {
       const RunResult r =
-          run(model, with(c.description.simulation, combination, h, e.span, e.interval));
-      ASSERT_EQ(r.summary.status, "completed") << label << ": " << r.summary.message;
+          completed_run(model, with(c.description.simulation, combination, h, e.span, e.interval));
       const double error = deviation(r, c, reference);
       figure(label + " step [s]", h);
       figure(label + " error [m]", error);
@@ -71,18 +74,11 @@ TEST_P(Trajectories, ConvergeWithTheSquareOfTheStep) {
 }
 
 TEST_P(Trajectories, WholeSpanAtAPracticalStep) {
-  const Expectation& e = GetParam();
-  const std::string name = std::string(e.mechanism) + "_" + e.mass;
-  const Csv reference = reference_history(name);
-  const bool pendulum = e.mechanism == std::string("pendulum");
-  const TrajectoryCase c = pendulum ? testing::pendulum(e.mass) : testing::slider_crank(e.mass);
-  const Model model = build_model(c.description);
   for (const Combination& combination : combinations) {
     if (e.mass == std::string("eb") && combination.inertia == InertiaMethod::projection) continue;
     const std::string label = name + " " + combination.name();
-    const RunResult r = run(
+    const RunResult r = completed_run(
         model, with(c.description.simulation, combination, e.whole_step, e.whole_span, e.interval));
-    ASSERT_EQ(r.summary.status, "completed") << label << ": " << r.summary.message;
     EXPECT_EQ(r.summary.substeps, 0);
     const double error = deviation(r, c, reference);
     const double energy = std::abs(r.summary.energy.total_end - r.summary.energy.total_start);

@@ -8,12 +8,11 @@
 
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/coordinates.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
 namespace {
-
-constexpr Coordinates turn_coordinates[] = {Coordinates::relative, Coordinates::absolute};
 
 /// A disc on a hinge or ball that turns at 4 rad/s, and an element about its axis.
 ModelDescription turning_disc(const std::string& force, const std::string& velocity = "4") {
@@ -28,13 +27,12 @@ ModelDescription turning_disc(const std::string& force, const std::string& veloc
 const std::string ends = "{type: bushing, from: {body: ground, at: o}, to: {body: m, at: o}, ";
 
 RunSummary run_of(const ModelDescription& d, Coordinates coordinates) {
-  SimulationDescription s = d.simulation;
-  s.coordinates = coordinates;
+  const SimulationDescription s = with(d.simulation, coordinates);
   return run(build_model(d), s).summary;
 }
 
 TEST(HalfTurn, OfABushingIsSaidWithItsInstant) {
-  for (const Coordinates c : turn_coordinates) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = run_of(read_model(FLOATFRAME_TEST_DATA "/range/bushing_turns.yaml"), c);
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_EQ(s.warnings[0].limit, RangeLimit::half_turn);
@@ -47,7 +45,7 @@ TEST(HalfTurn, OfABushingIsSaidWithItsInstant) {
 
 // 3 rad/s reach 3 rad at most.
 TEST(HalfTurn, IsNotReached) {
-  for (const Coordinates c : turn_coordinates)
+  for (const Coordinates c : both_coordinates)
     EXPECT_TRUE(run_of(turning_disc(ends + "spring_rz: 1}", "3.1"), c).warnings.empty());
 }
 
@@ -82,7 +80,7 @@ forces:
           spring_rx: 0.01, spring_ry: 0.01, spring_rz: 0.01}
 simulation: {step: 0.001, duration: 1}
 )");
-  for (const Coordinates c : turn_coordinates) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = run_of(d, c);
     ASSERT_EQ(s.warnings.size(), 1u);
     // R_a^T R_b of both turns is half a turn at 0.602 s; the springs hardly slow it.
@@ -97,7 +95,7 @@ TEST(HalfTurn, OfAJointSpringCountsInOneStepOnly) {
   d = turning_disc("{type: joint_spring, joint: r, spring: 1e-3}", "400");
   d.simulation.step = 0.01;
   d.simulation.duration = 0.2;
-  for (const Coordinates c : turn_coordinates) {
+  for (const Coordinates c : both_coordinates) {
     bool said = false;
     for (const RangeWarning& w : run_of(d, c).warnings)
       if (w.limit == RangeLimit::half_turn) {

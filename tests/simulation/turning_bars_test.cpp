@@ -8,7 +8,6 @@
 
 #include "figures.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/turning_model.hpp"
 #include "support/model_text.hpp"
 
@@ -176,11 +175,10 @@ TEST(TurningBars, RunUpIsThatOfARotorInRotatingAxes) {
   const double size = std::hypot(expected[0], expected[1]);
   const double apart = std::hypot(expected[0] - without[0], expected[1] - without[1]) / size;
   figure("what the twist of the tangent does", apart);
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     Model of = model;
     of.simulation.coordinates = coordinates;
-    const RunResult r = run(of);
-    ASSERT_EQ(r.summary.status, "completed");
+    const RunResult r = completed_run(of);
     const std::size_t last = r.table.rows() - 1;
     const double error = std::hypot(r.table.at(last, column(r.table, "tip.y")) - expected[0],
                                     r.table.at(last, column(r.table, "tip.z")) - expected[1]) /

@@ -9,7 +9,8 @@
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "support/completed_run.hpp"
+#include "support/descriptions.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -21,48 +22,25 @@ const double disc_omega = std::sqrt(stiffness / disc_inertia);
 ModelDescription disc(bool cut, bool reversed) {
   ModelDescription d;
   d.gravity.setZero();
-  BodyDescription b;
-  b.name = "disc";
-  RigidDescription r;
-  r.mass = 1.0;
-  r.J_C = Vec3(disc_inertia, disc_inertia, disc_inertia).asDiagonal();
-  b.kind = r;
-  d.bodies.push_back(b);
+  const RigidDescription rigid{1.0, Vec3::Zero(), disc_inertia * Mat3::Identity()};
+  d.bodies = {make_body("disc", rigid)};
   if (reversed) {  // the tree reaches the hinge from its child
-    b.name = "base";
-    d.bodies.push_back(b);
-    JointDescription weld;
-    weld.name = "weld";
-    weld.type = JointType::weld;
-    weld.child.body = "base";
-    d.joints.push_back(weld);
+    d.bodies.push_back(make_body("base", rigid));
+    d.joints.push_back(make_joint("weld", JointType::weld, "ground", "base"));
   }
-  JointDescription j;
-  j.name = "hinge";
-  j.type = JointType::revolute;
-  j.axis = Vec3(0.2, 0.3, 1.0).normalized();
-  j.child.body = reversed ? "base" : "disc";
-  if (reversed) j.parent.body = "disc";
+  JointDescription j =
+      make_joint("hinge", JointType::revolute, reversed ? "disc" : "ground",
+                 reversed ? "base" : "disc", Vec3::Zero(), Vec3(0.2, 0.3, 1.0).normalized());
   j.position = {start_angle};
   j.cut = cut;
   d.joints.push_back(j);
-  ForceDescription f;
-  f.name = "spring";
   JointSpringDescription s;
   s.joint = "hinge";
   s.spring = PiecewisePolynomial::linear(stiffness, 0.0);
-  f.kind = s;
-  d.forces.push_back(f);
-  const auto output = [&](OutputType type, const char* name) {
-    OutputDescription o;
-    o.type = type;
-    o.name = o.entity = name;
-    d.outputs.push_back(o);
-  };
-  output(OutputType::joint_position, "hinge");
-  output(OutputType::force, "spring");
-  output(OutputType::length, "spring");
-  d.outputs.back().name = "angle";
+  d.forces = {{"spring", s, {}}};
+  d.outputs = {make_output("hinge", OutputType::joint_position, "hinge"),
+               make_output("spring", OutputType::force, "spring"),
+               make_output("angle", OutputType::length, "spring")};
   d.simulation.step = 1e-4;  // turns by up to 0.017 rad in each
   d.simulation.output_interval = 0.01;
   d.simulation.duration = 0.3;  // rather more than half a period
@@ -90,9 +68,7 @@ void expect_swing(const ResultTable& table, double from) {
 }
 
 TEST_P(Turns, SpringActsAtTheAngleThatIsGiven) {
-  const Model m = build_model(description());
-  const RunResult r = run(m, m.simulation);
-  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  const RunResult r = completed_run(description());
   expect_swing(r.table, 0.0);
   EXPECT_NEAR(r.summary.energy.total_start, 0.5 * stiffness * start_angle * start_angle, 1e-9);
   EXPECT_NEAR(r.summary.energy.total_end / r.summary.energy.total_start, 1.0, 1e-5);
@@ -114,19 +90,18 @@ TEST_P(Turns, StatesThatAreKeptGoOn) {
   o.duration = 0.26;
   o.start = Start::state;
   o.state = before.state;
-  const RunResult after = run(m, o);
-  ASSERT_EQ(after.summary.status, "completed") << after.summary.message;
+  const RunResult after = completed_run(m, o);
   expect_swing(after.table, 0.04);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Joints, Turns,
-    ::testing::Combine(::testing::Values(Coordinates::relative, Coordinates::absolute),
-                       ::testing::Bool(), ::testing::Bool()),
-    [](const auto& x) {
-      return std::string(std::get<0>(x.param) == Coordinates::relative ? "relative" : "absolute") +
-             (std::get<1>(x.param) ? "_cut" : "") + (std::get<2>(x.param) ? "_reversed" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Joints, Turns,
+                         ::testing::Combine(::testing::ValuesIn(both_coordinates),
+                                            ::testing::Bool(), ::testing::Bool()),
+                         [](const auto& x) {
+                           return name_of(std::get<0>(x.param)) +
+                                  (std::get<1>(x.param) ? "_cut" : "") +
+                                  (std::get<2>(x.param) ? "_reversed" : "");
+                         });
 
 TEST(TurnsOfMotors, OutputsBeginAtTheTurnOfTheMotion) {
   ModelDescription d = disc(false, false);
@@ -134,13 +109,12 @@ TEST(TurnsOfMotors, OutputsBeginAtTheTurnOfTheMotion) {
   TimeFunction motion;
   motion.pieces = PiecewisePolynomial::polynomial({10.0, 2.0});
   d.joints[0].motion = motion;
-  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+  for (const Coordinates coordinates : both_coordinates) {
     d.simulation.coordinates = coordinates;
     const Model m = build_model(d);
     RunOptions keep;
     keep.keep_state = true;
-    const RunResult r = run(m, m.simulation, keep);
-    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    const RunResult r = completed_run(m, m.simulation, keep);
     for (std::size_t k = 0; k < r.table.rows(); ++k) {
       const double exact = 10.0 + 2.0 * r.table.at(k, 0);
       EXPECT_NEAR(r.table.at(k, 1), exact, 1e-8);

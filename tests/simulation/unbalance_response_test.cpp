@@ -9,8 +9,7 @@
 #include <complex>
 #include <numbers>
 
-#include "floatframe/math/dense.hpp"
-#include "floatframe/simulation/turning_model.hpp"
+#include "simulation/turning_modes.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 #include "support/rotor_models.hpp"
@@ -95,8 +94,7 @@ TEST(UnbalanceResponse, LavalRotorWithGyroscopicDisc) {
   EXPECT_EQ(std::abs(curve(r, "disc.y").amplitudes[0]), 0.0);
   // A point of the rim turns with the disc: in the world it moves by far more than linearly.
   ASSERT_EQ(r.notes.size(), 1u);
-  EXPECT_NE(r.notes[0].find("turn with the rotor: edge.x, edge.y, edge.z"), std::string::npos)
-      << r.notes[0];
+  EXPECT_TRUE(contains(r.notes[0], "turn with the rotor: edge.x, edge.y, edge.z"));
 }
 
 /// M x'' + (C + W G) x' + K x = F for x, y and the tilts about x, y of a disc of 2 kg.
@@ -172,19 +170,8 @@ TEST(BearingsOverSpeed, EigenvaluesOfARigidRotor) {
     film_at(W, K, C);
     C(2, 3) += 0.035 * W;
     C(3, 2) -= 0.035 * W;
-    const VecX inverse = Eigen::Vector4d(2, 2, 0.02, 0.02).cwiseInverse();
-    MatX A = MatX::Zero(8, 8);
-    A.topRightCorner(4, 4).setIdentity();
-    A.bottomLeftCorner(4, 4) = inverse.asDiagonal() * -K;
-    A.bottomRightCorner(4, 4) = inverse.asDiagonal() * -C;
-    const GeneralEigen expected = general_eigen(A);
-    const std::vector<TurningMode> found = turning.modes(W);
-    for (const Complex& e : expected.values) {
-      double best = 1e300;
-      for (const TurningMode& f : found)
-        best = std::min({best, std::abs(f.lambda - e), std::abs(std::conj(f.lambda) - e)});
-      worst = std::max(worst, best / std::abs(e));
-    }
+    const Eigen::Vector4d mass(2, 2, 0.02, 0.02);
+    worst = std::max(worst, distance_of_modes(mass, C, K, turning.modes(W)));
   }
   std::printf("[ figure ] bearings_over_speed eigenvalues %.1e\n", worst);
   EXPECT_LT(worst, 1e-7);

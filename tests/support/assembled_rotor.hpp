@@ -8,7 +8,6 @@
 // discs on the tilts. With a shear factor the beam is Timoshenko's, exact for loads at its ends.
 // Source: Nelson, McVaugh, The dynamics of rotor-bearing systems using finite elements, ASME J.
 // Eng. Ind. 98 (1976) 593-600.
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

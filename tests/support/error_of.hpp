@@ -5,6 +5,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/run_error.hpp"
+#include "support/contains.hpp"
 
 namespace floatframe::test {
 

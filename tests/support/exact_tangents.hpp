@@ -2,7 +2,6 @@
 // The exact derivatives of elements, by their lists: each kind of force and of constraint part
 // defines its own beside its law. Steps use shorter ways, which tests hold to these.
 #include <iterator>
-#include <utility>
 
 #include "floatframe/model/force_kind.hpp"
 

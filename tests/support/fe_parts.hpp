@@ -1,14 +1,13 @@
 #pragma once
 // Finite-element parts of tests/data/fe in SI units, and small ones made here.
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "floatframe/fe/fe_system.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/reduction/part.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 
@@ -35,6 +34,31 @@ inline InterfaceDescription bore(const std::string& set, std::optional<Vec3> at 
   return d;
 }
 
+inline NodeChoice nearest_to(const Vec3& point) {
+  NodeChoice choice;
+  choice.by = NodeChoice::By::nearest;
+  choice.point = point;
+  return choice;
+}
+
+/// By its number in the file.
+inline NodeChoice node_number(int number) {
+  NodeChoice choice;
+  choice.by = NodeChoice::By::node;
+  choice.number = number;
+  return choice;
+}
+
+/// Its reference point is in the middle of the nodes.
+inline InterfaceDescription interface_at(const std::string& name, const NodeChoice& choice,
+                                         unsigned mask = 63u) {
+  InterfaceDescription d;
+  d.name = name;
+  d.choice = choice;
+  d.mask = mask;
+  return d;
+}
+
 /// Bores of the A-arm and of the connecting rod; reference points as in the data's spiders.
 inline std::vector<InterfaceDescription> arm_bores() {
   return {bore("BUSH_F", Vec3(0.15, 0, 0)), bore("BUSH_R", Vec3(-0.15, 0, 0)),
@@ -58,13 +82,10 @@ inline FeModel brick_beam(int nx, int ny, int nz, double length, double width) {
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j)
       for (int k = 0; k < nz; ++k) {
-        Element e;
-        e.type = ElementType::hex8;
-        const int n[8] = {
-            at(i, j, k),     at(i + 1, j, k),     at(i + 1, j + 1, k),     at(i, j + 1, k),
-            at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)};
-        for (std::size_t a = 0; a < 8; ++a) e.nodes[a] = n[a];
-        model.elements.push_back(e);
+        add_element(
+            model, ElementType::hex8,
+            {at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1),
+             at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)});
       }
   return model;
 }

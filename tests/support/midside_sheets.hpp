@@ -1,9 +1,8 @@
 #pragma once
 // Mapped squares of shells with nodes on their edges.
 #include <map>
-#include <vector>
 
-#include "floatframe/fe/fe_model.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 
@@ -26,19 +25,14 @@ MidsideSheet midside_sheet(ElementType type, int n, int m, const Map& map, const
   };
   for (int j = 0; j < 2 * m; j += 2)
     for (int i = 0; i < 2 * n; i += 2) {
-      Element e;
-      e.type = type;
       const int a = at(i, j), b = at(i + 2, j), c = at(i + 2, j + 2), d = at(i, j + 2);
       const int ab = at(i + 1, j), bc = at(i + 2, j + 1), cd = at(i + 1, j + 2), da = at(i, j + 1);
       if (type == ElementType::quad8) {
-        e.nodes = {a, b, c, d, ab, bc, cd, da};
-        s.model.elements.push_back(e);
+        add_element(s.model, type, {a, b, c, d, ab, bc, cd, da});
       } else {
         const int ac = at(i + 1, j + 1);
-        e.nodes = {a, b, c, ab, bc, ac};
-        s.model.elements.push_back(e);
-        e.nodes = {a, c, d, ac, cd, da};
-        s.model.elements.push_back(e);
+        add_element(s.model, type, {a, b, c, ab, bc, ac});
+        add_element(s.model, type, {a, c, d, ac, cd, da});
       }
     }
   return s;

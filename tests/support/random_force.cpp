@@ -1,7 +1,6 @@
 #include "support/random_force.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "floatframe/model/force_kind.hpp"
 

@@ -175,4 +175,18 @@ void evaluate_at(F& f, double t, const VecX& q, const VecX& v) {
 
 inline double largest(const MatX& x) { return x.size() == 0 ? 0.0 : x.cwiseAbs().maxCoeff(); }
 
+/// Both formulations of a model in the same random configuration.
+struct RandomPair {
+  RandomPair(const Model& m, unsigned seed, InertiaMethod inertia = InertiaMethod::preprocessing)
+      : relative(m, inertia), absolute(m, inertia), random(seed) {
+    random_configuration(relative, random, q, v);
+    absolute.start_from(relative, q, v, qa, va);
+  }
+
+  RelativeFormulation relative;
+  AbsoluteFormulation absolute;
+  Random random;
+  VecX q, v, qa, va;
+};
+
 }  // namespace floatframe::test

@@ -3,7 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "floatframe/fe/fe_system.hpp"
+#include "support/fe_models.hpp"
 
 namespace floatframe::test {
 
@@ -51,16 +51,11 @@ FeModel sheet(ElementType type, int n, int m, const Map& map, const Material& ma
   for (int j = 0; j < m; ++j) {
     for (int i = 0; i < n; ++i) {
       const int a = i + (n + 1) * j, b = a + 1, d = a + n + 1, c = d + 1;
-      Element e;
-      e.type = type;
       if (type == ElementType::quad4) {
-        e.nodes = {a, b, c, d};
-        model.elements.push_back(e);
+        add_element(model, type, {a, b, c, d});
       } else {
-        e.nodes = {a, b, c};
-        model.elements.push_back(e);
-        e.nodes = {a, c, d};
-        model.elements.push_back(e);
+        add_element(model, type, {a, b, c});
+        add_element(model, type, {a, c, d});
       }
     }
   }

@@ -1,7 +1,6 @@
 #pragma once
 // What tests of solids with axes and with plies share: a material of fibres, the places of nodes
 // in one element, strips of bricks one above another.
-#include <algorithm>
 #include <iterator>
 #include <vector>
 

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "floatframe/model/model.hpp"
+#include "support/descriptions.hpp"
 
-namespace floatframe::testing {
+namespace floatframe::trajectories {
 
 using nlohmann::json;
 
@@ -100,12 +101,8 @@ struct TrajectoryCase {
 inline void add_point(ModelDescription& d, TrajectoryCase& c, const std::string& body,
                       const std::string& node, const std::string& label, const std::string& axes) {
   for (const char axis : axes) {
-    OutputDescription o;
-    o.name = label + "_" + axis;
-    o.at.body = body;
-    o.at.node = node;
-    o.component = axis - 'x';
-    d.outputs.push_back(o);
+    d.outputs.push_back(
+        test::make_output(label + "_" + axis, {body, Vec3::Zero(), node, {}}, axis - 'x'));
     c.columns.push_back(label + "_" + axis);
   }
 }
@@ -116,15 +113,8 @@ inline TrajectoryCase pendulum(const std::string& variant) {
   ModelDescription& d = c.description;
   d.name = "pendulum_" + variant;
   d.gravity = Vec3(0, -9.81, 0);
-  BodyDescription b;
-  b.name = "beam";
-  b.kind = reference_body(j["bodies"][0]);
-  d.bodies.push_back(b);
-  JointDescription hinge;
-  hinge.name = "hinge";
-  hinge.type = JointType::revolute;
-  hinge.child.body = "beam";
-  d.joints.push_back(hinge);
+  d.bodies = {test::make_body("beam", reference_body(j["bodies"][0]))};
+  d.joints = {test::make_joint("hinge", JointType::revolute, "ground", "beam")};
   VecX y(6);
   for (int i = 0; i < 6; ++i) y[i] = j["initial"]["z"][1 + i];
   d.amplitudes["beam"] = y;
@@ -142,40 +132,19 @@ inline TrajectoryCase slider_crank(const std::string& variant) {
   ModelDescription& d = c.description;
   d.name = "slider_crank_" + variant;
   d.gravity = Vec3(0, -9.81, 0);
-  BodyDescription crank, rod, guide;
-  crank.name = "crank";
-  crank.kind = reference_body(j["bodies"][0]);
-  rod.name = "rod";
-  rod.kind = reference_body(j["bodies"][1], {{8, 0.02}});
-  rod.X_WB.p = Vec3(0.15, 0, 0);
-  guide.name = "guide";
-  guide.kind = RigidDescription{};
-  guide.X_WB.p = Vec3(0.45, 0, 0);
-  d.bodies = {crank, rod, guide};
-  JointDescription hinge, pin, ball, slide;
-  hinge.name = "hinge";
-  hinge.type = JointType::revolute;
-  hinge.child.body = "crank";
-  hinge.position = {j["initial"]["z"][0]};
-  hinge.velocity = {j["initial"]["zdot"][0]};
-  pin.name = "pin";
-  pin.type = JointType::revolute;
-  pin.parent.body = "crank";
-  pin.child.body = "rod";
-  pin.parent.point = pin.child.point = Vec3(0.15, 0, 0);
-  slide.name = "slide";
-  slide.type = JointType::prismatic;
-  slide.axis = Vec3::UnitX();
-  slide.child.body = "guide";
-  slide.parent.point = slide.child.point = Vec3(0.45, 0, 0);
+  const Vec3 pin_at(0.15, 0, 0), slider_at(0.45, 0, 0);
+  d.bodies = {test::make_body("crank", reference_body(j["bodies"][0])),
+              test::make_body("rod", reference_body(j["bodies"][1], {{8, 0.02}}), pin_at),
+              test::make_body("guide", RigidDescription{}, slider_at)};
   // Planar: the guide holds only the height of the slider, so it is joined by a point on the line
   // of motion.
-  ball.name = "ball";
-  ball.type = JointType::revolute;
-  ball.parent.body = "guide";
-  ball.child.body = "rod";
-  ball.parent.point = ball.child.point = Vec3(0.45, 0, 0);
-  d.joints = {hinge, pin, slide, ball};
+  d.joints = {
+      test::make_joint("hinge", JointType::revolute, "ground", "crank"),
+      test::make_joint("pin", JointType::revolute, "crank", "rod", pin_at),
+      test::make_joint("slide", JointType::prismatic, "ground", "guide", slider_at, Vec3::UnitX()),
+      test::make_joint("ball", JointType::revolute, "guide", "rod", slider_at)};
+  d.joints[0].position = {j["initial"]["z"][0]};
+  d.joints[0].velocity = {j["initial"]["zdot"][0]};
   add_point(d, c, "rod", "n8", "slider", "x");
   add_point(d, c, "crank", "n4", "crank_tip", "xy");
   add_point(d, c, "rod", "n4", "rod_mid", "xy");
@@ -207,4 +176,4 @@ inline Csv read_csv(const std::string& path) {
   return c;
 }
 
-}  // namespace floatframe::testing
+}  // namespace floatframe::trajectories

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "floatframe/model/model.hpp"
+#include "support/descriptions.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe::test {
@@ -78,70 +79,39 @@ inline FlexibleBody reduced_body() {
 /// A description that uses every field.
 inline ModelDescription valid_description() {
   ModelDescription d;
-  BodyDescription block;
-  block.name = "block";
-  RigidDescription rigid;
-  rigid.mass = 2.0;
-  rigid.J_C = Vec3(0.1, 0.2, 0.25).asDiagonal();
-  block.kind = rigid;
-  block.X_WB.p = block.X_WT.p = Vec3(0, 0, 1);
-  BodyDescription arm;
-  arm.name = "arm";
-  arm.kind = bar_description();
-  BodyDescription part;
-  part.name = "part";
-  part.kind = reduced_body();
-  d.bodies = {block, arm, part};
-
-  const auto at = [](const char* body, const Vec3& p) {
-    AttachmentDescription a;
-    a.body = body;
-    a.point = p;
-    return a;
-  };
-  const auto joint = [&](const char* name, JointType type, const char* child, const Vec3& p) {
-    JointDescription j;
-    j.name = name;
-    j.type = type;
-    j.parent = at("ground", p);
-    j.child = at(child, p);
-    return j;
-  };
-  d.joints = {joint("slide", JointType::prismatic, "block", {0, 0, 1}),
-              joint("pin", JointType::universal, "arm", {0, 0, 0}),
-              joint("ball", JointType::spherical, "part", {0, 0, 0})};
+  const Mat3 J = Vec3(0.1, 0.2, 0.25).asDiagonal();
+  d.bodies = {make_body("block", RigidDescription{2.0, Vec3::Zero(), J}, {0, 0, 1}),
+              make_body("arm", bar_description()), make_body("part", reduced_body())};
+  d.joints = {make_joint("slide", JointType::prismatic, "ground", "block", {0, 0, 1}),
+              make_joint("pin", JointType::universal, "ground", "arm", {0, 0, 0}),
+              make_joint("ball", JointType::spherical, "ground", "part", {0, 0, 0})};
   d.joints[0].motion.emplace();
   d.joints[0].motion->pieces = PiecewisePolynomial::polynomial({0.0, 1.0});
   d.joints[1].position = {0.1, 0.2};
   d.joints[2].child.node = "n0";
-  RodDescription rod;
-  rod.name = "rod";
-  rod.a = at("ground", {3, 0, 0});
-  rod.b = at("block", {0, 0, 1.5});
-  rod.length = 4.0;
-  d.rods = {rod};
+  d.rods = {make_rod("rod", place_on("ground", {3, 0, 0}), place_on("block", {0, 0, 1.5}), 4.0)};
 
   SpringDamperDescription spring;
-  spring.a = at("ground", {0, 0, 3});
-  spring.b = at("block", {0, 0, 1});
+  spring.a = place_on("ground", {0, 0, 3});
+  spring.b = place_on("block", {0, 0, 1});
   spring.spring = two_pieces(1.0, 1000.0, 1000.0);
   spring.actuator.emplace();
   spring.actuator->input = "push";
   GuidedSpringDescription guide;
-  guide.reference = at("block", {0, 0, 1});
-  guide.tip = at("part", {0.5, 0, 0});
+  guide.reference = place_on("block", {0, 0, 1});
+  guide.tip = place_on("part", {0.5, 0, 0});
   guide.damper = PiecewisePolynomial::linear(5.0, 0.0);
   JointSpringDescription motor;
   motor.joint = "slide";
   motor.spring = PiecewisePolynomial::linear(5.0, 0.0);
   motor.target.emplace();
   TyreDescription tyre;
-  tyre.centre = at("block", {0, 0, 1});
+  tyre.centre = place_on("block", {0, 0, 1});
   tyre.radius = 0.3;
   tyre.stiffness = 1e5;
   tyre.road = "track";
   AppliedLoadDescription load;
-  load.at = at("block", {0, 0, 1});
+  load.at = place_on("block", {0, 0, 1});
   d.forces = {{"spring", spring, {}},
               {"guide", guide, {}},
               {"motor", motor, {}},
@@ -156,12 +126,8 @@ inline ModelDescription valid_description() {
 
   const auto output = [&](const char* name, OutputType type, const char* body, const char* entity,
                           int component) {
-    OutputDescription o;
-    o.name = name;
-    o.type = type;
-    o.at = at(body, {0, 0, 1});
-    o.entity = entity;
-    o.component = component;
+    OutputDescription o = make_output(name, type, entity, component);
+    o.at = place_on(body, {0, 0, 1});
     return o;
   };
   d.outputs = {output("z", OutputType::position, "block", "", 2),
@@ -176,12 +142,7 @@ inline ModelDescription valid_description() {
 }
 
 inline std::string errors(const ModelDescription& d) {
-  try {
-    build_model(d);
-  } catch (const InputError& error) {
-    return test::codes_of(error);
-  }
-  return "no error";
+  return error_of([&] { build_model(d); });
 }
 
 template <class T>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 #include "floatframe/sweep/sweep_run.hpp"
 #include "support/error_of.hpp"
@@ -171,9 +170,9 @@ simulation: {step: 0.01, duration: 1}
   EXPECT_EQ(report.failed, 2u);
   EXPECT_EQ(report.first_failed, 2u);
   const std::string table = folder_.read("out/sweep.csv");
-  EXPECT_NE(table.find("\n1,1.25,0,completed,,1,"), std::string::npos) << table;
-  EXPECT_NE(table.find("\n2,9,0,failed,"), std::string::npos) << table;
-  EXPECT_NE(table.find("\n3,1.25,-2,failed,step failed at t = "), std::string::npos) << table;
+  EXPECT_TRUE(test::contains(table, "\n1,1.25,0,completed,,1,"));
+  EXPECT_TRUE(test::contains(table, "\n2,9,0,failed,"));
+  EXPECT_TRUE(test::contains(table, "\n3,1.25,-2,failed,step failed at t = "));
   // Continuing does not repeat failures.
   EXPECT_EQ(run().before, 3u);
 }
@@ -187,10 +186,9 @@ TEST_F(Sweep, ARunThatTakesTooLongIsARowAndCanBeRepeated) {
   EXPECT_EQ(report.failed, 1u);
   EXPECT_EQ(report.first_failed, 2u);
   EXPECT_EQ(report.first_message, "stopped after 2 s (--case-timeout)");
-  EXPECT_NE(
-      folder_.read("out/sweep.csv").find("\n2,1000000,failed,stopped after 2 s (--case-timeout),,"),
-      std::string::npos);
-  EXPECT_NE(folder_.read("out/runs/2/summary.json").find("stopped after 2 s"), std::string::npos);
+  EXPECT_TRUE(test::contains(folder_.read("out/sweep.csv"),
+                             "\n2,1000000,failed,stopped after 2 s (--case-timeout),,"));
+  EXPECT_TRUE(test::contains(folder_.read("out/runs/2/summary.json"), "stopped after 2 s"));
   options_.limits.seconds = 1.5;  // no part of what the study is
   EXPECT_EQ(run().before, 3u);
   options_.retry_failed = true;
