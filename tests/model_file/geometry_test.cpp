@@ -94,7 +94,8 @@ TEST_F(BodyGeometry, ErrorsHaveTheirPlace) {
   EXPECT_EQ(errors("{file: parts/plate.obj, scale: 0, color: red}"),
             "m.yaml:5:46: bodies.a.geometry.scale: out_of_range\nm.yaml:5:56: "
             "bodies.a.geometry.color: wrong_value");
-  EXPECT_EQ(errors("{file: parts/plate.obj, scal: 0.001}"), "m.yaml:5:39: bodies.a.geometry.scal: unknown_key");
+  EXPECT_EQ(errors("{file: parts/plate.obj, scal: 0.001}"),
+            "m.yaml:5:39: bodies.a.geometry.scal: unknown_key");
   EXPECT_EQ(errors("{file: parts/plate.obj, scale: 1e6}"),
             "m.yaml:5:22: bodies.a.geometry.file: out_of_range");
   folder_.write("bad.obj", "v 0 0 0\nv 1 nan 0\n");

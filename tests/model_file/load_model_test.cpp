@@ -30,7 +30,8 @@ TEST(LoadModel, ReadsATextInPlaceOfAFile) {
   EXPECT_EQ(build_model(d).bodies.at(0).data->invariants.m, 5.0);
   const std::string message =
       error_of([&] { read_description("floatframe: 1\nbodies:\n  a: {colour: red}\n", "<text>"); });
-  EXPECT_EQ(message, "<text>:3:3: bodies.a: missing\n<text>:3:7: bodies.a.colour: unknown_key") << message;
+  EXPECT_EQ(message, "<text>:3:3: bodies.a: missing\n<text>:3:7: bodies.a.colour: unknown_key")
+      << message;
 }
 
 TEST(LoadModel, NamesAnUnknownParameter) {
