@@ -1,16 +1,16 @@
 #pragma once
-// Campbell diagram: the vibrations of a model with a rotor over its speed, as seen by who stands
-// beside the machine, followed from speed to speed by their shapes; critical speeds; the speed at
-// which it becomes unstable.
+// Campbell diagram: the modes of a model with a rotor as functions of its speed, in the inertial
+// frame, tracked from speed to speed by their shapes; critical speeds; the speed at which the
+// system becomes unstable.
 //
-// Modes are followed from speed to speed, by their shapes; a line ends where its mode cannot be
-// followed, with a note. A critical speed of order n is where a frequency crosses n W,
-// |Im lambda| = n W. Of order 1, unbalance, it is critical only if forces that turn with the rotor
-// at its axis do work on the mode: the axis moves across itself with a part that goes round with
-// the rotor. Other crossings of order 1 are listed apart. Other orders stand for whatever excites
-// so often in a turn, in any direction: all crossings are listed. The onset of instability is where
-// Re lambda becomes positive, or a motion appears that grows without swinging. All are refined with
-// systems of their own.
+// A line ends where its mode cannot be tracked, with a note. A critical speed of order n is where a
+// frequency crosses n W, |Im lambda| = n W. A crossing of order 1 (unbalance) is critical only if
+// forces that rotate with the rotor at its axis do work on the mode: the axis has a lateral
+// displacement with a component that whirls with the rotor. Other crossings of order 1 are listed
+// separately. Other orders represent any excitation with that many cycles per revolution, in any
+// direction: all their crossings are listed. The onset of instability is where Re lambda becomes
+// positive, or where a growing motion without oscillation appears. All these speeds are refined
+// with systems linearised at the speeds between.
 #include <complex>
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ namespace floatframe {
 struct CampbellOptions {
   std::string joint;
   double from = 0.0, to = 0.0, step = 0.0;  ///< [rad/s]
-  /// Of a free joint, in its axes; none: the one about which the rotor is symmetric, or that of its
+  /// Axis of a free joint, in its axes; none: the axis of symmetry of the rotor, or the axis of its
   /// bearings.
   std::optional<Vec3> axis = std::nullopt;
   std::vector<double> orders{1.0};  ///< of critical speeds
@@ -44,9 +44,9 @@ struct CampbellPoint {
 
 struct CampbellLine {
   std::vector<CampbellPoint> points;  ///< of each speed
-  /// By most of the points: "forward", "backward", "planar"; where the axis does not move across
-  /// itself "axial or torsion", "bending" (the rotor deforms: flap and lag of blades), "other
-  /// bodies" (the rotor hardly moves).
+  /// By the majority of the points: "forward", "backward", "planar"; where the rotor axis has no
+  /// lateral displacement "axial or torsion", "bending" (the rotor deforms: flap and lag of
+  /// blades), "other bodies" (the rotor hardly moves).
   std::string kind;
 };
 
@@ -79,8 +79,8 @@ struct CampbellDiagram {
   std::vector<std::string> notes;
 };
 
-/// Throws InputError for options and rotors that are not valid, RunError where there is no steady
-/// state, or if the system depends on the angle of the rotor.
+/// Throws InputError for invalid options and rotors, RunError if there is no steady state or if the
+/// system depends on the angle of the rotor.
 CampbellDiagram campbell(const Model& model, const CampbellOptions& options);
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// What a run, a check and an equilibrium computation hand to writers: plain data, no dependence on
+// Results of a run, a check and an equilibrium computation for writers: plain data, independent of
 // the model.
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace floatframe {
 
 struct SystemState;
 
-/// What puts energy into a system or takes it out.
+/// Sources and sinks of the energy of a system.
 enum class EnergyFlow : std::size_t {
   loads,          ///< applied forces and torques
   actuators,      ///< actuators and moving targets of force elements
@@ -54,7 +54,7 @@ struct EnergySummary {  ///< [J]
   double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
   double exchanged = 0;                                    ///< what remainders are measured against
   double present = 0;  ///< the most in motion and modes together: weight and springs have no zero
-  /// The largest change of the remainder from one look at it to the next, and when these were [s].
+  /// The largest change of the remainder between two consecutive checks, and their times [s].
   double largest_growth = 0, largest_growth_from = 0, largest_growth_to = 0;
 };
 
@@ -84,11 +84,11 @@ struct RunSummary {
   std::string status = "completed";
   std::string message;  ///< why it failed: when, and what to look at
   StartReport start;
-  /// Where the run left the range of the method: one sentence each (docs/range.md).
+  /// Departures of the run from the range of the method: one sentence each (docs/range.md).
   std::vector<RangeWarning> warnings;
   bool strict = false;  ///< failed only because warnings count as errors: the results are complete
-  /// What the run was made from: parameters set, as NAME=VALUE, and every file read with the hash
-  /// of its content. Empty unless the caller fills them.
+  /// Inputs of the run: parameters set, as NAME=VALUE, and every file read with the hash of its
+  /// content. Empty unless the caller fills them.
   std::vector<std::string> settings;
   std::map<std::string, std::string> files;
 };
@@ -108,9 +108,9 @@ struct ModelCounts {
   StartReport start;
 };
 
-/// Where constraints are redundant some reactions are not unique: any multiple of forces that
-/// balance each other may be added. Then all reactions are those of minimum norm: the sum of the
-/// squares of the forces and of the torques divided by the length of the child.
+/// With redundant constraints some reactions are not unique: any multiple of self-balancing forces
+/// may be added. Then all reactions are those of minimum norm: the sum of the squares of the forces
+/// and of the torques divided by the length of the child.
 struct StaticsForce {
   std::string name, type;
   double force = 0;   ///< tension positive [N]; torque [N m] for joint springs on revolutes;

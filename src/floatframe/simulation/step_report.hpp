@@ -1,5 +1,5 @@
 #pragma once
-// What a step of a simulation reports, and what all of them add up to.
+// The report of a step of a simulation, and the totals over all steps.
 #include <cstdint>
 #include <string_view>
 
@@ -22,8 +22,8 @@ const char* step_status_name(StepStatus status) noexcept;
 
 struct StepReport {
   StepStatus status = StepStatus::completed;
-  /// Of a step that failed, where to look: "joint 'crank'", "mode 2 of body 'beam'", "input 'f'".
-  /// Belongs to the simulation.
+  /// For a failed step, the place of the failure: "joint 'crank'", "mode 2 of body 'beam'", "input
+  /// 'f'". Owned by the simulation.
   std::string_view where;
   double time = 0.0;   ///< reached: the end of the step, or where it was given up [s]
   int iterations = 0;  ///< Newton iterations of this step

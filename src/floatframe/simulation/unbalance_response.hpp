@@ -1,12 +1,12 @@
 #pragma once
-// Response of a rotor to unbalance over its speed: the steady whirl that an unbalance U = m e
-// [kg m] at angle a on the rotor makes. At each speed W the model turns steadily, as for a Campbell
-// diagram, and on the axis of the rotor acts
+// Response of a rotor to unbalance over its speed: the steady whirl due to an unbalance U = m e [kg
+// m] at angle a on the rotor. At each speed W the model turns steadily, as for a Campbell diagram,
+// with the force on the axis of the rotor
 //   F(t) = U W^2 (e_1 cos(W t + a) + e_2 sin(W t + a))
-// with e_1, e_2 at rest, across the axis: e_1 is the x axis of a revolute or cylindrical joint, of
-// a free joint the axis after that of the rotor in the order x, y, z; e_1 x e_2 has the sense of
+// with e_1, e_2 fixed and normal to the axis: e_1 is the x axis of a revolute or cylindrical joint,
+// of a free joint the axis after that of the rotor in the order x, y, z; e_1 x e_2 has the sense of
 // positive speed. Outputs are y = mean + |Y| cos(W t + arg Y): linear, about the steady state. The
-// unbalance is small: it is no part of the mass of the model, which must be symmetric.
+// unbalance is small: it is not included in the mass of the model, which must be symmetric.
 #include <complex>
 #include <optional>
 #include <string>
@@ -46,8 +46,8 @@ struct UnbalanceResponse {
   std::vector<std::string> notes;  ///< which outputs are left out, and why
 };
 
-/// Throws InputError for what is not valid, RunError where there is no steady state, if the rotor
-/// is not symmetric, or at a critical speed without damping.
+/// Throws InputError for invalid options, RunError if there is no steady state, if the rotor is not
+/// symmetric, or at a critical speed without damping.
 UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions& options);
 
 }  // namespace floatframe
