@@ -1,10 +1,10 @@
 #pragma once
-// The built system: immutable, shared by threads; names first, indices after. Made by
+// The built system: immutable, shared by threads; names are resolved to indices. Made by
 // `build_model`.
 //
-// Markers are the only socket: a joint, rod or force knows two markers and never a coordinate set.
-// A marker sits on a node of a flexible body and moves with its deformation, or is fixed in a rigid
-// body or in the ground:
+// Markers are the only interface: a joint, rod or force has two markers and never accesses
+// coordinates. A marker is attached to a node of a flexible body and moves with its deformation, or
+// is fixed in a rigid body or in the ground:
 //   p_BM = p + X y + exp(skew(X_theta y)) p_NM,   R_BM = exp(skew(X_theta y)) R_NM.
 #include <limits>
 #include <memory>
@@ -34,7 +34,7 @@ struct Body {
   bool geometric_stiffening = false;
   bool stiffening_given = false;  ///< the description has the key, for it or for all bodies
   int modes() const noexcept { return data->modes(); }
-  /// Displacements of second order enter (SecondOrder).
+  /// Second-order displacements are included (SecondOrder).
   bool stiffens() const noexcept {
     return geometric_stiffening && modes() > 0 && data->second_order != nullptr;
   }
@@ -90,7 +90,7 @@ struct Force {
   bool targeted = false;       ///< it has one of them
   bool derived_rate = false;   ///< the rate of the target is the derivative of its function
   bool follows = false;
-  /// What further laws and numbers a type has, in an order of its own.
+  /// Further laws and numbers of the type, in a type-specific order.
   std::vector<PiecewisePolynomial> laws;
   std::vector<double> numbers;
 };
@@ -114,7 +114,7 @@ struct Output {
   int gauge = -1;
 };
 
-/// What a constraint row comes from, for messages: "joint 'front_left.ball'".
+/// The origin of a constraint row, for messages: "joint 'front_left.ball'".
 struct ConstraintOwner {
   enum class Kind { joint, rod } kind = Kind::joint;
   int index = -1;
@@ -139,11 +139,11 @@ struct Model {
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free
-/// joints to bodies no joint leads to. Throws InputError with every error.
+/// joints to bodies without a joint that leads to them. Throws InputError with every error.
 Model build_model(const ModelDescription& description);
 
-/// The model itself if `build_model` has made it; InputError if it is empty (default-constructed or
-/// moved from) or its parts do not belong together.
+/// Returns the model itself if `build_model` has made it; InputError if it is empty
+/// (default-constructed or moved from) or inconsistent.
 const Model& built(const Model& model);
 
 }  // namespace floatframe
