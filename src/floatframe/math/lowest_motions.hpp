@@ -1,6 +1,6 @@
 #pragma once
-// The slowest of the motions M x'' + C x' + K x = 0 of a large dense system, without all of its
-// eigenvalues, whose cost is 25 (2 n)^3 and more.
+// The slowest of the motions M x'' + C x' + K x = 0 of a large dense system, without computing all
+// of its eigenvalues, at a cost of 25 (2 n)^3 and more.
 //
 // Near a shift sigma > 0, with Q = K + sigma C + sigma^2 M and w = x' / sigma,
 //   (x, w) -> (y, y + x),  y = -Q^-1 ((sigma C + sigma^2 M) x + sigma^2 M w)
@@ -16,12 +16,12 @@
 
 namespace floatframe {
 
-/// Below this part of the fastest a lambda is zero.
+/// Below this fraction of the fastest one a lambda is zero.
 inline constexpr double zero_part = 1e-7;
 
-/// What moves slowest: zdot = A z, x = X z, xdot = rate z. Motions that nothing holds come first,
-/// with all vectors of their Jordan blocks; then blocks [a b; -b a] of the pairs lambda = a + i b
-/// and real ones, ascending by |lambda|.
+/// The slowest motions: zdot = A z, x = X z, xdot = rate z. Unrestrained motions come first, with
+/// all vectors of their Jordan blocks; then blocks [a b; -b a] of the pairs lambda = a + i b and
+/// real ones, ascending by |lambda|.
 struct LowestMotions {
   MatX A;         ///< nz x nz [1/s]
   MatX X, rate;   ///< n x nz
@@ -32,7 +32,7 @@ struct LowestMotions {
   bool singular = false;   ///< a direction without mass, damping and stiffness
 };
 
-/// `count` of them, a pair once, and all that nothing holds as far as those are fewer. Allocates;
+/// `count` of them, pairs once, and all unrestrained ones as long as those are fewer. Allocates;
 /// the same on each run.
 LowestMotions lowest_motions(const MatX& M, const MatX& C, const MatX& K, int count);
 
