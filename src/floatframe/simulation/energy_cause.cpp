@@ -60,8 +60,8 @@ class CauseFinder {
     }
   }
 
-  /// Values that steps sample as they are (time_corners.hpp): a good part of the whole way of
-  /// a table within one of them. Jumps that steps are divided at are resolved.
+  /// Jumps of values that are only sampled by steps (time_corners.hpp): a large part of the total
+  /// variation of a table within one step. Jumps at which steps are divided are resolved.
   void sampled(const std::string& name, const TimeFunction& f, const char* unit) {
     const std::vector<double>& breaks = f.pieces.breaks();
     if (breaks.empty()) return;
