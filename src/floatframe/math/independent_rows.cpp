@@ -59,12 +59,12 @@ class IndependentRows::Elimination {
   }
 
  private:
-  /// Of a row of length 1 it is as good as none.
+  /// Rows of length 1 below it count as dependent.
   static constexpr double rounding = 1e-17;
-  /// What rounding leaves of a row of zeros, of rows of length 1 or longer.
+  /// Rounding error of rows of zeros, relative to rows of length 1 or longer.
   static constexpr double nothing = 1e-14;
 
-  /// An entry that was zero until reflection k: all later ones that reach it are to be applied.
+  /// An entry that was zero until reflection k: all later ones that affect it must be applied.
   void meet(int i, int k) {
     if (met_[i]) return;
     met_[i] = true;
