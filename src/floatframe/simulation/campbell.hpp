@@ -28,14 +28,14 @@ struct CampbellOptions {
   /// bearings.
   std::optional<Vec3> axis = std::nullopt;
   std::vector<double> orders{1.0};  ///< of critical speeds
-  int modes = 12;                   ///< the lowest that vibrate
+  int modes = 12;                   ///< the lowest oscillating ones
 };
 
 /// One mode at one speed.
 struct CampbellPoint {
-  std::complex<double> lambda;  ///< [1/s], Im >= 0; NaN where the mode is not known
+  std::complex<double> lambda;  ///< [1/s], Im >= 0; NaN if the mode is unknown
   double whirl = 0.0, across = 0.0;
-  std::string kind;        ///< as that of a line; "" where the mode is not known
+  std::string kind;        ///< as that of a line; "" if the mode is unknown
   bool unbalance = false;  ///< excites it
   bool known() const noexcept { return lambda.imag() == lambda.imag(); }
   double frequency() const noexcept { return std::abs(lambda.imag()); }  ///< damped [rad/s]
@@ -59,22 +59,22 @@ struct CriticalSpeed {
 };
 
 struct InstabilityOnset {
-  int line = 0;                         ///< -1: of no line
-  double speed = 0.0, frequency = 0.0;  ///< [rad/s]; 0: it grows without swinging
+  int line = 0;                         ///< -1: on no line
+  double speed = 0.0, frequency = 0.0;  ///< [rad/s]; 0: it grows without oscillation
 };
 
 struct CampbellDiagram {
   std::vector<double> speeds;       ///< [rad/s]
   std::vector<CampbellLine> lines;  ///< ascending by the frequency at the first speed
   std::vector<CriticalSpeed> critical;
-  std::vector<CriticalSpeed> crossings;  ///< of order 1 that unbalance does not excite
+  std::vector<CriticalSpeed> crossings;  ///< of order 1, not excited by unbalance
   std::vector<InstabilityOnset> unstable;
-  double dependence_on_angle = 0.0;  ///< of eigenvalues, in parts
+  double dependence_on_angle = 0.0;  ///< of eigenvalues, relative
   int rigid = 0;                     ///< modes of frequency zero at the first speed
-  int overdamped = 0;                ///< modes that do not swing at any speed
-  int extra_speeds = 0;              ///< that were added to follow the modes
+  int overdamped = 0;                ///< modes that do not oscillate at any speed
+  int extra_speeds = 0;              ///< added for tracking the modes
   std::vector<std::string>
-      stiffened;           ///< bodies whose stiffening is counted in without being asked
+      stiffened;           ///< bodies whose stiffening is included without an explicit option
   std::string stiffening;  ///< which, in a sentence without its point; empty: none
   std::vector<std::string> notes;
 };

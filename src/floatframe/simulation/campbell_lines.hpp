@@ -9,8 +9,8 @@ namespace floatframe {
 /// End of a line between the speeds `interval` and `interval + 1`.
 struct LineEnd {
   std::size_t line = 0, interval = 0;
-  bool upwards = false;  ///< it is known at the first of the two
-  double speed = 0.0;    ///< up to which it was followed
+  bool upwards = false;  ///< it is known at the first of the two speeds
+  double speed = 0.0;    ///< up to which it was tracked
   std::complex<double> lambda;
 };
 

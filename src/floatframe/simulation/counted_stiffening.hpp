@@ -14,8 +14,8 @@ namespace floatframe {
 
 struct CountedStiffening {
   Model model;                      ///< with geometric stiffening of these bodies
-  std::vector<std::string> bodies;  ///< that have it without being asked for
-  std::string sentence;             ///< which, and that `run` leaves it out; empty: none
+  std::vector<std::string> bodies;  ///< with stiffening, without an explicit option
+  std::string sentence;             ///< names them and notes that `run` omits it; empty: none
   /// Omissions, one sentence each without its full stop: bodies for which the model switches it off
   /// that spin or carry load beyond the limits of the range, or whose stiffening is not known.
   std::vector<std::string> notes;

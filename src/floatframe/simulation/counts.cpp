@@ -69,7 +69,7 @@ bool out_of_proportion(const Model& model, const StaticsResult& s) {
 }  // namespace
 
 ModelCounts check(const Model& model) {
-  started_model(built(model), model.simulation);  // a state of another model is refused as by a run
+  started_model(built(model), model.simulation);  // rejects a state of another model, as a run
   RelativeFormulation relative(model, model.simulation.inertia);
   const AbsoluteFormulation absolute(model, model.simulation.inertia);
   ModelCounts c;

@@ -103,8 +103,8 @@ class EdgeLocator {
  private:
   static constexpr int most_edges = 16, most_passes = 20;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  static constexpr double shortest = 0.02;  ///< of the step: what is made as a step
-  static constexpr double close = 1e-6;     ///< of the step: by which an edge may be missed
+  static constexpr double shortest = 0.02;  ///< of the step: the shortest that is made as a step
+  static constexpr double close = 1e-6;     ///< of the step: tolerance of the located edge
   using Sides = std::vector<ForceSide>;
 
   struct Crossing {

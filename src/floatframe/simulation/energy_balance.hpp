@@ -76,9 +76,9 @@ class EnergyBalance {
  public:
   struct Energies {
     double kinetic = 0.0, potential = 0.0, elastic = 0.0;
-    double motion = 0.0;   ///< kinetic, if all mass moved as fast as the outermost may
-    double present = 0.0;  ///< what errors of the step may be small beside
-    double gravity = 0.0, springs = 0.0, tyres = 0.0;  ///< what `potential` consists of
+    double motion = 0.0;   ///< kinetic, if all mass moved at the largest possible speed
+    double present = 0.0;  ///< reference of the errors of a step
+    double gravity = 0.0, springs = 0.0, tyres = 0.0;  ///< terms of `potential`
     double total() const noexcept { return kinetic + potential + elastic; }
   };
 

@@ -89,7 +89,7 @@ class Statics {
 
   VecX r, phi;
   MatX J, K;
-  double weight = 0.0;  ///< the largest force that acts there, what balance is measured against [N]
+  double weight = 0.0;  ///< the largest acting force, the reference of the imbalance [N]
 
  private:
   /// Magnitude of the weight and the forces at the state of `f`.

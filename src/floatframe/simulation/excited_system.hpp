@@ -43,7 +43,7 @@ class ExcitedSystem {
   Model model_;
   F f_;
   State state_;
-  std::vector<TimeFunction> laws_;  ///< of the joints as they are
+  std::vector<TimeFunction> laws_;  ///< original laws of the joints
   std::vector<double> inputs_;
   std::optional<ReactionSolver<F>> reactions_;
   std::vector<FollowedOutput> followed_;

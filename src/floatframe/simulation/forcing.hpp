@@ -13,7 +13,7 @@ namespace floatframe {
 
 struct ForcingLimits {
   double phase = 1.0;   ///< of a sine in a step [rad]
-  double passed = 0.1;  ///< of the range of a table, by which it leaves that of a step's two ends
+  double passed = 0.1;  ///< of a table's range: deviation from the range of a step's two ends
 };
 
 /// At most one sentence about sines and one about tables, each about the worst; empty if the step

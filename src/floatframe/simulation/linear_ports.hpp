@@ -25,7 +25,7 @@ struct LinearInput {
   std::string unit;
   Kind kind = Kind::signal;
   int index = -1;           ///< of the model's input, or of the joint
-  std::vector<int> wheels;  ///< of a road: the force elements that it moves under
+  std::vector<int> wheels;  ///< of a road: the force elements above it
   double place = 0.0;       ///< x of the centre of its wheel, if it is one, in a LinearModel [m]
   /// Number of derivatives that enter: 0, 2 of motions, 1 of roads.
   int order() const noexcept { return kind == Kind::motion ? 2 : kind == Kind::road ? 1 : 0; }
@@ -44,8 +44,8 @@ struct LinearModel {
   std::vector<LinearInput> inputs;
   std::vector<Column> outputs;
   MatX B[3], C, D[3];                ///< (1)
-  double time = 0.0;                 ///< where it was linearised [s]
-  VecX input_values, output_values;  ///< there; heights of roads count from there
+  double time = 0.0;                 ///< of the linearisation [s]
+  VecX input_values, output_values;  ///< there; heights of roads are relative to it
 };
 
 /// At the start state given by the options, as `linear_system`, with the same exceptions. Throws

@@ -21,7 +21,7 @@ constexpr const char* held_by_nothing =
 struct FreeCoordinates {
   std::vector<Eigen::Index> free;
   MatX N, P, R, T;    ///< nv x n
-  LinearInputs held;  ///< what inputs do with the free coordinates held: all but B
+  LinearInputs held;  ///< effect of inputs at constant free coordinates: all but B
 };
 
 /// The solution X of J X = B that is zero in the free coordinates.

@@ -32,14 +32,14 @@ struct LinearSystem {
   /// zero). These and the positions are empty in a LinearModel.
   MatX rates_of, bends_of, springs_of;
   MatX places_of;                ///< 6 a body: displacement of its origin, rotation; world axes
-  std::vector<VecX> amplitudes;  ///< of each body, where it was linearised
+  std::vector<VecX> amplitudes;  ///< of each body, at the linearisation
   /// Approximate upper frequency [1/s] if A contains the slowest motions only; 0: A is complete.
   double fastest = 0.0;
   int degrees = 0;                 ///< of freedom
   int massless = 0;                ///< of these
-  double acceleration = 0.0;       ///< largest of a coordinate where it was linearised [../s2]
+  double acceleration = 0.0;       ///< largest of a coordinate at the linearisation [../s2]
   double speed = 0.0;              ///< largest velocity of a coordinate
-  std::vector<std::string> notes;  ///< a sentence each: where it holds less than one might think
+  std::vector<std::string> notes;  ///< limits of validity, one sentence each
   /// Bodies whose geometric stiffening is included without an explicit option, and the sentence
   /// that names them; empty: none.
   std::vector<std::string> stiffened;

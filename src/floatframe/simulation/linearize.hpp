@@ -32,8 +32,8 @@ struct Linearization {
   VecX r;                                ///< unbalanced forces: -M times the accelerations
   std::vector<std::string> coordinates;  ///< nv: "joint 'crank'", "mode 2 of body 'beam'"
   std::vector<std::string> constraints;  ///< nc: "joint 'guide'"
-  SystemState state;                     ///< where: joints, bodies, time
-  StartReport start;                     ///< what became of the start values
+  SystemState state;                     ///< the state: joints, bodies, time
+  StartReport start;                     ///< changes of the start values
   /// Bodies whose geometric stiffening is included without an explicit option.
   std::vector<std::string> stiffened;
 };

@@ -26,9 +26,9 @@ LoopMembers loop_members(const RelativeFormulation& f);
 
 /// Coordinates that may change to close loops.
 enum class LoopMoves {
-  joints,  ///< coordinates of joints in loops; start values hold
+  joints,  ///< coordinates of joints in loops; start values are fixed
   modes,   ///< amplitudes of the bodies in loops, too
-  values   ///< start values, too, as little as possible, but for those that are kept
+  values   ///< start values, too, as little as possible, except those marked `keep`
 };
 
 /// A start value of a joint in a loop, one coordinate or the three of a rotation vector, or an
@@ -75,7 +75,7 @@ class LoopEquations {
   struct Step {
     VecX x;                 ///< of all coordinates
     Eigen::Index rank = 0;  ///< of J
-    Eigen::Index free = 0;  ///< motions that J x = -r leaves
+    Eigen::Index free = 0;  ///< motions left free by J x = -r
   };
   /// The x nearest to `along` in the metric; with `d`, that of (2).
   Step step(const VecX& along, const VecX* d) const;

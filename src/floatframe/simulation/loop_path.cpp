@@ -24,7 +24,7 @@ double whole_turns(double angle) { return turn * std::round(angle / turn); }
 /// Differences between the start of a path, s = 0, and its end, s = 1.
 struct LoopPath::Stage {
   LoopEquations equations;
-  std::vector<char> counts = {};   ///< constraints that hold on this way
+  std::vector<char> counts = {};   ///< constraints that hold on this path
   VecX open = {};                  ///< of constraints at s = 0
   std::vector<Vec3> from = {};     ///< of each value; of rotations the vector of R R_given^T
   std::vector<double> turns = {};  ///< 2 pi scale of constraints on angles, else 0

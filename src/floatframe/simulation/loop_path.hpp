@@ -53,7 +53,7 @@ class LoopPath {
   RelativeFormulation& f_;
   double t_;
   LoopMembers members_;
-  double size_ = 0.0;  ///< of the loops [m], once it is needed
+  double size_ = 0.0;  ///< of the loops [m], set when first needed
   double reached_ = 0.0;
   bool drawn_closes_ = true;
 };

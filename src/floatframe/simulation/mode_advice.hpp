@@ -39,7 +39,7 @@ struct ModeAdvice {
   double kinetic_ratio = 0;
   double rms = 0, peak = 0;  ///< of the amplitude in the run
   ModeAction action = ModeAction::keep;
-  bool retained = false;  ///< small enough to be dropped, but the verification was against it
+  bool retained = false;  ///< small enough to be dropped, but rejected by the verification
 };
 
 struct BodyAdvice {
@@ -68,14 +68,14 @@ struct AdviceOptions {
   double drop_share = 1e-3;    ///< both shares below this: may be dropped
   double static_ratio = 0.05;  ///< kinetic ratio below this: follows its load
   double tolerance = 0.01;     ///< of the range of every output: rms and peak differences allowed
-  int repeat = 3;              ///< runs of which the quickest counts
+  int repeat = 3;              ///< number of runs, of which the fastest counts
 };
 
 struct ModeAdviceReport {
   std::vector<BodyAdvice> bodies;
   int modes = 0, dropped = 0, quasi_static = 0, candidates = 0;
-  int trials = 0;        ///< reduced models that were run
-  double tolerance = 0;  ///< Newton tolerance of the runs compared, below that of the model
+  int trials = 0;        ///< number of reduced models that were run
+  double tolerance = 0;  ///< Newton tolerance of the compared runs, below that of the model
   /// Fastest of the repeated runs; with the warnings of the compared runs.
   RunSummary full, reduced;
   std::vector<OutputDifference> differences;  ///< the largest first

@@ -18,8 +18,8 @@ using TurningModes = std::vector<TurningMode>;
 inline constexpr std::size_t no_mode = static_cast<std::size_t>(-1);
 
 struct ModePath {
-  std::size_t mode = no_mode;  ///< at the other speed; none: it cannot be followed
-  double end = 0.0;            ///< the last speed to which it was followed [rad/s]
+  std::size_t mode = no_mode;  ///< at the other speed; none: it cannot be tracked
+  double end = 0.0;            ///< the last speed to which it was tracked [rad/s]
   std::complex<double> last;   ///< its eigenvalue there
   /// Intermediate speeds, and the mode there, in the order of tracking.
   std::vector<std::pair<double, std::size_t>> between{};

@@ -32,7 +32,7 @@ struct BodyOrder {
   std::string name;
   std::vector<int> needed;        ///< modes from 0, ascending
   std::vector<double> estimates;  ///< (1) of each mode, the largest over the range
-  double own = 0.0;  ///< highest own frequency of its normal modes [Hz]; 0: it has none
+  double own = 0.0;               ///< highest frequency of its normal modes [Hz]; 0: it has none
 };
 
 struct ModelOrder {

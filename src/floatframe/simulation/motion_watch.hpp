@@ -102,8 +102,8 @@ class MotionWatch {
   F& f_;
   RangeWatch range_;
   VecX y_, ydot_;
-  std::vector<BodyEnergy> energies_;  ///< of bodies that are alike one
-  std::vector<std::size_t> energy_;   ///< which, of each body
+  std::vector<BodyEnergy> energies_;  ///< one for equal bodies
+  std::vector<std::size_t> energy_;   ///< index for each body
 };
 
 }  // namespace floatframe

@@ -28,8 +28,8 @@ struct RangeLimits {
   double phase = 1.0;         ///< of an oscillation per step [rad]
   double share = 0.05;        ///< of the kinetic energy of all oscillations that counts
   double imbalance = 0.05;    ///< remainder of the energy balance over the energy exchanged
-  double dissipation = 0.1;   ///< the same of what numerical damping takes out
-  double of_present = 1e-4;   ///< of the energy present, below which no remainder counts
+  double dissipation = 0.1;   ///< the same for numerical dissipation
+  double of_present = 1e-4;   ///< fraction of the present energy below which no remainder counts
 };
 
 /// Motion per step below which only the tolerances of the solver are visible [m, rad].
@@ -38,7 +38,7 @@ inline constexpr double least_motion = 1e-8;
 /// The largest value so far, with the time at which it first exceeded its limit.
 struct Largest {
   double value = 0.0, at = 0.0;
-  double first = -1.0;  ///< below zero: the limit was not passed
+  double first = -1.0;  ///< below zero: the limit was not exceeded
   int node = -1;
   void offer(double x, double t, double limit) noexcept {
     if (x > limit && first < 0.0) first = t;
@@ -95,7 +95,7 @@ class BodyRange {
 
   const FlexibleBody& data_;
   double size_ = 0.0, lowest_ = 0.0;
-  double softened_ = 0.0;  ///< `lowest_` if centrifugal tension is left out, else 0
+  double softened_ = 0.0;  ///< `lowest_` if centrifugal tension is omitted, else 0
   double stiffening_ = 0.0;
   /// |stretch w| is the spin that loads the body: a spin about the axis of a slender body does not.
   Mat3 stretch_ = Mat3::Zero();
@@ -123,7 +123,7 @@ class PhaseMeter {
   /// Mean kinetic energy of the non-uniform part of the motion [J].
   double energy() const noexcept;
   double phase() const noexcept;  ///< [rad]
-  double speed() const noexcept;  ///< root mean square of what is not uniform [m/s, rad/s]
+  double speed() const noexcept;  ///< root mean square of the non-uniform part [m/s, rad/s]
   long count() const noexcept { return count_; }
   template <class Stream>
   void serialize(Stream& s) {
@@ -188,7 +188,7 @@ class TurnWatch {
     int force = -1;
     bool counts = false;        ///< a joint spring
     Vec3 theta = Vec3::Zero();  ///< the last one [rad]
-    double first = -1.0;        ///< when it went too far [s]; below zero: it did not
+    double first = -1.0;        ///< time at which it exceeded the limit [s]; below zero: it did not
     double most = 0.0;          ///< angle in one step [rad]
   };
   static bool quarter(const Vec3& theta) noexcept { return theta.norm() > 0.5 * std::numbers::pi; }

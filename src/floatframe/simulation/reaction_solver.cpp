@@ -17,7 +17,7 @@ constexpr int reaction_slot = 0;
 constexpr int most_passes = 60, idle_passes = 3;
 /// Relative changes below which accelerations and multipliers count as converged.
 constexpr double enough = 1e-11;
-/// Fewer passes where redundant constraints cost more per row.
+/// Penalty factor: saves passes where redundant constraints increase the cost per row.
 constexpr double stiffer = 30.0;
 /// A pass that leaves more than this fraction of the multipliers' errors does not reduce them.
 constexpr double slow = 0.5;

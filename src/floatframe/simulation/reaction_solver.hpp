@@ -38,7 +38,7 @@ namespace floatframe {
 struct ReactionOptions {
   double penalty_mass = 1.0;  ///< p [kg]
   double step = 1e-3;         ///< h [s]
-  bool redundant = false;     ///< constraints are, at the start
+  bool redundant = false;     ///< true if constraints are redundant at the start
 };
 
 template <class F>

@@ -34,9 +34,9 @@ class ConstraintAnalysis {
 
   const Model& model_;
   AbsoluteFormulation f_;
-  Eigen::Index first_ = 0;  ///< row of the first part: rows of bodies come before
+  Eigen::Index first_ = 0;  ///< row of the first part, after the rows of bodies
   SparseRowMatrix J_;       ///< rows of the parts on the motions of the bodies
-  VecX load_;               ///< what J_^T lambda must be
+  VecX load_;               ///< required value of J_^T lambda
   std::vector<ConstraintRow> rows_;
 };
 

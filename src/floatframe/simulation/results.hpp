@@ -25,7 +25,7 @@ enum class EnergyFlow : std::size_t {
   loads,          ///< applied forces and torques
   actuators,      ///< actuators and moving targets of force elements
   dampers,        ///< of force elements
-  tyres,          ///< their dampers, and the road that moves under them
+  tyres,          ///< their dampers, and the motion of the road below them
   modal_damping,  ///< of flexible bodies
   motions         ///< prescribed motions of joints
 };
@@ -48,11 +48,11 @@ struct EnergyFlows {
 struct EnergySummary {  ///< [J]
   double kinetic_start = 0, potential_start = 0, elastic_start = 0, total_start = 0;
   double kinetic_end = 0, potential_end = 0, elastic_end = 0, total_end = 0;
-  bool balanced = false;  ///< the run kept the balance: what follows is valid
+  bool balanced = false;  ///< the run monitored the balance: the following values are valid
   EnergyFlows work;       ///< over the run
-  double remainder = 0;   ///< change of the total less all work, at the end
+  double remainder = 0;   ///< change of the total minus all work, at the end
   double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
-  double exchanged = 0;                                    ///< what remainders are measured against
+  double exchanged = 0;                                    ///< reference value of remainders
   double present = 0;  ///< the most in motion and modes together: weight and springs have no zero
   /// The largest change of the remainder between two consecutive checks, and their times [s].
   double largest_growth = 0, largest_growth_from = 0, largest_growth_to = 0;
@@ -72,8 +72,8 @@ struct RunSummary {
   long steps = 0, substeps = 0;   ///< accepted output steps; extra steps by halving
   long iterations = 0, factorizations = 0;
   bool locates_edges = false;        ///< with `locate_edges`
-  long edges = 0, edges_passed = 0;  ///< edges that steps were divided at; steps with too many
-  long corners = 0;                  ///< of functions of time, that steps were divided at
+  long edges = 0, edges_passed = 0;  ///< edges at which steps were divided; steps with too many
+  long corners = 0;                  ///< of functions of time, at which steps were divided
   double cpu = 0;                    ///< [s] of stepping, without input and output
   double real_time_factor = 0;       ///< duration / cpu
   StepTimes step_times;
@@ -82,7 +82,7 @@ struct RunSummary {
   EnergySummary energy;
   /// "completed", "failed" or "interrupted"; "running" in a summary that is written at the start.
   std::string status = "completed";
-  std::string message;  ///< why it failed: when, and what to look at
+  std::string message;  ///< cause of the failure: its time and the place to check
   StartReport start;
   /// Departures of the run from the range of the method: one sentence each (docs/range.md).
   std::vector<RangeWarning> warnings;
@@ -96,7 +96,7 @@ struct RunSummary {
 struct RunResult {
   ResultTable table;
   RunSummary summary;
-  std::shared_ptr<SystemState> state;  ///< at the end, if it was asked for
+  std::shared_ptr<SystemState> state;  ///< at the end, if requested
 };
 
 struct ModelCounts {
@@ -139,7 +139,7 @@ struct StaticsResult {
   std::vector<StaticsBody> bodies;
   std::shared_ptr<SystemState> state;  ///< the equilibrium, at rest
   std::vector<RedundantDirection> redundant;
-  std::vector<std::string> notes;  ///< what else to know of the equilibrium: it is unstable
+  std::vector<std::string> notes;  ///< other notes about the equilibrium: it is unstable
 };
 
 }  // namespace floatframe

@@ -19,19 +19,19 @@ struct RoadLoading {
   double roughness = 256e-6;     ///< G0 [m3]; class C
   double waviness = 2.0;         ///< w
   double speed = 0.0;            ///< V [m/s]
-  double from = 0.1, to = 50.0;  ///< the band asked for [Hz]; the road has 0.011 V to 2.83 V
+  double from = 0.1, to = 50.0;  ///< the requested band [Hz]; the road has 0.011 V to 2.83 V
 };
 
 struct OutputSpectrum {
   Column output;
-  std::vector<double> density;  ///< at the frequencies asked for [unit^2/Hz]; 0 outside the band
+  std::vector<double> density;  ///< at the requested frequencies [unit^2/Hz]; 0 outside the band
   double rms = 0.0;             ///< in the band, about the mean
 };
 
 struct RoadResponse {
   std::vector<double> frequencies;  ///< [Hz]
   std::vector<OutputSpectrum> outputs;
-  double from = 0.0, to = 0.0;  ///< the band: what both the road and the user have [Hz]
+  double from = 0.0, to = 0.0;  ///< intersection of the bands of the road and the user [Hz]
   double road = 0.0;            ///< rms of the height in the band [m]
   std::vector<std::string> notes;
 };

@@ -27,7 +27,7 @@ struct RotorBody {
 struct Rotor {
   int joint = -1;      ///< of the model
   std::string name;    ///< of the joint
-  int body = -1;       ///< that hangs on it
+  int body = -1;       ///< attached to it
   int coordinate = 0;  ///< velocity of the angle; of a free joint the first of the three rotations
   bool free = false;
   Vec3 axis_F = Vec3::UnitZ();  ///< of a free joint, in its frame F
@@ -36,7 +36,7 @@ struct Rotor {
   bool driven = false;          ///< by a prescribed motion
   Vec3 e_1 = Vec3::UnitX();     ///< across the axis: x of the joint, of a free one the axis after
                                 ///< its own in the order x, y, z; world axes
-  double length = 1.0;          ///< what tilts are made lengths with [m]
+  double length = 1.0;          ///< converts tilts to lengths [m]
   std::vector<RotorBody> bodies;
 };
 

@@ -248,19 +248,19 @@ class Run {
   const SimulationDescription& o_;
   const RunOptions& options_;
   SteppedModel<F> steps_;
-  const long planned_, every_;   ///< every so many of the planned steps are sampled
+  const long planned_, every_;   ///< sampling interval in planned steps
   const long checkpoint_every_;  ///< steps; 0: no checkpoints
   long made_ = 0;                ///< steps
   RunResult result_;
   Histogram step_times_;
   std::size_t rows_ = 0;           ///< in the table
-  std::optional<RowBlock> block_;  ///< of rows that leave
+  std::optional<RowBlock> block_;  ///< of output rows
   std::optional<StateSampler<F>> states_;
-  long states_every_ = 1;  ///< of the rows so many are states
+  long states_every_ = 1;  ///< interval of states in rows
   std::vector<Column> state_columns_;
   RowBlock::Sink state_sink_;
-  std::optional<RowBlock> state_block_;  ///< of states that leave
-  double* state_row_ = nullptr;          ///< one of it that has no health yet
+  std::optional<RowBlock> state_block_;  ///< of output states
+  double* state_row_ = nullptr;          ///< its row without health columns yet
   std::optional<JointFollower> joints_;
   std::optional<RunWatch<F>> watch_;
 };

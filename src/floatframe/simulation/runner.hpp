@@ -28,7 +28,7 @@ namespace floatframe {
 struct RunnerMemory {
   TangentReuse tangent_reuse;
   std::vector<FollowedOutput> outputs;
-  std::vector<double> inputs;  ///< that the accelerations of the state belong to
+  std::vector<double> inputs;  ///< consistent with the accelerations of the state
   StepCounters counters;
 };
 

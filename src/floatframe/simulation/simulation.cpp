@@ -29,7 +29,7 @@ double default_penalty_mass(const Model& model, Coordinates coordinates) {
 
 namespace {
 
-/// Masses and principal moments of inertia of the bodies, above rounding.
+/// Smallest mass or principal moment of inertia of the bodies above rounding.
 double smallest_inertia(const Model& model) {
   double least = 1.0;
   for (const Body& b : model.bodies) {

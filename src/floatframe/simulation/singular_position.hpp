@@ -10,7 +10,7 @@ namespace floatframe {
 
 struct SingularPosition {
   std::string sentence;  ///< empty: there is none
-  int only_there = 0;    ///< constraints that depend on others in this position only
+  int only_there = 0;    ///< constraints that are dependent in this position only
 };
 
 /// Loops of rigid bodies in a singular position at the present positions of `f`. Prescribed motions

@@ -27,7 +27,7 @@ std::string redundancy_text(const std::vector<RedundantDirection>& redundant);
 struct StartReport {
   std::vector<StartChange> changes;
   std::vector<RedundantDirection> redundant;
-  std::vector<std::string> notes;  ///< all of it in sentences
+  std::vector<std::string> notes;  ///< all messages as sentences
 };
 
 }  // namespace floatframe

@@ -32,8 +32,8 @@ struct StateLayout {
   /// quaternion (w, x, y, z), body to world; for a monitored run the health columns.
   std::vector<Group> groups;
   int columns = 0;
-  std::vector<int> q, v;  ///< the coordinates that are kept, as the formulation numbers them
-  int configurations = 0, velocities = 0;  ///< all there are
+  std::vector<int> q, v;  ///< the stored coordinates, as numbered by the formulation
+  int configurations = 0, velocities = 0;  ///< total numbers
   std::vector<std::string> owners;         ///< of each velocity: "joint 'hinge'"
 
   /// First columns; -1: not stored.

@@ -12,7 +12,7 @@ namespace floatframe {
 struct SteadyTurning {
   State state;
   double speed = 0.0;   ///< [rad/s]
-  double angle = 0.0;   ///< that the rotor was turned by from where it began
+  double angle = 0.0;   ///< of the rotor relative to its start
   double torque = 0.0;  ///< on the rotor, 0 if it is driven [N m]
 };
 

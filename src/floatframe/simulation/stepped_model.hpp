@@ -33,7 +33,7 @@ struct SteppedMemory {
   std::int64_t since_base = 0;
   State state;
   std::vector<double> spring_angles;         ///< turns of joint springs
-  std::vector<std::int64_t> force_branches;  ///< that are held; empty unless edges are located
+  std::vector<std::int64_t> force_branches;  ///< held branches; empty unless edges are located
   RunnerMemory runner;
 };
 
@@ -106,7 +106,7 @@ class SteppedModel {
   StepOptions step_options_;
   double min_step_;  ///< [s]
   Runner<F> runner_;
-  std::optional<ReactionSolver<F>> reactions_;  ///< if an output asks for them
+  std::optional<ReactionSolver<F>> reactions_;  ///< if an output needs them
   TimeGrid grid_;
   SteppedMemory first_;
 };

@@ -36,7 +36,7 @@ struct SimulationOptions {
   std::optional<Coordinates> coordinates = {};
   std::optional<InertiaMethod> inertia = {};
   std::optional<Start> start = {};
-  std::shared_ptr<const SystemState> state = {};  ///< where Start::state starts
+  std::shared_ptr<const SystemState> state = {};  ///< initial state for Start::state
   std::optional<double> tolerance = {}, spectral_radius = {};
   std::optional<int> max_iterations = {};
   std::optional<double> min_step = {};  ///< smallest substep [s]; 0: step / 1024

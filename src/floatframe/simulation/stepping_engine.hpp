@@ -43,7 +43,7 @@ class Simulation::Engine {
   struct Place {
     StepStatus status = StepStatus::completed;
     int owner = -1;
-    double time = 0.0;  ///< that was reached [s]
+    double time = 0.0;  ///< end of the accepted part [s]
   };
   virtual const TimeGrid& grid() const noexcept = 0;
   /// Makes a step and samples at its end. False if it failed.

@@ -28,7 +28,7 @@ struct TimeCorner {
 struct TimeCornerOptions {
   double step = 0.0;      ///< [s]
   double begin = 0.0;     ///< [s]
-  double duration = 0.0;  ///< what lies behind is not told of; may be infinite [s]
+  double duration = 0.0;  ///< later corners are not reported; may be infinite [s]
   bool all = false;       ///< in dense tables, too
 };
 

@@ -20,11 +20,11 @@
 namespace floatframe {
 
 enum class MotionKind {
-  forward,      ///< the axis of the rotor moves across itself, with the sense of the rotor,
+  forward,      ///< the axis of the rotor moves laterally, in the sense of the rotor,
   backward,     ///< against it,
   planar,       ///< or along lines
   along_axis,   ///< along or about itself: "axial or torsion"
-  bending,      ///< hardly at all, where the rotor deforms: flap and lag of blades
+  bending,      ///< hardly at all, but the rotor deforms: flap and lag of blades
   other_bodies  ///< the rotor hardly moves
 };
 /// "forward", "axial or torsion", ...
@@ -33,15 +33,15 @@ const char* kind_of_motion(MotionKind kind) noexcept;
 /// One motion e^(lambda t) m of a rotating system, in the inertial frame.
 struct TurningMode {
   std::complex<double> lambda;  ///< [1/s], Im >= 0
-  Eigen::VectorXcd m;           ///< of unit size
+  Eigen::VectorXcd m;           ///< normalised
   /// Its displacements times the root of the masses, normalised: m_a^H m_b of these compares
   /// shapes.
   Eigen::VectorXcd shape;
   /// 1: points of the axis whirl on circles with the rotor, -1: against it, 0: on lines.
   double whirl = 0.0;
-  double across = 0.0;  ///< part of the motion of the axis that is across it; 0: no motion there
+  double across = 0.0;  ///< lateral fraction of the motion of the axis; 0: no motion there
   MotionKind kind = MotionKind::along_axis;
-  bool unbalance = false;  ///< forces that turn with the rotor at its axis excite it
+  bool unbalance = false;  ///< forces that rotate with the rotor at its axis excite it
 };
 
 /// A force that rotates with the rotor, Re(size (e_1 - i e_2) e^(i W t)), at a point of its axis:

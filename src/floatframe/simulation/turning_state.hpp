@@ -12,10 +12,10 @@ struct TurningModel::Impl {
   Model model;
   std::unique_ptr<RelativeFormulation> f;
   Rotor rotor;
-  VecX q;  ///< of the last steady state: where the next begins
+  VecX q;  ///< of the last steady state: initial guess for the next
   double torque = 0.0;
   int degrees = 0, massless = 0;
-  bool weightless = false;  ///< gravity was left out
+  bool weightless = false;  ///< gravity is omitted
   std::vector<std::string> notes;
 
   SteadyTurning steady(double speed, double angle);

@@ -19,13 +19,13 @@ namespace floatframe {
 
 struct Unbalance {
   std::string body;
-  std::string node;     ///< of a flexible body, on the axis; of a rigid one none: beside its centre
+  std::string node;     ///< of a flexible body, on the axis; none for a rigid one: near its centre
   double moment = 0.0;  ///< U [kg m]
   double angle = 0.0;   ///< a [rad]
 };
 
 struct UnbalanceOptions {
-  std::string joint;                        ///< that the rotor hangs on
+  std::string joint;                        ///< of the rotor
   double from = 0.0, to = 0.0, step = 0.0;  ///< [rad/s]
   std::vector<Unbalance> unbalances;        ///< act together
   std::vector<std::string> outputs{};       ///< none: all
@@ -43,7 +43,7 @@ struct UnbalanceResponse {
   std::vector<UnbalanceCurve> curves;
   std::vector<std::string> stiffened;  ///< as of CampbellDiagram
   std::string stiffening;
-  std::vector<std::string> notes;  ///< which outputs are left out, and why
+  std::vector<std::string> notes;  ///< omitted outputs, with reasons
 };
 
 /// Throws InputError for invalid options, RunError if there is no steady state, if the rotor is not
