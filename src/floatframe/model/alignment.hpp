@@ -12,14 +12,14 @@ struct LoopAxis {
   int joint = -1;  ///< in the block
   bool second = false;
   Vec3 e = Vec3::Zero();  ///< unit vector, world axes, as drawn; zero: a point only
-  bool located = false;   ///< turns about the line through the place of the joint
+  bool located = false;   ///< rotates about the line through the point of the joint
   bool slides = false;    ///< and nothing but slides along it
 };
 
 struct Relation {
   enum class Kind { parallel, perpendicular, coplanar, one_line, one_point };
   Kind kind = Kind::parallel;
-  std::vector<int> axes;    ///< that it moves
+  std::vector<int> axes;    ///< axes moved by it
   std::vector<int> normal;  ///< perpendicular: to the first of each of these clusters
 };
 

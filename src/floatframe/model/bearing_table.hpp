@@ -62,7 +62,7 @@ struct BearingLaw {
   Mat6 K, C;
   Eigen::Matrix2d dK, dC;  ///< of the corner, in the spin
   int T = bearing_at::T, k = bearing_at::k,
-      c = bearing_at::c;  ///< where the rows of the step stand
+      c = bearing_at::c;  ///< position of the rows of the step
 
   BearingLaw(const Force& f, double spin) noexcept
       : K(bearing_matrix(f, bearing_at::K)), C(bearing_matrix(f, bearing_at::C)) {

@@ -58,7 +58,7 @@ void constraint_curvature_of(const ConstraintPart& part, const MarkerState& a, c
 enum class PartGradients {
   general,
   unit,  ///< three rows, those of d itself: unit vectors on the points
-  line   ///< one row d / scale on the points, which turns with the line between them
+  line   ///< one row d / scale on the points, which rotates with the line between them
 };
 
 struct ConstraintKind {

@@ -55,7 +55,7 @@ struct BarDescription {
   int elements = 1;
   SectionDescription section;
   Vec3 reference =
-      Vec3::UnitZ();  ///< local y lies in the plane of the bar and this vector (design axes)
+      Vec3::UnitZ();  ///< local y is in the plane of the bar and this vector (design axes)
   Origin origin;
 };
 
@@ -97,7 +97,7 @@ struct BodyDescription {
   /// Second-order displacements of the modes are included, which stiffen a body that spins or
   /// carries load; absent: as in SimulationDescription.
   std::optional<bool> geometric_stiffening;
-  double largest_angle = 0.0;  ///< of those that its orientation was written with [rad]
+  double largest_angle = 0.0;  ///< of the angles in which its orientation is given [rad]
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };
@@ -124,7 +124,7 @@ struct InputDescription {
   std::string name;
   std::string unit;                 ///< for people and for the layout of packets
   double initial = 0.0;             ///< value until another one comes
-  std::optional<double> low, high;  ///< values outside are refused ...
+  std::optional<double> low, high;  ///< values outside are rejected ...
   bool clamp = false;               ///< ... or, if true, replaced by the nearer limit
   Origin origin;
 };
@@ -241,7 +241,7 @@ using ForceValue = std::variant<double, int, bool, std::string, Vec3, Attachment
 
 /// A force element of any type, by the keys it has in model files (docs/model-file.md):
 ///   ForceValues{ForceType::tyre, {{"body", wheel}, {"radius", 0.3}, {"law", "radial"}, ...}}
-/// `build_model` checks them as strictly. The key `body` stands for the place it begins.
+/// `build_model` checks them as strictly. The key `body` denotes the point that it begins.
 struct ForceValues {
   ForceType element = ForceType::spring_damper;
   std::map<std::string, ForceValue> values;
@@ -331,7 +331,7 @@ struct RecordDescription {
   /// Interval among the output instants; 0: all, or as many as give at most 20 000.
   int every = 0;
   std::vector<std::string>
-      bodies;                 ///< whose coordinates, and those of what carries them; empty: all
+      bodies;                 ///< whose coordinates, and those of the bodies carrying them; empty: all
   bool accelerations = true;  ///< of the integrator, which (q, v) do not decide to the bit
 };
 
@@ -347,7 +347,7 @@ struct SimulationDescription {
   double duration = 1.0;         ///< [s]
   double output_interval = 0.0;  ///< [s]; 0: every step
   Start start = Start::given;
-  std::shared_ptr<const SystemState> state;   ///< where Start::state starts
+  std::shared_ptr<const SystemState> state;   ///< initial state for Start::state
   std::map<std::string, StartOffset> offset;  ///< by body, from the equilibrium or the state
   /// Added to the velocity of every free joint at the start [m/s]; not with Start::state, which
   /// specifies all velocities.
@@ -378,7 +378,7 @@ struct SimulationDescription {
 struct SnapDescription {
   bool on = true;
   double angle = 3e-3;     ///< [rad]
-  double distance = 1e-3;  ///< as a part of the size of the loops
+  double distance = 1e-3;  ///< relative to the size of the loops
 };
 
 struct ModelDescription {

@@ -21,7 +21,7 @@ enum class ForceKeyKind {
   road,              ///< the name of one
   direction,         ///< its length does not matter
   vector,            ///< the same, but used as given
-  number,            ///< as `rule` says
+  number,            ///< valid range as in `rule`
   word,              ///< one of `words`
   flag,              ///< true or false
   spring,            ///< law of a displacement
@@ -62,7 +62,7 @@ struct ForceKey {
   ForceAxis axis = ForceAxis::along;
   NumberRule rule = any_number("");
   std::span<const char* const> words = {};
-  double fallback = 0.0;                           ///< number or place of the word without the key
+  double fallback = 0.0;                           ///< number or index of the word without the key
   std::array<double, 3> vector = {0.0, 0.0, 1.0};  ///< direction without the key
   bool axial = false;                              ///< how a direction reflects
   const char* of = nullptr;                        ///< of a stop: the key of the spring

@@ -23,11 +23,11 @@ struct ForceInput {
   const Model& model;
   const Force& force;
   const MarkerState &a, &b;
-  const Vec3& origin;                 ///< the markers' positions are measured from here
+  const Vec3& origin;                 ///< reference point of the markers' positions
   double t;                           ///< [s]
-  double reference_angle;             ///< picks the turn of a joint angle [rad]
+  double reference_angle;             ///< selects the turn of a joint angle [rad]
   std::span<const double> inputs;     ///< values of model.inputs
-  std::int64_t branch = free_branch;  ///< that is held
+  std::int64_t branch = free_branch;  ///< the held branch
 
   double input(int index) const noexcept { return index < 0 ? 0.0 : inputs[index]; }
   /// Of a load.
@@ -50,8 +50,8 @@ struct ForceRegime {
   bool conservative = true;
   bool acts = true;     ///< some wrench in at least some of the examples
   bool regular = true;  ///< the wrench has a derivative here. False where it has none (the ends of
-                        ///< a spring coincide, a wheel lies on the road): there the tests only ask
-                        ///< that the tangent is finite
+                        ///< a spring coincide, a wheel flat on the road): there the tests check
+                        ///< only that the tangent is finite
 };
 
 struct ForceExample {
@@ -80,7 +80,7 @@ enum class ForceMarkers {
 };
 
 struct ForceKind {
-  const char* about;  ///< what it does: the documentation, a phrase in Markdown
+  const char* about;  ///< its function: for the documentation, a phrase in Markdown
   std::span<const ForceKey> keys;
   ForceMarkers markers = ForceMarkers::two;
   EnergyCategory energy = EnergyCategory::springs;
@@ -100,7 +100,7 @@ struct ForceKind {
   void (*mirror)(ForceDescription& force, const Placement& x) = nullptr;
   /// For types that may measure a rotation vector, limited to half a turn: true if it does.
   bool (*ends_at_half_turn)(const Force& force) noexcept = nullptr;
-  bool along_line = false;  ///< acts along the line between its ends: none where they coincide
+  bool along_line = false;  ///< acts along the line between its ends: undefined if they coincide
   /// For laws with branches. Called between steps.
   ForceSide (*side)(const ForceInput& in) noexcept = nullptr;
   std::span<const ForceRegime> regimes;

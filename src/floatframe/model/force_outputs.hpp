@@ -17,7 +17,7 @@ enum class EnergyCategory {
   springs,  ///< it keeps ForceState::energy (zero if it only damps); ForceState::damping is of
             ///< dampers, the rest of actuators and targets
   tyres,    ///< the same, but its energy may jump
-  loads     ///< it keeps nothing
+  loads     ///< it stores no energy
 };
 EnergyCategory energy_category(ForceType type) noexcept;
 

@@ -24,7 +24,7 @@ class HintList {
 
 /// Numbers of bars outside of the range of any material, section or position: wrong units.
 void hint_at_units(const ModelDescription& description, HintList& out);
-/// The kind of stiffness of the bars of all flexible bodies.
+/// The bending stiffnesses of the bars of all flexible bodies.
 std::vector<BarBending> bar_bending(const ModelDescription& description, const Model& model);
 
 }  // namespace floatframe

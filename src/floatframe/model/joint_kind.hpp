@@ -134,7 +134,7 @@ class JointParts {
 };
 
 struct JointKind {
-  const char* about;  ///< what moves: the documentation, a phrase in Markdown
+  const char* about;  ///< the allowed motion: for the documentation, a phrase in Markdown
   /// In the order of the motion from F to M: a coordinate moves only directions of later ones,
   /// otherwise the tangent of the tree is not exact. Seen from the child (`reverse`) it must be a
   /// joint of the same kind.

@@ -14,7 +14,7 @@ namespace floatframe {
 struct LoopBlock {
   std::vector<int> bodies;  ///< without the ground
   std::vector<int> joints, rods;
-  bool grounded = false;  ///< the ground is in it
+  bool grounded = false;  ///< it contains the ground
 };
 
 /// The blocks of the model that have loops, in the order of their first joint.

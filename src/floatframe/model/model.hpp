@@ -32,7 +32,7 @@ struct Body {
   Pose X_WB;            ///< design pose
   double length = 1.0;  ///< characteristic length: scales direction rows to lengths [m]
   bool geometric_stiffening = false;
-  bool stiffening_given = false;  ///< the description has the key, for it or for all bodies
+  bool stiffening_given = false;  ///< the key is given, for it or for all bodies
   int modes() const noexcept { return data->modes(); }
   /// Second-order displacements are included (SecondOrder).
   bool stiffens() const noexcept {
@@ -49,7 +49,7 @@ struct Joint {
   std::vector<double> position, velocity;  ///< start values, in the user's form
   bool keep = false;                       ///< they must not move when loops are closed
   std::optional<TimeFunction> motion;
-  bool cut = false;        ///< the user wants it cut in the relative formulation
+  bool cut = false;        ///< marked as cut by the user, for relative coordinates
   bool automatic = false;  ///< a free joint added for a body that no joint leads to
 };
 
@@ -87,7 +87,7 @@ struct Force {
   int input = -1;              ///< added to the magnitude
   bool driven = false;         ///< the element has an actuator
   Signal target, target_rate;  ///< of a joint_spring
-  bool targeted = false;       ///< it has one of them
+  bool targeted = false;       ///< it has a target or a rate
   bool derived_rate = false;   ///< the rate of the target is the derivative of its function
   bool follows = false;
   /// Further laws and numbers of the type, in a type-specific order.
@@ -135,7 +135,7 @@ struct Model {
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
-  ModelHints hints;  ///< for who checks the model; nothing else depends on them
+  ModelHints hints;  ///< for checks of the model; nothing else depends on them
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free

@@ -26,7 +26,7 @@ struct ModelBuilder {
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
   ErrorList errors;
-  std::set<std::string> wrong_gauges;  ///< places and what is wrong with them
+  std::set<std::string> wrong_gauges;  ///< locations and their errors
 
   explicit ModelBuilder(const ModelDescription& description)
       : d(description),

@@ -30,7 +30,7 @@ struct LockedLoops {
 
 struct ModelHints {
   std::vector<std::string> notes;   ///< a sentence each
-  std::vector<LockedLoops> locked;  ///< runs and statics say it, too
+  std::vector<LockedLoops> locked;  ///< also reported by runs and statics
   std::vector<BarBending> bending;
 };
 

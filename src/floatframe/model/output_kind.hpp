@@ -17,7 +17,7 @@ double output_value_of(const OutputView& view, const Output& output, FollowedOut
 
 /// The entity that an output refers to in a model file, and the fields of `Output` for it.
 enum class OutputOf {
-  point,       ///< a place on a body: `marker`
+  point,       ///< a point on a body: `marker`
   two_points,  ///< {from: place, to: place}: `marker` and `to`
   body,        ///< a body that moves: `body`
   joint,       ///< `joint`, with the number of a coordinate: `component`
@@ -27,7 +27,7 @@ enum class OutputOf {
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `joint`
-  gauge        ///< a place of a flexible body where stress is known: `body`, `gauge`
+  gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 
 /// Quantities that must be computed for a sample in addition to the motion.
@@ -47,7 +47,7 @@ inline constexpr OutputComponents world_axes{"axis", rules::axes};
 inline constexpr OutputComponents roll_pitch_yaw_angles{"angle", rules::angles};
 
 struct OutputKind {
-  const char* about;  ///< what it measures: the documentation, a phrase in Markdown
+  const char* about;  ///< its quantity: for the documentation, a phrase in Markdown
   OutputOf of;
   OutputComponents components = {};
   /// If it depends on the entity that the output refers to: all possible values, for the

@@ -20,7 +20,7 @@ inline constexpr double low = 0.011, high = 2.83;  ///< [cycles/m]
 struct RoadSpectrum {
   double roughness = road_classes::roughness(2);  ///< G0 [m3]
   double start = 0.0, length = 100.0;             ///< [m]
-  std::int64_t seed = 1;                          ///< another one is another road
+  std::int64_t seed = 1;                          ///< each value gives a different road
 };
 
 /// int G dn between two wave numbers [m2]; G is 0 outside the range.

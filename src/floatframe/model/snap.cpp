@@ -14,8 +14,8 @@ namespace {
 
 /// Larger deviations are intended [rad; relative to the size].
 constexpr double widest_angle = 0.1, widest_distance = 0.03;
-/// Whether a loop is locked by smaller deviations, near the default thresholds, is decided with
-/// this one.
+/// Deviations below the first value, too small for the thresholds of the mobility test, are scaled
+/// to the second value for the test.
 constexpr double smallest_judged = 1e-4, judged_as = 1e-3;
 /// Above it dense linear algebra takes too long: such loops are not changed.
 constexpr std::size_t most_bodies = 100;

@@ -11,7 +11,7 @@ namespace floatframe::validation {
 
 namespace {
 
-/// The expected value; nullptr if it is valid.
+/// The expected kind of value; nullptr if it matches.
 const char* other_type(const ForceKey& key, const ForceValue& value) {
   using K = ForceKeyKind;
   const auto needs = [&]<class T>(const T*, const char* what) -> const char* {

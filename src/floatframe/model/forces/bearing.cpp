@@ -8,7 +8,7 @@
 //   forces         f = K s + C s',  6 each; row and column 6 of K are zero
 //   wrench         Q = -sum f_i g_i, g_i the gradients of s_i (of s_6' in the rates)
 //   energy         U = 1/2 s^T K_s s of the symmetric part K_s; all else, s'^T C s' + s'^T K_a s,
-//                  is booked as what dampers take out, and may be less than zero: K_a drives whirl
+//                  counts as damping power, which may be negative: K_a drives whirl
 // With a table over the spin W = s_6' (bearing_table.hpp) K and C are those of the present W, and
 // the energy is that of its first row.
 // Derivatives, with u = w_b - w_a and phi = e.n, e fixed in a, n in b:

@@ -1,5 +1,5 @@
-// Coordinate of a joint, read off its frames F and M. Angles are followed over turns with the mean
-// velocity since the last sample: of the angles that the frames allow, the value is that nearest to
+// Coordinate of a joint, measured at its frames F and M. Turns of angles are counted with the mean
+// velocity since the last sample: of the possible angles the value is that nearest to
 //   q_last + (t - t_last) (qdot_last + qdot) / 2
 // The first one is nearest to the start value or the motion given by the user.
 #include "floatframe/model/constraint_part.hpp"
