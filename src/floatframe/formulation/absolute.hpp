@@ -171,7 +171,7 @@ class AbsoluteFormulation {
     int nm = 0, points = 0;         ///< modes, outer points
     int row = 0;                    ///< first constraint row: 6 of (1), 3 for each point (2)
     double length = 1.0;            ///< l [m]
-    std::vector<int> point_marker;  ///< for each point the marker it belongs to
+    std::vector<int> point_marker;  ///< for each point its marker
     // Of the configuration.
     Vec3 p_WB;  ///< origin of the body frame, world axes [m]
     Mat3 A;     ///< [u v w]: R_WB where (1) holds
@@ -204,7 +204,7 @@ class AbsoluteFormulation {
   struct PartPlace {
     int home = -1;       ///< body that is eliminated first, -1: no body moves
     int at = 0;          ///< its first multiplier among the unknowns of that body
-    bool turns = false;  ///< the turning of its gradients is in T
+    bool turns = false;  ///< the rotation of its gradients is in T
   };
   /// T = mass M + damping C + s K, K with geometric stiffness or without, and the penalty of (6).
   struct TangentWeights {
@@ -270,7 +270,7 @@ class AbsoluteFormulation {
   Gradient ga_, gb_;
   MatX motions_[2], product_;  ///< of the markers of a part with z, transposed
   VecX unknowns_;              ///< of (6)
-  VecX correction_, across_;   ///< an increment that meets (1) and (2), and what it asks of (3)
+  VecX correction_, across_;   ///< increment that satisfies (1), (2); its part in (3)
   bool stiffens_ = false;      ///< a body has geometric stiffening
   bool second_order_ = false;  ///< a body has displacements of second order
   int nq_ = 0;

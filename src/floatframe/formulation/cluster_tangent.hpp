@@ -6,7 +6,7 @@
 // nm)^2 matrix T_c = [Mz N^T; N Y], which contains its inertia, stiffness, forces against the
 // ground and the contributions of its children, and its directions S = [b, -Psi]
 // (`TreePosition::own`):
-//   U       = Mz S + [0, N^T]             what a unit of each coordinate asks of the twist     (2)
+//   U       = Mz S + [0, N^T]             wrench due to a unit of each coordinate              (2)
 //   own     S^T U + [0, N^T]^T S + [0, Y]   onto the diagonal of the front                     (3)
 //   above   U^T S_d, U^T Phi_d, U         with the coordinates of each body d on the way to p,
 //                                         with modes of parents, with (Z_p, y_p)               (4)
@@ -84,9 +84,9 @@ class ClusterTangent {
   };
   /// Scratch of a cluster.
   struct Front {
-    std::vector<int> parts;  ///< constraint parts whose elements lie in this cluster
+    std::vector<int> parts;  ///< constraint parts whose elements belong to this cluster
     VecX original, work;
-    FrontProfile profile;  ///< of a front that is mostly zeros
+    FrontProfile profile;  ///< of a mostly zero front
   };
   /// Directions of motion of a body.
   struct Directions {

@@ -12,7 +12,7 @@ namespace floatframe {
 
 struct Cluster {
   std::vector<int> bodies;   ///< parents before children
-  int parent = -1;           ///< body it hangs from, -1: ground
+  int parent = -1;           ///< parent body, -1: ground
   int offset = 0, size = 0;  ///< velocity coordinates of its bodies
   int n = 0;                 ///< size of its front: [coordinates | Z_p | y_p]
 };

@@ -28,10 +28,10 @@
 //   constraint_increments       velocities      out = Phi_q delta
 //           (delta, out)
 //   constraint_forces(w, out)   velocities      out = Phi_q^T w
-//   balance(lambda, r)          residual        multipliers that only the formulation knows
+//   balance(lambda, r)          residual        multipliers internal to the formulation
 //   retract(q0, x, q)                           q = q0 (+) x
 //   settle(q0, x)                               x such that q0 (+) x meets what the formulation
-//                                               holds exactly
+//                                               satisfies exactly
 //   advance(x, delta)           positions       x such that q0 (+) x = (q0 (+) x_old) (+) delta,
 //                               at q0 (+) x
 //   stepping(false, accepted)                   the end of the step

@@ -90,7 +90,7 @@ class ForceSet {
  private:
   const Model& model_;
   std::vector<ForceState> states_;
-  std::vector<double> angles_;       ///< pick the turn of the next evaluation [rad]
+  std::vector<double> angles_;       ///< select the turn of the next evaluation [rad]
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;
   std::vector<std::int64_t> branches_;

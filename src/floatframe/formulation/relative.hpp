@@ -162,7 +162,7 @@ class RelativeFormulation {
   ForceSet force_set_;
   ClusterTangent tangent_;
   std::vector<BodyTerms> terms_;
-  std::vector<int> spring_body_;  ///< of a spring on a tree joint: the body that hangs there, or -1
+  std::vector<int> spring_body_;  ///< of a spring on a tree joint: its child body, or -1
   BodyVectors wrenches_;          ///< of the last residual or constraint forces
   BodyVectors increments_;        ///< motions of the bodies under an increment
   double time_ = 0.0;

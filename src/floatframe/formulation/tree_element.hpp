@@ -32,7 +32,7 @@ struct TreeElement {
   int body = -1;       ///< that body
   std::vector<PathEntry> path;
   int first = 0, width = 0;  ///< the range of the front that the path touches, in whole lanes
-  int gradient = 0;          ///< where the rows of a constraint part are kept in a factorisation
+  int gradient = 0;          ///< position of the rows of a constraint part in a factorisation
 };
 
 /// For any two markers. Without a cluster if no coordinate changes their relative position.

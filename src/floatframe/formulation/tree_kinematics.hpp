@@ -44,15 +44,15 @@ namespace floatframe {
 struct TreeLink {
   int parent = -1, joint = -1;  ///< -1: the ground
   JointType type = JointType::free;
-  bool reversed = false;           ///< the joint's own child is the parent in the tree
+  bool reversed = false;           ///< the joint's described child is the parent in the tree
   int frame_F = -1, frame_M = -1;  ///< markers on the parent and on this body
   JointDirections axes;            ///< in the sense of the tree
   int nj = 0, nm = 0;              ///< coordinates of the joint, modes of the body
   int nm_parent = 0;               ///< modes of the parent
   int ordered = 0;  ///< joint coordinates that move those after them: all but rotation vectors
   bool parent_moves_F = false;  ///< modes of the parent move marker F: Phi is not zero
-  bool moves_M = false;         ///< own modes move marker M: Psi is not zero
-  int iq = 0, iyq = 0;          ///< where joint and modes begin in the configuration q
+  bool moves_M = false;         ///< modes of the body move marker M: Psi is not zero
+  int iq = 0, iyq = 0;          ///< first entries of joint and modes in the configuration q
   int iv = 0, iy = 0;           ///< the same in velocities v
 };
 
@@ -60,7 +60,7 @@ struct TreeLink {
 struct TreePosition {
   JointMotion motion;  ///< p_FM, R_FM, H in axes of F; its bias depends on the velocities
   double angle =
-      0.0;    ///< coordinate of a joint that has one, in the sense of its own parent and child
+      0.0;    ///< coordinate of a joint that has one, in the sense of its described parent, child
   VecX y;     ///< modal amplitudes
   Vec3 p_OB;  ///< body frame from the evaluation origin, world axes [m]
   Mat3 R_WB;
