@@ -26,7 +26,7 @@ class BlockLdlt {
     int inner = 0;         ///< more unknowns at its end
     bool chooses = false;  ///< its pivots are chosen
     double mass = 0.0;     ///< compared with that of other blocks; 0: unknown
-    bool held = false;     ///< joints hold it on two sides, one of them the ground
+    bool held = false;     ///< constrained by joints on two sides, one of them the ground
   };
 
   BlockLdlt() = default;

@@ -112,7 +112,7 @@ class IndependentRows::Elimination {
   IndependentRows& done_;
   const SparseRowMatrix& A_;
   VecX x_;                                    ///< the row in work
-  std::vector<bool> met_;                     ///< its entries that are not zero
+  std::vector<bool> met_;                     ///< its nonzero entries
   std::vector<int> touched_;                  ///< the same as a list
   std::vector<int> pivot_of_;                 ///< for each unknown its column, -1 if it has none
   std::vector<int> last_row_;                 ///< that uses an unknown

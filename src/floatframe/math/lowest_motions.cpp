@@ -202,7 +202,7 @@ LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, 
               most = std::min(n, 8 * search.count + 500);
   Subspace space(map);
   RitzPairs before;
-  double slowest = -1.0;  // |lambda| of the last one asked for, once there are so many
+  double slowest = -1.0;  // |lambda| of the last requested one, once there are so many
   std::ptrdiff_t verified = 0;
   for (Index next = start;; next = std::min(most, space.size() + space.size() / 5)) {
     while (space.size() < next) {

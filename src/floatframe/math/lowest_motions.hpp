@@ -28,7 +28,7 @@ struct LowestMotions {
   int found = 0;  ///< motions, a pair once
   double fastest =
       0.0;  ///< the largest frequency without damping, about [1/s]; 1 without stiffness
-  bool converged = false;  ///< false: fewer than asked for, or none
+  bool converged = false;  ///< false: fewer than requested, or none
   bool singular = false;   ///< a direction without mass, damping and stiffness
 };
 

@@ -27,8 +27,8 @@ struct PivotOrder {
         work(VecX::Zero(columns)) {}
   std::vector<int> row;   ///< row[j]: the column of the front that is eliminated as the j-th
   std::vector<int> pair;  ///< 1 at the first column of a 2x2 pivot
-  VecX diagonal, beside;  ///< of D^-1; `beside` stands at the first column of a 2x2 pivot
-  VecX size;              ///< of each diagonal: largest sum of what it was made of
+  VecX diagonal, beside;  ///< of D^-1; `beside`: off-diagonal, at the first column of a 2x2 pivot
+  VecX size;              ///< of each diagonal: largest sum of its terms
   VecX work;
 };
 
