@@ -45,7 +45,7 @@ class CauseFinder {
       if (e < from_ || e > to_) continue;
       const EdgeSides s = edge_sides(f.pieces, e);
       const double jump = s.right.df - s.left.df;
-      // What it would pass in ten steps, against what it does in all.
+      // The path in ten steps at this velocity, relative to the total range.
       const double share = 10.0 * step_ * std::abs(jump) / std::max(range, 1e-300);
       if (std::abs(s.right.f - s.left.f) > 1e-6 * range)
         offer(1.0 + share,

@@ -53,7 +53,7 @@ RunCheckpoint to_checkpoint(const RunIdentity& identity, RunMemory& memory,
   return {memory.steps.state.t, std::move(out.bytes)};
 }
 
-/// Fills `watch`. See `walk_memory` for what it throws.
+/// Fills `watch`. See `walk_memory` for its exceptions.
 template <class Watch>
 RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& identity,
                           const SteppedMemory& own, double step, std::size_t joints,
