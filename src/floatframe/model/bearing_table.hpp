@@ -82,7 +82,7 @@ struct BearingLaw {
   }
 };
 
-/// The table of the mirrored bearing, whose shaft spins the other way.
+/// The table of the mirrored bearing, whose shaft spins in the opposite sense.
 inline MatX mirrored_bearing_table(const MatX& rows) {
   if (rows.rows() == 0 || rows(0, 0) >= 0.0) return rows;
   MatX out = rows.colwise().reverse();

@@ -36,7 +36,7 @@ struct ConstraintRow {
 };
 
 // ----------------------------------------------------------------------------------------------
-// what a kind of part supplies
+// interface of a kind of part
 //
 // A function of step time, noexcept and free of allocation, that is called by name, its derivative,
 // and the facts of its ConstraintKind.
@@ -90,7 +90,7 @@ inline const ConstraintKind& constraint_kind(ConstraintType type) noexcept {
 inline int ConstraintPart::rows() const noexcept { return constraint_kind(type).rows; }
 
 // ----------------------------------------------------------------------------------------------
-// what formulations call
+// functions called by formulations
 
 /// Value of a function of time with its first two derivatives.
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;

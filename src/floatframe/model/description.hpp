@@ -248,7 +248,7 @@ struct ForceValues {
   ForceType type() const { return element; }
 };
 
-/// The structs above are another way to write the values of their types.
+/// The structs above are an alternative form of the values of their types.
 struct ForceDescription {
   using Values =
       std::variant<SpringDamperDescription, GuidedSpringDescription, JointSpringDescription,
@@ -331,7 +331,7 @@ struct RecordDescription {
   /// Interval among the output instants; 0: all, or as many as give at most 20 000.
   int every = 0;
   std::vector<std::string>
-      bodies;                 ///< whose coordinates, and those of the bodies carrying them; empty: all
+      bodies;                 ///< coordinates of these and of bodies carrying them; empty: all
   bool accelerations = true;  ///< of the integrator, which (q, v) do not decide to the bit
 };
 
