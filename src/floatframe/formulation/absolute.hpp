@@ -114,7 +114,7 @@ class AbsoluteFormulation {
   /// From the present positions, with increments (5).
   void advance(VecX& x, const VecX& delta) const noexcept;
 
-  // -- what outputs, energies and reports look at, as in relative.hpp
+  // -- for outputs, energies and reports, as in relative.hpp
 
   const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
   Vec3 origin() const noexcept { return Vec3::Zero(); }

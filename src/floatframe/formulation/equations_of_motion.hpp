@@ -9,8 +9,8 @@
 // earlier calls and provides results for later ones.
 //
 //   call                        needs           leaves
-//   stepping(true)                              the beginning of a step: what must go back to where
-//                                               it was if the step is not accepted
+//   stepping(true)                              the beginning of a step: saves data to be restored
+//                                               if the step is not accepted
 //   positions(t, q)                             markers, directions of motion
 //   velocities(v)               positions       velocities, bias accelerations; Phi and Phi_q at
 //                                               these positions
@@ -30,8 +30,8 @@
 //   constraint_forces(w, out)   velocities      out = Phi_q^T w
 //   balance(lambda, r)          residual        multipliers internal to the formulation
 //   retract(q0, x, q)                           q = q0 (+) x
-//   settle(q0, x)                               x such that q0 (+) x meets what the formulation
-//                                               satisfies exactly
+//   settle(q0, x)                               x such that q0 (+) x satisfies exact constraints
+//                                               of the formulation
 //   advance(x, delta)           positions       x such that q0 (+) x = (q0 (+) x_old) (+) delta,
 //                               at q0 (+) x
 //   stepping(false, accepted)                   the end of the step

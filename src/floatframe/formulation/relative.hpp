@@ -102,7 +102,7 @@ class RelativeFormulation {
   void settle(const VecX&, VecX&) const noexcept {}
   void advance(VecX& x, const VecX& delta) const noexcept { tree_.advance(x, delta); }
 
-  // -- what outputs, energies and reports look at; positions of markers are from `origin`
+  // -- for outputs, energies and reports; positions of markers are from `origin`
 
   const MarkerState& marker(int index) const noexcept { return tree_.marker(index).s; }
   const Vec3& origin() const noexcept { return tree_.origin(); }
