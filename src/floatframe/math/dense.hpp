@@ -6,7 +6,7 @@
 
 #include "floatframe/math/types.hpp"
 
-/// Decompositions of dense matrices of any size, for what is done once at load or at the start.
+/// Decompositions of dense matrices of any size, for computations at load time or at the start.
 ///
 /// They are compiled here and nowhere else: each of Eigen's decompositions costs every source that
 /// names it 4 to 8 s of compile time.

@@ -5,10 +5,10 @@
 // Near a shift sigma > 0, with Q = K + sigma C + sigma^2 M and w = x' / sigma,
 //   (x, w) -> (y, y + x),  y = -Q^-1 ((sigma C + sigma^2 M) x + sigma^2 M w)
 // has the eigenvalues nu = sigma / (lambda - sigma): the slowest motions have the largest. Blocks
-// of this map span a subspace of x (block Krylov of second order, without restarts), which holds
-// them to rounding long before it is complete. The problem projected on it is of second order again
-// and keeps what it is: symmetric, definite, without damping. Directions without mass ask for
-// nothing. A random block after convergence finds the motions that have the same lambda as others.
+// of this map span a subspace of x (block Krylov of second order, without restarts), which contains
+// them to rounding before it is complete. The projected problem is again of second order and keeps
+// its properties: symmetric, definite, undamped. Massless directions need no special treatment. A
+// random block after convergence finds further motions with the same lambda.
 //
 // Z. Bai, Y. Su (2005), SOAR: A second-order Arnoldi method for the solution of the quadratic
 // eigenvalue problem, SIAM J. Matrix Anal. Appl. 26(3).
