@@ -59,7 +59,7 @@ class IndependentRows::Elimination {
   }
 
  private:
-  /// Rows of length 1 below it count as dependent.
+  /// Entries below it are negligible in rows of length 1.
   static constexpr double rounding = 1e-17;
   /// Rounding error of rows of zeros, relative to rows of length 1 or longer.
   static constexpr double nothing = 1e-14;
