@@ -33,8 +33,8 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   make_factors();
 }
 
-/// Outer points: where a constraint holds the position of a deforming node. Joints at one node
-/// share the point. `MarkerData::point` is its number on the body.
+/// Outer points: where a constraint uses the position of a deforming node. Joints at one node share
+/// the point. `MarkerData::point` is its number on the body.
 void AbsoluteFormulation::place_outer_points() {
   bodies_.resize(model_.bodies.size());
   for (const ConstraintPart& p : constraint_set_.parts()) {
@@ -89,9 +89,9 @@ void AbsoluteFormulation::number_coordinates(InertiaMethod method) {
         bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
 }
 
-/// True if some motion z of the undeformed body has hardly any mass: of turning next to the largest
-/// inertia, since world axes stand at any angle to those about which there is little; of a mode
-/// next to the body moving as far as its markers do.
+/// True if some motion z of the undeformed body has almost no mass: rotations compared with the
+/// largest inertia, since the principal axes are arbitrary relative to the world axes; modes
+/// compared with the mass of the body at the displacement of its markers.
 bool AbsoluteFormulation::lacks_mass(int i) {
   BodyData& b = bodies_[i];
   b.A.setIdentity();
@@ -116,7 +116,7 @@ bool AbsoluteFormulation::lacks_mass(int i) {
   return !(symmetric_eigenvalues(M).minCoeff() > enough);
 }
 
-/// Memory of the factorised tangents: a block per body, coupled where parts or forces tie two.
+/// Memory of the factorised tangents: a block per body, coupled by parts or forces between two.
 void AbsoluteFormulation::make_factors() {
   std::vector<BlockLdlt::Block> blocks;
   std::vector<int> rank(bodies_.size(), 0);

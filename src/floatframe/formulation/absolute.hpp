@@ -1,7 +1,7 @@
 #pragma once
 // Equations of motion in natural coordinates (paper section 6.1): per body the origin r0 = p_WB,
-// the axes A = [u v w] = R_WB and the modal amplitudes y, then zero-mass outer points of flexible
-// bodies, where joints and rods hold deformed nodes:
+// the axes A = [u v w] = R_WB and the modal amplitudes y, then massless outer points of flexible
+// bodies, at the deformed nodes of joints and rods:
 //   q_body = (r0, u, v, w, y, r_P1, r_P2, ...),   nq = 12 + nm + 3 np
 //
 // Constraints, rows scaled to lengths (l the body length, theory section 10):
@@ -11,29 +11,29 @@
 //   outer points   r_P - (r0 + A (r_u + X y)) = 0                                3 each  (2)
 //   joints, rods,  constraint parts between markers (constraint_set.hpp);        parts   (3)
 //   motions        their positions are those of the outer points
-// A need not be orthonormal while Newton iterates. Torques and directions of markers act through
-//   omega = 1/2 (u x udot + v x vdot + w x wdot),                                        (4)
+//   A need not be orthonormal during the Newton iteration. Torques and directions of markers act
+//   through
 // exact where (1) holds; so a torque T has the generalised force 1/2 T x u on u, and so on.
 //
 // The residual is, body by body with M and Qv of (25)-(45) and gravity g taken off the acceleration
 // of r0, M (a - g) - Qv + (0; K y + D ydot), less applied forces, plus Phi_q^T (lambda + alpha
 // Phi).
-//
-// Linear systems. (1) and (2) are a body's own: what they leave free is z = (delta r0, theta,
-// delta y), world axes, with
+// Linear systems. (1) and (2) are internal to a body: the motions
+// that satisfy them are z = (delta r0, theta, delta y), world axes,
+// with
 //   delta u = theta x u, ..., delta r_P = delta r0 + theta x (r_P - r0) + J_P delta y,
 //   x = B z,                                                                                  (5)
-// so a tangent T acts as B^T T B, (6 + nm)^2 a body, without any penalty on (1) and (2): increments
-// meet them exactly (`advance` turns A by exp(theta)), and their multipliers are what balances the
-// residual across B (`balance`). The rows (3) stay with multipliers mu of their own, a saddle
+// so a tangent T acts as B^T T B, (6 + nm)^2 a body, without any penalty on (1) and (2):
+// increments satisfy them exactly (`advance` rotates A by exp(theta)), and their multipliers
+// balance the residual across B (`balance`). The rows (3) keep their multipliers mu, a saddle
 // point,
 //   [B^T T B  G^T; G  -1/penalty] [z; mu] = [B^T b; -Phi],  G = Phi_q B,                        (6)
 // for the normal equations B^T T B + penalty G^T G square the condition of G: a chain of 256 links
-// would not be left a digit. (6) is factorised by bodies (BlockLdlt), mu of a joint with the body
-// that is eliminated first; pivots are chosen only in bodies without mass of their own in some
-// direction. The geometric stiffness in T is that of the multipliers of (1), (2), which is bilinear
-// in A and y, of rods, and of joints of bodies without mass: a force across a slide turns with it,
-// which moves what has no inertia by force over stiffness, however short the step.
+// would have no digit left. (6) is factorised by bodies (BlockLdlt), mu of a joint with the body
+// that is eliminated first; pivots are chosen only in bodies that are massless in some direction.
+// The geometric stiffness in T is that of the multipliers of (1), (2), which is bilinear in A and
+// y, of rods, and of joints of massless bodies: a force normal to a slide rotates with it, which
+// moves a massless body by force over stiffness, for any step size.
 #include <span>
 #include <string>
 #include <vector>
@@ -74,19 +74,19 @@ class AbsoluteFormulation {
   }
   ForceSide force_side(std::size_t force) const noexcept;
 
-  /// The same configuration and velocities as a relative state. Axes do not tell turns: the angles
-  /// of joint springs go on from those of the tree.
+  /// The same configuration and velocities as a relative state. Axes do not determine turns: the
+  /// angles of joint springs are continued from those of the tree.
   void start_from(RelativeFormulation& tree, const VecX& tree_q, const VecX& tree_v, VecX& q,
                   VecX& v);
 
   // -- EquationsOfMotion
 
-  /// Tuned on the Iltis.
+  /// Tuned with the Iltis benchmark.
   static constexpr double factorization_cost = 3.0;
   int velocities() const noexcept { return nq_; }
   int configurations() const noexcept { return nq_; }
   int constraints() const noexcept { return constraint_set_.count(); }
-  /// All markers are kept up to date, also while steps are made.
+  /// All markers are updated, also during steps.
   void stepping(bool on, bool accepted = true) noexcept { force_set_.stepping(on, accepted); }
   void positions(double t, const VecX& q) noexcept;
   void velocities(const VecX& v) noexcept;
@@ -114,7 +114,7 @@ class AbsoluteFormulation {
   /// From the present positions, with increments (5).
   void advance(VecX& x, const VecX& delta) const noexcept;
 
-  // -- what outputs, energies and reports look at, as in relative.hpp
+  // -- for outputs, energies and reports, as in relative.hpp
 
   const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
   Vec3 origin() const noexcept { return Vec3::Zero(); }
@@ -156,7 +156,7 @@ class AbsoluteFormulation {
   MatX mass_matrix() const;
   /// Of the mass matrix, after `dynamics`; load time.
   VecX mass_diagonal() const;
-  /// Coordinates and own constraints of a body; those of all bodies follow each other.
+  /// Coordinates and internal constraints of a body; those of all bodies are consecutive.
   int body_size(int i) const noexcept { return bodies_[i].size(); }
   int body_rows(int i) const noexcept { return bodies_[i].rows(); }
 
@@ -171,7 +171,7 @@ class AbsoluteFormulation {
     int nm = 0, points = 0;         ///< modes, outer points
     int row = 0;                    ///< first constraint row: 6 of (1), 3 for each point (2)
     double length = 1.0;            ///< l [m]
-    std::vector<int> point_marker;  ///< for each point the marker it belongs to
+    std::vector<int> point_marker;  ///< for each point its marker
     // Of the configuration.
     Vec3 p_WB;  ///< origin of the body frame, world axes [m]
     Mat3 A;     ///< [u v w]: R_WB where (1) holds
@@ -189,22 +189,22 @@ class AbsoluteFormulation {
     int size() const noexcept { return 12 + nm + 3 * points; }
     int rows() const noexcept { return 6 + 3 * points; }
   };
-  /// A multiple of 256 bytes: found by an addition and a shift.
+  /// A multiple of 256 bytes: addressed by an addition and a shift.
   struct alignas(256) MarkerData : LocalMarker {
     MarkerState s;   ///< on the body, world axes
     int point = -1;  ///< first coordinate of its outer point, -1 if it has none
     Vec3 r_P, v_P;   ///< position and velocity of the outer point, world axes
   };
-  /// A generalised force on z of (5): what a wrench at a marker is for the body.
+  /// A generalised force on z of (5): the effect of a wrench at a marker on the body.
   struct Gradient {
     int body = -1;
     VecX z;
   };
-  /// Where the multipliers of a part stand in (6).
+  /// Positions of the multipliers of a part in (6).
   struct PartPlace {
     int home = -1;       ///< body that is eliminated first, -1: no body moves
     int at = 0;          ///< its first multiplier among the unknowns of that body
-    bool turns = false;  ///< the turning of its gradients is in T
+    bool turns = false;  ///< the rotation of its gradients is in T
   };
   /// T = mass M + damping C + s K, K with geometric stiffness or without, and the penalty of (6).
   struct TangentWeights {
@@ -234,7 +234,7 @@ class AbsoluteFormulation {
   const MarkerData& point(const BodyData& b, int p) const noexcept {
     return markers_[b.point_marker[p]];
   }
-  /// As constraints see a marker: at its outer point.
+  /// A marker as used by constraints: at its outer point.
   MarkerState constraint_state(int marker) const noexcept;
   Vec3 point_increment(const MarkerData& m, const VecX& delta) const noexcept;
   PointMotion increment_of(int marker, const VecX& delta) const noexcept;
@@ -270,7 +270,7 @@ class AbsoluteFormulation {
   Gradient ga_, gb_;
   MatX motions_[2], product_;  ///< of the markers of a part with z, transposed
   VecX unknowns_;              ///< of (6)
-  VecX correction_, across_;   ///< an increment that meets (1) and (2), and what it asks of (3)
+  VecX correction_, across_;   ///< increment that satisfies (1), (2); its part in (3)
   bool stiffens_ = false;      ///< a body has geometric stiffening
   bool second_order_ = false;  ///< a body has displacements of second order
   int nq_ = 0;

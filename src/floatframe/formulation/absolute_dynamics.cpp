@@ -111,7 +111,7 @@ Vec3 AbsoluteFormulation::point_increment(const MarkerData& m, const VecX& delta
   return x;
 }
 
-/// As constraints see a marker: at its outer point.
+/// A marker as used by constraints: at its outer point.
 PointMotion AbsoluteFormulation::increment_of(int marker, const VecX& delta) const noexcept {
   const MarkerData& m = markers_[marker];
   PointMotion x{Vec3::Zero(), Vec3::Zero()};
@@ -150,7 +150,7 @@ Vec3 AbsoluteFormulation::marker_acceleration(int index) const noexcept {
   return x;
 }
 
-/// As constraints see a marker: at its outer point.
+/// A marker as used by constraints: at its outer point.
 PointMotion AbsoluteFormulation::acceleration_of(int marker, const VecX& a) const noexcept {
   const MarkerData& m = markers_[marker];
   PointMotion x;

@@ -1,5 +1,5 @@
-// What outputs, energies and counts take from the absolute formulation; not part of the step's
-// inner loop.
+// Access to the absolute formulation for outputs, energies and counts; not part of the step's inner
+// loop.
 #include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
@@ -92,7 +92,7 @@ std::string AbsoluteFormulation::coordinate_owner(int i) const {
 }
 
 SparseRowMatrix AbsoluteFormulation::constraint_rows() {
-  // The two bodies of a row are few of many: only their coordinates are looked at.
+  // A row involves two of many bodies: only their coordinates are processed.
   SparseRowMatrix J(constraints(), nq_);
   std::vector<Eigen::Triplet<double>> entries;
   VecX row = VecX::Zero(nq_);

@@ -1,8 +1,8 @@
-// Linear systems of the absolute formulation: what the bodies' own constraints (1), (2) leave of
-// them, (5), (6) of absolute.hpp.
+// Linear systems of the absolute formulation, reduced to the motions that satisfy the internal
+// constraints (1), (2) of the bodies: (5), (6) of absolute.hpp.
 //
-// With A orthonormal, a stretch A E of the axes, E symmetric, is what (1) sees of delta A, and
-// A x skew what it leaves free. So the rows (1) with values phi are met by delta A = -1/2 A E with
+// With A orthonormal, (1) depends on the stretch part A E of delta A, E symmetric, and not on A x
+// skew. So the rows (1) with values phi are satisfied by delta A = -1/2 A E with
 //   E_kk = 2 phi_kk / l,  E_ab = phi_ab / l,                                              (7)
 // and multipliers of (1) balance the stretch of a residual R_A = [R_u R_v R_w]:
 //   R_A + l A W,  W = -sym(A^T R_A) / l, has none.                                        (8)
@@ -104,7 +104,7 @@ void AbsoluteFormulation::solve(VecX& b, const VecX& phi, double penalty, VecX& 
   unknowns_.setZero();
   const bool corrects = !own_constraints_hold(phi);
   if (corrects) {
-    // x = p + B z: what p asks of the mass and of (3).
+    // x = p + B z: contributions of p to the mass terms and to (3).
     own_correction(phi, correction_);
     for (const BodyData& body : bodies_) {
       const int n = 12 + body.nm;
@@ -137,7 +137,7 @@ void AbsoluteFormulation::solve(VecX& b, const VecX& phi, double penalty, VecX& 
   }
 }
 
-/// First the forces on outer points go to their bodies, (2), then the stretch is balanced, (8).
+/// First the forces on outer points are transferred to their bodies, (2), then (8) is applied.
 void AbsoluteFormulation::balance(VecX& lambda, VecX& r) noexcept {
   for (const BodyData& b : bodies_) {
     for (int p = 0; p < b.points; ++p) {
@@ -158,7 +158,7 @@ void AbsoluteFormulation::balance(VecX& lambda, VecX& r) noexcept {
   constraint_set_.set_multipliers(lambda, 0.0);
 }
 
-/// The axes become orthonormal and the outer points lie on their bodies.
+/// Makes the axes orthonormal and moves the outer points to their bodies.
 void AbsoluteFormulation::settle(const VecX& q0, VecX& x) const noexcept {
   stiffens_ ? settle_of<true>(q0, x) : settle_of<false>(q0, x);
 }

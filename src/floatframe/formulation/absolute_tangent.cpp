@@ -1,4 +1,4 @@
-// Tangent of the absolute formulation over what the bodies' own constraints leave free, and the
+// Tangent of the absolute formulation on the motions that satisfy the internal constraints, and the
 // multipliers of the parts: (5), (6) of absolute.hpp, assembled into the fronts of the bodies.
 #include "floatframe/formulation/absolute.hpp"
 
@@ -92,7 +92,7 @@ void AbsoluteFormulation::add_curvature(int a, int b, const Mat12& K, BlockLdlt&
 /// B^T (mass M + stretch (x) I) B onto the lower triangle of f, `stretch` between the axes.
 void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& stretch,
                                    MatX& f) noexcept {
-  // What a column of M is for a rotation: sum of A_c x its part at the axis c.
+  // The image of a column of M under a rotation: sum of A_c x its part at the axis c.
   const auto turn = [&](Eigen::Index k) {
     const double* column = b.M.data() + k * b.M.rows();
     Vec3 t = Vec3::Zero();
@@ -121,8 +121,8 @@ void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& s
   }
 }
 
-/// Inertia and stiffness of body i, and the geometric stiffness of the multipliers of (1), which is
-/// one between the axes, and of (2).
+/// Inertia and stiffness of body i, and the geometric stiffness of the multipliers of (1), a
+/// stretch between the axes, and of (2).
 void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
                                         BlockLdlt& matrix) noexcept {
   const BodyData& b = bodies_[i];
@@ -150,8 +150,8 @@ void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
   }
 }
 
-/// K_G of displacements of second order: of accelerations of the bodies, of forces and multipliers
-/// on them.
+/// K_G of second-order displacements: due to accelerations of the bodies, and forces and
+/// multipliers on them.
 void AbsoluteFormulation::assemble_stiffening(const TangentWeights& t, BlockLdlt& matrix) noexcept {
   for (BodyData& b : bodies_) {
     const SecondOrder* second_order = b.inertia.second_order();
@@ -224,7 +224,7 @@ void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& mat
     const int row = constraint_set_.offset(k);
     for (int r = 0; r < p.rows(); ++r) {
       const int at = place.at + r;
-      if (!(t.penalty > 0.0)) {  // without penalty the rows are not there
+      if (!(t.penalty > 0.0)) {  // without penalty these rows do not exist
         matrix.front(place.home)(at, at) = -1.0;
         continue;
       }

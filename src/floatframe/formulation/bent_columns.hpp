@@ -1,5 +1,5 @@
 #pragma once
-// One of the fields of a node of a body that stiffens, laid out for speed: with symmetric h_j
+// One of the fields of a node of a stiffening body, laid out for speed: with symmetric h_j
 //   u(y) = X y + 1/2 e_j y^T h_j y,   its columns X(y) = X + e_j y^T h_j,  u(y) = (X + X(y)) y / 2,
 // and the acceleration e_j ydot^T h_j ydot of rates.
 #include <array>
@@ -106,7 +106,7 @@ class BentColumns {
   VecX moved_;    ///< scratch: e_j y^T h_j
 };
 
-/// A node of a body that stiffens.
+/// A node of a stiffening body.
 struct BentNode {
   const SecondOrderNode* h = nullptr;
   BentColumns place, turn;

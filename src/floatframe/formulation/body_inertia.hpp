@@ -1,6 +1,6 @@
 #pragma once
-// The inertia terms of one body inside a formulation: picks the method at load time, owns its
-// scratch. Rigid bodies use preprocessing with zero modes under either method.
+// The inertia terms of one body inside a formulation: selects the method at load time, owns the
+// scratch memory. Rigid bodies use preprocessing with zero modes under either method.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -16,7 +16,7 @@ namespace floatframe {
 class BodyInertia {
  public:
   BodyInertia() = default;
-  /// Throws InputError if the body's mass model does not go with the method.
+  /// Throws InputError if the body's mass model is not compatible with the method.
   BodyInertia(const Body& of_model, InertiaMethod method)
       : data_(of_model.data->invariants), work_(of_model.modes()) {
     const FlexibleBody& body = *of_model.data;
@@ -80,7 +80,7 @@ class BodyInertia {
           m[j] += 0.5 * y[a] * second_order_->S2[j](a, b) * y[b];
     return m;
   }
-  /// Of a body that stiffens or whose nodes turn mass, else null.
+  /// For a body that stiffens or whose nodes have rotating mass, else null.
   const SecondOrder* second_order() const noexcept { return second_order_.get(); }
   /// K_kk / M_kk of each mode, `no_inertia` for massless ones [1/s2].
   VecX own_frequencies_squared(const MatX& K) const {

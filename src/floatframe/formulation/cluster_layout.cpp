@@ -45,7 +45,7 @@ ClusterTangent::ClusterTangent(const TreeKinematics& tree, const ConstraintSet& 
     for (const TreeBody& b : tree.bodies()) f.bodies.push_back({b.own, b.of_parent});
     for (std::size_t k = 0; k < clusters_.size(); ++k) {
       const int n = clusters_[k].n;
-      // What no column reaches takes no memory until it is touched.
+      // Pages that no column reaches take no memory until they are touched.
       f.fronts.emplace_back(front_stride(n), n);
       if (fronts_[k].profile.empty()) f.fronts.back().setZero();
     }
@@ -100,7 +100,7 @@ FrontProfile ClusterTangent::profile_of(std::size_t cluster) const {
     for (const TreeElement& e : *elements)
       if (e.cluster == static_cast<int>(cluster))
         reach(e.first, e.first + e.width, e.first + e.width);
-  // A column fills up those to its right as far as it reaches itself.
+  // A column causes fill in later columns within its height.
   int farthest = 0;
   double entries = 0.0;
   for (int j = 0; j < c.size; ++j) {
@@ -123,7 +123,7 @@ SparseRowMatrix ClusterTangent::constraint_rows() {
       fill_gradient(tree_, e, constraints_.row(row).gradient, scratch_.data());
       for (int j = 0; j < e.width; ++j) {
         const int front = e.first + j;
-        // Never touched: the parent's twist, and the rows that fill up the last lanes.
+        // Never touched: the parent's twist, and the padding rows of the last lanes.
         if ((front >= c.size && front < c.size + 6) || front >= c.n) continue;
         const int column =
             front < c.size ? c.offset + front : tree_.body(c.parent).iy + front - c.size - 6;

@@ -1,6 +1,6 @@
-// Solving with a factorised tangent. With the linear terms of the minimisation 1/2 x^T T x - b^T x
-// carried inwards as wrenches on the bodies, each front is eliminated leaves to root; then the
-// increments [Z; y] of the bodies go outwards and each front gives those of its coordinates.
+// Solution with a factorised tangent. With the linear terms of the minimisation 1/2 x^T T x - b^T x
+// propagated inwards as wrenches on the bodies, each front is eliminated leaves to root; then the
+// increments [Z; y] of the bodies propagate outwards and each front gives those of its coordinates.
 #include "floatframe/formulation/cluster_tangent.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -27,7 +27,7 @@ void ClusterTangent::add_part_loads(const Factors& factors, std::size_t k, const
   }
 }
 
-/// What hangs from the bodies of cluster k, onto its front.
+/// Contributions of the children of the bodies of cluster k to its front.
 void ClusterTangent::gather_loads(const Factors& factors, std::size_t k) noexcept {
   const Cluster& c = clusters_[k];
   double* work = fronts_[k].work.data();

@@ -11,8 +11,8 @@ namespace floatframe {
 
 namespace {
 
-/// Lower triangle of front += w g g^T on the rows and columns first..first+n, in whole lanes: what
-/// lies above the diagonal is scratch, and g is zero beyond the front.
+/// Lower triangle of front += w g g^T on the rows and columns first..first+n, in whole lanes:
+/// entries above the diagonal are scratch, and g is zero beyond the front.
 void add_outer(MatX& front, int first, int n, const double* g, double w) noexcept {
   const Eigen::Index ld = front.rows();
   double* column = front.data() + first * ld + first;
@@ -71,14 +71,14 @@ void ClusterTangent::add_geometric(int marker, const Vec3& force) noexcept {
 void ClusterTangent::gather_geometric(double s) noexcept {
   forces_.add_wrenches(
       [&](int marker, const Vec3& force, const Vec3&) { add_geometric(marker, s * force); });
-  // Multipliers only: the penalty part vanishes with convergence and would disturb the tangent.
+  // Multipliers only: the penalty part vanishes at convergence and would disturb the tangent.
   constraints_.add_wrenches(
       constraints_.multipliers(),
       [&](int marker, const Vec3& force, const Vec3&) { add_geometric(marker, s * force); });
 }
 
-/// K_G of displacements of second order: of accelerations of the bodies, of forces and multipliers
-/// on them.
+/// K_G of second-order displacements: due to accelerations of the bodies, and forces and
+/// multipliers on them.
 void ClusterTangent::add_stiffening(const std::vector<BodyTerms>& terms, double s) noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SecondOrder* second_order = terms[i].inertia.second_order();
@@ -227,7 +227,7 @@ void ClusterTangent::add_own(const Cluster& c, int i, MatX& front) noexcept {
   for (int j = 0; j < b.nm; ++j) Eigen::Map<Vec3>(U + 6 * (b.nj + j) + 3) += t.G_modal.col(j);
   // Joint against joint and modes.
   for (int j = 0; j < b.nj; ++j) {
-    // Coordinate j stands above l, but rotations of one ball have no order: symmetric part.
+    // Coordinate j is above l, but rotations of a spherical joint have no order: symmetric part.
     const bool above = j < b.ordered;
     double* column = front.data() + static_cast<Eigen::Index>(at + j) * ld + at;
     for (int l = j; l < b.nj; ++l)
@@ -339,7 +339,7 @@ double ClusterTangent::log_pivots(int slot) const noexcept {
   double sum = 0.0;
   for (std::size_t k = 0; k < clusters_.size(); ++k) {
     const MatX& front = factors_[slot].fronts[k];
-    double product = 1.0;  // of four at a time, for the price of one logarithm
+    double product = 1.0;  // of four factors, to save logarithms
     for (int j = 0; j < clusters_[k].size; ++j) {
       product *= front(j, j);
       if (j % 4 != 3) continue;

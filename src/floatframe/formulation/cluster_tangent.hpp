@@ -2,26 +2,26 @@
 // The tangent of a tree, factorised by clusters (theory section 10):
 //   T = mass M + damping C + s (K + geometric stiffness) + penalty Phi_q^T Phi_q               (1)
 // Each cluster has a front, a dense symmetric matrix over [x | Z_p | y_p]: its coordinates, twist
-// and amplitudes of the body p that it hangs from. Leaves to root, for each body c of the cluster
-// with its (6 + nm)^2 matrix T_c = [Mz N^T; N Y], which holds its inertia, stiffness, forces
-// against the ground and what hangs from it, and its directions S = [b, -Psi]
+// and amplitudes of its parent body p. Leaves to root, for each body c of the cluster with its (6 +
+// nm)^2 matrix T_c = [Mz N^T; N Y], which contains its inertia, stiffness, forces against the
+// ground and the contributions of its children, and its directions S = [b, -Psi]
 // (`TreePosition::own`):
-//   U       = Mz S + [0, N^T]             what a unit of each coordinate asks of the twist     (2)
+//   U       = Mz S + [0, N^T]             wrench due to a unit of each coordinate              (2)
 //   own     S^T U + [0, N^T]^T S + [0, Y]   onto the diagonal of the front                     (3)
 //   above   U^T S_d, U^T Phi_d, U         with the coordinates of each body d on the way to p,
 //                                         with modes of parents, with (Z_p, y_p)               (4)
 //   parent  Mz, Mz Phi, Phi^T Mz Phi      into T_p: composite inertia                          (5)
-// Elements of the cluster add w g g^T. Then LDL^T eliminates x, and what is left of the front at
-// (Z_p, y_p) is added to T_p. For a chain this is the articulated-body recursion, O(n).
+// Elements of the cluster add w g g^T. Then LDL^T eliminates x, and the Schur complement of the
+// front at (Z_p, y_p) is added to T_p. For a chain this is the articulated-body recursion, O(n).
 //
-// Geometric stiffness: point forces F at r that keep their direction give, for a coordinate i above
-// j on the path,
+// Geometric stiffness: point forces F at r with constant direction give, for a coordinate i above j
+// on the path,
 //   d(Q_j)/dq_i = omega_i . (u_j x F),  u_j = v_j + omega_j x r,                               (6)
 // which sums over a subtree to s_i^T G s_j with the twists s of the coordinates and
 //   G = [0 0; -skew(sum F), V - tr(V) I],  V = sum r F^T:                                      (7)
-// it rides along with the composite inertia, in U. Modes give columns sum Jr x F. Forces are those
-// of force elements and multipliers. Without it stiff axial loads in light rods halve the speed of
-// the Newton iteration.
+// it is accumulated with the composite inertia, in U. Modes give columns sum Jr x F. Forces are
+// those of force elements and multipliers. Without it large axial loads in light rods halve the
+// speed of convergence of the Newton iteration.
 #include <vector>
 
 #include "floatframe/formulation/body_inertia.hpp"
@@ -43,7 +43,7 @@ class ClusterTangent {
     bool geometric = false;
   };
 
-  /// The others must outlive this, stay where they are and have their final numbers. Allocates.
+  /// The references must outlive this, with constant addresses and final numbering. Allocates.
   ClusterTangent(const TreeKinematics& tree, const ConstraintSet& constraints,
                  const ForceSet& forces, std::vector<Cluster> clusters);
   ClusterTangent(const ClusterTangent&) = delete;
@@ -51,13 +51,13 @@ class ClusterTangent {
 
   // Step time: noexcept, free of allocation.
   /// Factorises at the present positions with the body terms, force states and multipliers of the
-  /// last evaluation. -1, or a coordinate with a vanishing pivot. A slot keeps one factorisation
-  /// with the directions of motion it was made with, so it solves on when the configuration has
-  /// moved.
+  /// last evaluation. Returns -1, or a coordinate with a vanishing pivot. A slot keeps one
+  /// factorisation with its directions of motion, so it remains valid for solutions after the
+  /// configuration has moved.
   int factorize(const std::vector<BodyTerms>& terms, const Weights& weights, int slot) noexcept;
   /// Sum of the logarithms of the pivots.
   double log_pivots(int slot) const noexcept;
-  /// As many negative ones as (1) has negative eigenvalues.
+  /// The number of negative pivots, equal to that of negative eigenvalues of (1).
   int negative_pivots(int slot) const noexcept;
   /// b := T^-1 b
   void solve(VecX& b, int slot) noexcept { solve(b, nullptr, nullptr, slot); }
@@ -84,9 +84,9 @@ class ClusterTangent {
   };
   /// Scratch of a cluster.
   struct Front {
-    std::vector<int> parts;  ///< constraint parts whose elements lie in this cluster
+    std::vector<int> parts;  ///< constraint parts whose elements belong to this cluster
     VecX original, work;
-    FrontProfile profile;  ///< of a front that is mostly zeros
+    FrontProfile profile;  ///< of a mostly zero front
   };
   /// Directions of motion of a body.
   struct Directions {

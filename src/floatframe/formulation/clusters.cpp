@@ -11,7 +11,7 @@ namespace floatframe {
 
 namespace {
 
-/// Bodies on the way between two markers, without their lowest common ancestor.
+/// Bodies on the path between two markers, without their lowest common ancestor.
 UnionFind tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>> ties) {
   UnionFind sets(tree.body_count());
   for (const auto& [marker_a, marker_b] : ties) {
@@ -27,7 +27,7 @@ UnionFind tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int,
   return sets;
 }
 
-/// Which bodies of one cluster are joined by a tie or by a joint of the tree.
+/// Adjacency of the bodies of one cluster through ties and joints of the tree.
 std::vector<std::vector<int>> neighbours(const TreeKinematics& tree, const UnionFind& sets,
                                          std::span<const std::pair<int, int>> ties) {
   std::vector<std::vector<int>> near(tree.body_count());
@@ -41,7 +41,7 @@ std::vector<std::vector<int>> neighbours(const TreeKinematics& tree, const Union
   return near;
 }
 
-/// The bodies that hang together with `first`, the nearest in front.
+/// The bodies connected with `first`, the nearest first.
 std::vector<int> by_distance(int first, const std::vector<std::vector<int>>& near) {
   std::vector<int> order{first};
   std::vector<bool> met(near.size(), false);
@@ -73,7 +73,7 @@ void order_bodies(Cluster& c, const TreeKinematics& tree,
   }
 }
 
-/// The parent of a cluster: of all bodies that hang from outside of it the one nearest to the
+/// The parent of a cluster: of the parents of its bodies outside of it the one nearest to the
 /// ground.
 int parent_of(const Cluster& c, const TreeKinematics& tree, const UnionFind& sets,
               const std::vector<int>& depth) {
@@ -120,7 +120,7 @@ std::vector<Cluster> find_clusters(const TreeKinematics& tree,
     for (const int i : c.bodies) coordinates += tree.body(i).nj + tree.body(i).nm;
     if (coordinates >= wide_cluster) order_bodies(c, tree, near);
   }
-  // A cluster found early may hang from a body of one found later.
+  // The parent of a cluster found early may be in one found later.
   std::vector<int> level(clusters.size(), -1);
   const std::function<int(int)> level_of = [&](int k) {
     const int parent = clusters[k].parent;

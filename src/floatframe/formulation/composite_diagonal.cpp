@@ -12,7 +12,7 @@ VecX composite_diagonal(const TreeKinematics& tree,
   for (const int i : tree.order() | std::views::reverse) {
     const TreeBody& b = tree.body(i);
     const MatX& M = inertia(i);
-    Mat6& C = composite[static_cast<std::size_t>(i)];  // of what hangs from it, so far
+    Mat6& C = composite[static_cast<std::size_t>(i)];  // of its children so far
     C += M.topLeftCorner<6, 6>();
     for (int k = 0; k < b.nj; ++k) diagonal[b.iv + k] = b.own.col(k).dot(C * b.own.col(k));
     const auto own_twist = [](const TreeBody& of, int k) {

@@ -1,17 +1,17 @@
 #pragma once
-// Constraints between markers that a formulation closes with multipliers: parts of joints, rods and
-// prescribed motions (model/constraint_part.hpp), numbered row by row,
+// Constraints between markers that a formulation enforces with multipliers: parts of joints, rods
+// and prescribed motions (model/constraint_part.hpp), numbered row by row,
 //   Phi_i(q, t) = 0,
 //   Phidot_i  = F_a.v_a + T_a.w_a + F_b.v_b + T_b.w_b + dPhi/dt                     (1)
 //   Phiddot_i = F_a.a_a + T_a.alpha_a + F_b.a_b + T_b.alpha_b + quad + d2Phi/dt2    (2)
 // with the gradient (F_a, T_a, F_b, T_b) of row i, a wrench on the markers a and b of its part,
-// their velocities (v, w) and accelerations (a, alpha), and quad what the velocities contribute
-// through the change of the gradient. A weight w_i on each row acts on the bodies as the sum of w_i
+// their velocities (v, w) and accelerations (a, alpha), and quad the contribution of the velocities
+// due to the change of the gradient. A weight w_i on each row acts on the bodies as the sum of w_i
 // times these wrenches, which is Phi_q^T w.
 //
-// What a marker does is the formulation's: callables say it. Rows may begin after those of others
-// (`first`), so that the vectors hold all constraints of a formulation. Step time: no heap,
-// noexcept.
+// The motion of a marker depends on the formulation and is supplied by callables. Rows may begin
+// after other rows (`first`), so that the vectors contain all constraints of a formulation. Step
+// time: no heap, noexcept.
 #include <span>
 #include <string>
 #include <vector>
@@ -26,13 +26,13 @@ class ConstraintSet {
  public:
   /// Parts of these joints, then of all rods, then of all prescribed motions. Allocates.
   ConstraintSet(const Model& model, std::span<const int> joints);
-  /// Gives the rows their numbers, from `first` on. Allocates.
+  /// Numbers the rows, starting at `first`. Allocates.
   void number_rows(int first);
 
   const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
-  /// Row where a part starts.
+  /// First row of a part.
   int offset(std::size_t part) const noexcept { return offsets_[part]; }
-  /// All rows, with those before the first.
+  /// Number of all rows, including those before the first.
   int count() const noexcept { return count_; }
   const ConstraintRow& row(int i) const noexcept { return rows_[i - first_]; }
   /// The part that row i belongs to; none (`parts().size()`) for rows before the first.
@@ -40,7 +40,7 @@ class ConstraintSet {
   /// "joint 'hinge'", "rod 'tie'" that row i belongs to.
   std::string owner_of_row(int i) const;
 
-  /// Phi [m], all rows; those before the first are the formulation's to fill.
+  /// Phi [m], all rows; those before the first are filled by the formulation.
   VecX& values() noexcept { return values_; }
   const VecX& values() const noexcept { return values_; }
   /// lambda [N], those of the last `set_multipliers`.

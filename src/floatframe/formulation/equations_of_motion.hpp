@@ -1,16 +1,16 @@
 #pragma once
-// What the integrator asks of a formulation: the equations of motion of a constrained system,
+// Requirements of the integrator on a formulation: the equations of motion of a constrained system
 //   M(q) a + Phi_q^T (alpha Phi + lambda) = Q(q, v, t),   Phi(q, t) = 0,            (1)
 // in nq configuration numbers q, nv velocities v and accelerations a, nc multipliers lambda.
 // Increments x of the configuration have nv numbers, q = q0 (+) x (`retract`): rotation vectors for
 // quaternions.
 //
-// Order of calls. A formulation keeps one evaluation of the system; each call says what it needs of
-// those before it and what it leaves for those after it.
+// Order of calls. A formulation keeps one evaluation of the system; each call requires results of
+// earlier calls and provides results for later ones.
 //
 //   call                        needs           leaves
-//   stepping(true)                              the beginning of a step: what must go back to where
-//                                               it was if the step is not accepted
+//   stepping(true)                              the beginning of a step: saves data to be restored
+//                                               if the step is not accepted
 //   positions(t, q)                             markers, directions of motion
 //   velocities(v)               positions       velocities, bias accelerations; Phi and Phi_q at
 //                                               these positions
@@ -28,17 +28,17 @@
 //   constraint_increments       velocities      out = Phi_q delta
 //           (delta, out)
 //   constraint_forces(w, out)   velocities      out = Phi_q^T w
-//   balance(lambda, r)          residual        multipliers that only the formulation knows
+//   balance(lambda, r)          residual        multipliers internal to the formulation
 //   retract(q0, x, q)                           q = q0 (+) x
-//   settle(q0, x)                               x such that q0 (+) x meets what the formulation
-//                                               holds exactly
+//   settle(q0, x)                               x such that q0 (+) x satisfies exact constraints
+//                                               of the formulation
 //   advance(x, delta)           positions       x such that q0 (+) x = (q0 (+) x_old) (+) delta,
 //                               at q0 (+) x
 //   stepping(false, accepted)                   the end of the step
 //
 // positions, velocities, dynamics, residual and the constraint_* functions may be repeated in any
-// order that meets these needs; the results of an evaluation do not depend on those before it but
-// for the turn that angles of springs have reached (`stepping`).
+// order that satisfies these requirements; the results of an evaluation do not depend on earlier
+// ones except for the turns counted by angles of springs (`stepping`).
 //
 // All of it runs in steps: noexcept, free of allocation, exceptions and virtual functions.
 #include <concepts>
@@ -47,7 +47,7 @@
 
 namespace floatframe {
 
-/// In `own_frequencies_squared`: a coordinate of a body, or an amplitude of a mode, without mass.
+/// In `own_frequencies_squared`: a massless coordinate of a body, or amplitude of a mode.
 inline constexpr double no_inertia = -1.0;
 
 // clang-format off
@@ -58,7 +58,7 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   { c.velocities() } noexcept -> std::same_as<int>;
   { c.configurations() } noexcept -> std::same_as<int>;
   { c.constraints() } noexcept -> std::same_as<int>;
-  /// What a renewal of the factorisation must save, in iterations.
+  /// The saving in iterations above which a new factorisation pays off.
   requires std::same_as<decltype(F::factorization_cost), const double>;
 
   { f.stepping(true) } noexcept -> std::same_as<void>;
@@ -80,19 +80,19 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// forces, without geometric stiffness: the metric of the projections. -1, or a coordinate with a
   /// vanishing pivot.
   { f.factorize_metric(x, x, slot) } noexcept -> std::same_as<int>;
-  /// Sum of the logarithms of the pivots of a slot's factorisation: log |det| but for what a
-  /// formulation leaves out always.
+  /// Sum of the logarithms of the pivots of a slot's factorisation: log |det| up to constant terms
+  /// of a formulation.
   { c.log_pivots(slot) } noexcept -> std::same_as<double>;
   /// b := T^-1 b
   { f.solve(out, slot) } noexcept -> std::same_as<void>;
   /// b := T^-1 (b - penalty Phi_q^T phi) and mu := phi + Phi_q b, for (b, phi, penalty, mu, slot),
   /// with the Phi_q and the penalty of the factorisation: penalty mu are the multipliers of
   ///   T0 x + Phi_q^T (penalty mu) = b,  Phi_q x - mu = -phi,  T0 = T without its penalty.    (2)
-  /// Constraints that a formulation meets exactly have mu = 0. A slot keeps one factorisation with
-  /// its directions of motion.
+  /// Constraints that a formulation satisfies exactly have mu = 0. A slot keeps one factorisation
+  /// with its directions of motion.
   { f.solve(out, in, x, out, slot) } noexcept -> std::same_as<void>;
-  /// Adds to lambda, and to the residual r, what multipliers of constraints that the formulation
-  /// meets exactly must be, for (lambda, r), after `residual`.
+  /// Adds to lambda, and to the residual r, the multipliers of constraints that the formulation
+  /// satisfies exactly, for (lambda, r), after `residual`.
   { f.balance(out, out) } noexcept -> std::same_as<void>;
 
   // Constraints at the present positions and velocities.
@@ -102,8 +102,8 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   { f.constraint_increments(in, out) } noexcept -> std::same_as<void>;
   { f.constraint_forces(in, out) } noexcept -> std::same_as<void>;
 
-  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates, or `no_inertia` [1/s2]: the
-  /// first guess of a step.
+  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates, or `no_inertia` [1/s2]: for the
+  /// predictor of a step.
   { c.own_frequencies_squared() } noexcept -> std::same_as<const VecX&>;
 
   // Configurations: (q0, x, q), (q0, x) and (x, delta).
@@ -113,7 +113,7 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
 };
 // clang-format on
 
-/// One evaluation of the system up to its velocities; at a state: at its t, q, v.
+/// One evaluation of the system up to its velocities; for a state: at its t, q, v.
 template <class F>
 void kinematics_at(F& f, double t, const VecX& q, const VecX& v) noexcept {
   f.positions(t, q);

@@ -1,8 +1,8 @@
 #pragma once
 // The force elements of a model in a formulation: their inputs, their states at the last
-// evaluation, and the turns that the angles of joint springs have reached. An angle is known up to
-// whole turns; the one meant is that nearest to the angle of the last evaluation, so the angles are
-// a part of the state that q does not hold. Step time: no heap, noexcept.
+// evaluation, and the turns counted by the angles of joint springs. An angle is known up to whole
+// turns; the value nearest to the angle of the last evaluation is used, so the angles are a part of
+// the state that q does not contain. Step time: no heap, noexcept.
 #include <algorithm>
 #include <cassert>
 #include <span>
@@ -15,10 +15,10 @@ namespace floatframe {
 
 class ForceSet {
  public:
-  /// All angles begin at zero (`count_turns_from`). Allocates.
+  /// All angles start at zero (`count_turns_from`). Allocates.
   explicit ForceSet(const Model& model);
 
-  /// Values of `model.inputs`, held until they are set again; at first their initial values.
+  /// Values of `model.inputs`, constant until they are set again; at first their initial values.
   void set_inputs(std::span<const double> values) noexcept {
     assert(values.size() == inputs_.size());
     std::copy(values.begin(), values.end(), inputs_.begin());
@@ -32,18 +32,18 @@ class ForceSet {
     std::copy(angles.begin(), angles.end(), angles_.begin());
   }
   void set_angle(std::size_t force, double angle) noexcept { angles_[force] = angle; }
-  /// Turns are counted from the start values of these joints, or their motions at time t.
+  /// Turns are counted starting at the start values of these joints, or their motions at time t.
   void count_turns_from(const Model& values, double t) noexcept;
 
-  /// Branches of the laws that are held (`force_side`), a number for each force; `free_branch`
-  /// before any is.
+  /// Held branches of the laws (`force_side`), a number for each force; `free_branch` if none is
+  /// held.
   std::span<const std::int64_t> branches() const noexcept { return branches_; }
   void hold_branches(std::span<const std::int64_t> branches) noexcept {
     assert(branches.size() == branches_.size());
     std::copy(branches.begin(), branches.end(), branches_.begin());
   }
   void hold_branch(std::size_t force, std::int64_t branch) noexcept { branches_[force] = branch; }
-  /// What `force_side` says of a force whose law has branches.
+  /// Result of `force_side` for a force whose law has branches.
   template <class StateOf>
   ForceSide side(std::size_t k, const Vec3& p_WO, double t, const StateOf& state) const noexcept {
     const Force& f = model_.forces[k];
@@ -52,8 +52,8 @@ class ForceSet {
     return force_side(model_, f, a, b, p_WO, t, angles_[k], inputs_, branches_[k]);
   }
 
-  /// The beginning of a step, and its end: what angles turned by in a step that was not accepted is
-  /// forgotten.
+  /// The beginning of a step, and its end: changes of the angles in a rejected step are
+  /// discarded.
   void stepping(bool on, bool accepted) noexcept {
     if (on)
       std::copy(angles_.begin(), angles_.end(), kept_angles_.begin());
@@ -75,8 +75,8 @@ class ForceSet {
     }
   }
 
-  /// What the forces ask for on the left-hand side, -Q: calls add(marker, force, torque) for each
-  /// marker of each force.
+  /// Left-hand side of the forces, -Q: calls add(marker, force, torque) for each marker of each
+  /// force.
   template <class Add>
   void add_wrenches(const Add& add) const noexcept {
     for (std::size_t k = 0; k < model_.forces.size(); ++k) {
@@ -90,7 +90,7 @@ class ForceSet {
  private:
   const Model& model_;
   std::vector<ForceState> states_;
-  std::vector<double> angles_;       ///< pick the turn of the next evaluation [rad]
+  std::vector<double> angles_;       ///< select the turn of the next evaluation [rad]
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;
   std::vector<std::int64_t> branches_;

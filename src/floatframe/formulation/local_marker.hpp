@@ -1,6 +1,6 @@
 #pragma once
-// The part of a marker's motion that only its own body's modal amplitudes decide, in body axes;
-// shared by the formulations. Node N at p with shapes X, X_theta; the marker at p_NM, R_NM on it.
+// The part of a marker's motion due to the modal amplitudes of its body only, in body axes; shared
+// by the formulations. Node N at p with shapes X, X_theta; marker at p_NM, R_NM on it.
 // With theta = X_theta y, E = exp(skew(theta)), o = E p_NM:
 //   p_B    = p + X y + o              R_B = E R_NM
 //   pdot_B = X ydot + zeta_B x o      zeta_B = H thetadot,  H the tangent of the exponential
@@ -8,9 +8,9 @@
 //   pddot_B = zetadot_B x o + zeta_B x (zeta_B x o),  zetadot_B = Hdot thetadot.
 // A modal rate moves the marker, in world axes, by
 //   Jw = A H X_theta,   Jr = A X + Jw x (A o).
-// With geometric stiffening (SecondOrderNode) X + e_j y^T h_j and X_theta + e_j y^T theta_j stand
-// for X and X_theta in rates and gradients, p_B and theta have half of these terms, and pddot_B
-// and the second derivative of theta e_j ydot^T h_j ydot and e_j ydot^T theta_j ydot.
+// With geometric stiffening (SecondOrderNode) X + e_j y^T h_j and X_theta + e_j y^T theta_j replace
+// X and X_theta in rates and gradients, p_B and theta contain half of these terms, and pddot_B and
+// the second derivative of theta contain e_j ydot^T h_j ydot and e_j ydot^T theta_j ydot.
 #include <memory>
 
 #include "floatframe/formulation/bent_columns.hpp"
@@ -145,7 +145,7 @@ struct LocalMarker {
     const Eigen::Index n = out.size();
     for (Eigen::Index k = 0; k < n; ++k) o[k] += w[0] * h0[k] + w[1] * h1[k] + w[2] * h2[k];
   }
-  /// The node of a marker on a body that stiffens; null if it has no second order.
+  /// The node of a marker on a stiffening body; null if it has no second-order terms.
   static const SecondOrderNode* second_order_of(const Model& model, const Marker& m) {
     if (!model.bodies[m.body].stiffens()) return nullptr;
     for (const SecondOrderNode& n : model.bodies[m.body].data->second_order->nodes)

@@ -1,4 +1,4 @@
-// Outputs see one of the two formulations: a branch and a direct call.
+// Outputs access one of the two formulations: a branch and a direct call.
 #include "floatframe/model/output_view.hpp"
 
 #include "floatframe/formulation/absolute.hpp"

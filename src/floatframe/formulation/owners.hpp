@@ -1,5 +1,5 @@
 #pragma once
-// Names of what coordinates and constraint rows belong to, for messages and reports. Load time.
+// Names of the owners of coordinates and constraint rows, for messages and reports. Load time.
 #include <string>
 #include <vector>
 

@@ -22,7 +22,7 @@ std::vector<Cluster> number(TreeKinematics& tree, ConstraintSet& constraints) {
   return clusters;
 }
 
-/// Markers that constraints and forces look at.
+/// Markers used by constraints and forces.
 std::vector<char> needed_markers(const Model& model, const ConstraintSet& constraints) {
   std::vector<char> needed(model.markers.size(), 0);
   for (const ConstraintPart& p : constraints.parts()) needed[p.a] = needed[p.b] = 1;
@@ -33,8 +33,8 @@ std::vector<char> needed_markers(const Model& model, const ConstraintSet& constr
   return needed;
 }
 
-/// Bodies without any mass on them or further out, and out of every loop: what they do follows from
-/// forces and positions alone.
+/// Bodies without any mass on them or further out, and outside of all loops: their motion is
+/// determined by forces and positions only.
 std::vector<char> bodies_without_mass(const TreeKinematics& tree,
                                       const ConstraintSet& constraints) {
   std::vector<char> without;
@@ -76,7 +76,7 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
   const std::vector<char> without = bodies_without_mass(tree_, constraint_set_);
   for (int i = 0; i < tree_.body_count(); ++i)
     if (without[i]) omega2_.segment(tree_.body(i).iv, tree_.body(i).nj).setConstant(no_inertia);
-  // The angle of a spring on a tree joint is the joint's own coordinate, whatever it turns in a
+  // The angle of a spring on a tree joint is the joint coordinate, however far it rotates in a
   // step.
   for (const Force& f : model.forces)
     spring_body_.push_back(f.rotational ? tree_.body_between(f.a, f.b) : -1);

@@ -35,15 +35,15 @@ class RelativeFormulation {
   const TreeKinematics& tree() const noexcept { return tree_; }
   const ConstraintSet& constraint_set() const noexcept { return constraint_set_; }
 
-  /// Values of `model().inputs`, held until they are set again; at first their initial values.
+  /// Values of `model().inputs`, constant until set again; at first their initial values.
   void set_inputs(std::span<const double> values) noexcept { force_set_.set_inputs(values); }
   std::span<const double> inputs() const noexcept { return force_set_.inputs(); }
-  /// Angles of the joint springs at the last evaluation (a number for each force): they tell which
-  /// turn the next angle belongs to, so they are a part of the state that q does not hold.
+  /// Angles of the joint springs at the last evaluation (a number for each force): they determine
+  /// the turn of the next angle, so they are a part of the state that q does not contain.
   std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
   void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
-  /// Branches of the laws of forces that are held, and the side of a force whose law has branches
-  /// at the present positions and velocities (model/force_evaluation.hpp).
+  /// Held branches of the laws of forces, and the side of a force whose law has branches at the
+  /// present positions and velocities (model/force_evaluation.hpp).
   std::span<const std::int64_t> force_branches() const noexcept { return force_set_.branches(); }
   void hold_force_branches(std::span<const std::int64_t> branches) noexcept {
     force_set_.hold_branches(branches);
@@ -53,21 +53,21 @@ class RelativeFormulation {
   }
   ForceSide force_side(std::size_t force) const noexcept;
 
-  /// Start values of the model in these coordinates (before loops are closed). Turns of the springs
-  /// on cut joints are counted from here on.
+  /// Start values of the model in these coordinates (before loops are closed). Resets the turns of
+  /// the springs on cut joints.
   void start(VecX& q, VecX& v) { start(model_, 0.0, q, v); }
   /// Those of another model that has the same bodies and joints, at time t.
   void start(const Model& values, double t, VecX& q, VecX& v);
 
   // -- EquationsOfMotion
 
-  /// Tuned on the Iltis; a factorisation takes about 0.7 iterations.
+  /// Tuned with the Iltis benchmark; a factorisation costs about 0.7 iterations.
   static constexpr double factorization_cost = 2.0;
   int velocities() const noexcept { return tree_.velocity_count(); }
   int configurations() const noexcept { return tree_.configuration_count(); }
   int constraints() const noexcept { return constraint_set_.count(); }
-  /// While a step is made, markers that only outputs look at are left alone; after it they are
-  /// those of the next `positions` and `velocities`.
+  /// During a step, markers used by outputs only are not updated; after it they are those of the
+  /// next `positions` and `velocities`.
   void stepping(bool on, bool accepted = true) noexcept {
     tree_.stepping(on);
     force_set_.stepping(on, accepted);
@@ -102,7 +102,7 @@ class RelativeFormulation {
   void settle(const VecX&, VecX&) const noexcept {}
   void advance(VecX& x, const VecX& delta) const noexcept { tree_.advance(x, delta); }
 
-  // -- what outputs, energies and reports look at; positions of markers are from `origin`
+  // -- for outputs, energies and reports; positions of markers are from `origin`
 
   const MarkerState& marker(int index) const noexcept { return tree_.marker(index).s; }
   const Vec3& origin() const noexcept { return tree_.origin(); }
@@ -133,7 +133,7 @@ class RelativeFormulation {
   double body_kinetic_energy(int i) const noexcept;
   double body_gravity_energy(int i) const noexcept;
   double body_elastic_energy(int i) const noexcept;
-  /// Power that modal damping takes out at these velocities [W].
+  /// Power dissipated by modal damping at these velocities [W].
   double modal_damping_power(const VecX& v) const noexcept;
   /// Power of prescribed motions with these multipliers, after `velocities` [W].
   double motion_power(const VecX& lambda) const noexcept {
@@ -142,11 +142,11 @@ class RelativeFormulation {
   double kinetic_energy(const VecX& v) noexcept;
   double gravity_energy(const VecX& q) const noexcept;
   double elastic_energy(const VecX& q) const noexcept;
-  /// Wrench that a tree joint's parent exerts on its child, about the joint's point on the child
-  /// (after `residual`). Without that of a prescribed motion, whose multiplier holds it.
+  /// Wrench of the parent on the child at a tree joint, about the joint's point on the child (after
+  /// `residual`). Without the prescribed motion, whose wrench is given by its multiplier.
   void tree_joint_wrench(int joint, Vec3& force, Vec3& torque) const noexcept;
   double total_mass() const noexcept;
-  /// "mode 2 of body 'arm'" or "joint 'hinge'" that coordinate i belongs to.
+  /// "mode 2 of body 'arm'" or "joint 'hinge'", the owner of coordinate i.
   std::string coordinate_owner(int i) const { return tree_.coordinate_owner(i); }
   /// Phi_q, sparse and dense, load time only.
   SparseRowMatrix constraint_rows() { return tangent_.constraint_rows(); }
@@ -162,7 +162,7 @@ class RelativeFormulation {
   ForceSet force_set_;
   ClusterTangent tangent_;
   std::vector<BodyTerms> terms_;
-  std::vector<int> spring_body_;  ///< of a spring on a tree joint: the body that hangs there, or -1
+  std::vector<int> spring_body_;  ///< of a spring on a tree joint: its child body, or -1
   BodyVectors wrenches_;          ///< of the last residual or constraint forces
   BodyVectors increments_;        ///< motions of the bodies under an increment
   double time_ = 0.0;

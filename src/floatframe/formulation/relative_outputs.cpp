@@ -1,5 +1,5 @@
-// What outputs, energies and counts take from the relative formulation; not part of the step's
-// inner loop.
+// Access to the relative formulation for outputs, energies and counts; not part of the step's inner
+// loop.
 #include "floatframe/formulation/composite_diagonal.hpp"
 #include "floatframe/formulation/relative.hpp"
 
@@ -104,7 +104,7 @@ void RelativeFormulation::tree_joint_wrench(int joint, Vec3& force, Vec3& torque
   if (i < 0) return;
   const TreeBody& b = tree_.body(i);
   const Vec6 h = wrenches_[i].head<6>();
-  const double sign = b.reversed ? -1.0 : 1.0;  // on the joint's own child
+  const double sign = b.reversed ? -1.0 : 1.0;  // on the child of the joint as described
   const Vec3& r = tree_.marker(model_.joints[joint].frame_M).s.r;
   force = sign * h.head<3>();
   torque = sign * (h.tail<3>() - r.cross(h.head<3>()));

@@ -9,7 +9,7 @@ namespace floatframe {
 
 namespace {
 
-/// Where the amplitudes of body i are in the front of cluster c.
+/// Position of the amplitudes of body i in the front of cluster c.
 int mode_front(const TreeKinematics& tree, const Cluster& c, int i) {
   return i == c.parent ? c.size + 6 : tree.body(i).iy - c.offset;
 }
@@ -32,7 +32,7 @@ void add_path(const TreeKinematics& tree, const Cluster& c, const std::vector<in
     add(PathEntry::What::marker_modes, m.body, mode_front(tree, c, m.body), tree.body(m.body).nm);
 }
 
-/// The six-row columns of a path entry that is not the marker's own.
+/// The six-row columns of a path entry that does not belong to the marker's body.
 const double* directions(const TreeKinematics& tree, const PathEntry& p) noexcept {
   const TreeBody& b = tree.body(p.body);
   if (p.what == PathEntry::What::parent_modes) return b.of_parent.data();
@@ -56,7 +56,7 @@ TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>&
   }
   const int lead = !path_a.empty() ? path_a.front() : !path_b.empty() ? path_b.front() : ancestor;
   if (lead < 0) return e;
-  // Both markers on one body: only its modes see the element; its front is that of its cluster.
+  // Both markers on one body: the element depends on its modes only, in the front of its cluster.
   e.cluster = cluster_of_body[lead];
   const Cluster& c = clusters[e.cluster];
   if (a >= 0) add_path(tree, c, path_a, a, false, e.path);

@@ -1,10 +1,10 @@
 #pragma once
 // An element between two markers of a tree - a constraint part or a force - in the front of its
-// cluster: which coordinates move either marker, and its rows over them.
+// cluster: the coordinates that move either marker, and its rows over them.
 //   row of a gradient (F_a, T_a, F_b, T_b):  d(measure)/dx_k = sum over the markers of
 //     F.u_k + T.omega_k,   u_k = v_k + omega_k x r,   (v_k, omega_k) the twist of coordinate k
 //   rows of the distance:   d(r_b - r_a)/dx_k, three rows
-// Coordinates above the lowest common ancestor move both markers alike and drop out; they are not
+// Coordinates above the lowest common ancestor move both markers equally and cancel; they are not
 // on the path.
 #include <vector>
 
@@ -13,7 +13,7 @@
 
 namespace floatframe {
 
-/// A stretch of coordinates on the way from a marker to the common ancestor.
+/// A range of coordinates on the path from a marker to the common ancestor.
 struct PathEntry {
   enum class What {
     joint,         ///< of `body`
@@ -32,10 +32,10 @@ struct TreeElement {
   int body = -1;       ///< that body
   std::vector<PathEntry> path;
   int first = 0, width = 0;  ///< the range of the front that the path touches, in whole lanes
-  int gradient = 0;          ///< where the rows of a constraint part are kept in a factorisation
+  int gradient = 0;          ///< position of the rows of a constraint part in a factorisation
 };
 
-/// Of any two markers. Without a cluster if nothing moves them against each other.
+/// For any two markers. Without a cluster if no coordinate changes their relative position.
 TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
                          const std::vector<int>& cluster_of_body, int a, int b);
 

@@ -100,7 +100,7 @@ void TreeKinematics::positions_of(const VecX& q) noexcept {
       marker_position(m);
     }
   }
-  // The joint's bias needs velocities: `velocities` evaluates it from the H kept in b.motion.
+  // The joint's bias needs velocities: `velocities` evaluates it from the H stored in b.motion.
 }
 
 template <bool stiffens>
@@ -123,7 +123,7 @@ void TreeKinematics::find_twist(TreeBody& b, const VecX& v) noexcept {
   const Vec3 alpha_M = F.s.alpha_bias + F.s.w.cross(eta) + F.s.R * b.motion.bias.tail<3>();
   const Vec3 a_M = F.s.a_bias + F.s.alpha_bias.cross(rho) + F.s.w.cross(F.s.w.cross(rho)) +
                    2.0 * F.s.w.cross(nu) + F.s.R * b.motion.bias.head<3>();
-  // The body frame seen from M, which may move with the body's own modes.
+  // The body frame relative to M, which may move with the body's modes.
   Vec3 chi = Vec3::Zero(), chi_dot = Vec3::Zero(), zeta = Vec3::Zero(), zeta_dot = Vec3::Zero();
   if (child.local) {
     child.deform_rate<stiffens>(b.yd);
@@ -268,7 +268,7 @@ PointMotion TreeKinematics::acceleration_in_world(int marker) const noexcept {
   return x;
 }
 
-/// What coordinate accelerations add to the bias of a marker.
+/// Contribution of coordinate accelerations, added to the bias of a marker.
 void TreeKinematics::add_acceleration(int marker, PointMotion& x) const noexcept {
   const TreeMarker& m = markers_[marker];
   if (m.body < 0) return;

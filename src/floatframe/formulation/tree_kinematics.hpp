@@ -1,8 +1,8 @@
 #pragma once
 // Positions, velocities and accelerations of a tree of bodies, from the ground to the leaves, and
-// the way back for wrenches (theory section 10).
+// the transposed recursion for wrenches (theory section 10).
 //
-// Body c hangs from marker F of its parent p by a joint; its own marker M moves with its own modes.
+// Body c is attached to marker F of its parent p by a joint; its marker M moves with its modes.
 // Frames: W world, O the evaluation origin (axes of W), B body, F and M the frames of a joint.
 //
 // Positions. The joint gives p_FM, R_FM; modes of both bodies move F and M on their bodies:
@@ -23,11 +23,11 @@
 // with chi, zeta the velocity and angular velocity of M relative to its body and a_M, alpha_M those
 // of M through the joint. The ground accelerates with -g, which is gravity for all bodies.
 //
-// Increments go outwards as twists do (`spread`). Wrenches about O come back inwards (`project`):
+// Increments propagate outwards like twists (`spread`). Wrenches about O inwards (`project`):
 //   h_p += h_c,  h_yp += Phi^T h_c,  h_yc -= Psi^T h_c,  and the joint's coordinates get b^T h_c.
 //
-// The origin O is the first body's joint point at that evaluation: positions stay small numbers
-// wherever the system is on the road.
+// The origin O is the first body's joint point at that evaluation: positions stay small wherever
+// the system is on the road.
 #include <string>
 #include <vector>
 
@@ -40,27 +40,27 @@
 
 namespace floatframe {
 
-/// How a body hangs in the tree: fixed when it is built.
+/// Connection of a body in the tree: fixed when it is built.
 struct TreeLink {
   int parent = -1, joint = -1;  ///< -1: the ground
   JointType type = JointType::free;
-  bool reversed = false;           ///< the joint's own child is the parent in the tree
+  bool reversed = false;           ///< the joint's described child is the parent in the tree
   int frame_F = -1, frame_M = -1;  ///< markers on the parent and on this body
   JointDirections axes;            ///< in the sense of the tree
   int nj = 0, nm = 0;              ///< coordinates of the joint, modes of the body
   int nm_parent = 0;               ///< modes of the parent
   int ordered = 0;  ///< joint coordinates that move those after them: all but rotation vectors
   bool parent_moves_F = false;  ///< modes of the parent move marker F: Phi is not zero
-  bool moves_M = false;         ///< own modes move marker M: Psi is not zero
-  int iq = 0, iyq = 0;          ///< where joint and modes begin in the configuration q
+  bool moves_M = false;         ///< modes of the body move marker M: Psi is not zero
+  int iq = 0, iyq = 0;          ///< first entries of joint and modes in the configuration q
   int iv = 0, iy = 0;           ///< the same in velocities v
 };
 
-/// What follows from the configuration.
+/// Quantities that depend on the configuration.
 struct TreePosition {
   JointMotion motion;  ///< p_FM, R_FM, H in axes of F; its bias depends on the velocities
   double angle =
-      0.0;    ///< coordinate of a joint that has one, in the sense of its own parent and child
+      0.0;    ///< coordinate of a joint that has one, in the sense of its described parent, child
   VecX y;     ///< modal amplitudes
   Vec3 p_OB;  ///< body frame from the evaluation origin, world axes [m]
   Mat3 R_WB;
@@ -68,7 +68,7 @@ struct TreePosition {
   Mat6X of_parent;  ///< 6 x nm_parent: Phi, twists per unit of the parent's modes
 };
 
-/// What follows from the velocities, too.
+/// Quantities that depend on the velocities, too.
 struct TreeVelocity {
   VecX yd;      ///< modal rates
   Vec3 w_WB;    ///< angular velocity, world axes [rad/s]
@@ -76,18 +76,18 @@ struct TreeVelocity {
   Vec6 Zdot_0;  ///< bias: acceleration without coordinate accelerations [m/s2, rad/s2]
 };
 
-/// What follows from the accelerations, too.
+/// Quantities that depend on the accelerations, too.
 struct TreeAcceleration {
   VecX ydd;   ///< of the modal amplitudes
   Vec6 Zdot;  ///< without the bias [m/s2, rad/s2]
 };
 
 struct TreeBody : TreeLink, TreePosition, TreeVelocity, TreeAcceleration {
-  /// Columns of `own` that can be other than zero.
+  /// Columns of `own` that can be nonzero.
   int moving() const noexcept { return moves_M ? nj + nm : nj; }
 };
 
-/// A multiple of 256 bytes: found by an addition and a shift.
+/// A multiple of 256 bytes: addressed by an addition and a shift.
 struct alignas(256) TreeMarker : LocalMarker {
   MarkerState s;  ///< r from O; world axes
 };
@@ -97,11 +97,11 @@ using BodyVectors = std::vector<VecX>;
 
 class TreeKinematics {
  public:
-  /// Bodies, joints and markers; coordinates have no numbers yet. Allocates.
+  /// Bodies, joints and markers; coordinates are not yet numbered. Allocates.
   explicit TreeKinematics(const Model& model);
-  /// Gives the coordinates their numbers: body after body in this order, parents before children.
+  /// Numbers the coordinates: body after body in this order, parents before children.
   void number_coordinates(const std::vector<int>& order);
-  /// `needed[i]`: marker i is looked at by joints, rods or forces and not by outputs alone.
+  /// `needed[i]`: marker i is used by joints, rods or forces, not only by outputs.
   void need_markers(std::vector<char> needed);
   /// Zeros of the right sizes.
   BodyVectors body_vectors() const;
@@ -120,7 +120,7 @@ class TreeKinematics {
   const Vec3& origin() const noexcept { return p_WO_; }
 
   // Step time: noexcept, free of allocation. Each needs those before it at the same state.
-  /// While steps are made, markers that only outputs look at are left alone.
+  /// During steps, markers used by outputs only are not updated.
   void stepping(bool on) noexcept { stepping_ = on; }
   void positions(const VecX& q) noexcept {
     stiffens_ ? positions_of<true>(q) : positions_of<false>(q);
@@ -136,7 +136,7 @@ class TreeKinematics {
 
   /// z = [Z; y] of each body under the increment x of the coordinates.
   void spread(const VecX& x, BodyVectors& z) const noexcept;
-  /// Generalised forces of wrenches h on the bodies; h then holds what the joints transmit.
+  /// Generalised forces of wrenches h on the bodies; h then contains the wrenches of the joints.
   void project(BodyVectors& h, VecX& out) const noexcept;
   /// h += J^T (force, torque) at a marker, world axes.
   void add_wrench(int marker, const Vec3& force, const Vec3& torque, BodyVectors& h) const noexcept;
@@ -150,18 +150,18 @@ class TreeKinematics {
   // Load time.
   /// Start values of a model with the same bodies and joints, at time t, before loops are closed.
   void start(const Model& values, double t, VecX& q, VecX& v) const;
-  /// How firmly the user gave the start value of a coordinate, or (`rates`) of its rate.
+  /// Priority of the user's start value of a coordinate, or (`rates`) of its rate.
   enum class Given : char { no, yes, kept };
   std::vector<Given> given_coordinates(bool rates) const;
-  /// The body that hangs from this joint of the model, -1 if the joint is cut.
+  /// The child body of this joint of the model, -1 if the joint is cut.
   int body_of_joint(int joint) const noexcept;
-  /// The body that hangs from the joint between these two markers, -1 if there is none.
+  /// The child body of the joint between these two markers, -1 if there is none.
   int body_between(int marker_a, int marker_b) const noexcept;
   /// Which velocity coordinates are modal amplitudes; load time.
   std::vector<bool> elastic_coordinates() const;
   /// Indices into q of the translations of free joints to the ground.
   std::vector<int> free_translations() const;
-  /// "joint 'hinge'" or "mode 2 of body 'arm'" that velocity coordinate i belongs to.
+  /// "joint 'hinge'" or "mode 2 of body 'arm'", the owner of velocity coordinate i.
   std::string coordinate_owner(int i) const;
 
  private:

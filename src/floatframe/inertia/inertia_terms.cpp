@@ -18,7 +18,7 @@ void require_size(const char* what, const auto& x, Eigen::Index rows, Eigen::Ind
                                  x.cols(), rows, columns));
 }
 
-/// With amplitudes of the size of the body.
+/// With amplitudes of the magnitude of the body.
 BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
   const int nm = body.modes();
   for (int i = 0; i < 3; ++i) {
@@ -37,7 +37,7 @@ BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
 
 InertiaTerms zero_terms(int n) { return {MatX::Zero(n, n), VecX::Zero(n)}; }
 
-/// What of the second order the masses of the body have; null: nothing.
+/// Second-order terms at the masses of the body; null: none.
 std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
                                                    const BodyMotion& motion) {
   if (motion.geometric_stiffening && !body.second_order)

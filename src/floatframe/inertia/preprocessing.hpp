@@ -13,14 +13,14 @@
 //                   of theory section 6; sdot is the velocity of the body's material point that
 //                   passes through the origin from which r0 is measured
 //
-// With displacements of second order (SecondOrder: of what turns, and with geometric stiffening of
-// foreshortening) S and S^i depend on y, here and in all of the above:
+// With second-order displacements (SecondOrder: of rotating points, and with geometric stiffening
+// of foreshortening) S and S^i depend on y, here and in all equations above:
 //   S(y) = S + y^T S2,   S^i_(j)(y) = S^i_(j) + y^T S2i_ij
 //   m_bar = m_u + (S + S(y)) y / 2,   P_bar likewise,   so d(m_bar) = S(y) dy
-// and a modal rate has an acceleration of its own, e_j ydot^T h_j ydot, with the forces
+// and modal rates cause the additional acceleration e_j ydot^T h_j ydot, with the forces
 //   -q, q_j = ydot^T S2_j ydot, and the moments -Q, Q_ij = ydot^T S2i_ij ydot.
-// This Qv is the exact one of this M: energy and momenta are kept. Centrifugal stiffening is in
-// S2i: -omega x (omega x r) of S_d^i(y) in Qv.
+// This Qv is exactly consistent with this M: energy and momenta are conserved. Centrifugal
+// stiffening is in S2i: -omega x (omega x r) of S_d^i(y) in Qv.
 //
 // Convention of the relative terms: sddot is the acceleration of the *material* point at the
 // origin,
@@ -45,8 +45,8 @@ struct PreprocessingData {
   /// 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in column a+nm b.
   MatX Sij_sum;
   MatX M_ff;  ///< nm x nm: S^11 + S^22 + S^33, (40), (54)
-  /// The same with the modes side by side, `stride` numbers per row, zero beyond the last mode:
-  /// what the relative terms walk through in whole lanes.
+  /// The same with the modes contiguous, `stride` numbers per row, zero beyond the last mode: the
+  /// layout that the relative terms process in whole SIMD lanes.
   struct ByModes {
     int stride = 0;
     VecX S;         ///< 3 rows
@@ -60,7 +60,7 @@ struct PreprocessingData {
   int modes() const noexcept { return static_cast<int>(S.cols()); }
 };
 
-/// What displacements of second order add.
+/// Terms of the second-order displacements.
 struct StiffeningData {
   MatX S2;     ///< 3nm x nm: row 3a+j, column b: S2_j(b, a)
   MatX S_ij;   ///< as PreprocessingData::Sij, of S^ij + S2i_ij
@@ -76,15 +76,15 @@ struct StiffeningData {
   StiffeningData(const PreprocessingData& data, const SecondOrder& second_order);
 };
 
-/// q and Q: forces of second order of modal rates.
+/// q and Q: second-order forces due to modal rates.
 struct RateForces {
   Vec3 q;
   Mat3 Q;  ///< column i: Q_ij
 };
 RateForces rate_forces(const StiffeningData& stiffening, int nm, const double* ydot) noexcept;
 
-/// out += weight K_G for the acceleration a + G r of the material points in body axes, gravity
-/// taken off: the derivative of their inertia forces by the amplitudes through h.
+/// out += weight K_G for the acceleration a + G r of the material points in body axes, minus
+/// gravity: the derivative of their inertia forces with respect to the amplitudes through h.
 void add_stiffness(const SecondOrder& second_order, const Vec3& a, const Mat3& G, double weight,
                    MatX& out) noexcept;
 
@@ -119,7 +119,7 @@ void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const 
                             const double* y, const double* ydot, PreprocessingWorkspace& work,
                             MatX& M, VecX& Qv) noexcept;
 
-/// The same with displacements of second order.
+/// The same with second-order displacements.
 void relative_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const Vec3& r0,
                         const Mat3& A, const Vec3& omega, const double* y, const double* ydot,
                         PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept;

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int padded(int columns) { return (columns + 3) / 4 * 4; }
 
-// The two coordinate sets: the rigid columns of B at a node with local position p (body axes) and
-// the part of the acceleration that is left when the second derivatives are zero. `rows` has three
-// rows of length `stride`.
+// The two coordinate sets: the rigid columns of B at a node with local position p (body
+// axes) and the acceleration for zero second derivatives. `rows` has three rows of length
+// `stride`.
 
 struct RelativeCoordinates {
   static constexpr int rigid = 6;
@@ -108,7 +108,7 @@ inline void axpy(double factor, const double* in, int columns, double* out) noex
   for (int j = 0; j < columns; ++j) out[j] += factor * in[j];
 }
 
-/// The rows of B of one node, with its bias in column nq; p its place in body axes, (5).
+/// The rows of B of one node, with its bias in column nq; p its position in body axes, (5).
 template <class Coordinates>
 inline void rows_of_node(const Coordinates& coordinates, bool six, const double* X, int nm,
                          const Vec3& p, const Vec3& pdot, const double* ydot, int stride,
@@ -157,8 +157,8 @@ inline void rows_of_node(const Coordinates& coordinates, bool six, const double*
   }
 }
 
-/// X + e_j y^T h_j of a node into `moved`, its displacement of second order added to p; what modal
-/// rates accelerate by themselves, body axes.
+/// Writes X + e_j y^T h_j of a node to `moved` and adds its second-order displacement to p; returns
+/// the acceleration due to modal rates, body axes.
 inline Vec3 stiffen(const double* X, const double* h, int nm, const double* y, const double* ydot,
                     double* moved, Vec3& p) noexcept {
   Vec3 own = Vec3::Zero();
@@ -177,7 +177,7 @@ inline Vec3 stiffen(const double* X, const double* h, int nm, const double* y, c
   return own;
 }
 
-/// Column a of `moved` and p of a point that turns, from what they are; its own acceleration.
+/// Updates column a of `moved` and p for a rotating point; returns its acceleration.
 inline Vec3 turn(const ProjectionData& data, const ProjectionData::TurningPoint& point, int nm,
                  const double* y, const double* ydot, double* moved, Vec3& p) noexcept {
   const Eigen::Index row = 3 * static_cast<Eigen::Index>(point.rotation);

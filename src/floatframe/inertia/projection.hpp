@@ -14,13 +14,13 @@
 //                   centripetal accelerations exactly (theory, section 7).
 //
 // With geometric stiffening a node is at p + X y + 1/2 sum_j e_j y^T h_j y (body/second_order.hpp):
-// X + e_j y^T h_j takes the place of X, and A e_j ydot^T h_j ydot adds to Bdot qdot. Nothing is
-// left out: M is that of these displacements, its modal block included.
+// X + e_j y^T h_j replaces X, and A e_j ydot^T h_j ydot is added to Bdot qdot. Nothing is
+// neglected: M is that of these displacements, including its modal block.
 //
-// A point on an arm that turns (ProjectionData::turning) has always 1/2 theta x (theta x arm) more,
-// theta = Theta y: column a of X gets 1/2 (theta_a x (theta x arm) + theta x (theta_a x arm)), and
-// Bdot qdot A thetadot x (thetadot x arm). ProjectionData::twist adds by its integrals, the terms
-// of S2 and S2i in preprocessing.hpp.
+// A point on a rotating arm (ProjectionData::turning) always has the additional displacement 1/2
+// theta x (theta x arm), theta = Theta y: column a of X gets 1/2 (theta_a x (theta x arm) + theta x
+// (theta_a x arm)), and Bdot qdot A thetadot x (thetadot x arm). ProjectionData::twist adds the
+// terms of S2 and S2i in preprocessing.hpp through its integrals.
 //
 // (r1, r2, r3) is the deformed position of the node in body axes. The relative terms use the
 // material-point acceleration of s, as preprocessing.hpp. With nm = 0 the body is rigid. Cost is
@@ -56,7 +56,7 @@ struct ProjectionWorkspace {
   std::optional<Twist> twist;
 
   ProjectionWorkspace() = default;
-  /// Big enough for both coordinate sets. `stiffening`: with the h of the data.
+  /// Large enough for both coordinate sets. `stiffening`: with the h of the data.
   explicit ProjectionWorkspace(const ProjectionData& data, bool stiffening = false);
 };
 

@@ -1,4 +1,4 @@
-// Relative inertia terms, (46)-(63). Rows over the modes are worked on in whole lanes.
+// Relative inertia terms, (46)-(63). Rows over the modes are processed in whole SIMD lanes.
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/math/lanes.hpp"
 #include "floatframe/math/so3.hpp"
@@ -21,8 +21,8 @@ void add_columns(const double* C, int rows, int n, const double* x, double* out)
   }
 }
 
-/// A row of x filled up with zeros. Whole lanes are stored: a lane loaded right after four single
-/// stores would have to wait for all of them.
+/// A row of x padded with zeros. Whole lanes are stored: a load of a lane right after four single
+/// stores would stall.
 void pad(const double* x, int n, double* row) noexcept {
   int a = 0;
   for (; a + 4 <= n; a += 4) lanes(row + a) = lanes(x + a);
@@ -44,7 +44,7 @@ Mat3 lane_times9(const double* rows, const double* x, int stride) noexcept {
   return s;
 }
 
-/// What the amplitudes make of the integrals, in body axes.
+/// Integrals that depend on the amplitudes, in body axes.
 struct DeformedIntegrals {
   Vec3 m_u;           ///< m_u + S y, (29)
   Mat3 P_u;           ///< (33)

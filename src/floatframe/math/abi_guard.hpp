@@ -1,8 +1,8 @@
 #pragma once
-// Programs that are compiled with other settings of Eigen than the library lay out and free its
-// matrices in another way, and corrupt memory. Every file that includes a header of Floatframe asks
-// for a function whose name holds the settings it was compiled with; the library defines the one of
-// its own settings, so that anything else does not link:
+// Programs compiled with other settings of Eigen than the library allocate and free its matrices
+// differently, and corrupt memory. Every file that includes a header of Floatframe refers to a
+// function whose name contains its compile settings; the library defines the one for its settings,
+// so that other programs do not link:
 //   undefined reference to `floatframe::abi::compile_with_the_settings_of_the_CMake_package<16, 16,
 //   131072, 1, 8, 0, 3, 4, 0>()'
 // with EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_STACK_ALLOCATION_LIMIT,
@@ -23,9 +23,9 @@ void compile_with_the_settings_of_the_CMake_package() noexcept;
       static_cast<int>(EIGEN_DEFAULT_MATRIX_STORAGE_ORDER_OPTION) & Eigen::RowMajor, \
       EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION
 
-// In every object file, also an optimised one or one whose unused sections are dropped: one
-// pointer, which nothing reads. A variable of the whole program would not do: of several with
-// different settings the linker takes one.
+// In every object file, also in optimised ones and with unused sections dropped: one pointer that
+// is never read. An inline variable would not work: of several with different settings the linker
+// takes one.
 #if defined(__has_cpp_attribute) && __has_cpp_attribute(gnu::retain)
 [[gnu::used, gnu::retain]]
 #else

@@ -1,6 +1,6 @@
 #pragma once
-// Scales d, powers of two, with which rows and columns of D^-1 A D, D = diag(d), are of like size:
-// decompositions by orthogonal matrices then keep the digits of what is small because of its unit.
+// Scales d, powers of two, for which rows and columns of D^-1 A D, D = diag(d), are of similar
+// size: orthogonal decompositions then keep the digits of entries that are small due to their unit.
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {

@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-/// The libraries themselves, their own memory and the stacks of two threads.
+/// The libraries, their memory and the stacks of two threads.
 constexpr std::size_t beside_buffers = std::size_t{96} << 20;
 constexpr std::size_t thread_stack = std::size_t{8} << 20;
 
@@ -27,7 +27,7 @@ std::size_t room_for(long threads) {
   return static_cast<std::size_t>(threads) * (blas_buffer_size + thread_stack) + beside_buffers;
 }
 
-/// As many as OpenBLAS starts.
+/// The number of threads that OpenBLAS starts.
 long blas_threads() {
   long threads = std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN));
   for (const char* name : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"})

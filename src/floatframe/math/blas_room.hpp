@@ -1,7 +1,7 @@
 #pragma once
-// Room for the buffers of BLAS. OpenBLAS, which MUMPS is linked with, takes 128 MB of addresses for
-// each of its threads at the first call, and where the process has none (`ulimit -v`) it asks again
-// without end. So the room is looked for before it is loaded.
+// Address space for the buffers of BLAS. OpenBLAS, which MUMPS is linked with, reserves 128 MB for
+// each of its threads at the first call, and retries forever if the process may not have it
+// (`ulimit -v`). Therefore the available space is checked before it is loaded.
 #include <cstddef>
 
 namespace floatframe {
@@ -9,11 +9,11 @@ namespace floatframe {
 /// Of each thread [byte].
 inline constexpr std::size_t blas_buffer_size = std::size_t{128} << 20;
 
-/// Before BLAS is loaded. True if the process may take as many addresses as its threads will; where
-/// there is only room for one thread the environment says so to it (OPENBLAS_NUM_THREADS).
+/// Before BLAS is loaded. True if the process may reserve enough for all threads; if there is only
+/// enough for one thread, sets the environment variable OPENBLAS_NUM_THREADS.
 bool reserve_blas_room();
 
-/// Right after it was loaded by dlopen, as `handle` or something that it needs: makes it take its
+/// Immediately after dlopen has loaded it, as `handle` or as a dependency: makes it allocate the
 /// buffer of the calling thread, which it keeps.
 void warm_blas(void* handle);
 

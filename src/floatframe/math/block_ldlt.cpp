@@ -10,10 +10,10 @@ namespace floatframe {
 
 namespace {
 
-/// Pivots smaller than this fraction of what was put into their place are round-off: it adds up
-/// over the fronts, and a pivot of this size still has a digit or two. (Seed 181 of the random
-/// mechanisms, a massless mode on a ball: pivots of 1e-14 were noise, with which a projection moved
-/// velocities by 0.2 instead of 2e-5.)
+/// Pivots smaller than this fraction of the assembled diagonal are round-off: it accumulates over
+/// the fronts, and a pivot of this size still has a digit or two. (Seed 181 of the random
+/// mechanisms, a massless mode on a spherical joint: pivots of 1e-14 were noise, with which a
+/// projection changed velocities by 0.2 instead of 2e-5.)
 constexpr double vanishing = 1e-13;
 
 std::vector<std::set<int>> neighbours_of(std::size_t n,
@@ -33,7 +33,7 @@ std::vector<BlockLdlt::Block> blocks_of(const std::vector<int>& sizes) {
   return blocks;
 }
 
-/// Calls eliminate(block, its neighbours that are left) in the order of elimination; eliminating a
+/// Calls eliminate(block, its remaining neighbours) in the order of elimination; eliminating a
 /// block couples its neighbours.
 template <class Eliminate>
 void by_minimum_degree(const std::vector<BlockLdlt::Block>& blocks,
@@ -47,8 +47,8 @@ void by_minimum_degree(const std::vector<BlockLdlt::Block>& blocks,
     return blocks[k].mass > 0.0 && blocks[k].mass < part * heaviest;
   };
   const auto key_of = [&](std::size_t k) {
-    // Beyond any degree. Light ends cause no fill wherever they come; held bodies may, so that only
-    // those are moved whose mass is lost otherwise.
+    // Above any degree. Light ends cause no fill in any order; constrained bodies may, so that only
+    // those are moved whose mass would be lost otherwise.
     constexpr long first = -1'000'000'000, second = -500'000'000, last = 500'000'000;
     if (blocks[k].chooses) return degree[k] + first;
     if (blocks[k].held) return degree[k] + (is_light(k, 1e-6) ? last : 0);
@@ -140,7 +140,7 @@ int BlockLdlt::start_of(const Node& n, int block) const noexcept {
 }
 
 void BlockLdlt::set_zero() noexcept {
-  // From the lane of the diagonal on: what is above is never read.
+  // Starting at the lane of the diagonal: entries above it are never read.
   for (Node& n : nodes_)
     for (Eigen::Index j = 0; j < n.matrix.cols(); ++j)
       n.matrix.col(j).tail(n.matrix.rows() - (j & ~3)).setZero();
@@ -163,7 +163,7 @@ void BlockLdlt::add(int a, int i, int b, int j, double x) noexcept {
 }
 
 int BlockLdlt::factorize() noexcept {
-  // Before any front takes its part: what is left of a penalty after that says nothing about the
+  // Before any front is eliminated: the remainder of a penalty after elimination does not show the
   // digits it has lost.
   for (Node& n : nodes_)
     for (int j = 0; j < n.size; ++j) n.original[j] = std::abs(n.matrix(j, j));

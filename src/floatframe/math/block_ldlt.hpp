@@ -6,11 +6,11 @@
 //
 // A block may end with inner unknowns, which are coupled with this block and with neighbours that
 // are eliminated later, but are eliminated with it: the multipliers of a saddle point. Pivots are
-// taken in the order given (z of a body with mass, then multipliers: quasi-definite, so every order
-// has a factorisation); in blocks that ask for it they are chosen within the block, 1x1 or 2x2.
-// Such blocks come first: the Schur complements of others would leave no digits of their small
-// entries. So do light blocks that are coupled with one other (a link of 1 g on a crane). Light
-// ones that are held come last: with their own mass alone the pivots of their multipliers cancel.
+// used in the given order (z of a body with mass, then multipliers: quasi-definite, so every order
+// has a factorisation); blocks with the option choose them within the block, 1x1 or 2x2. Such
+// blocks come first: Schur complements of others would leave no digits of their small entries. So
+// do light blocks coupled with only one other (a link of 1 g on a crane). Light blocks that are
+// constrained come last: with their small mass the pivots of their multipliers cancel.
 #include <utility>
 #include <vector>
 
@@ -26,7 +26,7 @@ class BlockLdlt {
     int inner = 0;         ///< more unknowns at its end
     bool chooses = false;  ///< its pivots are chosen
     double mass = 0.0;     ///< compared with that of other blocks; 0: unknown
-    bool held = false;     ///< joints hold it on two sides, one of them the ground
+    bool held = false;     ///< constrained by joints on two sides, one of them the ground
   };
 
   BlockLdlt() = default;
@@ -34,9 +34,9 @@ class BlockLdlt {
   BlockLdlt(const std::vector<Block>& blocks, const std::vector<std::pair<int, int>>& edges);
   BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges);
 
-  /// The blocks in the order of their elimination: first those whose pivots are chosen, then light
-  /// ones at the ends, then by minimum degree, counted in unknowns that others see, then the order
-  /// given; last light ones that are held.
+  /// The blocks in the order of their elimination: first those with chosen pivots, then light ones
+  /// at the ends, then by minimum degree, counted in unknowns coupled with others, then the given
+  /// order; last light ones that are constrained.
   static std::vector<int> elimination_order(const std::vector<Block>& blocks,
                                             const std::vector<std::pair<int, int>>& edges);
 
@@ -48,11 +48,11 @@ class BlockLdlt {
   MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
   MatX& front(int a) noexcept { return nodes_[a].matrix; }
 
-  /// First unknown of a block, blocks in their given order.
+  /// First unknown of a block, blocks in the given order.
   int offset(int block) const noexcept { return nodes_[block].offset; }
   int unknowns() const noexcept { return unknowns_; }
 
-  /// Returns -1 or the unknown (global index, blocks in their given order) whose pivot vanished.
+  /// Returns -1 or the unknown (global index, blocks in the given order) whose pivot vanished.
   int factorize() noexcept;
   void solve(VecX& x) noexcept;
   /// Sum of the logarithms of the pivots' magnitudes: log of the determinant's.
@@ -64,7 +64,7 @@ class BlockLdlt {
     std::vector<int> blocks;       // coupled blocks eliminated later, in elimination order
     std::vector<int> start;        // where they start in the front
     std::vector<int> rows;         // global index of each trailing row
-    std::vector<int> parent_rows;  // its place in the parent's front
+    std::vector<int> parent_rows;  // its position in the parent's front
     MatX matrix;
     VecX original, work;
     PivotOrder pivots;

@@ -20,7 +20,7 @@ Decomposition decomposed(const MatX& A, std::optional<double> threshold) {
   return d;
 }
 
-/// Of a problem without a solution: NaN, which no comparison takes for a valid value.
+/// For a problem without a solution: NaN, which compares false with every value.
 SymmetricEigen not_found(Eigen::Index n, Eigen::Index vectors) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   return {VecX::Constant(n, nan), MatX::Constant(n, vectors, nan), false};
@@ -42,7 +42,7 @@ VecX symmetric_eigenvalues(const MatX& A) {
 }
 
 SymmetricEigen generalised_eigen(const MatX& A, const MatX& B) {
-  // Eigen goes on with what is left of a Cholesky factor that failed.
+  // Eigen continues with the remains of a failed Cholesky factor.
   if (!is_positive_definite(B)) return not_found(A.rows(), A.rows());
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(A, B);
   if (solver.info() != Eigen::Success) return not_found(A.rows(), A.rows());
@@ -94,7 +94,7 @@ Singular singular_values(const MatX& A) {
   return {svd.singularValues(), svd.matrixV()};
 }
 
-/// Eigen's decomposition cannot be made of a matrix without rows or columns, whose solution is
+/// Eigen's decomposition cannot be applied to a matrix without rows or columns, whose solution is
 /// zero.
 struct LeastNorm::Factors {
   Eigen::Index rows = 0, cols = 0;

@@ -6,22 +6,22 @@
 
 #include "floatframe/math/types.hpp"
 
-/// Decompositions of dense matrices of any size, for what is done once at load or at the start.
+/// Decompositions of dense matrices of any size, for computations at load time or at the start.
 ///
 /// They are compiled here and nowhere else: each of Eigen's decompositions costs every source that
 /// names it 4 to 8 s of compile time.
 
 namespace floatframe {
 
-/// Eigenvalues in ascending order and their vectors, one per column (empty where only values were
-/// asked for).
+/// Eigenvalues in ascending order and their vectors, one per column (empty if only values were
+/// requested).
 struct SymmetricEigen {
   VecX values;
   MatX vectors;
   bool found = false;  ///< false: B is not positive definite, or no convergence; all NaN then
 };
 
-/// A x = lambda x of a symmetric matrix, of which the lower triangle is read; |x| = 1.
+/// A x = lambda x of a symmetric matrix, of which the lower triangle is used; |x| = 1.
 SymmetricEigen symmetric_eigen(const MatX& A);
 VecX symmetric_eigenvalues(const MatX& A);
 
@@ -30,8 +30,8 @@ SymmetricEigen generalised_eigen(const MatX& A, const MatX& B);
 /// The same without vectors.
 SymmetricEigen generalised_eigenvalues(const MatX& A, const MatX& B);
 
-/// A x = lambda x of any real square matrix, |x| = 1; complex pairs stand one after the other. Rows
-/// and columns are scaled before (balancing): coordinates may be of unlike size.
+/// A x = lambda x of any real square matrix, |x| = 1; complex pairs are consecutive. Rows and
+/// columns are scaled before (balancing): coordinates may have different magnitudes.
 struct GeneralEigen {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
@@ -42,7 +42,7 @@ GeneralEigen general_eigen(const MatX& A);
 bool is_positive_definite(const MatX& A);
 
 /// A P = Q R with column pivoting: the leading `rank` columns of Q span the columns of A, the
-/// others what is orthogonal to them.
+/// others the orthogonal complement.
 struct PivotedQr {
   Eigen::Index rank = 0;
   MatX Q;                  ///< rows x rows
@@ -50,12 +50,12 @@ struct PivotedQr {
   Eigen::VectorXi pivots;  ///< column of A at each place
 };
 
-/// `threshold`: what counts as zero on the diagonal of R, relative to its largest entry; by default
-/// the rounding of double precision times the size.
+/// `threshold`: below it diagonal entries of R count as zero, relative to the largest one; by
+/// default the rounding of double precision times the size.
 PivotedQr pivoted_qr(const MatX& A, std::optional<double> threshold = {});
 Eigen::Index pivoted_rank(const MatX& A, std::optional<double> threshold = {});
 
-/// Q = A W with orthonormal columns, as many as A has, which must be independent.
+/// Q = A W with orthonormal columns, as many as in A, which must be independent.
 struct Orthonormal {
   MatX Q, W;
 };

@@ -28,7 +28,7 @@ double dense_factorization_seconds(int n) {
     const Clock::time_point start = Clock::now();
     llt.compute(A);
     least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
-    // The result is used, so that no repetition can be left out.
+    // The result is used, so that no repetition can be optimised away.
     A(0, 0) += llt.info() == Eigen::Success ? 1e-12 * llt.matrixLLT()(n - 1, n - 1) : 1.0;
   }
   return least;

@@ -1,5 +1,5 @@
 #pragma once
-// A yardstick for step times that does not depend on the machine: one dense Cholesky factorisation.
+// A machine-independent reference for step times: one dense Cholesky factorisation.
 
 namespace floatframe {
 

@@ -59,12 +59,12 @@ class IndependentRows::Elimination {
   }
 
  private:
-  /// Of a row of length 1 it is as good as none.
+  /// Entries below it are negligible in rows of length 1.
   static constexpr double rounding = 1e-17;
-  /// What rounding leaves of a row of zeros, of rows of length 1 or longer.
+  /// Rounding error of rows of zeros, relative to rows of length 1 or longer.
   static constexpr double nothing = 1e-14;
 
-  /// An entry that was zero until reflection k: all later ones that reach it are to be applied.
+  /// An entry that was zero until reflection k: all later ones that affect it must be applied.
   void meet(int i, int k) {
     if (met_[i]) return;
     met_[i] = true;
@@ -112,7 +112,7 @@ class IndependentRows::Elimination {
   IndependentRows& done_;
   const SparseRowMatrix& A_;
   VecX x_;                                    ///< the row in work
-  std::vector<bool> met_;                     ///< its entries that are not zero
+  std::vector<bool> met_;                     ///< its nonzero entries
   std::vector<int> touched_;                  ///< the same as a list
   std::vector<int> pivot_of_;                 ///< for each unknown its column, -1 if it has none
   std::vector<int> last_row_;                 ///< that uses an unknown

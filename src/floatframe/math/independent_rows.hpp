@@ -1,9 +1,9 @@
 #pragma once
-// The rows of a sparse matrix in their order: which depend on those before them, and solutions of
-// least norm. Householder QR of the transpose, a column at a time, which takes up only the
-// reflections that reach what is not zero in it. A reflection ends at the coordinate that the rows
-// to come use for the shortest time, so that those of a chain of loops reach from one to the next:
-// the cost is proportional to their number. Load time.
+// The independent rows of a sparse matrix in their order, and solutions of least norm. Householder
+// QR of the transpose, column by column; only reflections that affect nonzero entries of a column
+// are applied. A reflection ends at the coordinate that is used by the following rows for the
+// shortest time, so that in a chain of loops each extends only to the next: the cost is
+// proportional to their number. Load time.
 #include <Eigen/SparseCore>
 #include <vector>
 
@@ -15,14 +15,14 @@ using SparseRowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 class IndependentRows {
  public:
-  /// A row is dependent if less than `threshold` of its length is left beside the rows before it,
-  /// or if it is nothing but rounding.
+  /// A row is dependent if less than `threshold` of its length is independent of the rows before
+  /// it, or if that part is rounding only.
   IndependentRows(const SparseRowMatrix& A, double threshold);
 
   Eigen::Index rank() const noexcept { return columns_.size(); }
   /// Ascending.
   const std::vector<int>& dependent() const noexcept { return dependent_; }
-  /// The x of least norm that meets the independent rows of A x = b.
+  /// The x of least norm that satisfies the independent rows of A x = b.
   VecX least_norm(const VecX& b) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Four doubles worked on together: two SSE registers or one AVX register, whatever the build is
-// for.
+// Four doubles processed together: two SSE registers or one AVX register, depending on the
+// build.
 namespace floatframe {
 
 using Lanes = double __attribute__((vector_size(32), aligned(8), may_alias));

@@ -29,7 +29,7 @@ struct RitzPairs {
   Eigen::MatrixXcd vectors;  ///< of x in the basis U
   bool found = false;
 
-  /// To the last digits that rounding leaves: the error is small, or falls no more.
+  /// Up to the digits limited by rounding: the error is small, or no longer decreases.
   bool has_converged(Index k, const RitzPairs& before) const {
     constexpr double accuracy = 1e-9, noise = 1e-5;
     if (error[k] <= accuracy) return true;
@@ -41,7 +41,7 @@ struct RitzPairs {
   }
 };
 
-/// As many of them as the `count` slowest are, of a pair both.
+/// The number of pairs among the `count` slowest motions, both of a pair.
 RitzPairs ritz_pairs(const Subspace& space, double sigma, Index count) {
   RitzPairs pairs;
   pairs.H = space.projected();
@@ -54,7 +54,7 @@ RitzPairs ritz_pairs(const Subspace& space, double sigma, Index count) {
     if (std::abs(e.values[k]) > 1e-14) order.push_back(k);
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return std::abs(lambda[a]) < std::abs(lambda[b]); });
-  Index once = 0;  // a pair once
+  Index once = 0;  // pairs once
   const auto end = std::find_if(order.begin(), order.end(),
                                 [&](Index k) { return lambda[k].imag() >= 0.0 && ++once > count; });
   order.erase(end, order.end());
@@ -70,13 +70,13 @@ RitzPairs ritz_pairs(const Subspace& space, double sigma, Index count) {
   return pairs;
 }
 
-/// What is looked for, and where.
+/// The wanted motions, and the shift.
 struct Search {
   Index count = 0;
   double sigma = 0.0, still = 0.0, fastest = 0.0;
 };
 
-/// Those that converged, up to the first that did not; a pair once (Im >= 0).
+/// The converged ones, up to the first that is not; a pair once (Im >= 0).
 std::vector<Index> slow_pairs(const RitzPairs& pairs, const RitzPairs& before, bool complete) {
   std::vector<Index> slow;
   for (Index k = 0; k < pairs.lambda.size(); ++k) {
@@ -86,8 +86,8 @@ std::vector<Index> slow_pairs(const RitzPairs& pairs, const RitzPairs& before, b
   return slow;
 }
 
-/// A part of the size of the middle one of the slowest motions, as far as they are known: near to
-/// zero the slowest ones are the nearest, and farther off rounding leaves more digits.
+/// A fraction of the magnitude of the middle one of the known slowest motions: close to zero the
+/// slowest ones are the nearest, and farther away rounding leaves more digits.
 double better_shift(const RitzPairs& pairs, const Search& search) {
   std::vector<double> sizes;
   for (Index k = 0; k < pairs.lambda.size(); ++k)
@@ -100,7 +100,7 @@ double better_shift(const RitzPairs& pairs, const Search& search) {
   return sizes.empty() ? search.sigma : std::max(0.1 * sizes[sizes.size() / 2], 2.0 * search.still);
 }
 
-/// The directions of H whose nu is -1 (lambda zero), with all vectors of their Jordan blocks:
+/// The directions of H with nu = -1 (lambda zero), with all vectors of their Jordan blocks:
 /// subspace iteration with the inverse close to -1.
 MatX still_directions(const MatX& H, Index count) {
   const Index m = H.rows();
@@ -114,11 +114,11 @@ MatX still_directions(const MatX& H, Index count) {
   return N;
 }
 
-/// In coordinates x = d * scaled ones. `slow`: at least as many as asked for, or all.
+/// In coordinates x = d * scaled ones. `slow`: at least as many as requested, or all.
 LowestMotions collected(const Subspace& space, const RitzPairs& pairs,
                         const std::vector<Index>& slow, const Search& search, const VecX& d) {
   const auto is_still = [&](Complex lambda) { return std::abs(lambda) <= search.still; };
-  Index at = 0;  // columns of those that nothing holds, both of a pair
+  Index at = 0;  // columns of unrestrained motions, both of a pair
   for (const Complex lambda : pairs.lambda) at += is_still(lambda) ? 1 : 0;
   std::vector<Index> chosen;
   Index columns = at;
@@ -163,8 +163,8 @@ LowestMotions collected(const Subspace& space, const RitzPairs& pairs,
   return out;
 }
 
-/// The largest frequency without damping, about, by power iteration; where some direction has no
-/// mass, of the coordinates that have. 0: no stiffness.
+/// Estimate of the largest undamped frequency, by power iteration; with massless directions, of the
+/// coordinates with mass. 0: no stiffness.
 double largest_rate(const MatX& M, const MatX& K) {
   const Eigen::LLT<MatX> mass(M);
   if (mass.info() != Eigen::Success) {
@@ -186,7 +186,7 @@ double largest_rate(const MatX& M, const MatX& K) {
   return std::sqrt(size);
 }
 
-/// Scales of coordinates of like size: the stiffness of each, and its mass at a speed in between.
+/// Scales of coordinates of similar magnitude: their stiffness, and their mass at a middle speed.
 VecX like_sizes(const MatX& M, const MatX& K) {
   const VecX mass = M.diagonal().cwiseAbs(), stiffness = K.diagonal().cwiseAbs();
   const double speed2 = std::max(1e-300, stiffness.sum()) / std::max(1e-300, mass.sum());
@@ -195,14 +195,14 @@ VecX like_sizes(const MatX& M, const MatX& K) {
   return d;
 }
 
-/// With one shift; a better one in `search` and nothing found if the first pairs tell of it.
+/// With one shift; sets a better one in `search` and returns nothing if the first pairs suggest it.
 LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, const VecX& d) {
   LowestMotions none;
   const Index n = d.size(), start = std::min(n, search.count + 4 * Subspace::block),
               most = std::min(n, 8 * search.count + 500);
   Subspace space(map);
   RitzPairs before;
-  double slowest = -1.0;  // |lambda| of the last one asked for, once there are so many
+  double slowest = -1.0;  // |lambda| of the last requested one, once there are so many
   std::ptrdiff_t verified = 0;
   for (Index next = start;; next = std::min(most, space.size() + space.size() / 5)) {
     while (space.size() < next) {
@@ -226,7 +226,7 @@ LowestMotions found_near(const ShiftedMap& map, Search& search, bool may_shift, 
       return collected(space, pairs, slow, search, d);
     if (!enough && space.size() >= most) return none;
     if (enough) {
-      // Once more with random directions: a lambda may have more motions than a block found.
+      // Again with random directions: a lambda may have more motions than one block can find.
       const Complex last = pairs.lambda[*(slow.begin() + search.count - 1)];
       slowest = (1.0 + 1e-6) * std::max(std::abs(last), search.still);
       verified = slower_than(slowest);
@@ -247,12 +247,12 @@ LowestMotions lowest_motions(const MatX& M, const MatX& C, const MatX& K, int co
   Search search;
   search.count = count;
   search.fastest = largest_rate(map.M, map.K);
-  if (!(search.fastest > 0.0)) search.fastest = 1.0;  // nothing else tells what is slow
+  if (!(search.fastest > 0.0)) search.fastest = 1.0;  // no other scale is known
   search.still = zero_part * search.fastest;
   search.sigma = 1e3 * search.still;
   for (int shifts = 0, tries = 0;;) {
     if (!map.factorise(search.sigma)) {
-      // By chance an eigenvalue, or no shift helps.
+      // Accidentally an eigenvalue, or no shift helps.
       none.singular = ++tries == 3;
       if (none.singular) return none;
       search.sigma *= 1.3;

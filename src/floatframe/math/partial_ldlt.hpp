@@ -17,8 +17,8 @@ namespace floatframe {
 /// Pivots smaller than this fraction of the original diagonal are round-off.
 inline constexpr double pivot_tolerance = 1e-14;
 
-/// Leading dimension of a front of n rows: a multiple of four, so that whole SIMD lanes are worked
-/// on.
+/// Leading dimension of a front of n rows: a multiple of four, so that whole SIMD lanes are
+/// processed.
 inline constexpr int front_stride(int n) noexcept { return (n + 3) & ~3; }
 
 /// The W columns c0, ... from row j0 on: L of the panel, its pivots and their inverses. Returns -1
@@ -69,10 +69,10 @@ inline void take_panel(double* f, const double* c0, int j1, int n, int ld,
   }
 }
 
-/// Returns -1, or the first column whose pivot is no more than `tolerance` of `original` (size ne):
-/// what its diagonal was before anything was taken from it, also by fronts eliminated earlier. The
-/// leading dimension is `front_stride(n)`; rows n and beyond must be zero, and entries above the
-/// diagonal are scratch. The diagonal of eliminated columns receives 1/D.
+/// Returns -1, or the first column whose pivot is at most `tolerance` times `original` (size ne):
+/// its diagonal before any elimination, including that in earlier fronts. The leading dimension is
+/// `front_stride(n)`; rows n and beyond must be zero, and entries above the diagonal are scratch.
+/// The diagonal of eliminated columns receives 1/D.
 inline int partial_ldlt(double* f, int n, int ne, const double* original,
                         double tolerance) noexcept {
   const int ld = front_stride(n);
@@ -125,7 +125,7 @@ inline int partial_ldlt(double* f, int n, int ne, const double* original,
   return -1;
 }
 
-/// The same for a front that stands alone: `original` receives its diagonal.
+/// The same for a single front: `original` receives its diagonal.
 inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
   const int ld = front_stride(n);
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];

@@ -28,14 +28,14 @@ std::vector<double> pchip_slopes(const std::vector<TablePoint>& p) {
   s[0] = end_slope(h[0], h[1], d[0], d[1]);
   s[n - 1] = end_slope(h[n - 2], h[n - 3], d[n - 2], d[n - 3]);
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    if (d[i - 1] * d[i] <= 0.0) continue;  // a turning point stays one
+    if (d[i - 1] * d[i] <= 0.0) continue;  // turning points are preserved
     const double w1 = 2.0 * h[i] + h[i - 1], w2 = h[i] + 2.0 * h[i - 1];
     s[i] = (w1 + w2) / (w1 / d[i - 1] + w2 / d[i]);
   }
   return s;
 }
 
-/// Coefficients about `centre` of a piece given about its own centre (Taylor shift).
+/// Coefficients about `centre` of a piece given about another centre (Taylor shift).
 std::vector<double> shifted(const PiecewisePolynomial::Piece& piece, double centre) {
   std::vector<double> c = piece.coefficients;
   const double t = centre - piece.centre;
@@ -67,8 +67,8 @@ void require_ascending(const std::vector<TablePoint>& p, std::size_t least, bool
   }
 }
 
-/// Slopes at points with x ascending, the ends of a table flat if they are held. Of a single point
-/// zero.
+/// Slopes at points with x ascending; zero at the ends of a table with constant ends. Zero for a
+/// single point.
 std::vector<double> table_slopes(const std::vector<TablePoint>& p, bool flat_begin, bool flat_end) {
   std::vector<double> s = p.size() > 1 ? pchip_slopes(p) : std::vector<double>{0.0};
   if (flat_begin) s.front() = 0.0;
@@ -160,7 +160,7 @@ PiecewisePolynomial operator+(const PiecewisePolynomial& a, const PiecewisePolyn
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   std::vector<PiecewisePolynomial::Piece> pieces;
   for (std::size_t k = 0; k <= breaks.size(); ++k) {
-    // A break opens its right-hand piece; the first piece is looked up left of all breaks.
+    // A break is the start of its right-hand piece; the first piece is left of all breaks.
     const std::size_t ka = k == 0 ? 0 : a.piece_index(breaks[k - 1]);
     const std::size_t kb = k == 0 ? 0 : b.piece_index(breaks[k - 1]);
     PiecewisePolynomial::Piece piece = a.pieces()[ka];
@@ -173,12 +173,12 @@ PiecewisePolynomial operator+(const PiecewisePolynomial& a, const PiecewisePolyn
 }
 
 void PiecewisePolynomial::find_edges() {
-  if (pieces_.size() != breaks_.size() + 1) return;  // not valid: the checks of models say so
-  // A jump of so small a part of the largest value or slope is rounding.
+  if (pieces_.size() != breaks_.size() + 1) return;  // not valid: reported by the checks of models
+  // A jump of so small a fraction of the largest value or slope is rounding.
   constexpr double rounding = 1e-9;
   double largest = 0.0, steepest = 0.0;
   for (std::size_t k = 0; k < breaks_.size(); ++k) {
-    // Between the breaks, too: at them all slopes may vanish.
+    // Also between the breaks: all slopes at them may vanish.
     if (k > 0 && breaks_[k] > breaks_[k - 1])
       steepest = std::max(
           steepest, std::abs(piece_value(k, breaks_[k]).f - piece_value(k, breaks_[k - 1]).f) /

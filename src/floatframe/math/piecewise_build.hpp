@@ -3,7 +3,7 @@
 //   linear:  straight lines between the points
 //   cubic:   monotone cubic Hermite pieces (PCHIP: harmonic-mean slopes, Fritsch and Butland 1984),
 //            C1, no overshoot
-// Beyond the ends either the tangent continues or the end value is held.
+// Beyond the ends either the tangent or the end value is continued.
 #include <cstddef>
 #include <vector>
 
@@ -22,9 +22,9 @@ enum class Beyond { tangent, hold };
 PiecewisePolynomial table_function(const std::vector<TablePoint>& points,
                                    Interpolation interpolation, Beyond beyond);
 
-/// A table of the time, whose end values are held. Two points with the same x are a jump, to the
-/// value of the second one: each side of it is interpolated alone. At least two points, x ascending
-/// and no more than two equal, else InputError.
+/// A table of time, constant beyond its ends. Two points with the same x are a jump to the value of
+/// the second one: each side is interpolated separately. At least two points, x ascending and at
+/// most two equal, else InputError.
 PiecewisePolynomial time_table(const std::vector<TablePoint>& points, Interpolation interpolation);
 
 /// Straight lines between points with x ascending; two equal x make a jump (to the value of the

@@ -1,13 +1,13 @@
 #pragma once
 // One scalar function for every law of the step: spring and damper laws, tables, road profiles,
-// motion. Piece k holds on [breaks[k-1], breaks[k]); the first and last pieces extend to -inf and
-// +inf:
+// motion. Piece k is valid on [breaks[k-1], breaks[k]); the first and last pieces extend to -inf
+// and +inf:
 //   f(x) = sum_j c[k][j] (x - centre[k])^j
 // Evaluation costs a binary search over the pieces and a Horner scheme; it never allocates.
 //
-// Edges are the breaks where f or its slope jumps. The pieces between two edges are a stretch: a
-// function that is continuous with its slope and goes on beyond both edges along its tangents (the
-// pieces themselves may grow without measure there).
+// Edges are the breaks where f or its slope jumps. The pieces between two edges form a segment: a
+// function that is continuous with its slope and is extended beyond both edges along its tangents
+// (the pieces themselves may grow without bound there).
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -41,7 +41,7 @@ class PiecewisePolynomial {
 
   Value operator()(double x) const noexcept { return piece_value(piece_index(x), x); }
 
-  /// Index of the piece that holds at x; at a break the right-hand piece.
+  /// Index of the piece that is valid at x; at a break the right-hand piece.
   std::size_t piece_index(double x) const noexcept {
     return std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin();
   }
@@ -56,13 +56,13 @@ class PiecewisePolynomial {
     }
     return v;
   }
-  /// Ascending, each once.
+  /// Ascending, without duplicates.
   const std::vector<double>& edges() const noexcept { return edges_; }
-  /// Stretch k holds on [edges[k-1], edges[k]).
+  /// Segment k is valid on [edges[k-1], edges[k]).
   std::size_t stretch_index(double x) const noexcept {
     return std::upper_bound(edges_.begin(), edges_.end(), x) - edges_.begin();
   }
-  /// Of the stretch k, or of the last one.
+  /// Of segment k, or of the last one.
   Value stretch_value(std::size_t k, double x) const noexcept {
     if (edges_.empty()) return (*this)(x);
     k = std::min(k, edges_.size());

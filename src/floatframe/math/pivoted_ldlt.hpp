@@ -1,10 +1,10 @@
 #pragma once
 // Dense partial factorisation P F P^T = L D L^T of the leading columns of a symmetric indefinite
-// front with pivots that are chosen among them, as `partial_ldlt` does without choosing: D has
-// blocks of 1x1 and 2x2 (Bunch and Kaufman 1977). For fronts in which a diagonal may vanish: the
-// coordinates of a body without mass next to the multipliers that hold it. The front holds its
-// lower triangle, column major, with leading dimension `front_stride(n)`; it is small, and met
-// seldom: simple loops.
+// front with pivots chosen among them, as `partial_ldlt` without the choice: D has blocks of 1x1
+// and 2x2 (Bunch and Kaufman 1977). For fronts in which a diagonal may vanish: the coordinates of a
+// massless body together with the multipliers that constrain it. The front contains its lower
+// triangle, column major, with leading dimension `front_stride(n)`; it is small and rare: simple
+// loops.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,7 +15,7 @@
 
 namespace floatframe {
 
-/// What the choice of pivots leaves for the solution; memory for `columns` of them.
+/// Pivot choices needed for the solution; memory for `columns` of them.
 struct PivotOrder {
   PivotOrder() = default;
   explicit PivotOrder(int columns)
@@ -27,8 +27,8 @@ struct PivotOrder {
         work(VecX::Zero(columns)) {}
   std::vector<int> row;   ///< row[j]: the column of the front that is eliminated as the j-th
   std::vector<int> pair;  ///< 1 at the first column of a 2x2 pivot
-  VecX diagonal, beside;  ///< of D^-1; `beside` stands at the first column of a 2x2 pivot
-  VecX size;              ///< of each diagonal: largest sum of what it was made of
+  VecX diagonal, beside;  ///< of D^-1; `beside`: off-diagonal, at the first column of a 2x2 pivot
+  VecX size;              ///< of each diagonal: largest sum of its terms
   VecX work;
 };
 
@@ -44,8 +44,8 @@ inline void swap_in_front(double* f, int n, int i, int j, PivotOrder& p) noexcep
   std::swap(p.size[i], p.size[j]);
 }
 
-/// Returns -1, or a column (of the front as it was given) for which no pivot is left that is more
-/// than `tolerance` of what its diagonal was made of.
+/// Returns -1, or a column (of the front as given) for which no remaining pivot exceeds `tolerance`
+/// times the terms of its diagonal.
 inline int pivoted_ldlt(double* f, int n, int ne, PivotOrder& p, double tolerance) noexcept {
   const int ld = front_stride(n);
   const auto at = [&](int row, int column) -> double& { return f[column * ld + row]; };
@@ -73,7 +73,7 @@ inline int pivoted_ldlt(double* f, int n, int ne, PivotOrder& p, double toleranc
     if (std::abs(at(k, k)) < bound * beside) {
       const double in_r = largest_beside(r, k, other);
       if (std::abs(at(k, k)) * in_r >= bound * beside * beside) {
-        // The diagonal will do.
+        // The diagonal entry is large enough.
       } else if (std::abs(at(r, r)) >= bound * in_r) {
         swap_in_front(f, n, k, r, p);
       } else {
@@ -160,7 +160,7 @@ inline void pivoted_forward(const double* f, int n, int ne, PivotOrder& p, doubl
   }
 }
 
-/// As `partial_backward`, and back into the order of the front.
+/// As `partial_backward`, with the order of the front restored.
 inline void pivoted_backward(const double* f, int n, int ne, PivotOrder& p, double* b) noexcept {
   const int ld = front_stride(n);
   for (int j = ne; j-- > 0;) {

@@ -1,18 +1,18 @@
 #pragma once
-// L D L^T of a front that is mostly zeros: as partial_ldlt.hpp, but each column reaches down to its
-// `end` only, and to the border, the rows behind the eliminated ones. Fronts of long rows of loops,
-// whose coordinates follow each other, cost their number times the square of what a column reaches.
+// L D L^T of a mostly zero front: as partial_ldlt.hpp, but each column ends at its `end`, plus the
+// border, the rows after the eliminated ones. Fronts of long chains of loops with consecutive
+// coordinates cost their number times the square of the column height.
 #include <vector>
 
 #include "floatframe/math/partial_ldlt.hpp"
 
 namespace floatframe {
 
-/// For each eliminated column where its rows end: a multiple of four, not falling. Empty: the front
-/// is full.
+/// For each eliminated column the end of its rows: a multiple of four, not decreasing. Empty: the
+/// front is full.
 using FrontProfile = std::vector<int>;
 
-/// Calls one(i) for the rows below j in the four that j is of, lane(i) for the fours below.
+/// Calls one(i) for the rows below j in its group of four, lane(i) for the groups below.
 template <class One, class Lane>
 inline void below(int j, int end, int ne, int ld, const One& one, const Lane& lane) noexcept {
   const int rest = (j & ~3) + 4, border = ne & ~3;
@@ -21,7 +21,7 @@ inline void below(int j, int end, int ne, int ld, const One& one, const Lane& la
   for (int i = std::max({rest, std::min(end, border), border}); i < ld; i += 4) lane(i);
 }
 
-/// Zeros where a column may differ from them.
+/// Zeros where a column may become nonzero.
 inline void profile_clear(double* f, int n, int ne, const FrontProfile& profile) noexcept {
   const int ld = front_stride(n);
   for (int j = 0; j < n; ++j) {

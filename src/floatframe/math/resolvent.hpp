@@ -12,7 +12,7 @@ class Resolvent {
  public:
   explicit Resolvent(const MatX& A);
 
-  /// False, and X left alone, where s is an eigenvalue of A to rounding.
+  /// False, with X unchanged, if s is an eigenvalue of A to rounding.
   bool solve(std::complex<double> s, const Eigen::MatrixXcd& B, Eigen::MatrixXcd& X) const;
 
  private:

@@ -12,17 +12,17 @@
 namespace floatframe {
 namespace {
 
-/// Puts columns at a place of a matrix that grows.
+/// Writes columns to a growing matrix.
 void put(MatX& all, Eigen::Index at, const MatX& columns) {
   if (all.cols() < at + columns.cols())
     all.conservativeResize(columns.rows(), std::max(at + columns.cols(), 2 * all.cols()));
   all.middleCols(at, columns.cols()) = columns;
 }
 
-/// An orthonormal basis of what is new in `z` beside the first `size` columns of `all`; none where
-/// nothing is, or no numbers are.
+/// An orthonormal basis of the part of `z` outside of the first `size` columns of `all`; empty if
+/// there is none or it is not finite.
 MatX new_directions(const MatX& all, Eigen::Index size, MatX z) {
-  constexpr double dependent = 1e-12;  // over what it was before
+  constexpr double dependent = 1e-12;  // relative to the initial norm
   const auto known = all.leftCols(size);
   const VecX before = z.colwise().norm().cwiseMax(1e-300);
   for (int twice = 0; twice < 2 && size > 0; ++twice) z -= known * (known.transpose() * z);
@@ -59,7 +59,7 @@ bool ShiftedMap::factorise(double shift) {
   sigma = shift;
   damped_ = sigma * C + sigma * sigma * M;
   factors_->lu.compute(K + damped_);
-  // Eigen's estimate of the condition says nothing where a pivot is zero.
+  // Eigen's condition estimate is meaningless if a pivot is zero.
   const VecX pivots = factors_->lu.matrixLU().diagonal().cwiseAbs();
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   return pivots.minCoeff() > rounding * rounding * pivots.maxCoeff() &&
@@ -91,7 +91,7 @@ bool SecondOrderSubspace::append(const MatX& z) {
   if (last_.cols() == 0) return false;
   put(Z_, steps_, last_);
   steps_ += last_.cols();
-  // w is y + x, in the span of what is there already, but of random directions it is new.
+  // w is y + x, already in the span, except for random directions.
   const bool by_x = extend(last_.topRows(rows_)), by_w = extend(last_.bottomRows(rows_));
   return by_x || by_w;
 }

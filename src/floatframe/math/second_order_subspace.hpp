@@ -1,5 +1,5 @@
 #pragma once
-// The subspaces in which lowest_motions.hpp looks for slow motions: blocks of its map near a shift.
+// The subspaces used by lowest_motions.hpp for slow motions: blocks of its map near a shift.
 #include <memory>
 #include <random>
 
@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// M, C, K in coordinates of like size, and the map of lowest_motions.hpp.
+/// M, C, K in coordinates of similar magnitude, and the map of lowest_motions.hpp.
 class ShiftedMap {
  public:
   ShiftedMap(MatX M, MatX C, MatX K);
@@ -26,10 +26,10 @@ class ShiftedMap {
   std::unique_ptr<Factors> factors_;
 };
 
-/// Orthonormal columns U of x, which grow block by block, with what M, C, K make of them.
+/// Orthonormal columns U of x, which grow block by block, with their products with M, C, K.
 class SecondOrderSubspace {
  public:
-  /// Columns of a block: as many motions with one lambda are found at once.
+  /// Columns of a block: this number of motions with equal lambda is found at once.
   static constexpr Eigen::Index block = 8;
 
   /// With one random block.
@@ -39,8 +39,8 @@ class SecondOrderSubspace {
   bool complete() const { return size_ == rows_; }
   auto U() const { return U_.leftCols(size_); }
 
-  /// By what the last block became, or by random directions where that brings nothing new. False:
-  /// there are no more, or they are no numbers.
+  /// Extends it by the image of the last block, or by random directions if that adds nothing.
+  /// False: there are no more, or they are not finite.
   bool grow() { return append(map_(last_)) || append_random(); }
   bool append_random();
   /// The map in the subspace, 2 size x 2 size.

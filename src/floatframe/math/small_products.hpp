@@ -1,6 +1,6 @@
 #pragma once
 // Products with small column-major matrices, most of them twist directions (six rows): too small
-// for a general matrix product to pay its way.
+// for a general matrix product to be efficient.
 #include "floatframe/math/lanes.hpp"
 
 namespace floatframe {

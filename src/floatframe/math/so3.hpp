@@ -64,7 +64,7 @@ inline Mat3 rotation_tangent(const Vec3& theta) noexcept {
   return h;
 }
 
-/// Hdot(theta, thetadot) * thetadot: the part of the angular acceleration left when thetaddot = 0.
+/// Hdot(theta, thetadot) * thetadot: the angular acceleration for thetaddot = 0.
 inline Vec3 rotation_tangent_bias(const Vec3& theta, const Vec3& rate) noexcept {
   const RotationCoefficients c = rotation_coefficients(theta.squaredNorm());
   const double tr = theta.dot(rate);

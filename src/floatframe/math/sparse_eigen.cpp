@@ -1,4 +1,4 @@
-// The engine that needs no library but Eigen: simplicial LDL^T, the matrix permuted beforehand.
+// The engine that needs only Eigen: simplicial LDL^T, the matrix permuted beforehand.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ class EigenEngine final : public SparseEngine {
   }
 
   void solve(double* B, int columns) const override {
-    constexpr int width = 8;  // so many at once: L is read once for all of them
+    constexpr int width = 8;  // columns at once: L is read once for all
     const Eigen::Index n = D_.size();
     Eigen::Map<MatX> all(B, n, columns);
     Rows x(n, std::min(width, columns));

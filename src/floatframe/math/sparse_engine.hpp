@@ -1,6 +1,6 @@
 #pragma once
-// What SparseFactors asks of a library of sparse factors, and how the MUMPS module is entered.
-// Plain pointers: the module shares no types with the library but these.
+// Interface between SparseFactors and a library of sparse factors, and entry of the MUMPS module.
+// Plain pointers: the module shares no other types with the library.
 #include <memory>
 #include <string>
 

@@ -17,7 +17,7 @@
 namespace floatframe {
 namespace {
 
-/// Below this MUMPS gains nothing.
+/// Below this size MUMPS has no advantage.
 constexpr Eigen::Index large = 3000;
 
 struct Module {
@@ -33,7 +33,7 @@ Module open_module() {
     module.why = "its BLAS needs more memory than the process may take (ulimit -v)";
     return module;
   }
-  // Local: the sequential MUMPS brings stubs with names of MPI functions.
+  // RTLD_LOCAL: the sequential MUMPS contains stubs with names of MPI functions.
   void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* why = ::dlerror();
@@ -51,7 +51,7 @@ const Module& mumps() {
   return module;
 }
 
-/// Nested dissection: place of each row in the elimination.
+/// Nested dissection: position of each row in the elimination.
 std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A) {
   static_assert(sizeof(idx_t) == sizeof(int));
   const std::size_t n = A.rows();

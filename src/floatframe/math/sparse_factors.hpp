@@ -1,8 +1,8 @@
 #pragma once
-// Factors of a sparse symmetric matrix: A x = b for many right-hand sides. With MUMPS (module
-// `libfloatframe_mumps.so`, loaded at run time, CeCILL-C) if it was built and is found, else with
-// Eigen's LDL^T and METIS ordering. Load time: allocates; throws std::runtime_error when memory
-// ends.
+// Factors of a sparse symmetric matrix: A x = b for many right-hand sides. Uses MUMPS (module
+// `libfloatframe_mumps.so`, loaded at run time, CeCILL-C) if it was built and is found, else
+// Eigen's LDL^T with METIS ordering. Load time: allocates; throws std::runtime_error if memory is
+// exhausted.
 #include <Eigen/SparseCore>
 #include <memory>
 #include <string>
@@ -14,7 +14,7 @@ namespace floatframe {
 
 class SparseFactors {
  public:
-  /// A: symmetric, both halves stored. `automatic`: MUMPS for large matrices, if it is there.
+  /// A: symmetric, both halves stored. `automatic`: MUMPS for large matrices, if available.
   explicit SparseFactors(const Eigen::SparseMatrix<double>& A,
                          SparseSolver solver = SparseSolver::automatic);
   ~SparseFactors();

@@ -2,10 +2,10 @@
 
 namespace floatframe {
 
-/// What factors large sparse matrices. `automatic`: MUMPS for large ones, if it is there.
+/// Library for large sparse factorisations. `automatic`: MUMPS for large ones, if available.
 enum class SparseSolver { automatic, mumps, eigen };
 
-/// Is the MUMPS module there?
+/// True if the MUMPS module is available.
 bool mumps_available();
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// Sets of numbered things that grow together.
+// Disjoint sets of numbered elements that are merged.
 #include <numeric>
 #include <vector>
 
@@ -10,12 +10,12 @@ class UnionFind {
   explicit UnionFind(int count = 0) : leader_(count) {
     std::iota(leader_.begin(), leader_.end(), 0);
   }
-  /// One more, in a set of its own.
+  /// Adds an element in a separate set.
   int add() {
     leader_.push_back(static_cast<int>(leader_.size()));
     return leader_.back();
   }
-  /// The number that stands for the set of k.
+  /// The representative of the set of k.
   int root(int k) const {
     while (leader_[k] != k) k = leader_[k] = leader_[leader_[k]];
     return k;

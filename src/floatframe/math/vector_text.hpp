@@ -6,7 +6,7 @@
 
 namespace floatframe {
 
-/// "(0.5, 0, -1.25)", with so many digits.
+/// "(0.5, 0, -1.25)", with this number of digits.
 std::string vector_text(const Vec3& v, int digits = 6);
 
 }  // namespace floatframe

@@ -12,17 +12,17 @@
 namespace floatframe {
 namespace {
 
-/// What rounding leaves of an exact relation [rad; of the size].
+/// Rounding error of an exact relation [rad; relative to the size].
 constexpr double exact = 1e-12;
 
-/// Of two lines; the sign does not count.
+/// Angle of two lines; the sign does not matter.
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
 Vec3 across(const Vec3& e, const Vec3& d) { return d - e * e.dot(d); }
 
-/// Bodies that welds make one; the ground is the last.
+/// Bodies joined by welds have one index; the ground is the last.
 std::vector<int> rigid_groups(const Model& model) {
   const int ground = std::ssize(model.bodies);
   UnionFind welded(ground + 1);
@@ -33,7 +33,7 @@ std::vector<int> rigid_groups(const Model& model) {
   return roots;
 }
 
-/// The point nearest to lines through `p` along `e`, or to points where `e` is zero.
+/// The point closest to lines through `p` along `e`, or to points if `e` is zero.
 Vec3 nearest_point(const std::vector<Vec3>& p, const std::vector<Vec3>& e) {
   Mat3 A = Mat3::Zero();
   Vec3 b = Vec3::Zero(), mean = Vec3::Zero();
@@ -46,7 +46,7 @@ Vec3 nearest_point(const std::vector<Vec3>& p, const std::vector<Vec3>& e) {
   return mean + Vec3(LeastNorm(A, 1e-9).solve(VecX(b)));
 }
 
-/// R turned the shortest way such that its column z lies along `to`.
+/// R rotated by the smallest angle such that its column z points along `to`.
 Mat3 turned(const Mat3& R, const Vec3& to) {
   const Vec3 z = R.col(2), target = z.dot(to) < 0.0 ? Vec3(-to) : to;
   const Vec3 c = z.cross(target);
@@ -101,7 +101,7 @@ Vec3 Alignment::mean_direction(const std::vector<int>& axes) const {
   return sum.normalized();
 }
 
-/// Axes that are within the angle of their mean; all axes are in one.
+/// Axes within the angle of their mean; every axis belongs to one group.
 std::vector<std::vector<int>> Alignment::clusters(double angle) const {
   std::vector<std::vector<int>> found;
   std::vector<int> left;
@@ -128,7 +128,7 @@ std::vector<std::vector<int>> Alignment::clusters(double angle) const {
   return found;
 }
 
-/// The direction of a line: that of an axis on it, or else the one that fits its points best.
+/// The direction of a line: that of an axis on it, or else the best fit of its points.
 Vec3 Alignment::line_direction(const std::vector<int>& line) const {
   std::vector<int> hinges = line;
   std::erase_if(hinges, [&](int k) { return axes_[k].e.isZero(0.0); });
@@ -171,7 +171,7 @@ void Alignment::add_lines(const std::vector<std::vector<int>>& clusters, double 
     if (line.size() > 2) add(line, line_direction(line));
 }
 
-/// Three lines or more, not all of them parallel, that nearly meet.
+/// Three lines or more, not all parallel, that nearly intersect in one point.
 void Alignment::add_points(double distance, std::vector<Relation>& found) const {
   constexpr std::size_t most = 100;
   std::vector<std::vector<int>> met;

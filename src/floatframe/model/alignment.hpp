@@ -1,25 +1,25 @@
 #pragma once
-// What axes and points of the joints of loops nearly are to each other: parallel, perpendicular,
-// coplanar, on one line, through one point. Each is a relation that can be made exact. Load time.
+// Approximate relations between axes and points of the joints of loops: parallel, perpendicular,
+// coplanar, on one line, through one point. Each relation can be made exact. Load time.
 #include <vector>
 
 #include "floatframe/model/loop_mobility.hpp"
 
 namespace floatframe {
 
-/// An axis of a joint, or the point of one that has none.
+/// An axis of a joint, or its point if it has no axis.
 struct LoopAxis {
   int joint = -1;  ///< in the block
   bool second = false;
   Vec3 e = Vec3::Zero();  ///< unit vector, world axes, as drawn; zero: a point only
-  bool located = false;   ///< turns about the line through the place of the joint
+  bool located = false;   ///< rotates about the line through the point of the joint
   bool slides = false;    ///< and nothing but slides along it
 };
 
 struct Relation {
   enum class Kind { parallel, perpendicular, coplanar, one_line, one_point };
   Kind kind = Kind::parallel;
-  std::vector<int> axes;    ///< that it moves
+  std::vector<int> axes;    ///< axes moved by it
   std::vector<int> normal;  ///< perpendicular: to the first of each of these clusters
 };
 
@@ -30,14 +30,14 @@ class Alignment {
   double size() const noexcept { return size_; }
   const std::vector<JointPlace>& drawn() const noexcept { return drawn_; }
   const std::vector<LoopAxis>& axes() const noexcept { return axes_; }
-  /// Those that hold within tolerance [rad; m], but not to rounding.
+  /// Relations that hold within tolerance [rad; m], but not to rounding.
   std::vector<Relation> relations(double angle, double distance) const;
-  /// The places with the relations made exact, in their order.
+  /// The positions with the relations made exact, in their order.
   std::vector<JointPlace> aligned(const std::vector<Relation>& relations) const;
-  /// How far an axis is from what `places` make of it: an angle [rad] or, of lines and points, a
-  /// distance [m].
+  /// Deviation of an axis from its corrected one in `places`: an angle [rad] or, for lines and
+  /// points, a distance [m].
   double moved(const std::vector<JointPlace>& places, int axis, bool distance) const;
-  /// How far an axis is from what others of the relation have in common [rad; m].
+  /// Deviation of an axis from the common value of the others in the relation [rad; m].
   double miss(const Relation& relation, int axis, const std::vector<int>& others) const;
 
  private:

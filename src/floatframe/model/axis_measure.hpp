@@ -1,7 +1,7 @@
 #pragma once
 // Distance of marker b from marker a along a direction e that turns with a:
 //   s = e.d,  d = r_b - r_a,  sdot = e.(v_b - v_a) + (w_a x e).d
-// with the derivatives that guided springs, joint springs and the constraints along an axis share.
+// with the derivatives used by guided springs, joint springs and the constraints along an axis.
 // With de = dpi_a x e:
 //   gradient      g  = (-e, e x d, e, 0)                     = ds/d(motion) = dsdot/d(rates)
 //   of the rate   g' = (-w x e, e x (v + d x w), w x e, 0)   = dsdot/d(motion) at fixed rates,

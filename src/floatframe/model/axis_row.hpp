@@ -1,5 +1,5 @@
 #pragma once
-// A constraint row along an axis n that turns with marker a, at most moved by a function of time:
+// A constraint row along an axis n that rotates with marker a, with at most a function of time:
 //   phi  = n.d,  d = r_b - r_a,  phidot = n.(v_b - v_a) + (w_a x n).d
 //   quad = (w_a x (w_a x n)).d + 2 (w_a x n).(v_b - v_a)
 #include "floatframe/model/axis_measure.hpp"

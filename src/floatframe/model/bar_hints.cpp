@@ -1,4 +1,4 @@
-// Bars: units that were meant otherwise, bending stiffnesses and their directions.
+// Bars: wrong units, bending stiffnesses and their directions.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -17,15 +17,15 @@ struct BarMaterial {
   double wave_speed() const { return std::sqrt(young / density); }  ///< [m/s]
 };
 
-/// Rubber and foam to diamond. Each number alone may be of something; together they are not: waves
-/// run at 30 m/s in soft rubber, at 18 km/s in diamond.
+/// From rubber and foam to diamond. Each number alone may be valid; the combination is limited:
+/// waves travel at 30 m/s in soft rubber, at 18 km/s in diamond.
 bool usual_material(const BarMaterial& m) {
   if (!(m.young > 1e5 && m.young < 2e12)) return false;
   if (m.density == 0.0) return true;
   return m.density > 20.0 && m.density < 3e4 && m.wave_speed() > 10.0 && m.wave_speed() < 2.5e4;
 }
 
-/// What one would build of.
+/// Usual structural materials.
 bool likely_material(const BarMaterial& m) {
   return m.young > 1e6 && m.young < 1.3e12 && m.density > 100.0 && m.density < 2.3e4 &&
          m.wave_speed() > 50.0 && m.wave_speed() < 2e4;
@@ -36,7 +36,7 @@ std::string material_text(const BarMaterial& m) {
                      m.density);
 }
 
-/// Units in which the numbers are those of a likely material; empty: none.
+/// Units in which the numbers match a likely material; empty: none.
 std::string meant_units(const BarMaterial& m) {
   struct Meant {
     std::string text;
@@ -60,7 +60,7 @@ std::string meant_units(const BarMaterial& m) {
   return "";
 }
 
-/// Across the section, or of constants the largest length that they are those of [m].
+/// Size of the section, or for given constants the largest length that they correspond to [m].
 double section_size(const BeamSection& s) {
   if (s.outline != BeamSection::Outline::unknown) return std::max(s.width, s.height);
   const double gyration = s.A > 0.0 ? std::sqrt(std::max(s.Iy, s.Iz) / s.A) : 0.0;
@@ -98,12 +98,12 @@ void hint_at_lengths(const std::string& body, const FrameDescription& f, HintLis
   }
 }
 
-/// Of the template of a body: where its directions are in the design configuration.
+/// The template of a body: its directions in the design configuration.
 Vec3 design_direction(const BodyDescription& body, const Vec3& d) {
   return body.X_WB.R * (body.mirror * (body.X_WT.R.transpose() * d));
 }
 
-/// Of a line, whose sense does not matter: its largest component is positive.
+/// For a line, whose sense does not matter: its largest component is positive.
 Vec3 line_direction(const Vec3& d) {
   Eigen::Index largest = 0;
   d.cwiseAbs().maxCoeff(&largest);
@@ -118,7 +118,7 @@ bool same_bending(const BarBending& a, const BarBending& b) {
          std::abs(a.direction[1].dot(b.direction[1])) > 1.0 - 1e-6;
 }
 
-/// The place that a bar starts at, of its template.
+/// The start point of a bar, in its template.
 Vec3 bar_start(const FrameDescription& f, const BarDescription& bar) {
   if (!bar.from_bar) return f.points.at(bar.from);
   const auto other = std::find_if(f.bars.begin(), f.bars.end(),
@@ -152,7 +152,7 @@ std::vector<BarBending> bar_bending(const ModelDescription& description, const M
     if (frame == nullptr || model.bodies[i].modes() == 0) continue;
     const std::size_t first = out.size();
     for (const BarDescription& bar : frame->bars) {
-      // Local axes as the element has them: y in the plane of the bar and its reference.
+      // Local axes as in the element: y in the plane of the bar and its reference.
       const Vec3 x = (frame->points.at(bar.to) - bar_start(*frame, bar)).normalized();
       const Vec3 y = (bar.reference - x * x.dot(bar.reference)).normalized(), z = x.cross(y);
       const BeamSection s = bar_section(bar.section);

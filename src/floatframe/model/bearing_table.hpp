@@ -1,12 +1,12 @@
 #pragma once
 // Stiffness and damping of a bearing over the spin W of its shaft against its housing about e_3:
 // rows of W [rad/s], k11, k12, k21, k22 [N/m], c11, c12, c21, c22 [N s/m] along e_1, e_2, which add
-// to the constant matrices. Between rows linear, beyond the ends constant. Speeds that are all at
-// least 0 hold for both senses: at -W the bearing is its mirror image, cross terms with the other
-// sign (as of a film whose load lies along e_1 or e_2).
+// to the constant matrices. Linear between rows, constant outside. If all speeds are at least 0,
+// the table is valid for both senses: at -W the bearing is its mirror image, with cross terms of
+// opposite sign (as for a film whose load acts along e_1 or e_2).
 //
-// Where Force::numbers keeps it, behind what every bearing has: the number of rows, then of each W,
-// the eight entries, and what the step's tangent takes at that speed, T (36), k (6), c (6).
+// Layout in Force::numbers, after the values common to all bearings: the number of rows, then for
+// each W the eight entries and the tangent of the step at that speed, T (36), k (6), c (6).
 #include <algorithm>
 #include <cstddef>
 
@@ -15,7 +15,7 @@
 namespace floatframe {
 
 inline constexpr std::size_t bearing_numbers = 123, bearing_row = 57;
-/// Where what stands: matrices by columns; row_*: from the beginning of a row of the table.
+/// Offsets: matrices by columns; row_*: from the beginning of a row of the table.
 namespace bearing_at {
 inline constexpr int K = 0, C = 36, d0 = 72, T = 75, k = 111, c = 117;
 inline constexpr int row_T = 9, row_k = 45, row_c = 51;
@@ -62,7 +62,7 @@ struct BearingLaw {
   Mat6 K, C;
   Eigen::Matrix2d dK, dC;  ///< of the corner, in the spin
   int T = bearing_at::T, k = bearing_at::k,
-      c = bearing_at::c;  ///< where the rows of the step stand
+      c = bearing_at::c;  ///< position of the rows of the step
 
   BearingLaw(const Force& f, double spin) noexcept
       : K(bearing_matrix(f, bearing_at::K)), C(bearing_matrix(f, bearing_at::C)) {
@@ -82,7 +82,7 @@ struct BearingLaw {
   }
 };
 
-/// The table of the mirrored bearing, whose shaft spins the other way.
+/// The table of the mirrored bearing, whose shaft spins in the opposite sense.
 inline MatX mirrored_bearing_table(const MatX& rows) {
   if (rows.rows() == 0 || rows(0, 0) >= 0.0) return rows;
   MatX out = rows.colwise().reverse();

@@ -1,4 +1,4 @@
-// Bodies, rigid and flexible, and what is known of them once their markers are.
+// Bodies, rigid and flexible, and the data that depend on their markers.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -15,7 +15,7 @@ namespace floatframe {
 
 namespace {
 
-/// Twists at the origin of the body, in its axes, that a joint to the ground lets it have.
+/// Twists at the origin of the body, in its axes, that a joint to the ground allows.
 Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
   JointMotion motion;
   const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
@@ -30,7 +30,7 @@ Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
   return free;
 }
 
-/// For modes without inertia: static modes that turn the end of a bar about its axis are such.
+/// For modes without inertia: static modes that rotate the end of a bar about its axis.
 const char* remedy(const BodyDescription& body) {
   const auto* bars = std::get_if<FlexibleDescription>(&body.kind);
   const bool turns = bars && !bars->section_inertia && !bars->analytic && !bars->basis &&
@@ -97,7 +97,7 @@ void ModelBuilder::bodies(FlexibleBuilder& flexible) {
 }
 
 void ModelBuilder::modal_masses() {
-  // Of the joints of a body to the ground the first one that leaves the fewest motions.
+  // Of the joints of a body to the ground the first with the fewest degrees of freedom.
   std::vector<const Joint*> on_ground(model.bodies.size(), nullptr);
   for (const Joint& j : model.joints) {
     if (j.parent != ground_index) continue;
@@ -107,7 +107,7 @@ void ModelBuilder::modal_masses() {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& b = model.bodies[i];
     if (b.modes() == 0) continue;
-    // Any motion, unless a joint to the ground says which.
+    // Any motion, unless a joint to the ground restricts it.
     const Joint* joint = on_ground[i];
     const Mat6X free =
         joint ? rigid_motions(*joint, b, marker(joint->frame_M)) : Mat6X(Mat6::Identity());
@@ -124,7 +124,7 @@ void ModelBuilder::modal_masses() {
 void ModelBuilder::finish() {
   double mass = 0.0;
   int heavy = 0;
-  std::vector<double> reach(model.bodies.size(), 0.0);  // of markers that belong to no node
+  std::vector<double> reach(model.bodies.size(), 0.0);  // of markers without a node
   for (const Marker& m : model.markers)
     if (m.body >= 0 && m.node < 0) {
       double& r = reach[m.body];

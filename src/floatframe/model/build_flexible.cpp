@@ -28,8 +28,8 @@ BeamSection bar_section(const SectionDescription& s) {
 
 namespace {
 
-/// Collects the bytes of everything that decides a reduction. Every structure is taken apart by a
-/// structured binding: one that gets a new member does not compile here until it is in the key.
+/// Collects the bytes of everything that determines a reduction. Every structure is decomposed by a
+/// structured binding: after a new member this does not compile until it is in the key.
 class Key {
  public:
   void add(double x) {
@@ -110,8 +110,8 @@ class Key {
     const auto& [name, from, to, from_bar, from_fraction, elements, section, reference] = b;
     all(name, from, to, from_bar, from_fraction, elements, section, reference);
   }
-  /// Equal bodies at other places differ by round-off of their coordinates: points are rounded to
-  /// about a billionth of the size, a power of two.
+  /// Equal bodies at different positions differ by round-off of their coordinates: points are
+  /// rounded to about a billionth of the size, a power of two.
   void add(const BarFrame& frame) {
     const auto& [points, bars, material, masses] = frame;
     double size = 0.0;
@@ -168,7 +168,7 @@ void set_section(const SectionDescription& section, BodyShape::Bar& bar) {
   }
 }
 
-/// What a frame of bars looks like: its sections between the nodes of its body. `model`: its finite
+/// The shape of a frame of bars: its sections between the nodes of its body. `model`: its finite
 /// elements, whose nodes are those of the body.
 BodyShape bar_shape(const FrameDescription& frame, const FeModel& model) {
   BodyShape out;

@@ -29,7 +29,7 @@ class FlexibleBuilder {
   std::vector<Known> known_;
 };
 
-/// As `build_model` of one description (model.hpp): bodies that `flexible` has reduced before are
+/// As `build_model` of one description (model.hpp): bodies that `flexible` has already reduced are
 /// not reduced again.
 Model build_model(const ModelDescription& description, FlexibleBuilder& flexible);
 

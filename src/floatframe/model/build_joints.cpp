@@ -1,4 +1,4 @@
-// Joints of the description, and the free joints that bodies without one hang from.
+// Joints of the description, and the free joints of bodies without one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,9 +38,9 @@ Vec3 line_of_mass(const Body& body, const Vec3& p_WP) {
   return body.X_WB.R * eig.vectors.col(2);
 }
 
-/// A universal joint that alone holds a body without inertia about a line through it. Where the
-/// line comes into the plane of the two axes, the mass matrix of the joint's angles is singular and
-/// their rates grow beyond bounds; position and rotation of the body know no such place.
+/// A universal joint as the only joint of a body without inertia about a line through it. Where the
+/// line enters the plane of the two axes, the mass matrix of the joint's angles is singular and
+/// their rates are unbounded; position and rotation of the body have no singularity.
 bool turns_without_inertia(const Model& model, const Joint& joint) {
   constexpr double near_plane = 0.5;  // within 30 degrees
   const bool universal =

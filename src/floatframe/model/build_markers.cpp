@@ -1,4 +1,4 @@
-// Names of bodies and places on them.
+// Names of bodies and points on them.
 #include <array>
 #include <limits>
 
@@ -69,7 +69,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
       }
     }
     if (best > rules::node_tolerance && X_BM.p.norm() <= rules::node_tolerance) {
-      m.node = -1;  // the body frame itself, whatever the body reference: no mode moves it
+      m.node = -1;  // the body frame, for any body reference: no mode moves it
     } else if (best > rules::node_tolerance) {
       Vec3 nearest = Vec3::Zero();
       if (m.node >= 0) nearest = b.X_WB * nodes[m.node].p;

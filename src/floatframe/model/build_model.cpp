@@ -34,7 +34,7 @@ void ModelBuilder::rods() {
     rod.b = add_marker(r.b, Mat3::Identity(), false, r.origin.of("to"), "rods." + r.name + ".to");
     if (rod.a < 0 || rod.b < 0) continue;
     rod.length = r.length ? *r.length : (design_point(rod.b) - design_point(rod.a)).norm();
-    if (!r.length)  // of two nodes: where they are is known only now
+    if (!r.length)  // of two nodes: their positions are only known now
       if (const auto complaint = sentences::rod_ends(design_point(rod.a), design_point(rod.b))) {
         errors.add(ErrorCode::geometry, r.origin.mark, "rods." + r.name + ": " + *complaint);
         continue;

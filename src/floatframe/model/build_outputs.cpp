@@ -87,7 +87,7 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
   const GaugeChoice found = find_place(*body.data, body.name, turned, nearest ? &point : nullptr,
                                        o.at.node.value_or(""), o.type == OutputType::section_force);
   if (!found.error.empty()) {
-    // Each component is an output of its own; what is wrong with their place is said once.
+    // Each component is a separate output; an error of their location is reported once.
     const SourceMark& mark = o.origin.mark;
     const std::string place = mark.file + ":" + std::to_string(mark.line) + ":" +
                               std::to_string(mark.column) + ": " + found.error;
@@ -102,7 +102,7 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
   g.section = found.section;
   g.inertia_loads = o.gauge.inertia_loads;
   if (o.type == OutputType::strain) g.direction = unit_vector(turned.direction);
-  // Components of one place share the gauge.
+  // Components at one location share the gauge.
   const auto same = std::find_if(model.gauges.begin(), model.gauges.end(), [&](const Gauge& other) {
     return other.body == g.body && other.place == g.place && other.section == g.section &&
            other.inertia_loads == g.inertia_loads && other.direction == g.direction;

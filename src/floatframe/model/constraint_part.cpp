@@ -1,4 +1,4 @@
-// The list of constraint parts at work in a step: direct calls, no pointer.
+// Dispatch of the constraint parts in a step: direct calls, no pointer.
 #include "floatframe/model/constraint_part.hpp"
 
 #include <cmath>

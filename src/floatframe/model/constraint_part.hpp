@@ -36,7 +36,7 @@ struct ConstraintRow {
 };
 
 // ----------------------------------------------------------------------------------------------
-// what a kind of part supplies
+// interface of a kind of part
 //
 // A function of step time, noexcept and free of allocation, that is called by name, its derivative,
 // and the facts of its ConstraintKind.
@@ -47,30 +47,30 @@ void constraint_rows_of(const ConstraintPart& part, const MarkerState& a, const 
                         double t, ConstraintRow* rows) noexcept;
 
 /// K += d(sum lambda_r gradient_r)/d(motion): the exact geometric stiffness of multipliers on the
-/// rows. Not symmetric where rotations meet, because increments of a rotation multiply from the
-/// left. It stands beside the rows that it is derived from. Formulations take it where a body
-/// without mass is held; else a shorter way (PartGradients), which the tests hold to this.
+/// rows. Not symmetric for combined rotations, because increments of a rotation multiply from the
+/// left. It is defined next to the rows that it is derived from. Formulations use it where a
+/// massless body is held; else a faster form (PartGradients), which the tests compare with it.
 template <ConstraintType type>
 void constraint_curvature_of(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                              const double* lambda, Mat12& K) noexcept;
 
-/// Gradients that formulations have a shorter way for. With d = r_b - r_a:
+/// Gradients for which formulations have a faster form. With d = r_b - r_a:
 enum class PartGradients {
   general,
   unit,  ///< three rows, those of d itself: unit vectors on the points
-  line   ///< one row d / scale on the points, which turns with the line between them
+  line   ///< one row d / scale on the points, which rotates with the line between them
 };
 
 struct ConstraintKind {
   int rows = 1;
-  /// The points of the markers enter, not only their directions. In the absolute formulation such a
-  /// point on a deforming node has coordinates of its own.
+  /// The positions of the markers enter, not only their directions. In the absolute formulation
+  /// such a point on a deforming node has separate coordinates.
   bool points = true;
   bool angle = false;    ///< phi is an angle times `scale`
   bool on_axis = false;  ///< the gradient is that of phi only where both markers share the z axis
   PartGradients gradients = PartGradients::general;
-  /// What a row holds, in messages. Null: what its gradient says, "translation along z" where
-  /// points enter, else "rotation about x".
+  /// The constrained direction of a row, in messages. Null: derived from its gradient, "translation
+  /// along z" if points enter, else "rotation about x".
   const char* holds = nullptr;
 };
 
@@ -90,22 +90,22 @@ inline const ConstraintKind& constraint_kind(ConstraintType type) noexcept {
 inline int ConstraintPart::rows() const noexcept { return constraint_kind(type).rows; }
 
 // ----------------------------------------------------------------------------------------------
-// what formulations call
+// functions called by formulations
 
 /// Value of a function of time with its first two derivatives.
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;
-/// Its value is not the same at all times up to `duration`.
+/// True if its value varies with time up to `duration`.
 bool changes(const TimeFunction& f, double duration) noexcept;
 
 /// Fills `rows[0 .. part.rows())`.
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept;
 
-/// K += what `constraint_curvature_of` gives for the type of the part.
+/// K += `constraint_curvature_of` for the type of the part.
 void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
                               const MarkerState& b, const double* lambda, Mat12& K) noexcept;
 
-/// Parts that hold joint `index` of the model closed (without its motion).
+/// Parts that constrain joint `index` of the model (without its motion).
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
 /// The prescribed motion of joint `index`, if it has one.
 void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);

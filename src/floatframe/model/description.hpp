@@ -1,7 +1,7 @@
 #pragma once
-// What a user says about a system, by name, before anything is computed: the model file is read
-// into this, and a C++ user may fill it directly. Plain structs with documented units and defaults;
-// `build_model` turns it into a Model.
+// The description of a system by the user, by name, before anything is computed: the model file is
+// read into it, and a C++ program may fill it directly. Plain structs with documented units and
+// defaults; `build_model` converts it to a Model.
 //
 // Geometry is given in the *design configuration*: all bodies in place, the system assembled, joint
 // coordinates and modal amplitudes zero. Points and directions of joints and forces are world
@@ -55,7 +55,7 @@ struct BarDescription {
   int elements = 1;
   SectionDescription section;
   Vec3 reference =
-      Vec3::UnitZ();  ///< local y lies in the plane of the bar and this vector (design axes)
+      Vec3::UnitZ();  ///< local y is in the plane of the bar and this vector (design axes)
   Origin origin;
 };
 
@@ -73,14 +73,14 @@ struct FrameDescription {
   std::vector<NodeMass> masses;
 };
 
-/// A frame and how it is reduced: its nodes are those of the ends of bars, by the names of points.
+/// A frame and its reduction: its nodes are those of the ends of bars, by the names of points.
 struct FlexibleDescription : FrameDescription, ReductionOptions {};
 
 struct RigidDescription {
   double mass = 0.0;         ///< [kg]; zero is legitimate (massless link)
   Vec3 p_BC = Vec3::Zero();  ///< centre of mass in the body frame [m]
   Mat3 J_C = Mat3::Zero();   ///< inertia about the centre of mass, body axes [kg m2]
-  /// What it looks like, in the body frame; null: known by its mass and markers alone.
+  /// Its shape, in the body frame; null: known by its mass and markers only.
   std::shared_ptr<const BodyShape> shape = nullptr;
 };
 
@@ -91,13 +91,13 @@ struct BodyDescription {
   /// p_template_B.
   Mat3 mirror = Mat3::Identity();
   Pose X_WT;  ///< design pose of the template (equals X_WB when not mirrored)
-  /// The modes of a flexible `kind` are held at zero: a rigid body with its mass properties, which
+  /// The modes of a flexible `kind` are fixed at zero: a rigid body with its mass properties that
   /// keeps its nodes.
   bool rigid = false;
-  /// Displacements of second order of the modes enter, which stiffen a body that spins or carries
-  /// load; absent: as SimulationDescription says.
+  /// Second-order displacements of the modes are included, which stiffen a body that spins or
+  /// carries load; absent: as in SimulationDescription.
   std::optional<bool> geometric_stiffening;
-  double largest_angle = 0.0;  ///< of those that its orientation was written with [rad]
+  double largest_angle = 0.0;  ///< of the angles in which its orientation is given [rad]
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };
@@ -112,24 +112,24 @@ struct TimeFunction {
   double amplitude = 0.0, frequency = 0.0, phase = 0.0;
 };
 
-/// What drives a load, an actuator or a motor: a function of time, plus the value of an input if
+/// The signal of a load, an actuator or a motor: a function of time, plus the value of an input if
 /// one is named.
 struct SignalDescription : TimeFunction {
   std::string input;
 };
 
-/// A number that comes from outside while the model runs, held during a step: from a controller or
-/// a test rig in real time; everywhere else it keeps its initial value.
+/// A value from outside while the model runs, constant during a step: from a controller or a test
+/// rig in real time; otherwise it keeps its initial value.
 struct InputDescription {
   std::string name;
   std::string unit;                 ///< for people and for the layout of packets
   double initial = 0.0;             ///< value until another one comes
-  std::optional<double> low, high;  ///< values outside are refused ...
+  std::optional<double> low, high;  ///< values outside are rejected ...
   bool clamp = false;               ///< ... or, if true, replaced by the nearer limit
   Origin origin;
 };
 
-/// A place on a body. With `node` a named node of a flexible body; otherwise `point`, on a flexible
+/// A point on a body. With `node` a named node of a flexible body; otherwise `point`, on a flexible
 /// body one of its nodes or else the origin of its frame, which no mode moves (within 1e-6 m).
 struct AttachmentDescription {
   std::string body = ground_name;
@@ -144,7 +144,7 @@ struct JointDescription {
   /// Model files give one design point for both, or a node for either. Two that are apart in the
   /// design configuration, points or nodes, are brought together at the start.
   AttachmentDescription parent, child;
-  /// Of joints that have one or two: what they mean is in the table of joints in
+  /// For joints with one or two axes: their meaning is given in the table of joints in
   /// docs/model-file.md.
   Vec3 axis = Vec3::UnitZ();
   Vec3 axis_2 = Vec3::UnitX();  ///< not parallel to axis
@@ -152,7 +152,7 @@ struct JointDescription {
   /// order [m] or [rad].
   std::vector<double> position;
   std::vector<double> velocity;
-  /// The start values given must not move when loops are closed.
+  /// The given start values must not change when loops are closed.
   bool keep = false;
   std::optional<TimeFunction> motion;  ///< prescribed, if it is the only coordinate
   bool cut = false;                    ///< named as a cut joint of the relative formulation
@@ -241,14 +241,14 @@ using ForceValue = std::variant<double, int, bool, std::string, Vec3, Attachment
 
 /// A force element of any type, by the keys it has in model files (docs/model-file.md):
 ///   ForceValues{ForceType::tyre, {{"body", wheel}, {"radius", 0.3}, {"law", "radial"}, ...}}
-/// `build_model` checks them as strictly. The key `body` stands for the place it begins.
+/// `build_model` checks them as strictly. The key `body` denotes the point that it begins.
 struct ForceValues {
   ForceType element = ForceType::spring_damper;
   std::map<std::string, ForceValue> values;
   ForceType type() const { return element; }
 };
 
-/// The structs above are another way to write the values of their types.
+/// The structs above are an alternative form of the values of their types.
 struct ForceDescription {
   using Values =
       std::variant<SpringDamperDescription, GuidedSpringDescription, JointSpringDescription,
@@ -277,19 +277,19 @@ struct RoadDescription {
 // outputs, simulation
 
 /// Axes in which a reaction is given: those of the world, of the joint's frame on its parent or on
-/// its child, or of a place, which are those of the world in the design configuration and turn with
-/// the body there.
+/// its child, or of a point, which are those of the world in the design configuration and rotate
+/// with the body there.
 enum class OutputAxes { world, parent, child, place };
 
-/// Where a stress, a strain or a section force is taken: at a node of the body, by `at.node` of the
-/// output or by its number in the finite-element file, or at the place nearest to `at.point`.
+/// Location of a stress, a strain or a section force: a node of the body, by `at.node` of the
+/// output or by its number in the finite-element file, or the location nearest to `at.point`.
 struct GaugeDescription {
   int node = 0;                                              ///< number; 0: by name or point
   enum class Layer { any, top, bottom } layer = Layer::any;  ///< of shells
   std::string material;  ///< of those that meet at a node, its name; empty: any
-  /// Of several places at a node the one farthest in this direction, design configuration.
+  /// Of several locations at a node the farthest in this direction, design configuration.
   Vec3 toward = Vec3::Zero();
-  /// Of several beam elements at a node the one that lies in this direction from there.
+  /// Of several beam elements at a node the one that extends in this direction from there.
   Vec3 along = Vec3::Zero();
   Vec3 direction = Vec3::Zero();  ///< of a strain, design configuration
   bool inertia_loads = true;      ///< false: by the modes alone
@@ -312,26 +312,26 @@ struct OutputDescription {
 enum class Coordinates { relative, absolute };
 enum class InertiaMethod { preprocessing, projection };
 enum class Start { given, equilibrium, state };
-/// What an input that is set between two steps does in the next one: it is held over its whole
-/// length, or goes there from its last value in a straight line.
+/// Effect of an input that is set between two steps on the next one: it is constant over the whole
+/// step, or varies linearly from its last value.
 enum class InputUse { held, ramp };
 
-/// A body away from where it would start; what hangs on it by joints comes along.
+/// A displacement of a body from its start position; bodies attached to it by joints move with it.
 struct StartOffset {
   Vec3 translation = Vec3::Zero();  ///< of the origin of its frame, world [m]
   /// Rotation vector, world [rad]. Without one the body keeps its orientation as far as its joints
-  /// let it.
+  /// allow.
   std::optional<Vec3> rotation;
 };
 
-/// What a run keeps of its motion beside its outputs (docs/result-file.md).
+/// Selects the states that a run stores in addition to its outputs (docs/result-file.md).
 struct RecordDescription {
-  /// by_command: `floatframe run` keeps it, everything else does not.
+  /// by_command: stored by `floatframe run`, not by others.
   enum class States { by_command, none, states } states = States::by_command;
-  /// Of the instants of the outputs every so many; 0: all, or as many as make 20 000 at most.
+  /// Interval among the output instants; 0: all, or as many as give at most 20 000.
   int every = 0;
   std::vector<std::string>
-      bodies;                 ///< whose coordinates, and those of what carries them; empty: all
+      bodies;                 ///< coordinates of these and of bodies carrying them; empty: all
   bool accelerations = true;  ///< of the integrator, which (q, v) do not decide to the bit
 };
 
@@ -340,17 +340,17 @@ struct SystemState;
 struct SimulationDescription {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
-  /// Of all flexible bodies that have none of their own; absent: false, and linear analyses of
-  /// bodies that spin or carry load count it in.
+  /// For all flexible bodies without a separate value; absent: false, but linear analyses include
+  /// it for bodies that spin or carry load.
   std::optional<bool> geometric_stiffening = {};
   double step = 1e-3;            ///< [s]
   double duration = 1.0;         ///< [s]
   double output_interval = 0.0;  ///< [s]; 0: every step
   Start start = Start::given;
-  std::shared_ptr<const SystemState> state;   ///< where Start::state starts
+  std::shared_ptr<const SystemState> state;   ///< initial state for Start::state
   std::map<std::string, StartOffset> offset;  ///< by body, from the equilibrium or the state
   /// Added to the velocity of every free joint at the start [m/s]; not with Start::state, which
-  /// holds all velocities.
+  /// specifies all velocities.
   Vec3 velocity = Vec3::Zero();
   double spectral_radius =
       1.0;  ///< at infinite frequency: 1 = trapezoidal rule, below 1 = generalised-alpha
@@ -361,24 +361,24 @@ struct SimulationDescription {
   double penalty = 0.0;              ///< 0: chosen from masses and step
   double position_tolerance = 1e-9;  ///< constraint violation accepted after a step [m]
   double velocity_tolerance = 1e-8;  ///< after the projections [m/s]
-  /// Steps are divided where a force or its slope jumps: edges of roads, touch, corners of laws,
+  /// Steps are divided where a force or its slope jumps: edges of roads, contact, corners of laws,
   /// all corners of functions of time. Without: at jumps and single corners of the latter.
   bool locate_edges = false;
   InputUse input = InputUse::held;
   RecordDescription record;
-  /// Of the group in the model file; who changes `step` or `duration` afterwards calls `given_by`.
+  /// Of the group in the model file; code that changes `step` or `duration` later calls `given_by`.
   Origin origin;
 
-  /// The value of `key` is not that of the file any more but of an option of the command line
-  /// ("--step"), or of a place that is not known ("").
+  /// The value of `key` comes no longer from the file but from an option of the command line
+  /// ("--step"), or from an unknown source ("").
   void given_by(const char* option, const char* key) { origin.keys[key] = SourceMark{option}; }
 };
 
-/// How far axes and points of joints in loops may miss what would let the loop move.
+/// Allowed misalignment of axes and points of joints in loops that prevents the loop from moving.
 struct SnapDescription {
   bool on = true;
   double angle = 3e-3;     ///< [rad]
-  double distance = 1e-3;  ///< as a part of the size of the loops
+  double distance = 1e-3;  ///< relative to the size of the loops
 };
 
 struct ModelDescription {

@@ -1,6 +1,6 @@
 #pragma once
-// Repeatable random numbers and marker motions for the examples that every kind of force and
-// constraint gives of itself; tests run over them.
+// Repeatable random numbers and marker motions for the examples of each kind of force and
+// constraint; used by tests.
 #include <random>
 
 #include "floatframe/math/so3.hpp"
@@ -24,12 +24,12 @@ class ExampleNumbers {
     return v.normalized();
   }
   Mat3 rotation() { return rotation_exp(vector(1.8)); }
-  /// Anywhere within a metre, turned anyhow, moving.
+  /// Position within a metre, arbitrary orientation and velocity.
   MarkerState marker() {
     const Vec3 r = vector(), v = vector(2.0), w = vector(2.0);
     return {r, rotation(), v, w, Vec3::Zero(), Vec3::Zero()};
   }
-  /// A marker that shares the z axis of `a`, as the child's marker of a hinge does.
+  /// A marker that shares the z axis of `a`, like the child's marker of a hinge.
   MarkerState marker_on_axis(const MarkerState& a) {
     MarkerState b = a;
     b.R = a.R * rotation_exp((*this)(-2.5, 2.5) * Vec3::UnitZ());

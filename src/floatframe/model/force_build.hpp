@@ -1,5 +1,5 @@
 #pragma once
-// A force element on its way from the description to the model. Load time only.
+// Builds a force element of the model from its description. Load time only.
 #include "floatframe/model/force_keys.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -24,7 +24,7 @@ class ForceBuild : public ForceView {
   bool load(bool oriented);
   Signal built_signal(const std::string& key) const;
   int road(const std::string& key) const;
-  /// nullptr if it has an error of its own.
+  /// nullptr if the element itself has an error.
   const Joint* joint(const std::string& key) const;
   /// Of length 1.
   Vec3 unit_direction(const std::string& key) const;

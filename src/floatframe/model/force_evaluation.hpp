@@ -1,13 +1,13 @@
 #pragma once
 // Force elements between two markers (a may be absent). Most are a scalar f(s, sdot) of a measure s
-// with gradient g, tension positive: generalised force Q = -f g. The formulas stand in the file of
-// each type (model/forces/<type>.cpp).
+// with gradient g, tension positive: generalised force Q = -f g. The formulas are given in the file
+// of each type (model/forces/<type>.cpp).
 //
 // A step needs the wrench and the part of the tangent that a symmetric factorisation can use: rows
 // g with weights, -dQ/dq ~ sum k g g^T, -dQ/dqdot ~ sum c g g^T. The exact derivatives are in
-// ForceTangent. What the rows leave out of them, kind by kind, is said in its list of regimes and
-// held by the tests: the dependence of rates on positions (smaller than the damping by h |v| / s, h
-// the step), the turning of axes and loads, whatever is not symmetric. It costs iterations, not
+// ForceTangent. The terms omitted in the rows are listed for each kind in its regimes and checked
+// by the tests: the dependence of rates on positions (smaller than the damping by h |v| / s, h the
+// step), the rotation of axes and loads, all nonsymmetric terms. This costs iterations, not
 // accuracy.
 #include <cstdint>
 #include <span>
@@ -31,8 +31,8 @@ struct ForceState {
   int row_count = 0;
   double force = 0.0, length = 0.0, rate = 0.0;
   double energy = 0.0;  ///< potential energy [J]
-  /// Of springs: rate of the energy in the present motion, with that of targets, and power that the
-  /// damper takes out [W]. Tyres leave both at zero: their energy jumps with the road.
+  /// For springs: rate of the energy in the present motion, including that of targets, and power
+  /// dissipated by the damper [W]. Tyres leave both at zero: their energy jumps with the road.
   double energy_rate = 0.0, damping = 0.0;
 };
 
@@ -43,28 +43,28 @@ struct ForceTangent {
   Mat12 C;  ///< -d(wrench)/d(rates)
 };
 
-/// What can be said of the branch of a force's law that is held: see `force_side`.
+/// Event function of the active branch of a force law: see `force_side`.
 struct ForceSide {
-  /// By how much the motion has left the branch, in a continuous measure: positive beyond its edge.
+  /// Continuous distance of the motion from the edge of the branch: positive beyond the edge.
   double beyond = -1.0;
   std::int64_t next = 0;  ///< the branch that follows across the nearest edge
 };
 
-/// No branch is held: the law is that of the place.
+/// No branch is held: the law is evaluated on the branch of the present position.
 inline constexpr std::int64_t free_branch = -1;
 
-/// `origin`: the point that the markers' positions are measured from. `reference_angle` picks the
-/// turn of a joint angle: the result lies within half a turn of it. `inputs`: values of
-/// `model.inputs`; the tangents hold at fixed inputs.
+/// `origin`: the point from which the positions of the markers are measured. `reference_angle`
+/// selects the turn of a joint angle: the result is within half a turn of it. `inputs`: values of
+/// `model.inputs`; the tangents are at constant inputs.
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
                     ForceState& out, std::span<const double> inputs = {},
                     std::int64_t branch = free_branch) noexcept;
 
-/// Where the force of an element or its slope jumps - an edge of the road, touch, a corner of a
-/// law - the element goes from one branch of its law to another. On one branch it is smooth, also
-/// beyond the edges, so a step may end on the wrong side of one and be made again up to it. With no
-/// branch held: the branch of this place in `next`.
+/// Where the force of an element or its slope jumps - an edge of the road, contact, a corner of a
+/// law - the element changes from one branch of its law to another. Each branch is smooth and
+/// extends beyond its edges, so a step may end on the wrong side of an edge and be repeated up to
+/// it. Without a held branch: returns the branch of the present position in `next`.
 bool has_branches(const Force& force) noexcept;
 ForceSide force_side(const Model& model, const Force& force, const MarkerState& a,
                      const MarkerState& b, const Vec3& origin, double t, double reference_angle,

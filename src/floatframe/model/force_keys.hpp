@@ -1,6 +1,6 @@
 #pragma once
-// The keys of a force element: what stands in model files, and where a description keeps it.
-// Reader, validation, mirror and the table of the documentation run over these tables. Load time
+// The keys of a force element: their names in model files, and their members in a description.
+// Reader, validation, mirror and the table of the documentation use these tables. Load time
 // only.
 #include <array>
 #include <functional>
@@ -21,7 +21,7 @@ enum class ForceKeyKind {
   road,              ///< the name of one
   direction,         ///< its length does not matter
   vector,            ///< the same, but used as given
-  number,            ///< as `rule` says
+  number,            ///< valid range as in `rule`
   word,              ///< one of `words`
   flag,              ///< true or false
   spring,            ///< law of a displacement
@@ -36,8 +36,8 @@ enum class ForceKeyKind {
   speed_table        ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
 };
 
-/// What laws and signals belong to: a displacement, a rotation, or the coordinate of the joint that
-/// the key `joint` names.
+/// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of
+/// the joint given by the key `joint`.
 enum class ForceAxis { along, about, coordinate };
 
 struct ForceAxisUnits {
@@ -48,7 +48,7 @@ constexpr ForceAxisUnits force_axis_units(bool turning) noexcept {
                  : ForceAxisUnits{"m", "m/s", "N", "N/m", "N s/m"};
 }
 
-/// A member of a description struct; none: the value stands in ForceValues only.
+/// A member of a description struct; none: the value is stored in ForceValues only.
 struct ForceMember {
   std::optional<ForceValue> (*read)(const ForceDescription&) = nullptr;
   void (*write)(ForceDescription&, const ForceValue&) = nullptr;
@@ -62,7 +62,7 @@ struct ForceKey {
   ForceAxis axis = ForceAxis::along;
   NumberRule rule = any_number("");
   std::span<const char* const> words = {};
-  double fallback = 0.0;                           ///< number or place of the word without the key
+  double fallback = 0.0;                           ///< number or index of the word without the key
   std::array<double, 3> vector = {0.0, 0.0, 1.0};  ///< direction without the key
   bool axial = false;                              ///< how a direction reflects
   const char* of = nullptr;                        ///< of a stop: the key of the spring
@@ -102,7 +102,7 @@ constexpr ForceMember access(T S::*) {
 template <auto member>
 inline constexpr ForceMember described_by = force_member::access<member>(member);
 
-/// A place that must be given.
+/// A required point on a body.
 constexpr ForceKey place_key(const char* name, const char* about, ForceMember member = {}) {
   return {.name = name,
           .kind = ForceKeyKind::place,
@@ -118,11 +118,11 @@ constexpr ForceKey law_key(const char* name, ForceKeyKind kind, const char* abou
 
 /// The keys of a type.
 std::span<const ForceKey> force_keys(ForceType type) noexcept;
-/// What is there of a key, numbers as double and words by their place if they are right.
+/// The value of a key, numbers as double and words by their index, if it is valid.
 std::optional<ForceValue> force_value(const ForceDescription& force, const ForceKey& key);
 void set_force_value(ForceDescription& force, const ForceKey& key, const ForceValue& value);
 
-/// The values of a description by key; what is not there is the default.
+/// The values of a description by key; missing values are the defaults.
 class ForceView {
  public:
   explicit ForceView(const ForceDescription& force) : force_(&force) {}
@@ -144,24 +144,24 @@ class ForceView {
   const ForceDescription* force_;
 };
 
-/// What the values of a force mean together: asked by the reader, in the words of its file, and by
-/// `validate`. Each value is right by itself, or among `wrong`.
+/// Checks of the values of a force in combination: called by the reader, with the words of its
+/// file, and by `validate`. Each value is valid by itself, or listed in `wrong`.
 struct ForceCheck : ForceView {
   using ForceView::ForceView;
   std::set<std::string> wrong;  ///< keys
   bool from_file = false;       ///< places that name a node have its point
-  /// A sentence about a key, or with "" about the force.
+  /// Adds a sentence about a key, or with "" about the force.
   std::function<void(ErrorCode code, const std::string& key, const std::string& sentence)> error;
-  /// The full name of an entity as the user has written it.
+  /// The full name of an entity as written by the user.
   std::function<std::string(const std::string&)> written;
-  /// Of a joint that is right.
+  /// For a valid joint.
   std::function<std::optional<JointType>(const std::string&)> joint_type;
 
-  /// There is a value and nothing is wrong with it.
+  /// The value is given and valid.
   bool good(const std::string& key) const { return !wrong.contains(key) && has(key); }
-  /// The user has said something about it; of a law or matrix in a struct: other than zero.
+  /// The user has given a value; for a law or matrix in a struct: other than zero.
   bool given(const std::string& key) const;
-  /// The places are on two bodies; true if they are and both are good.
+  /// The points are on two bodies; true if so and both are valid.
   bool two_bodies(const std::string& a, const std::string& b) const;
   /// At least one of the laws, stops and actuators is given.
   void some_law() const;

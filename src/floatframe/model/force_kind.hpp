@@ -1,11 +1,11 @@
 #pragma once
-// What a force element must supply. A new one is one file model/forces/<name>.cpp and one entry in
+// Interface of a force element. A new one is one file model/forces/<name>.cpp and one entry in
 // force_list.hpp: reader, validation, mirror, outputs, energies, statics, both formulations, the
 // table of the documentation and the generic tests run over the list.
 //
-// An element acts on markers a and b (or on b alone) and never sees a coordinate. Step time calls
-// force_of by name, without a pointer: noexcept, no allocation. The pointers of a ForceKind serve
-// load time only.
+// An element acts on markers a and b (or on b alone) and never accesses a coordinate. Step time
+// calls force_of by name, without a pointer: noexcept, no allocation. The pointers of a ForceKind
+// are used at load time only.
 #include <array>
 #include <span>
 
@@ -18,16 +18,16 @@
 
 namespace floatframe {
 
-/// One element and what it may look at; a is b where the element has no marker a.
+/// One element and the data it may use; a is b if the element has no marker a.
 struct ForceInput {
   const Model& model;
   const Force& force;
   const MarkerState &a, &b;
-  const Vec3& origin;                 ///< the markers' positions are measured from here
+  const Vec3& origin;                 ///< reference point of the markers' positions
   double t;                           ///< [s]
-  double reference_angle;             ///< picks the turn of a joint angle [rad]
+  double reference_angle;             ///< selects the turn of a joint angle [rad]
   std::span<const double> inputs;     ///< values of model.inputs
-  std::int64_t branch = free_branch;  ///< that is held
+  std::int64_t branch = free_branch;  ///< the held branch
 
   double input(int index) const noexcept { return index < 0 ? 0.0 : inputs[index]; }
   /// Of a load.
@@ -40,18 +40,18 @@ struct ForceInput {
   double actuator() const noexcept { return force.driven ? magnitude() : 0.0; }
 };
 
-/// A way in which the element can be found: contact or none, on a slope, following, ...
+/// A test regime of the element: contact or none, on a slope, following, ...
 struct ForceRegime {
   const char* name;
-  /// What the rows of ForceState leave out of the symmetric part of the tangent at rest; empty if
-  /// nothing.
+  /// Terms of the symmetric part of the tangent at rest that the rows of ForceState omit; empty if
+  /// none.
   const char* rows_leave_out = "";
-  /// At rest the wrench is minus the gradient of the energy, and moving only takes energy out.
+  /// At rest the wrench is minus the gradient of the energy, and motion only dissipates energy.
   bool conservative = true;
   bool acts = true;     ///< some wrench in at least some of the examples
   bool regular = true;  ///< the wrench has a derivative here. False where it has none (the ends of
-                        ///< a spring coincide, a wheel lies on the road): there the tests only ask
-                        ///< that the tangent is finite
+                        ///< a spring coincide, a wheel flat on the road): there the tests check
+                        ///< only that the tangent is finite
 };
 
 struct ForceExample {
@@ -63,16 +63,16 @@ struct ForceExample {
   std::vector<double> inputs;
 };
 
-/// Fills `out`, which comes with zeros. The step calls it by name, without a pointer.
+/// Fills `out`, which is zero on entry. The step calls it by name, without a pointer.
 template <ForceType type>
 void force_of(const ForceInput& in, ForceState& out) noexcept;
-/// The exact derivative of the same element at the same place; `out` comes with zeros. It stands
-/// beside the law that it is derived from. Steps take the rows of ForceState instead: the tests
-/// hold those to this, and this to differences.
+/// The exact derivative of the same element in the same state; `out` is zero on entry. It is
+/// defined next to the law that it is derived from. Steps use the rows of ForceState instead: the
+/// tests compare the rows with it, and it with finite differences.
 template <ForceType type>
 void force_tangent_of(const ForceInput& in, ForceTangent& out) noexcept;
 
-/// Between which markers an element acts.
+/// The markers between which an element acts.
 enum class ForceMarkers {
   two,       ///< on a and b, which it is built with, alike: action and reaction
   of_joint,  ///< the same, on those of a joint
@@ -80,7 +80,7 @@ enum class ForceMarkers {
 };
 
 struct ForceKind {
-  const char* about;  ///< what it does: the documentation, a phrase in Markdown
+  const char* about;  ///< its function: for the documentation, a phrase in Markdown
   std::span<const ForceKey> keys;
   ForceMarkers markers = ForceMarkers::two;
   EnergyCategory energy = EnergyCategory::springs;
@@ -90,21 +90,21 @@ struct ForceKind {
   bool measured = true;
   /// An empty description struct of this type. None: ForceValues.
   ForceDescription::Values (*blank)() = nullptr;
-  /// The free value of a law that is written as a number: that of the design configuration.
+  /// The natural value of a law given as a number: that of the design configuration.
   double (*free_value)(const ForceView& values, const ForceKey& key) = nullptr;
-  /// What the values mean together.
+  /// Checks of the values in combination.
   void (*validate)(const ForceCheck& check) = nullptr;
   /// Fills `build.force`; false after an error.
   bool (*build)(ForceBuild& build);
-  /// What the mirrored element has beside mirrored places and directions.
+  /// Changes of the mirrored element besides mirrored points and directions.
   void (*mirror)(ForceDescription& force, const Placement& x) = nullptr;
-  /// If it may measure a rotation vector, which ends at half a turn: whether this one does.
+  /// For types that may measure a rotation vector, limited to half a turn: true if it does.
   bool (*ends_at_half_turn)(const Force& force) noexcept = nullptr;
-  bool along_line = false;  ///< acts along the line between its ends: none where they coincide
-  /// If its law has branches. Called between steps.
+  bool along_line = false;  ///< acts along the line between its ends: undefined if they coincide
+  /// For laws with branches. Called between steps.
   ForceSide (*side)(const ForceInput& in) noexcept = nullptr;
   std::span<const ForceRegime> regimes;
-  /// A random element and motion in one of the regimes, away from the breaks of its laws.
+  /// A random element and motion in one of the regimes, away from the kinks of its laws.
   ForceExample (*example)(std::size_t regime, ExampleNumbers&);
 };
 
@@ -124,7 +124,7 @@ inline constexpr ForceKey rebound_stop_key = {.name = "rebound_stop",
                                               .about = "above a length",
                                               .of = "spring"};
 
-/// Of an element of two frames with the axes e₁, e₂, e₃: `axis` is e₃.
+/// For an element of two frames with the axes e₁, e₂, e₃: `axis` is e₃.
 inline constexpr ForceKey axis_2_key = {
     .name = "axis_2",
     .kind = ForceKeyKind::direction,
@@ -132,7 +132,7 @@ inline constexpr ForceKey axis_2_key = {
     .vector = {1.0, 0.0, 0.0}};
 /// Its design axes.
 Mat3 element_axes(const ForceView& values);
-/// Its places are on two bodies, its axes differ, and it has a law.
+/// Its points are on two bodies, its axes differ, and it has a law.
 void validate_framed(const ForceCheck& check);
 /// The keys of an applied load: a force along, or a torque about the direction.
 constexpr std::array<ForceKey, 4> load_keys(ForceAxis axis) {
@@ -161,7 +161,7 @@ constexpr std::array<ForceKey, 4> load_keys(ForceAxis axis) {
             .member = described_by<&L::follows>}}};
 }
 
-/// A law at x on the branch that is held: the stretch of the spring and that of the damper.
+/// A law at x on the held branch: the segment of the spring and that of the damper.
 struct SpringBranch {
   std::int64_t held;
   static constexpr std::int64_t most = std::int64_t{1} << 31;  ///< stretches of a law
@@ -182,7 +182,7 @@ inline PiecewisePolynomial::Value damper_of(const ForceInput& in, double rate) n
 /// The side of an element with a spring and a damper, at their arguments.
 ForceSide spring_side(const ForceInput& in, double x, double rate) noexcept;
 
-/// How far x is beyond the nearer edge of the stretch k, and the stretch behind that edge.
+/// Distance of x beyond the nearer edge of segment k, and the segment beyond that edge.
 struct StretchSide {
   double beyond;
   std::size_t next;

@@ -1,4 +1,4 @@
-// The list of force elements at work: facts for load time, direct calls for step time.
+// Dispatch of the force elements: data for load time, direct calls for step time.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -14,8 +14,8 @@ namespace {
 constexpr const ForceKind* force_list[] = {FLOATFRAME_FORCES(FLOATFRAME_KIND)};
 #undef FLOATFRAME_KIND
 
-/// Calls f<type> of the force's type: a chain of comparisons with direct calls, up to the one that
-/// fits.
+/// Calls f<type> for the force's type: a chain of comparisons with direct calls, up to the
+/// match.
 template <std::size_t... I>
 void evaluate_of(std::index_sequence<I...>, const ForceInput& in, ForceState& out) noexcept {
   (void)((in.force.type == static_cast<ForceType>(I) &&

@@ -1,5 +1,5 @@
 #pragma once
-// What can be asked of a force element as a result, its units, and how its energy is accounted for.
+// Result quantities of a force element, their units, and the category of its energy.
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
@@ -9,15 +9,15 @@ enum class ForceQuantity { force, length, rate };
 
 /// "N", "rad/s", ...; empty if elements of its type have no such quantity.
 const char* force_output_unit(const Force& force, ForceQuantity quantity) noexcept;
-/// Loads that are given have no length and no rate.
+/// Prescribed loads have no length and no rate.
 bool force_has(ForceType type, ForceQuantity quantity) noexcept;
 
-/// Where the energy that an element exchanges is booked (simulation/energy_balance.hpp).
+/// Category of the energy that an element exchanges (simulation/energy_balance.hpp).
 enum class EnergyCategory {
   springs,  ///< it keeps ForceState::energy (zero if it only damps); ForceState::damping is of
             ///< dampers, the rest of actuators and targets
   tyres,    ///< the same, but its energy may jump
-  loads     ///< it keeps nothing
+  loads     ///< it stores no energy
 };
 EnergyCategory energy_category(ForceType type) noexcept;
 

@@ -1,9 +1,9 @@
 #pragma once
 // Gauges: stress, strain and section forces at places of a body (BodyStress) as outputs.
-// What an instant needs is gathered when the model is built; a value is
+// The data of an instant are prepared when the model is built; a value is
 //   rows = modes y + loads c
 // with the amplitudes y and the load coefficients c of the body. Strain along a unit direction d of
-// the body, as a strain gauge reads it:
+// the body, as measured by a strain gauge:
 //   eps = d . ((1 + nu) s - nu tr(s) I) d / E
 #include <string>
 #include <vector>
@@ -27,7 +27,7 @@ struct Gauge {
   Eigen::Matrix<double, 6, Eigen::Dynamic> modes, loads;
 };
 
-/// Rows of the gauge's place on a body: once more when its modes change.
+/// Rows at the location of the gauge: computed again when its modes change.
 void fill_rows(const FlexibleBody& body, Gauge& gauge);
 
 using BodyLoadCoefficients = Eigen::Matrix<double, body_load_cases, 1>;
@@ -36,12 +36,12 @@ BodyLoadCoefficients body_load_coefficients(const OutputView& view, int body) no
 /// At an instant: xx yy zz xy yz zx, or N Vy Vz T My Mz, or the strain in row 0.
 Vec6 gauge_values(const OutputView& view, const Gauge& gauge) noexcept;
 
-/// Sentences on outputs, from the one given on, whose gauge is where the model of the part is
-/// stiffer than the part.
+/// Sentences about outputs, starting with the given one, whose gauge is where the model of the part
+/// is stiffer than the part.
 std::vector<std::string> doubtful_gauges(const Model& model, std::size_t first_output = 0);
 
 double von_mises(const Vec6& stress) noexcept;
-/// Descending. Closed form (Smith 1961), also where values coincide.
+/// Descending. Closed form (Smith 1961), also for equal values.
 Vec3 principal_stresses(const Vec6& stress) noexcept;
 
 }  // namespace floatframe

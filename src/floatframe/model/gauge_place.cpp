@@ -11,9 +11,9 @@
 namespace floatframe {
 namespace {
 
-/// A gauge that is asked for at a point must be this near to a place, as a part of the body's size.
+/// Largest distance of a gauge given at a point from a location, relative to the body's size.
 constexpr double near_enough = 0.05;
-/// Places and directions that differ by less than this, as a part of the size, are alike.
+/// Locations and directions that differ by less than this, relative to the size, are equal.
 constexpr double tie = 1e-6;
 
 const char* layer_word(StressPlace::Layer layer) {
@@ -56,7 +56,7 @@ std::string too_far(const std::string& body, const std::vector<Place>& places, d
   return fmt::format("the nearest place of body '{}' with stress is {:.3g} m away", body, nearest);
 }
 
-/// Of the layer and the material that the gauge asks for, if it does.
+/// Those of the layer and the material given for the gauge, if any.
 bool is_asked_for(const BodyStress& stress, const StressPlace& place,
                   const GaugeDescription& gauge) {
   using L = GaugeDescription::Layer;
@@ -88,7 +88,7 @@ int farthest(const std::vector<Candidate>& all, const Vec3& toward) {
   return out;
 }
 
-/// Places at the node, or at the node that is nearest to the point.
+/// Locations at the node, or at the node nearest to the point.
 std::vector<Candidate> candidates(const BodyStress& stress, const GaugeDescription& gauge,
                                   const Vec3* point, bool by_name, int node_index,
                                   double& nearest) {
@@ -101,7 +101,7 @@ std::vector<Candidate> candidates(const BodyStress& stress, const GaugeDescripti
     nearest = distance;
     node_there = place.node;
   }
-  // Without a direction that tells which, the nearest place; equally near ones are no answer.
+  // Without a direction to select one, the nearest location; equally near ones are ambiguous.
   const double within = gauge.toward.isZero(0.0) ? nearest + tie * size_of(stress.places)
                                                  : std::numeric_limits<double>::infinity();
   std::vector<Candidate> all;
@@ -135,8 +135,8 @@ std::string nothing_there(const BodyStress& stress, const std::string& body,
                      layered ? "; solids and beams have no layers" : "");
 }
 
-/// Of elements that leave a node in these unit directions the one that lies along `along`; without
-/// it one of a straight beam. -1: that does not tell which.
+/// Of elements that leave a node in these unit directions the one along `along`; without it one of
+/// a straight beam. -1: ambiguous.
 int element_along(const std::vector<Candidate>& all, const Vec3& along) {
   if (along.isZero(0.0)) {
     for (const Candidate& c : all)
@@ -152,7 +152,7 @@ int element_along(const std::vector<Candidate>& all, const Vec3& along) {
   return best->index;
 }
 
-/// Ends of beam elements as candidates: the unit directions in which the elements lie from there.
+/// Ends of beam elements as candidates: the unit directions of the elements from there.
 std::vector<Candidate> directions_of(const BodyStress& stress, const std::vector<int>& sections) {
   std::vector<Candidate> out;
   for (const int k : sections) {
@@ -170,14 +170,14 @@ std::string which_beam(std::size_t count, const std::string& body, const std::st
       count, body, where);
 }
 
-/// The end of a beam element that a place belongs to; -1: none.
+/// The end of a beam element that a location belongs to; -1: none.
 int beam_end_of(const BodyStress& stress, int place) {
   if (stress.places[place].layer != StressPlace::Layer::section) return -1;
   const auto after = std::upper_bound(stress.first_place.begin(), stress.first_place.end(), place);
   return static_cast<int>(after - stress.first_place.begin()) - 1;
 }
 
-/// Ends of beam elements that the places belong to.
+/// Ends of beam elements that the locations belong to.
 std::vector<int> ends_at(const BodyStress& stress, const std::vector<Candidate>& all) {
   std::vector<int> sections;
   for (const Candidate& c : all) {
@@ -188,13 +188,13 @@ std::vector<int> ends_at(const BodyStress& stress, const std::vector<Candidate>&
   return sections;
 }
 
-/// Leaves the outer points of one beam element at the node. False: nothing tells which.
+/// Keeps the outer points of one beam element at the node. False: ambiguous.
 bool keep_one_beam(const BodyStress& stress, const Vec3& along, std::vector<Candidate>& all) {
   const std::vector<int> sections = ends_at(stress, all);
   if (sections.size() < 2) return true;
   const int chosen = element_along(directions_of(stress, sections), along);
   if (chosen < 0) return false;
-  // Of a straight beam either will do, if it is the same beam.
+  // In a straight beam either is valid, if it is the same beam.
   for (const int k : sections)
     if (along.isZero(0.0) && stress.places[stress.first_place[k]].group !=
                                  stress.places[stress.first_place[chosen]].group)
@@ -226,7 +226,7 @@ GaugeChoice choose_place(const BodyStress& stress, const std::string& body,
   if (!out.error.empty()) return out;
   const int chosen = gauge.toward.isZero(0.0) ? all.front().index : farthest(all, gauge.toward);
   const StressPlace& place = stress.places[chosen];
-  // Neither a direction nor, where elements of one material meet, anything else tells them apart.
+  // Neither a direction nor, where elements of one material meet, anything else selects one.
   bool materials = false, apart = false;
   for (const Candidate& c : all) {
     const bool there = (c.p - place.p).norm() <= tie * size_of(stress.places);
@@ -303,12 +303,12 @@ GaugeChoice find_place(const FlexibleBody& body, const std::string& name,
                           "given by matrices, or its file has none")};
   int node_index = -1;
   if (!node_name.empty()) {
-    // Nodes of bars that have no name are called by their place in the list, as tables call them.
+    // Unnamed nodes of bars are denoted by their position in the list, as in tables.
     const auto it = std::find_if(body.nodes.begin(), body.nodes.end(), [&](const ModalNode& n) {
       return n.name.empty() ? node_name == fmt::format("#{}", &n - body.nodes.data())
                             : n.name == node_name;
     });
-    // Nodes of bars are those of the body; a part's interfaces are not on its surface.
+    // Nodes of bars are those of the body; interfaces of a part are not on its surface.
     const bool bars = !body.stress->places.empty() ? body.stress->places.front().number == 0
                                                    : !body.stress->sections.empty() &&
                                                          body.stress->sections.front().number == 0;

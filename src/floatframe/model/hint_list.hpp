@@ -1,5 +1,5 @@
 #pragma once
-// Sentences about entities of a model, the same one said once: "body 'a' (and 3 more): ...".
+// Sentences about entities of a model, equal ones merged: "body 'a' (and 3 more): ...".
 #include <string>
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace floatframe {
 
 class HintList {
  public:
-  /// `kind`: "body"; `sentence` goes on after the name.
+  /// `kind`: "body"; `sentence` continues after the name.
   void add(const std::string& kind, const std::string& name, std::string sentence);
   std::vector<std::string> texts() const;
 
@@ -22,9 +22,9 @@ class HintList {
   std::vector<Hint> hints_;
 };
 
-/// Numbers of bars that no material, section or place has: other units.
+/// Numbers of bars outside of the range of any material, section or position: wrong units.
 void hint_at_units(const ModelDescription& description, HintList& out);
-/// How the bars of all bodies that bend are stiff.
+/// The bending stiffnesses of the bars of all flexible bodies.
 std::vector<BarBending> bar_bending(const ModelDescription& description, const Model& model);
 
 }  // namespace floatframe

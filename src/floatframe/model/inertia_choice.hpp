@@ -1,5 +1,5 @@
 #pragma once
-// Which inertia method goes with which mass model.
+// Valid combinations of inertia method and mass model.
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {

@@ -1,5 +1,5 @@
 #pragma once
-// The rule for values of inputs, whoever sets them: a program, a packet, a saved state.
+// The rule for values of inputs from any source: a program, a packet, a saved state.
 #include <cmath>
 #include <optional>
 
@@ -7,8 +7,8 @@
 
 namespace floatframe {
 
-/// The value an input takes: the one given or, of an input that is clamped, the nearer limit.
-/// Nothing if it is not finite, or outside of the limits of an input that is not clamped.
+/// The value that an input takes: the given one or, for an input with `clamp`, the nearer limit.
+/// Nothing if it is not finite, or outside of the limits of an input without `clamp`.
 inline std::optional<double> accepted_value(const Input& input, double value) noexcept {
   if (!std::isfinite(value)) return std::nullopt;
   if (value >= input.low && value <= input.high) return value;

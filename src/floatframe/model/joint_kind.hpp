@@ -1,5 +1,5 @@
 #pragma once
-// What a joint must supply. A new joint is one file model/joints/<name>.cpp and one entry in
+// Interface of a joint. A new joint is one file model/joints/<name>.cpp and one entry in
 // joint_list.hpp: reader, validation, mirror, outputs, both formulations, the table of the
 // documentation and the generic tests run over the list.
 //
@@ -21,12 +21,12 @@ namespace floatframe {
 // ----------------------------------------------------------------------------------------------
 // step time: noexcept, no allocation
 
-/// Fills p_FM, R_FM and the columns of H, which come as zero motion.
+/// Fills p_FM, R_FM and the columns of H, which are zero motion on entry.
 template <JointType type>
 void joint_motion_of(const JointDirections& axes, const double* q, JointMotion& m) noexcept;
 
-/// Fills bias = Hdot v, which comes as zero. `m` holds p_FM, R_FM and H of the same configuration.
-/// Empty where H is constant.
+/// Fills bias = Hdot v, which is zero on entry. `m` contains p_FM, R_FM and H of the same
+/// configuration. Empty if H is constant.
 template <JointType type>
 void joint_bias_of(const double* v, JointMotion& m) noexcept;
 
@@ -102,7 +102,7 @@ class JointCoordinates {
 /// What model files must give: nothing, `axis`, or `axis` and an `axis_2` not parallel to it.
 enum class JointAxes { none, one, two };
 
-/// Collects the constraint parts that hold M to F; a direction row is scaled by a body length.
+/// Collects the constraint parts that fix M to F; a direction row is scaled by a body length.
 class JointParts {
  public:
   JointParts(const Joint& joint, int index, double length, std::vector<ConstraintPart>& parts);
@@ -110,7 +110,7 @@ class JointParts {
   const Vec3& axis_2() const noexcept { return axis_2_; }
   /// Scales rows of directions to metres [m].
   double length() const noexcept { return length_; }
-  /// A part with a = F and b = M (reactions are booked by them), to be filled where its kind has
+  /// A part with a = F and b = M (reactions are assigned by them), to be completed if its kind has
   /// more than the two markers.
   ConstraintPart& add(ConstraintType type);
   /// The direction e_F, fixed in F, keeps the product c with n_M, fixed in M.
@@ -134,24 +134,24 @@ class JointParts {
 };
 
 struct JointKind {
-  const char* about;  ///< what moves: the documentation, a phrase in Markdown
-  /// In the order of the motion from F to M: a coordinate moves only directions of those after it,
-  /// or the tangent of the tree is not exact. Seen from the child (`reverse`) it must be a joint of
-  /// the same kind.
+  const char* about;  ///< the allowed motion: for the documentation, a phrase in Markdown
+  /// In the order of the motion from F to M: a coordinate moves only directions of later ones,
+  /// otherwise the tangent of the tree is not exact. Seen from the child (`reverse`) it must be a
+  /// joint of the same kind.
   JointCoordinates coordinates;
-  /// First of three coordinates that together are a rotation vector: the configuration holds
-  /// a quaternion in their place, their velocities are the angular velocity w_FM. -1 without one.
+  /// First of three coordinates that form a rotation vector: the configuration contains a
+  /// quaternion instead, their velocities are the angular velocity w_FM. -1 without one.
   int rotation_vector = -1;
   JointAxes axes = JointAxes::none;
-  /// F and M turn with the nodes they sit on. Only points matter to a joint that is not oriented:
-  /// its rotation is that of the body frames.
+  /// F and M rotate with their nodes. A joint that is not oriented uses only points: its rotation
+  /// is that of the body frames.
   bool oriented = true;
   /// The same joint as constraints: 6 - coordinates rows.
   void (*parts)(JointParts& parts);
   /// The mirrored joint: axes and start values of the description (not its places).
   void (*mirror)(JointDescription& joint, const Placement& x);
-  /// The joint seen from the child: what R_MF, p_MF are in its coordinates and rates, in the user's
-  /// form, and the axes it then has.
+  /// The joint seen from the child: R_MF, p_MF in its coordinates and rates, in the user's form,
+  /// and its axes then.
   void (*reverse)(JointDirections& axes, double* position, double* velocity);
 };
 

@@ -1,4 +1,4 @@
-// The list of joints at work: facts for load time, direct calls for step time.
+// Dispatch of the joints: data for load time, direct calls for step time.
 #include <iterator>
 #include <utility>
 

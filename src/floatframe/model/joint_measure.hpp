@@ -1,7 +1,7 @@
 #pragma once
-// Joint coordinates and velocities read off the two markers of a joint: the same numbers in every
-// formulation, for tree and cut joints alike. Angles lie within half a turn of `reference` so that
-// a caller can follow several turns.
+// Joint coordinates and velocities measured at the two markers of a joint: the same numbers in
+// every formulation, for tree and cut joints. Angles are within half a turn of `reference` so that
+// a caller can track several turns.
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
 

@@ -1,4 +1,4 @@
-// Coordinates of any joint: what follows from their number, units and rotation vector.
+// Common functions of all joints, from their number of coordinates, units and rotation vector.
 #include "floatframe/model/joint_motion.hpp"
 
 #include "floatframe/core/number_rule.hpp"

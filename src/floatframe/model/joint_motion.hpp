@@ -37,10 +37,10 @@ int quaternion_offset(JointType type) noexcept;
 /// Number of configuration numbers of a joint (quaternions have four).
 int joint_configurations(JointType type) noexcept;
 
-/// It holds nothing: its coordinates are a displacement and a rotation vector.
+/// It constrains nothing: its coordinates are a displacement and a rotation vector.
 bool joint_is_free(JointType type) noexcept;
 
-/// A displacement along the axis or an angle about it is its only coordinate, which a motion can
+/// Its only coordinate is a displacement along the axis or an angle about it, which a motion can
 /// prescribe and a joint spring can act on.
 bool joint_has_one_coordinate(JointType type) noexcept;
 /// "revolute or prismatic"
@@ -56,7 +56,7 @@ const char* joint_unit_name(JointType type, int component, bool rate = false) no
 void joint_motion(JointType type, const JointDirections& axes, const double* q,
                   JointMotion& m) noexcept;
 
-/// The bias at velocities v, where m holds H of the same configuration.
+/// The bias at velocities v, where m contains H of the same configuration.
 void joint_bias(JointType type, const double* v, JointMotion& m) noexcept;
 
 /// q = q0 moved by the increment x (joint_velocities numbers).
@@ -66,7 +66,7 @@ void joint_retract(JointType type, const double* q0, const double* x, double* q)
 /// in place.
 void joint_advance(JointType type, double* x, const double* delta) noexcept;
 
-/// Start values in the form the user gives them (rotation vectors) to a configuration.
+/// Converts start values in the user's form (rotation vectors) to a configuration.
 void joint_configuration(JointType type, const double* user, double* q) noexcept;
 
 }  // namespace floatframe

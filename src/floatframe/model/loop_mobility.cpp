@@ -16,7 +16,7 @@ struct Edge {
   int index = -1;
 };
 
-/// Joints that hold something, then rods.
+/// Joints that constrain something, then rods.
 std::vector<Edge> edges_of(const Model& model) {
   const int ground = std::ssize(model.bodies);
   const auto vertex = [&](int body) { return body < 0 ? ground : body; };
@@ -243,7 +243,7 @@ bool LoopMobility::close(VecX& way) {
   return largest(phi_) < 1e-10 * size_;
 }
 
-/// Of the body that moves most.
+/// Displacement of the body that moves most.
 double LoopMobility::farthest(const VecX& x) const {
   double most = 0.0;
   for (std::size_t b = 0; b < pose_.size(); ++b)

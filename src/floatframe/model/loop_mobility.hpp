@@ -1,7 +1,7 @@
 #pragma once
-// How many freedoms the loops of a model have, as drawn and on a way from there. Bodies are rigid
-// but, where asked, for the modes of flexible ones, with which they take what does not fit. Load
-// time only: dense linear algebra with six columns per body.
+// Number of degrees of freedom of the loops of a model, in the drawn configuration and along a path
+// from there. Bodies are rigid except, on request, for the modes of flexible ones, which then
+// absorb misalignment. Load time only: dense linear algebra with six columns per body.
 #include <vector>
 
 #include "floatframe/model/constraint_part.hpp"
@@ -9,21 +9,21 @@
 
 namespace floatframe {
 
-/// Bodies, joints and rods of which each pair is in a loop together: a block of the graph whose
-/// vertices are bodies and the ground.
+/// Bodies, joints and rods that share a loop pairwise: a block of the graph whose vertices are
+/// bodies and the ground.
 struct LoopBlock {
   std::vector<int> bodies;  ///< without the ground
   std::vector<int> joints, rods;
-  bool grounded = false;  ///< the ground is in it
+  bool grounded = false;  ///< it contains the ground
 };
 
 /// The blocks of the model that have loops, in the order of their first joint.
 std::vector<LoopBlock> loop_blocks(const Model& model);
 
-/// Where a marker is in the design configuration.
+/// Position of a marker in the design configuration.
 Pose design_pose(const Model& model, int marker);
 
-/// Where the frames of a joint are in the design configuration, both of them, in world axes.
+/// Positions of both frames of a joint in the design configuration, in world axes.
 struct JointPlace {
   Vec3 p = Vec3::Zero();
   Mat3 R = Mat3::Identity();
@@ -32,23 +32,23 @@ struct JointPlace {
 
 class LoopMobility {
  public:
-  /// `places`: of the joints of the block, in its order. `size`: of the block [m]. Without ground
-  /// its first body is held.
+  /// `places`: positions of the joints of the block, in its order. `size`: of the block [m].
+  /// Without ground its first body is fixed.
   LoopMobility(const Model& model, const LoopBlock& block, const std::vector<JointPlace>& places,
                double size, bool bends);
 
-  /// Velocities that the joints and rods allow as drawn, orthonormal columns.
+  /// Velocities that satisfy the joints and rods as drawn, orthonormal columns.
   MatX motions() const { return motions(1e-11); }
-  /// The bodies of the block, in its order, are there and not as drawn.
+  /// Moves the bodies of the block, in its order, from the drawn positions to these.
   void start_at(std::vector<Pose> poses);
   int columns() const noexcept { return columns_; }
-  /// What joints and rods miss, at most, as a part of the size.
+  /// Largest gap of joints and rods, relative to the size.
   double misfit();
-  /// Motions that are free but for a part `nearly`.
+  /// Motions that are free up to a residual `nearly`.
   int free(double nearly) const;
-  /// The most freedoms that are left all along a way of 0.1 rad (or a tenth of the size), on any of
-  /// the ways that begin with motions other than `others`. `onward`: a way that is closed by going
-  /// back leaves none.
+  /// The largest number of degrees of freedom that remains along a path of 0.1 rad (or a tenth of
+  /// the size), over the paths that begin with motions other than `others`. `onward`: a path that
+  /// closes only by reversing has none.
   int lasting(const MatX& others, double nearly = 1e-8, bool onward = false);
 
  private:

@@ -1,10 +1,10 @@
 #pragma once
-// The built system: immutable, shared by threads; names first, indices after. Made by
+// The built system: immutable, shared by threads; names are resolved to indices. Made by
 // `build_model`.
 //
-// Markers are the only socket: a joint, rod or force knows two markers and never a coordinate set.
-// A marker sits on a node of a flexible body and moves with its deformation, or is fixed in a rigid
-// body or in the ground:
+// Markers are the only interface: a joint, rod or force has two markers and never accesses
+// coordinates. A marker is attached to a node of a flexible body and moves with its deformation, or
+// is fixed in a rigid body or in the ground:
 //   p_BM = p + X y + exp(skew(X_theta y)) p_NM,   R_BM = exp(skew(X_theta y)) R_NM.
 #include <limits>
 #include <memory>
@@ -32,9 +32,9 @@ struct Body {
   Pose X_WB;            ///< design pose
   double length = 1.0;  ///< characteristic length: scales direction rows to lengths [m]
   bool geometric_stiffening = false;
-  bool stiffening_given = false;  ///< the description has the key, for it or for all bodies
+  bool stiffening_given = false;  ///< the key is given, for it or for all bodies
   int modes() const noexcept { return data->modes(); }
-  /// Displacements of second order enter (SecondOrder).
+  /// Second-order displacements are included (SecondOrder).
   bool stiffens() const noexcept {
     return geometric_stiffening && modes() > 0 && data->second_order != nullptr;
   }
@@ -49,7 +49,7 @@ struct Joint {
   std::vector<double> position, velocity;  ///< start values, in the user's form
   bool keep = false;                       ///< they must not move when loops are closed
   std::optional<TimeFunction> motion;
-  bool cut = false;        ///< the user wants it cut in the relative formulation
+  bool cut = false;        ///< marked as cut by the user, for relative coordinates
   bool automatic = false;  ///< a free joint added for a body that no joint leads to
 };
 
@@ -87,10 +87,10 @@ struct Force {
   int input = -1;              ///< added to the magnitude
   bool driven = false;         ///< the element has an actuator
   Signal target, target_rate;  ///< of a joint_spring
-  bool targeted = false;       ///< it has one of them
+  bool targeted = false;       ///< it has a target or a rate
   bool derived_rate = false;   ///< the rate of the target is the derivative of its function
   bool follows = false;
-  /// What further laws and numbers a type has, in an order of its own.
+  /// Further laws and numbers of the type, in a type-specific order.
   std::vector<PiecewisePolynomial> laws;
   std::vector<double> numbers;
 };
@@ -114,7 +114,7 @@ struct Output {
   int gauge = -1;
 };
 
-/// What a constraint row comes from, for messages: "joint 'front_left.ball'".
+/// The origin of a constraint row, for messages: "joint 'front_left.ball'".
 struct ConstraintOwner {
   enum class Kind { joint, rod } kind = Kind::joint;
   int index = -1;
@@ -135,15 +135,15 @@ struct Model {
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
-  ModelHints hints;  ///< for who checks the model; nothing else depends on them
+  ModelHints hints;  ///< for checks of the model; nothing else depends on them
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free
-/// joints to bodies no joint leads to. Throws InputError with every error.
+/// joints to bodies without a joint that leads to them. Throws InputError with every error.
 Model build_model(const ModelDescription& description);
 
-/// The model itself if `build_model` has made it; InputError if it is empty (default-constructed or
-/// moved from) or its parts do not belong together.
+/// Returns the model itself if `build_model` has made it; InputError if it is empty
+/// (default-constructed or moved from) or inconsistent.
 const Model& built(const Model& model);
 
 }  // namespace floatframe

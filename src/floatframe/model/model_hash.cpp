@@ -7,8 +7,8 @@
 namespace floatframe {
 namespace {
 
-// Every structure is taken apart by a structured binding: one that gets a new member does not
-// compile here until somebody has decided whether it belongs to the motion.
+// Every structure is decomposed by a structured binding: after a new member this does not compile
+// until it is decided whether it affects the motion.
 class ModelHash {
  public:
   std::string text() const { return hash_.text(); }

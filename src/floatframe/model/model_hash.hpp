@@ -1,13 +1,13 @@
 #pragma once
-// A fingerprint of what decides the motion of a model, bit by bit: bodies, joints, forces, markers,
-// inputs and outputs; not the values it starts from, nor the options of a run.
+// A fingerprint of the data that determine the motion of a model, bit by bit: bodies, joints,
+// forces, markers, inputs and outputs; without start values and options of a run.
 #include <string>
 
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
-/// Equal fingerprints: equal states go on with equal steps and mean the same.
+/// Equal fingerprints: equal states have the same meaning and lead to equal steps.
 std::string model_hash(const Model& model);
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
-// What is possible but unusual: angles in degrees, a rigid body without inertia that can turn, a
-// body that is clamped where nothing holds it. Units of bars: bar_hints.cpp.
+// Valid but unusual features: angles in degrees, a rigid body without inertia that can rotate, a
+// body clamped at a node without a joint. Units of bars: bar_hints.cpp.
 #include "floatframe/model/model_hints.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace floatframe {
 
 namespace {
-constexpr std::size_t most_hints = 200;  // nobody reads more, and each is compared with all
+constexpr std::size_t most_hints = 200;  // more are not useful, and each is compared with all
 }
 
 void HintList::add(const std::string& kind, const std::string& name, std::string sentence) {
@@ -53,10 +53,10 @@ std::string turns_text(const std::string& what, double angle) {
       what, angle, std::abs(angle) / full_turn, angle, angle * std::numbers::pi / 180.0);
 }
 
-/// A turn that is written with few digits is one.
+/// A full turn rounded to a few digits does not count as more than a turn.
 bool beyond_a_turn(double angle) { return std::abs(angle) > 1.001 * full_turn; }
 
-/// Never turns back, and never rests on the way: a motor that runs up or turns evenly.
+/// Monotonic without rest: a motor that accelerates or rotates uniformly.
 bool goes_on(const std::vector<double>& values) {
   const double sense = values.back() - values.front();
   for (std::size_t k = 1; k < values.size(); ++k)
@@ -64,9 +64,9 @@ bool goes_on(const std::vector<double>& values) {
   return true;
 }
 
-/// Whole multiples of 5 of which one is more than a turn: a table in degrees. One that counts turns
-/// has other numbers; one that goes on turning must look more like it: multiples of 15 of at most
-/// two turns.
+/// Integer multiples of 5 of which one is more than a turn: a table in degrees. Tables that count
+/// turns have other numbers; a continuing rotation needs stronger evidence: multiples of 15 of at
+/// most two turns.
 bool looks_like_degrees(const std::vector<double>& values) {
   const bool on = values.size() > 2 && goes_on(values);
   const double unit = on ? 15.0 : 5.0;
@@ -139,8 +139,8 @@ bool joint_turns(const Joint& j) {
   return !motion.H.bottomRows<3>().leftCols(joint_velocities(j.type)).isZero(0.0);
 }
 
-/// Bodies that turn together, by the number of one of them; those that joints keep from turning
-/// have the number of the ground, which is that of the bodies.
+/// Groups of bodies that rotate together, by the number of one of them; those that joints keep from
+/// rotating have the number of the ground, which is that of the bodies.
 std::vector<int> bodies_turning_together(const Model& model) {
   const int ground = std::ssize(model.bodies);
   UnionFind together(ground + 1);
@@ -148,15 +148,15 @@ std::vector<int> bodies_turning_together(const Model& model) {
   for (const Joint& j : model.joints) {
     if (joint_turns(j)) continue;
     const int a = first(j.parent), b = first(j.child);
-    together.join(std::min(a, b), std::max(a, b));  // the ground leads its own
+    together.join(std::min(a, b), std::max(a, b));  // the ground represents its group
   }
   std::vector<int> out;
   for (int i = 0; i < ground; ++i) out.push_back(first(i));
   return out;
 }
 
-/// Point masses alone that can turn. Zeros that somebody has written are meant, and so is a mass
-/// that is welded to what has inertia.
+/// Single point masses that can rotate. Explicit zeros are intended, and so is a mass welded to a
+/// body with inertia.
 void hint_at_inertia(const ModelDescription& description, const Model& model, HintList& out) {
   const std::vector<int> together = bodies_turning_together(model);
   std::vector<bool> has_inertia(model.bodies.size() + 1, false);
@@ -183,15 +183,15 @@ std::string dofs_text(unsigned mask) {
   return text;
 }
 
-/// Of one body: names of the nodes at which joints, rods or forces act, whether a joint holds it,
-/// and whether one holds its frame itself, and with it all that is clamped.
+/// For one body: names of the nodes of joints, rods or forces, whether a joint constrains it, and
+/// whether one constrains its frame, and thereby everything that is clamped.
 struct HeldNodes {
   std::set<std::string> names;
   bool by_joint = false, frame = false;
 };
 
-/// Of a hinge that stands for several bearings: the nodes of the body of its marker that lie on the
-/// axis.
+/// For a hinge that represents several bearings: the nodes on its axis of the body of its
+/// marker.
 void add_nodes_on_axis(const Model& model, int marker, std::vector<HeldNodes>& held) {
   const Marker& m = model.markers[marker];
   if (m.body < 0) return;
@@ -240,7 +240,7 @@ void hint_at_clamps(const ModelDescription& description, const Model& model, Hin
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const BodyDescription& body = description.bodies[i];
     const auto* frame = std::get_if<FlexibleDescription>(&body.kind);
-    // What floats is clamped somewhere.
+    // A floating body is clamped somewhere.
     if (frame == nullptr || model.bodies[i].modes() == 0 || !held[i].by_joint || held[i].frame)
       continue;
     std::map<std::string, unsigned> loose;  // nodes and their degrees of freedom

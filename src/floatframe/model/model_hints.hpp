@@ -1,6 +1,6 @@
 #pragma once
-// What can be seen in a description that is possible but unusual - units, angles in degrees, a key
-// that was forgotten - and how bars bend: what `check` shows of a model. Hints never refuse.
+// Valid but unusual features of a description - units, angles in degrees, a missing key - and the
+// bending stiffness of bars: shown by `check`. Hints are never errors.
 #include <array>
 #include <string>
 #include <vector>
@@ -12,17 +12,17 @@ namespace floatframe {
 struct Model;
 struct ModelDescription;
 
-/// The bending of bars of one body that have the same section and lie alike.
+/// The bending of bars of one body that have the same section and orientation.
 struct BarBending {
   int body = -1;
   std::vector<std::string> bars;      ///< names
   std::array<double, 2> stiffness{};  ///< E I, the larger one first [N m2]
   std::array<Vec3, 2> direction{};    ///< they bend along, unit vectors, design configuration
-  /// Both stiffnesses are the same, and so in every direction.
+  /// Both stiffnesses are equal, and therefore equal in every direction.
   bool alike() const noexcept { return stiffness[0] - stiffness[1] <= 1e-9 * stiffness[0]; }
 };
 
-/// Loops that cannot move because an axis or a point of a joint misses what would let them.
+/// Loops that cannot move because an axis or a point of a joint is misaligned.
 struct LockedLoops {
   std::string sentence;
   bool driven = false;  ///< a prescribed motion moves a joint of theirs
@@ -30,11 +30,11 @@ struct LockedLoops {
 
 struct ModelHints {
   std::vector<std::string> notes;   ///< a sentence each
-  std::vector<LockedLoops> locked;  ///< runs and statics say it, too
+  std::vector<LockedLoops> locked;  ///< also reported by runs and statics
   std::vector<BarBending> bending;
 };
 
-/// Of a description without errors and what was built from it.
+/// For a description without errors and the model built from it.
 ModelHints model_hints(const ModelDescription& description, const Model& model);
 
 }  // namespace floatframe

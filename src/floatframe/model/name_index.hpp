@@ -1,6 +1,6 @@
 #pragma once
-// Entities by their names: a model may have tens of thousands, so no list is searched from its
-// beginning for each reference.
+// Index of entities by name: a model may have tens of thousands, so that a linear search for each
+// reference would be too slow.
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -19,12 +19,12 @@ class NameIndex {
     places_.emplace(name, names_.size());
     names_.push_back(name);
   }
-  /// Place in the order of adding; of equal names the first.
+  /// Position in the order of insertion; of equal names the first.
   std::optional<std::size_t> find(const std::string& name) const {
     const auto it = places_.find(name);
     return it == places_.end() ? std::nullopt : std::optional(it->second);
   }
-  /// The same as an index that is -1 where there is none.
+  /// The same as an index, -1 if there is none.
   int index(const std::string& name) const {
     const auto k = find(name);
     return k ? static_cast<int>(*k) : -1;

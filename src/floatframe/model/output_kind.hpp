@@ -1,8 +1,8 @@
 #pragma once
-// What an output must supply. A new output is one file model/outputs/<name>.cpp and one entry in
+// Interface of an output. A new output is one file model/outputs/<name>.cpp and one entry in
 // output_list.hpp: reader, validation, mirror, units, the table of the documentation and the
 // generic tests run over the list. A sample calls `output_value_of` by name, without a pointer; the
-// facts of an OutputKind serve load time.
+// data of an OutputKind are used at load time.
 #include <span>
 
 #include "floatframe/model/force_outputs.hpp"
@@ -11,13 +11,13 @@
 
 namespace floatframe {
 
-/// The value at a sample: noexcept, no allocation. `last` is the output's own memory.
+/// The value at a sample: noexcept, no allocation. `last` is the memory of this output.
 template <OutputType type>
 double output_value_of(const OutputView& view, const Output& output, FollowedOutput& last) noexcept;
 
-/// What an output refers to in a model file, and the fields of `Output` that hold it.
+/// The entity that an output refers to in a model file, and the fields of `Output` for it.
 enum class OutputOf {
-  point,       ///< a place on a body: `marker`
+  point,       ///< a point on a body: `marker`
   two_points,  ///< {from: place, to: place}: `marker` and `to`
   body,        ///< a body that moves: `body`
   joint,       ///< `joint`, with the number of a coordinate: `component`
@@ -27,18 +27,18 @@ enum class OutputOf {
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `joint`
-  gauge        ///< a place of a flexible body where stress is known: `body`, `gauge`
+  gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 
-/// What must be computed for a sample beside the motion.
+/// Quantities that must be computed for a sample in addition to the motion.
 enum class OutputTerms {
   forces,    ///< of the force elements
   inertia,   ///< mass matrices of the bodies, too
   reactions  ///< accelerations and reactions that satisfy the equations of motion, too
 };
 
-/// Components with names, of which `Output::component` is one: a column each, or the one that `key`
-/// picks.
+/// Components with names, of which `Output::component` is one: a column each, or only the one
+/// selected by `key`.
 struct OutputComponents {
   const char* key = nullptr;
   std::span<const char* const> words;
@@ -47,14 +47,14 @@ inline constexpr OutputComponents world_axes{"axis", rules::axes};
 inline constexpr OutputComponents roll_pitch_yaw_angles{"angle", rules::angles};
 
 struct OutputKind {
-  const char* about;  ///< what it measures: the documentation, a phrase in Markdown
+  const char* about;  ///< its quantity: for the documentation, a phrase in Markdown
   OutputOf of;
   OutputComponents components = {};
-  /// Where it depends on what the output refers to: all it may be, for the documentation, and a
-  /// function that picks it.
+  /// If it depends on the entity that the output refers to: all possible values, for the
+  /// documentation, and a function that selects one.
   const char* unit;
   const char* (*unit_of)(const Model& model, const Output& output) = nullptr;
-  /// Of a force element: what it must have.
+  /// For a force element: the required property.
   ForceQuantity needs = ForceQuantity::force;
   OutputTerms terms = OutputTerms::forces;
 };
@@ -66,7 +66,7 @@ const char* unit_of_force(const Model& model, const Output& output) {
 
 const OutputKind& output_kind(OutputType type) noexcept;
 
-/// The most that any output of the model asks for.
+/// The terms required by any output of the model.
 OutputTerms output_terms(const Model& model) noexcept;
 
 double output_value(const OutputView& view, const Output& output, FollowedOutput& last) noexcept;

@@ -1,4 +1,4 @@
-// The list of outputs at work: facts for load time, direct calls for samples.
+// Dispatch of the outputs: data for load time, direct calls for samples.
 #include <algorithm>
 #include <iterator>
 #include <utility>

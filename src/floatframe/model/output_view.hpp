@@ -1,6 +1,6 @@
 #pragma once
-// The system at a sample, as outputs see it in either formulation: by markers, bodies, joints and
-// forces of the model, never by coordinates. Its functions are direct calls (formulation/
+// The system at a sample, as seen by outputs in either formulation: markers, bodies, joints and
+// forces of the model, never coordinates. Its functions are direct calls (formulation/
 // output_view.cpp), noexcept and free of allocation.
 #include "floatframe/model/force_evaluation.hpp"
 #include "floatframe/model/marker_state.hpp"
@@ -15,7 +15,7 @@ class AbsoluteFormulation;
 class OutputView {
  public:
   /// After `positions(t, q)`, `velocities`, `forces` and `set_accelerations` of the formulation,
-  /// and `dynamics` where an output asks for inertia. `reactions` where one asks for them.
+  /// and `dynamics` if an output needs inertia terms. `reactions` if an output needs them.
   OutputView(const RelativeFormulation& formulation, double t, const VecX& q,
              const Reactions* reactions = nullptr) noexcept;
   OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q,
@@ -23,9 +23,9 @@ class OutputView {
 
   const Model& model() const noexcept { return model_; }
   double time() const noexcept { return t_; }
-  /// Place of a marker in the world [m].
+  /// Position of a marker in the world [m].
   Vec3 place(int marker) const noexcept { return this->marker(marker).r + origin_; }
-  /// Motion of a marker, world axes; its place `r` is measured from a point that all markers share.
+  /// Motion of a marker, world axes; its position `r` is relative to a point common to all markers.
   const MarkerState& marker(int marker) const noexcept;
   /// Of the marker's point [m/s2].
   Vec3 acceleration(int marker) const noexcept;
@@ -47,7 +47,7 @@ class OutputView {
   double gravity_energy(int body) const noexcept;
   double elastic_energy(int body) const noexcept;
   const ForceState& force(int force) const noexcept;
-  /// Only for outputs that ask for them (`OutputTerms::reactions`).
+  /// Only for outputs that require them (`OutputTerms::reactions`).
   const Reactions& reactions() const noexcept { return *reactions_; }
 
  private:
@@ -63,7 +63,7 @@ class OutputView {
   Vec3 origin_;
 };
 
-/// What an output remembers of its last sample: angles over turns go on from there.
+/// Last sample of an output: angles over several turns are continued from there.
 struct FollowedOutput {
   bool started = false;
   double time = 0.0, position = 0.0, rate = 0.0;

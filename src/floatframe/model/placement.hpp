@@ -27,8 +27,8 @@ Placement operator*(const Placement& outer, const Placement& inner);
 Placement reflection(int axis, double at);
 Placement translation(const Vec3& shift);
 
-/// Of start values, which may be missing: the three from `at` on as a vector of their kind, or one
-/// of them times `sign`.
+/// For start values, which may be missing: the three starting at `at` as a vector of their kind, or
+/// one of them times `sign`.
 void place_polar(std::vector<double>& values, std::size_t at, const Placement& x);
 void place_axial(std::vector<double>& values, std::size_t at, const Placement& x);
 void change_sign(std::vector<double>& values, std::size_t at, double sign);

@@ -9,7 +9,7 @@ struct RoadPoint {
   double z = 0.0, slope = 0.0, curvature = 0.0;
 };
 RoadPoint road_at(const Road& road, double x) noexcept;
-/// On one stretch, also beyond its edges (math/piecewise_polynomial.hpp).
+/// On one segment, also beyond its edges (math/piecewise_polynomial.hpp).
 RoadPoint road_at(const Road& road, std::size_t stretch, double x) noexcept;
 
 }  // namespace floatframe

@@ -41,7 +41,7 @@ std::vector<Wave> waves_of(const RoadSpectrum& spectrum) {
   return waves;
 }
 
-/// How much of the road is there at a distance from the nearer end, with its slope.
+/// Amplitude factor of the road at a distance from the nearer end, with its slope.
 std::pair<double, double> share(double distance, double over) {
   const double s = std::clamp(distance / over, 0.0, 1.0);
   return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / over};
@@ -69,7 +69,7 @@ PiecewisePolynomial random_road(const RoadSpectrum& spectrum) {
   const double h = spectrum.length / static_cast<double>(count);
   std::vector<double> z(count + 1, 0.0), slope(count + 1, 0.0);
   for (const Wave& w : waves_of(spectrum)) {
-    // cos and sin of k i h + phase by turning on, anew every 256 points: rounding stays at 1e-13.
+    // cos and sin of k i h + phase by recurrence, restarted every 256 points: rounding below 1e-13.
     const double c = std::cos(w.k * h), s = std::sin(w.k * h);
     double cosine = 0.0, sine = 0.0;
     for (std::size_t i = 0; i <= count; ++i) {

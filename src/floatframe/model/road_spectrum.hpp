@@ -20,19 +20,19 @@ inline constexpr double low = 0.011, high = 2.83;  ///< [cycles/m]
 struct RoadSpectrum {
   double roughness = road_classes::roughness(2);  ///< G0 [m3]
   double start = 0.0, length = 100.0;             ///< [m]
-  std::int64_t seed = 1;                          ///< another one is another road
+  std::int64_t seed = 1;                          ///< each value gives a different road
 };
 
 /// int G dn between two wave numbers [m2]; G is 0 outside the range.
 double road_variance(const RoadSpectrum& spectrum, double from, double to) noexcept;
 
-/// A sum of 1000 waves with random phases, one in each of as many bands of equal ratio, which
-/// carries the variance of its band; the place in the band is random, so that the road does not
-/// repeat.
+/// A sum of 1000 waves with random phases, one in each of as many bands of equal ratio, with the
+/// variance of its band; the wave number within the band is random, so that the road is not
+/// periodic.
 /// Cubic pieces of 0.035 m with the exact heights and slopes at their ends: C1. Over the first and
-/// last 10 m (at most a tenth of the length) it rises out of and sinks into the plane, zero beyond.
-/// The same numbers give the same road on every machine but for rounding. Throws InputError if the
-/// length is not between 1 and 10 000 m or the roughness is negative or not finite.
+/// last 10 m (at most a tenth of the length) it is blended into the plane, zero beyond. Equal
+/// arguments give the same road on every machine up to rounding. Throws InputError if the length is
+/// not between 1 and 10 000 m or the roughness is negative or not finite.
 PiecewisePolynomial random_road(const RoadSpectrum& spectrum);
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// What the numbers and words of a description must be, with their units. Used by the reader of
+// Valid ranges of the numbers and words of a description, with their units. Used by the reader of
 // model files and by `validate`.
 #include "floatframe/core/number_rule.hpp"
 
@@ -33,10 +33,10 @@ inline constexpr WholeNumberRule normal_modes{"a number of modes, or {below: fre
                                               10000};
 inline constexpr WholeNumberRule analytic_shapes{"a number of shapes", 0, 50};
 
-/// A point of a flexible body that is this near to a node is the node [m].
+/// A point of a flexible body within this distance of a node denotes the node [m].
 inline constexpr double node_tolerance = 1e-6;
 
-// Axes and points of joints that are made exact.
+// Axes and points of joints that are corrected.
 inline constexpr NumberRule snap_angle{"an angle from 0 to 0.1", "rad", 0.0, 0.1};
 inline constexpr NumberRule snap_distance{"a part of the size of the loops from 0 to 0.1", "", 0.0,
                                           0.1};
@@ -60,7 +60,7 @@ inline constexpr NumberRule output_interval = non_negative_number("s");
 inline constexpr NumberRule min_step = non_negative_number("s");
 inline constexpr NumberRule spectral_radius{"a number from 0 to 1", "", 0.0, 1.0};
 // Smaller tolerances are below the rounding of coordinates of size 1: no step would converge. With
-// larger ones (m, rad; m/s) nothing is iterated and loops stay open.
+// larger ones (m, rad; m/s) no iteration takes place and loops stay open.
 inline constexpr NumberRule tolerance{"a number from 1e-15 to 1", "", 1e-15, 1.0};
 inline constexpr NumberRule penalty = non_negative_number("");
 inline constexpr NumberRule position_tolerance{"a number from 1e-15 to 1", "m", 1e-15, 1.0};

@@ -1,6 +1,6 @@
 #pragma once
-// What descriptions must mean beyond single numbers, each with its one sentence. The reader of
-// model files and `validate` put the path and the place before it. nullopt: nothing is wrong.
+// Rules of descriptions beyond single numbers, each with its one sentence. The reader of model
+// files and `validate` prepend the path and the position. nullopt: valid.
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +18,7 @@ using Complaint = std::optional<std::string>;
 Complaint inertia(const Mat3& J);
 Complaint tube(double outer, double inner);
 Complaint bar_length(double length);
-/// Of a bar along `axis`.
+/// For a bar along `axis`.
 Complaint bar_reference(const Vec3& axis, const Vec3& reference);
 bool parallel_to_bar(const Vec3& axis, const Vec3& direction);
 Complaint section_inertia(bool section_inertia, bool isoparametric);
@@ -31,10 +31,10 @@ std::string no_bars();
 std::string unknown_bar(const std::string& name, const std::string& hint);
 std::string no_end_point(const std::string& name);
 std::string bar_not_connected(const std::string& first_bar);
-/// Places of the clamped degrees of freedom, each with its direction 0..5 = x y z rx ry rz.
+/// Positions of the clamped degrees of freedom, each with its direction 0..5 = x y z rx ry rz.
 Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped);
 
-// Places on bodies, and what is asked of bodies that have no modes.
+// Points on bodies, and requirements on bodies without modes.
 std::string ground_is_no_body();
 std::string node_on_ground();
 std::string node_on_rigid_body(const std::string& body);
@@ -59,14 +59,14 @@ Complaint force_matrix(const MatX& M);
 std::string force_matrix_rows(std::size_t rows);
 /// Rows of a speed and eight coefficients.
 Complaint speed_table(const MatX& rows);
-/// Of a bearing, 6 x 6 or 2 x 2: nothing holds the spin.
+/// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint bearing_stiffness(const MatX& K);
 std::string target_without_law();
 std::string motion_and_start_value();
 std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);
-/// The piece from which the law jumps, and the sentence.
+/// The piece at whose beginning the law jumps, and the sentence.
 std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f);
 
 // Inputs, outputs, the run.
@@ -79,19 +79,19 @@ Complaint input_initial(double initial, const std::optional<double>& low,
 /// A component, counted from 0, that is not one of the `n`; a model file counts them from 1.
 std::string number_of(const char* what, int component, int n, bool from_file);
 std::string weld_does_not_move();
-/// Of what a motor exerts.
+/// For the force or torque of a motor.
 std::string joint_without_motion();
 std::string rod_has_no_axes();
 std::string force_without_point();
-/// A force or torque that is given has no length and no rate.
+/// A prescribed force or torque has no length and no rate.
 std::string load_without(const std::string& type, const std::string& quantity);
 Complaint column_name(const std::string& name);
-/// Of the whole name of a column: another one has it (`exists`), or the time.
+/// For the whole name of a column: it already exists (`exists`), or is that of the time.
 Complaint column_taken(const std::string& name, bool exists);
 Complaint model_name(const std::string& name);
 Complaint min_step(double min_step, double step);
 std::string offset_alone();
-/// More steps than a run can count and keep.
+/// More steps than a run can count and store.
 Complaint steps(double duration, double step);
 
 }  // namespace floatframe::sentences

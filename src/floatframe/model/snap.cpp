@@ -12,12 +12,12 @@
 namespace floatframe {
 namespace {
 
-/// Relations that miss by more are meant so [rad; of the size].
+/// Larger deviations are intended [rad; relative to the size].
 constexpr double widest_angle = 0.1, widest_distance = 0.03;
-/// Whether a loop is locked by smaller misses, which its thresholds do not see for sure, is judged
-/// with this one.
+/// Deviations below the first value, too small for the thresholds of the mobility test, are scaled
+/// to the second value for the test.
 constexpr double smallest_judged = 1e-4, judged_as = 1e-3;
-/// Beyond, dense linear algebra takes too long: such loops stay as they are.
+/// Above it dense linear algebra takes too long: such loops are not changed.
 constexpr std::size_t most_bodies = 100;
 
 /// The rotation vector from one frame to another, in its axes [rad].
@@ -36,7 +36,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// One block of loops with what nearly holds in it.
+/// One block of loops with its approximate relations.
 class Snapping {
  public:
   Snapping(const Model& model, const LoopBlock& block)
@@ -44,8 +44,8 @@ class Snapping {
     for (const int b : block.bodies) bends_ = bends_ || model.bodies[b].modes() > 0;
   }
 
-  /// The relations that hold within tolerance and together give the loops freedoms which last;
-  /// none that they move without. Empty: there are none.
+  /// The relations within tolerance that together give the loops finite degrees of freedom; only
+  /// those needed for them. Empty: there are none.
   std::vector<Relation> freeing(double angle, double distance) const {
     std::vector<Relation> relations = alignment_.relations(angle, distance * alignment_.size());
     if (relations.empty() || !fits()) return {};
@@ -63,12 +63,12 @@ class Snapping {
     return relations;
   }
 
-  /// Some relation holds within tolerance and not exactly.
+  /// Some relation holds within tolerance but not exactly.
   bool any(double angle, double distance) const {
     return !alignment_.relations(angle, distance * alignment_.size()).empty();
   }
 
-  /// The loops cannot have freedoms beyond those that counting gives: nothing is locked.
+  /// The loops have no more degrees of freedom than the mobility count: nothing is locked.
   bool counted() const {
     int rows = 0;
     for (const int j : block_.joints) rows += 6 - joint_velocities(model_.joints[j].type);
@@ -189,13 +189,13 @@ class Snapping {
     return LoopMobility(model_, block_, alignment_.drawn(), alignment_.size(), false).motions();
   }
 
-  /// As drawn everything is in place.
+  /// In the drawn configuration everything is in position.
   bool fits() const {
     const auto& [places, size] = std::pair(alignment_.drawn(), alignment_.size());
     return LoopMobility(model_, block_, places, size, false).misfit() < 1e-9;
   }
 
-  /// How far a place is off at most [rad; of the size].
+  /// Largest deviation of a position [rad; relative to the size].
   double farthest(const std::vector<JointPlace>& exact) const {
     double most = 0.0;
     for (std::size_t k = 0; k < exact.size(); ++k) {
@@ -207,7 +207,7 @@ class Snapping {
     return most;
   }
 
-  /// The places, farther from the exact ones by a factor.
+  /// The positions, with deviations from the exact ones multiplied by a factor.
   static std::vector<JointPlace> exaggerated(std::vector<JointPlace> places,
                                              const std::vector<JointPlace>& exact, double scale) {
     if (scale == 1.0) return places;
@@ -221,8 +221,8 @@ class Snapping {
     return places;
   }
 
-  /// Freedoms that last which the loops have with these places and not as drawn; `scale`: of what
-  /// either are off the exact ones.
+  /// Additional finite degrees of freedom of the loops with these positions compared with the drawn
+  /// ones; `scale`: factor of the deviations of both from the exact ones.
   int freedoms(const std::vector<JointPlace>& moved_places, const std::vector<JointPlace>& exact,
                double scale) const {
     const double size = alignment_.size();
@@ -252,7 +252,7 @@ class Snapping {
   bool bends_ = false;
 };
 
-/// A marker of its own for each frame that moves: forces and other joints keep theirs.
+/// A separate marker for each moved frame: forces and other joints keep theirs.
 void move_frames(Model& model, int index, const JointPlace& from, const JointPlace& to) {
   Joint& joint = model.joints[index];
   for (int* frame : {&joint.frame_F, &joint.frame_M}) {

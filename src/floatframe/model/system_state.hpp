@@ -1,11 +1,11 @@
 #pragma once
-// Where a model is at one instant, by the names of its joints and bodies and in no formulation's
-// coordinates: a run of either formulation can start from it.
+// The state of a model at one instant, by the names of its joints and bodies and independent of the
+// formulation: a run in either formulation can start from it.
 //
-// What a start takes: the coordinates and velocities of joints in the form of `JointDescription`
-// (turns counted), modal amplitudes and their rates, the time. Poses and velocities of bodies
-// follow from them; they are here to be read, and to notice a model that is not the one the state
-// was taken of. Accelerations and constraint forces are found anew at a start.
+// A start uses the coordinates and velocities of joints in the form of `JointDescription` (turns
+// counted), modal amplitudes and their rates, the time. Poses and velocities of bodies follow from
+// them; they are included for reading, and to detect a model that differs from that of the state.
+// Accelerations and constraint forces are computed again at a start.
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {

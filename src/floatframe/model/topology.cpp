@@ -39,7 +39,7 @@ Topology find_topology(const Model& model) {
     const bool reversed = depth_of(joint.parent) < 0;
     const int body = reversed ? joint.parent : joint.child;
     const int parent = reversed ? joint.child : joint.parent;
-    if (depth_of(body) >= 0) continue;  // reached by another joint meanwhile
+    if (depth_of(body) >= 0) continue;  // reached by another joint already
     used[j] = 1;
     depth[body] = depth_of(parent) + 1;
     t.links.push_back({body, j, parent, reversed});

@@ -1,8 +1,8 @@
 #pragma once
-// What a description means is checked here, whoever wrote it: the reader of model files, whose
-// words and types are right already, or a C++ program, which may hand over anything. Each sentence
-// begins with the path the entity would have in a model file. Nothing after these checks looks at
-// sizes, signs, enumerators or NaN again.
+// Checks of the meaning of a description from any source: the reader of model files, which has
+// already checked words and types, or a C++ program, whose data may be arbitrary. Each sentence
+// begins with the path that the entity would have in a model file. After these checks no code needs
+// to check sizes, signs, enumerators or NaN again.
 #include <set>
 #include <string>
 #include <vector>
@@ -13,17 +13,17 @@
 
 namespace floatframe {
 
-/// All that can be known before bodies are reduced; nodes of flexible bodies and numbers of modes
-/// are left to `build_model`.
+/// All checks possible before bodies are reduced; nodes of flexible bodies and numbers of modes are
+/// left to `build_model`.
 void validate(const ModelDescription& description, ErrorList& errors);
 /// The group `simulation`.
 void validate(const SimulationDescription& simulation, ErrorList& errors);
 /// Throws InputError with every error of the group.
 void require_valid(const SimulationDescription& simulation);
-/// The same, and the number of steps is one that a run can keep.
+/// The same, and the number of steps is within the limit for a run.
 void require_valid_run(const SimulationDescription& simulation);
-/// Of a sentence about the step and the duration together: the option of the command line that gave
-/// one of them, else where the file says the step, the duration or the group.
+/// Position for a sentence about the step and the duration together: the option of the command line
+/// that gave one of them, else the step, the duration or the group in the file.
 SourceMark mark_of_time_settings(const SimulationDescription& simulation);
 
 namespace validation {
@@ -33,7 +33,7 @@ struct Names {
   NameIndex bodies, joints, forces, roads, inputs, rods;
 };
 
-/// One entity: adds "path.key: sentence" at the key's place, if one is known.
+/// One entity: adds "path.key: sentence" at the position of the key, if known.
 struct Entity {
   ErrorList& errors;
   const Origin& origin;
@@ -46,7 +46,7 @@ struct Entity {
                 const std::optional<std::string>& complaint) const {
     if (complaint) error(code, key, *complaint);
   }
-  /// Each: true if nothing is wrong.
+  /// Each returns true if the value is valid.
   bool number(const std::string& key, double x, const NumberRule& rule) const;
   bool whole(const std::string& key, int x, const WholeNumberRule& rule) const;
   template <class Enum, std::size_t n>
@@ -61,11 +61,11 @@ struct Entity {
   bool rotation(const std::string& key, const Mat3& R) const;
   bool reference(const std::string& key, const char* kind, const std::string& name,
                  const NameIndex& known) const;
-  /// A place on a body; the ground too if `ground`.
+  /// A point on a body; also on the ground if `ground`.
   bool place(const std::string& key, const AttachmentDescription& at, const Names& names,
              bool ground = true) const;
   bool pieces(const std::string& key, const PiecewisePolynomial& f, bool may_jump = false) const;
-  /// `may_jump`: also the value, as of a load.
+  /// `may_jump`: a jump of the value is allowed, too, as for a load.
   void function(const std::string& key, const TimeFunction& f, bool may_jump = false) const;
   void signal(const std::string& key, const SignalDescription& s, const Names& names) const;
 };
@@ -74,12 +74,12 @@ struct Entity {
 void name(const char* kind, const std::string& name, std::set<std::string>& taken,
           const Entity& entity);
 
-// What one entity means by itself, without the others: `validate` asks this of every description,
-// and the reader of model files of each entity it has read.
+// Checks of one entity independent of the others: `validate` makes them for every description, and
+// the reader of model files for each entity it has read.
 void input(const InputDescription& input, const Entity& entity);
 /// Mass properties of a rigid body, keys of the group `rigid`.
 void rigid(const RigidDescription& rigid, const Entity& body);
-/// Axes and start values of a joint, whose type is one of the list, and whether they go with its
+/// Axes and start values of a joint, whose type is one of the list, and their consistency with its
 /// motion.
 void joint_values(const JointDescription& joint, const Entity& entity);
 

@@ -1,4 +1,4 @@
-// Bodies: place, mass properties, data of reduced bodies.
+// Bodies: position, mass properties, data of reduced bodies.
 #include <cmath>
 
 #include "floatframe/model/rules.hpp"

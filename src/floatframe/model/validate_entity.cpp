@@ -1,4 +1,4 @@
-// The checks that entities share: numbers, words, places, functions.
+// Checks common to all entities: numbers, words, points, functions.
 #include <cmath>
 
 #include "floatframe/core/printable.hpp"
@@ -15,7 +15,7 @@ std::string indexed(const std::string& key, Eigen::Index i) {
   return key + "[" + std::to_string(i + 1) + "]";
 }
 
-/// Of "flexible.material.young" the place of `young`, or of `flexible`, or of the entity.
+/// For "flexible.material.young" the position of `young`, or of `flexible`, or of the entity.
 const SourceMark& mark_of(const Origin& origin, const std::string& key) {
   const std::string path = key.substr(0, key.find('['));
   const std::size_t dot = path.rfind('.');

@@ -74,7 +74,7 @@ class FlexibleCheck {
     }
   }
 
-  /// The place of a point; null and an error if there is none of that name.
+  /// The position of a point; null and an error if the name does not exist.
   const Vec3* point(const Entity& bar, const char* key, const std::string& name) {
     const auto it = f_.points.find(name);
     if (it != f_.points.end()) return &it->second;
@@ -142,7 +142,7 @@ class FlexibleCheck {
     connectivity();
   }
 
-  // Which bars hang together.
+  // Connectivity of the bars.
   void join(int bar, const std::string& point) {
     const auto [it, fresh] = bar_of_point_.emplace(point, bar);
     if (!fresh) joined_.join(bar, it->second);
@@ -160,7 +160,7 @@ class FlexibleCheck {
 
   bool node(const std::string& key, const std::string& name) {
     if (bar_of_point_.contains(name)) return true;
-    if (!geometry_good_) return false;  // a bar that is wrong makes no nodes
+    if (!geometry_good_) return false;  // an invalid bar creates no nodes
     group_.error(ErrorCode::not_found, key,
                  sentences::no_end_point(name) + did_you_mean(name, keys_of(bar_of_point_)));
     return false;
@@ -236,7 +236,7 @@ class FlexibleCheck {
   std::set<std::string> taken_bars_;
   std::set<std::pair<std::string, unsigned>> taken_dofs_;
   bool geometry_good_ = false;
-  std::size_t nodes_ = 0;  // but for the first one, if the bars make no loop
+  std::size_t nodes_ = 0;  // without the first one, if the bars form no loop
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Force elements, by the tables of their keys and what their types say, and roads.
+// Force elements, by the tables of their keys and the checks of their types, and roads.
 #include <algorithm>
 
 #include "floatframe/core/suggest.hpp"
@@ -11,7 +11,7 @@ namespace floatframe::validation {
 
 namespace {
 
-/// What a value must be; nullptr if it is.
+/// The expected kind of value; nullptr if it matches.
 const char* other_type(const ForceKey& key, const ForceValue& value) {
   using K = ForceKeyKind;
   const auto needs = [&]<class T>(const T*, const char* what) -> const char* {
@@ -30,7 +30,7 @@ const char* other_type(const ForceKey& key, const ForceValue& value) {
     case K::number:
       return needs(static_cast<double*>(nullptr), "a number");
     case K::word:
-      return nullptr;  // a word or its place in the list: said by `word`
+      return nullptr;  // a word or its index: checked by `word`
     case K::flag:
       return needs(static_cast<bool*>(nullptr), "true or false");
     case K::spring:
@@ -63,7 +63,7 @@ struct ForceValidation {
     return !complaint;
   }
 
-  /// True if nothing is wrong with the value by itself.
+  /// True if the value itself is valid.
   bool value(const ForceKey& key) const {
     using K = ForceKeyKind;
     const auto x = force_value(force, key);

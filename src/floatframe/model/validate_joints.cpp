@@ -96,7 +96,7 @@ namespace {
 void initial_value(const InputDescription& i, const Entity& entity) {
   const auto complaint = sentences::input_initial(i.initial, i.low, i.high);
   if (!complaint) return;
-  // A file that leaves the key out has no place of it.
+  // A key that is missing in a file has no position.
   if (i.origin.keys.empty() || i.origin.keys.contains("initial"))
     entity.error(ErrorCode::out_of_range, "initial", *complaint);
   else

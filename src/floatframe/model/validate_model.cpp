@@ -1,4 +1,4 @@
-// The order of the checks, and what belongs to no entity.
+// The order of the checks, and checks that belong to no entity.
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
@@ -68,7 +68,7 @@ void require_valid_run(const SimulationDescription& s) {
 
 SourceMark mark_of_time_settings(const SimulationDescription& s) {
   const SourceMark &step = s.origin.of("step"), &duration = s.origin.of("duration");
-  // What the file says of one of them says little where the other came from elsewhere.
+  // The position of one of them in the file is of little use if the other came from elsewhere.
   const auto from_file = [&](const SourceMark& mark) {
     return &mark == &s.origin.mark || mark.line > 0;
   };

@@ -1,4 +1,4 @@
-// Result columns: names, what they measure, which component.
+// Result columns: names, measured quantities, components.
 #include <set>
 
 #include "floatframe/core/enum_index.hpp"

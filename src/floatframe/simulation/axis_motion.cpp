@@ -7,7 +7,7 @@ namespace floatframe {
 namespace {
 
 /// int |v + w x r + X y|^2 dm = (v, length w, y)^T form (v, length w, y), v of the point p_BP, v
-/// and w in the world, r from that point.
+/// and w in world axes, r from that point.
 MatX motion_form(const FlexibleBody& body, const Mat3& R, const Vec3& p_BP, double length) {
   const int nm = body.modes();
   MatX to_origin = MatX::Identity(6 + nm, 6 + nm);  // (v of the origin, w, y), body axes

@@ -89,8 +89,8 @@ double time_iteration(BenchStepper& stepper, double seconds) {
     const double time = thread_seconds() - before;
     spent += time;
     least = std::min(least, time / static_cast<double>(repetitions));
-    // Blocks of about 0.3 ms: long against the resolution of the clock, short against the time
-    // between disturbances.
+    // Blocks of about 0.3 ms: long compared with the resolution of the clock, short compared with
+    // the time between disturbances.
     repetitions = std::clamp(static_cast<long>(3e-4 / std::max(least, 1e-9)), 1L, 1000L);
   }
   return least;

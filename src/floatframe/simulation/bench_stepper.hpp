@@ -1,5 +1,5 @@
 #pragma once
-// Steps a model in blocks for timing: the same steps as a run makes, with nothing between them.
+// Steps a model in blocks for timing: the same steps as in a run, without recording between them.
 #include <memory>
 #include <string>
 
@@ -14,25 +14,25 @@ class BenchStepper {
  public:
   virtual ~BenchStepper() = default;
 
-  /// Back to the start of the run.
+  /// Returns to the start of the run.
   virtual void restart() = 0;
-  /// From now on all inputs jump before each step, to and fro by a hundredth of their range (by
-  /// one, if they have none).
+  /// From now on all inputs jump before each step, alternately by plus and minus a hundredth of
+  /// their range (by one without a range).
   virtual void jump_inputs() = 0;
-  /// Steps of the size of the options. False if one did not converge; nothing more can be done
-  /// then.
+  /// Makes steps of the size given in the options. Returns false if one did not converge; the
+  /// stepper cannot continue then.
   virtual bool advance(long steps) noexcept = 0;
-  /// Full Newton iterations at the present state, which stays as it is: kinematics, inertia terms,
+  /// Full Newton iterations at the present state, which does not change: kinematics, inertia terms,
   /// forces, residual, factorisation, solution.
   virtual void iterate(long iterations) noexcept = 0;
   /// Since the start or the last `restart`.
   virtual StepCounters counts() const noexcept = 0;
-  /// Velocities of the formulation.
+  /// Number of velocities of the formulation.
   virtual int freedoms() const noexcept = 0;
-  /// Time and the model's outputs in their order.
+  /// Time and the outputs of the model in their order.
   virtual VecX sample() = 0;
   virtual Energies energies() = 0;
-  /// Why the last `advance` failed, in words.
+  /// The reason why the last `advance` failed, as a sentence.
   virtual std::string failure() = 0;
 };
 

@@ -37,7 +37,7 @@ BranchWatch::BranchWatch(double step, int configurations)
 }
 
 void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
-  // Substeps have a metric of their own.
+  // Substeps have a separate metric.
   if (!std::isfinite(last.log_pivots) || std::abs(last.size - step_) > 1e-6 * step_) return;
   const double x = last.log_pivots;
   highest_ = std::max(highest_, x);

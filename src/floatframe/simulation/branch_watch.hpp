@@ -1,15 +1,15 @@
 #pragma once
-// Watches whether a mechanism passes a singular position: there constraints depend on each other
-// that elsewhere do not, so that it may go on in more than one way.
+// Detects whether a mechanism passes a singular configuration, in which independent constraints
+// become dependent, so that the motion can continue on more than one branch.
 //
-// The metric of the projections is W = M + 0.01 s K + penalty Phi_q^T Phi_q. A direction of
-// constraints that moves the system by sigma has a share of 1 + penalty sigma^2 in its determinant,
-// which falls to 1 where sigma does. So positions where the sum of the logarithms of the pivots
-// falls far below what it was are kept: the first such dip and the deepest. At the end of the run
-// the constraints there are looked at closely, with dense linear algebra, and only what they say
-// counts: constraints that are redundant everywhere make no dip, and other dips (long levers that
-// become short) are none of singular positions. What is a small angle depends on lengths, so the
-// constraints are compared with themselves at the start and at the highest position.
+// The metric of the projections is W = M + 0.01 s K + penalty Phi_q^T Phi_q. A constraint direction
+// with singular value sigma contributes a factor 1 + penalty sigma^2 to its determinant, which
+// falls to 1 as sigma vanishes. Positions at which the sum of the logarithms of the pivots falls
+// far below its earlier values are kept: the first such dip and the deepest one. At the end of the
+// run the constraints there are examined by dense linear algebra, and only this result counts:
+// constraints that are redundant everywhere cause no dip, and other dips (long levers that become
+// short) are not singular. Whether an angle is small depends on lengths, so the constraints are
+// compared with those at the start and at the position with the highest sum.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -23,13 +23,13 @@ namespace floatframe {
 
 class BranchWatch {
  public:
-  /// Of runs in steps of this size [s] with so many configuration numbers.
+  /// For runs with this step size [s] and this number of configuration coordinates.
   BranchWatch(double step, int configurations);
 
-  /// After a step, with the last attempt at it. No allocation.
+  /// To be called after a step, with its last attempt. No allocation.
   void observe(const State& s, const StepAttempt& last) noexcept;
 
-  /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
+  /// Stores and restores the record, for runs that are continued elsewhere (state_bytes.hpp).
   template <class Stream>
   void serialize(Stream& s) {
     s(highest_);
@@ -37,7 +37,7 @@ class BranchWatch {
     for (Dip* d : {&first_, &deepest_, &start_, &best_}) d->serialize(s);
   }
 
-  /// The sentence about the first singular position, if there was one. Moves the formulation.
+  /// The sentence about the first singular configuration, if there was one. Moves the formulation.
   template <class F>
   std::optional<RangeWarning> warning(F& f) const {
     for (const Dip* d : {&first_, &deepest_}) {
@@ -55,11 +55,11 @@ class BranchWatch {
   }
 
  private:
-  /// Fall of the sum of logarithms that is looked at: twentyfold.
+  /// Decrease of the sum of logarithms that counts as a dip: a factor of twenty.
   static constexpr double depth = 3.0;
-  /// Of the sum of logarithms, before another position counts as the highest.
+  /// Increase of the sum of logarithms above which a new position becomes the highest.
   static constexpr double rise = 0.1;
-  /// What is left of the independence of constraints in a singular position, at most.
+  /// Largest remaining independence of the constraints in a singular configuration, as a fraction.
   static constexpr double part_of_usual = 0.1;
   static constexpr int most_coordinates = 1000;  ///< dense linear algebra
 

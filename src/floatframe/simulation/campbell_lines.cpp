@@ -23,7 +23,7 @@ std::vector<std::size_t> lowest_that_swing(const TurningModes& modes, std::size_
   return found;
 }
 
-/// Lines while they are followed: their modes at each speed.
+/// Lines during tracking: their modes at each speed.
 class LineBundle {
  public:
   LineBundle(ModeFollower& follower, const std::vector<double>& speeds)
@@ -42,7 +42,7 @@ class LineBundle {
     for (std::size_t k = last; k-- > 0;) advance(open, k + 1, k);
   }
 
-  /// Those of the modes at the first speed on no line that end before the last speed.
+  /// Lines of the modes at the first speed that are on no other line and end before the last speed.
   void follow_up(const std::vector<std::size_t>& begin) {
     std::vector<std::size_t> open;
     const std::size_t before = lines.size(), last = speeds_.size() - 1;
@@ -82,7 +82,7 @@ class LineBundle {
       }
       lines[open[i]][to] = p.mode;
       modes[open[i]].emplace(speeds_[to], p.mode);
-      // What begins to swing at standstill goes on as a rigid motion, below it is not looked for.
+      // A mode that starts to oscillate at standstill is a rigid motion below it, not tracked.
       if (swings(follower_.at(speeds_[to]), p.mode)) on.push_back(open[i]);
     }
     open = on;
@@ -100,7 +100,7 @@ class LineBundle {
   const std::vector<double>& speeds_;
 };
 
-/// By most of the points that are known.
+/// By the majority of the known points.
 std::string kind_of_line(const CampbellLine& line) {
   std::map<std::string, int> count;
   for (const CampbellPoint& p : line.points)
@@ -115,10 +115,10 @@ std::string kind_of_line(const CampbellLine& line) {
   return best;
 }
 
-/// Growth of the fastest motion that does not swing; 0: there is none.
+/// Growth rate of the fastest motion without oscillation; 0: there is none.
 double growth(const TurningModes& modes) {
   if (modes.empty()) return 0.0;
-  const double least = 1e-6 * std::abs(modes.back().lambda);  // motions that nothing holds
+  const double least = 1e-6 * std::abs(modes.back().lambda);  // unrestrained motions
   double most = 0.0;
   for (const TurningMode& m : modes)
     if (m.lambda.imag() == 0.0 && m.lambda.real() > least) most = std::max(most, m.lambda.real());
@@ -151,8 +151,8 @@ std::string end_note(ModeFollower& follower, const LineEnd& e, const CampbellDia
                      side, follower.out_of_speeds() ? "; take a smaller step of the speed" : "");
 }
 
-/// A zero of g between two speeds where it has different signs, by regula falsi (Illinois). NaN if
-/// g is not known somewhere.
+/// A zero of g between two speeds at which it has different signs, by regula falsi (Illinois). NaN
+/// if g is unknown at some speed.
 template <class G>
 double zero_between(double a, double b, double ga, double gb, const G& g) {
   for (int k = 0; k < 40; ++k) {
@@ -206,7 +206,7 @@ void find_orders(const LineInterval& i, const std::vector<double>& orders, int l
         i.from, i.to, a, b, [&](double x) { return i.at(x).frequency() - n * std::abs(x); });
     if (!std::isfinite(speed)) continue;
     const CampbellPoint there = i.at(speed);
-    if (!(there.frequency() > 0.0)) continue;  // where a free rotor stands still
+    if (!(there.frequency() > 0.0)) continue;  // where a free rotor is at rest
     auto& list = n != 1.0 || there.unbalance ? d.critical : d.crossings;
     list.push_back({line, n, speed, there.frequency(), there.whirl});
   }
@@ -228,13 +228,13 @@ void find_onset(const LineInterval& i, double noise, bool first, int line, Campb
   d.unstable.push_back({line, speed, (found ? i.at(speed) : q).frequency()});
 }
 
-/// Motions that grow without swinging appear between two speeds.
+/// Growing motions without oscillation that appear between two speeds.
 void find_divergence(ModeFollower& follower, const FollowedLines& f, std::size_t k,
                      CampbellDiagram& d) {
   const double here = growth(follower.at(d.speeds[k]));
   if (!(here > 0.0)) return;
   if (k > 0 && growth(follower.at(d.speeds[k - 1])) > 0.0) return;
-  // Round-off of motions that nothing holds does not repeat.
+  // Round-off of unrestrained motions is not reproducible.
   double high = d.speeds[k], low = k > 0 ? d.speeds[k - 1] : d.speeds[1];
   const double again = growth(follower.at(high - 1e-3 * (high - low)));
   if (!(std::abs(again - here) < 0.3 * here)) return;
@@ -265,7 +265,7 @@ FollowedLines follow_lines(ModeFollower& follower, int most, CampbellDiagram& d)
   LineBundle bundle(follower, d.speeds);
   bundle.follow_down(lowest_that_swing(follower.at(d.speeds.back()), n));
   bundle.follow_up(lowest_that_swing(follower.at(d.speeds.front()), n));
-  // Ascending by the frequency where they begin, as one reads the diagram.
+  // Ascending by the frequency at their beginning, the order in which the diagram is read.
   std::vector<std::size_t> order(bundle.lines.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto begin = [&](std::size_t line) {

@@ -1,21 +1,21 @@
 #pragma once
-// The lines of a Campbell diagram: the lowest modes at its last speed that swing, followed
+// The lines of a Campbell diagram: the lowest oscillating modes at its last speed, tracked
 // downwards, and those of its first speed that end before the last one.
 #include "floatframe/simulation/campbell.hpp"
 #include "floatframe/simulation/mode_following.hpp"
 
 namespace floatframe {
 
-/// Where a line ends between the speeds `interval` and `interval + 1`.
+/// End of a line between the speeds `interval` and `interval + 1`.
 struct LineEnd {
   std::size_t line = 0, interval = 0;
-  bool upwards = false;  ///< it is known at the first of the two
-  double speed = 0.0;    ///< up to which it was followed
+  bool upwards = false;  ///< it is known at the first of the two speeds
+  double speed = 0.0;    ///< up to which it was tracked
   std::complex<double> lambda;
 };
 
 struct FollowedLines {
-  /// Of each line its modes at the speeds of the diagram and at those between, where it is known.
+  /// For each line its modes at the speeds of the diagram and at intermediate speeds, where known.
   std::vector<std::map<double, std::size_t>> modes;
   std::vector<LineEnd> ends;
 };

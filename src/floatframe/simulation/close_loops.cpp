@@ -1,5 +1,5 @@
-// Closing loops: from the drawn configuration along a path to the start values; what is nearly
-// closed by the least change of the coordinates.
+// Closing loops: from the drawn configuration along a path to the start values; small gaps by the
+// least change of the coordinates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 using Given = TreeKinematics::Given;
 
-/// Up to here dense linear algebra is as fast, which takes the rows in the best order.
+/// Up to this size dense linear algebra is as fast, and takes the rows in the best order.
 constexpr int few_rows = 200;
 
 /// Least weighted change x with J x = b.
@@ -32,7 +32,7 @@ VecX least_change(const SparseRowMatrix& J, const VecX& w, const VecX& b) {
   return roots.cwiseProduct(LeastNorm(MatX(Jw), 1e-11).solve(b));
 }
 
-/// Which coordinates may move at a stage: 0 rigid coordinates without a start value, 1 modal
+/// Coordinates that may change at a stage: 0 rigid coordinates without a start value, 1 modal
 /// amplitudes too, 2 all.
 VecX mobility(const RelativeFormulation& f, int stage) {
   VecX w = VecX::Ones(f.velocities());
@@ -46,7 +46,7 @@ VecX mobility(const RelativeFormulation& f, int stage) {
   return w;
 }
 
-/// Closes positions that are nearly closed; returns the largest violation left.
+/// Closes positions with small gaps; returns the largest remaining violation.
 double close_from(RelativeFormulation& f, VecX& q, const VecX& v, double t) {
   if (f.constraints() == 0) return 0.0;
   const VecX q_start = q;
@@ -60,7 +60,7 @@ double close_from(RelativeFormulation& f, VecX& q, const VecX& v, double t) {
       kinematics_at(f, t, q, v);
       const VecX r = f.constraint_values();
       violation = largest(r);
-      // Where places are far from the origin rounding leaves more than the first limit.
+      // Far from the origin rounding exceeds the first limit.
       if (violation < 1e-14 || (violation < 1e-12 && violation > 0.5 * before)) break;
       before = violation;
       VecX x = least_change(f.constraint_rows(), w, -r);
@@ -77,8 +77,8 @@ double close_from(RelativeFormulation& f, VecX& q, const VecX& v, double t) {
   return largest(f.constraint_values());
 }
 
-/// Closes the positions with the start values of the model. False with q where it ends if they
-/// cannot be reached.
+/// Closes the positions with the start values of the model. Returns false, with q at the end of the
+/// path, if they cannot be reached.
 bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool keeps) {
   if (path.starts_as_drawn() && path.closes(q)) return true;
   const VecX drawn = path.drawn(), given = q;
@@ -94,7 +94,7 @@ bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool
     if (moves == LoopMoves::values && !path.contradictory(drawn)) break;
     q = drawn;
     if (path.follow(q, moves, keeps)) return true;
-    // What cannot be closed as drawn may close with the values given.
+    // A model that cannot be closed as drawn may close with the given values.
     if (path.drawn_closes()) continue;
     q = given;
     if (path.correct(q, moves, keeps) && path.upright(q)) return true;
@@ -102,7 +102,7 @@ bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool
   return false;
 }
 
-/// Closes the velocities; returns the largest violation left.
+/// Closes the velocities; returns the largest remaining violation.
 double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, double t) {
   f.positions(t, q);
   LoopMembers members = loop_members(f);
@@ -127,7 +127,7 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
   for (const LoopMoves moves : {LoopMoves::joints, LoopMoves::modes, LoopMoves::values}) {
     v = v_start;
     f.velocities(v);
-    std::optional<LoopEquations> equations;  // seldom needed
+    std::optional<LoopEquations> equations;  // rarely needed
     for (int pass = 0; pass < 3; ++pass) {
       f.constraint_rates(rates);
       violation = std::max(largest(rates), moves == LoopMoves::values ? 0.0 : largest(off()));
@@ -162,9 +162,9 @@ double in_unit(const ConstraintPart& part, double x) {
   return std::abs(constraint_kind(part.type).angle ? x / part.scale : x);
 }
 
-/// What contradicts what: with the Jacobian J of the constraints the part e = (I - J J+) r of the
-/// residual r is out of reach of all coordinates. Its rows belong to constraints that contradict
-/// each other. Where all but row i are met, row i misses by e_i / (I - J J+)_ii.
+/// Contradicting constraints: with their Jacobian J the part e = (I - J J+) r of the residual r
+/// cannot be changed by any coordinate. Its rows belong to constraints that contradict each other.
+/// If all but row i are satisfied, row i has the residual e_i / (I - J J+)_ii.
 std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rates) {
   const ConstraintSet& constraints = f.constraint_set();
   const MatX J = f.constraint_jacobian();
@@ -184,7 +184,7 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
       worst = k;
     }
   }
-  // Positions that one motion asks for may be out of the reach of its loop: that loop stays open.
+  // Positions prescribed by a motion may be unreachable for its loop: that loop stays open.
   if (names.empty() || (names.size() == 1 && !rates)) return {};
   const Eigen::Index row = constraints.offset(worst);
   const double own = out_of_reach(VecX::Unit(residual.size(), row))[row];
@@ -197,8 +197,8 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
                      names.size() == 1 ? "the constraints are" : "the rest is");
 }
 
-/// At the present positions, where constraints have gaps of `residual` [m; rates: m/s] and no
-/// change of the coordinates helps: "joint 'd' has a gap of 0.3 m", or that prescribed motions
+/// At the present positions, where constraints have gaps of `residual` [m; rates: m/s] that no
+/// change of the coordinates reduces: "joint 'd' has a gap of 0.3 m", or that prescribed motions
 /// contradict each other or, for rates, the constraints.
 std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool rates) {
   if (std::string text = motions_text(f, residual, rates); !text.empty()) return text;
@@ -209,7 +209,7 @@ std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool r
                      in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(part, rates));
 }
 
-/// "joint 'a' keeps its start values (keep: true)" of all joints that keep values of this level.
+/// "joint 'a' keeps its start values (keep: true)" for all joints that keep values of this level.
 std::string keepers(const Model& model, bool rates) {
   std::vector<std::string> names;
   for (const Joint& j : model.joints)
@@ -220,7 +220,7 @@ std::string keepers(const Model& model, bool rates) {
          " (keep: true)";
 }
 
-/// " (0 degrees of freedom: ...)" of loops that are locked.
+/// " (0 degrees of freedom: ...)" for locked loops.
 std::string locked_text(const Model& model) {
   std::string text;
   for (const LockedLoops& locked : model.hints.locked) text += " (" + locked.sentence + ")";

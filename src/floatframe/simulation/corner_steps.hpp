@@ -1,15 +1,15 @@
 #pragma once
 // Divides steps at the corners of functions of time (time_corners.hpp), whose instants are known:
 // the step to a corner ends with the values before it, accelerations and multipliers of the forces
-// behind it are solved for, and the rest follows. What lies within a small part of a step is moved
-// over explicitly, with the accelerations of its middle: between two corners that are so near to
-// each other a load may change by any amount. The parts of the step are made by the trapezoidal
-// rule: generalised-alpha, begun anew, errs by a part gamma (1 - alpha_f) / (1 - alpha_m) - 1/2 of
-// what a force changes by, which is not less at a smaller step where a flank is steep.
+// after it are solved for, and the rest of the step follows. An interval much shorter than a step
+// is bridged by an explicit formula, with the accelerations of its middle: between two corners so
+// close together a load may change by any amount. The parts of the step use the trapezoidal rule:
+// generalised-alpha, restarted, has an error of gamma (1 - alpha_f) / (1 - alpha_m) - 1/2 times the
+// change of the force, which a smaller step does not reduce at a steep flank.
 //
-// A corner at the end of a step belongs to this step: what is sampled there is of its right side,
-// as the functions are. Ends of steps are sums of steps, which rounding leaves on either side of
-// a corner that is written as a number: a fixed small part of a step is no distance. Nothing here
+// A corner at the end of a step belongs to this step: samples there take the right-hand limit, as
+// the functions do. Times are sums of steps, which rounding leaves on either side of a corner given
+// as a number: distances below a small fixed fraction of a step are treated as zero. Nothing here
 // allocates after construction.
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace floatframe {
 template <class F>
 class CornerSteps {
  public:
-  /// `step`: the nominal size of steps [s].
+  /// `step`: the nominal step size [s].
   CornerSteps(F& formulation, AugmentedLagrangian<F>& integrator, std::vector<TimeCorner> corners,
               double step)
       : f_(formulation),
@@ -37,15 +37,15 @@ class CornerSteps {
   const std::vector<TimeCorner>& corners() const noexcept { return corners_; }
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
 
-  /// A step of size h from time t meets a corner.
+  /// True if a step of size h from time t contains a corner.
   bool within(double t, double h) const noexcept {
     const auto next = after(t);
     return next != corners_.end() && !(next->from > t + h + slack_);
   }
 
-  /// One step of size h. `smooth(size)` makes a step of the state in which no function has a
-  /// corner; `behind()` is called at a corner, before accelerations are made anew. If it is not
-  /// accepted the state is that of the last corner that was passed.
+  /// One step of size h. `smooth(size)` makes a step in which no function has a corner; `behind()`
+  /// is called at a corner, before accelerations are solved for again. If the step is not accepted,
+  /// the state is that of the last corner that was passed.
   template <class Smooth, class Behind>
   StepAttempt step(State& state, double h, long& passed, const Smooth& smooth,
                    const Behind& behind) noexcept {
@@ -58,14 +58,14 @@ class CornerSteps {
       ++passed;
     }
     if (!reach(state, end, h, smooth, total)) return total;
-    // What was moved over has left the accelerations of its middle.
+    // An explicit move leaves the accelerations of its middle.
     if (made_ == Made::moved) integrator_.restart(state, h);
     state.t = end;
     return total;
   }
 
  private:
-  /// Parts of a step: what is made as a step, and what is rounding of the time.
+  /// Fractions of a step: the shortest that is made as a step, and the rounding of time.
   static constexpr double shortest = 0.02, rounding = 1e-10;
 
   enum class Made { nothing, moved, stepped };
@@ -75,13 +75,13 @@ class CornerSteps {
                             [](double x, const TimeCorner& c) { return x < c.to; });
   }
 
-  /// The last time before a corner that rounding of a step from t does not take beyond it.
+  /// The latest time before a corner that a step from t does not exceed by rounding.
   static double before(double corner, double t, double h) noexcept {
     return corner - 4.0 * std::numeric_limits<double>::epsilon() *
                         std::max(std::abs(corner), std::abs(t) + h);
   }
 
-  /// To the time `to`. False: the step there was not accepted.
+  /// Steps to the time `to`. Returns false if the step was not accepted.
   template <class Smooth>
   bool reach(State& state, double to, double h, const Smooth& smooth, StepAttempt& total) noexcept {
     const double dt = to - state.t;
@@ -112,7 +112,7 @@ class CornerSteps {
     if (watch_.look) {
       kinematics_at(f_, state);
       f_.forces();
-      // Multipliers that a state restored elsewhere has, too.
+      // Multipliers that are available in a restored state, too.
       watch_(state, made_ == Made::stepped ? integrator_.reactions() : state.lambda);
     }
     if (c.to > c.from) move_(state, c.to - state.t, h);

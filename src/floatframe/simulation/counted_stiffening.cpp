@@ -17,12 +17,12 @@
 namespace floatframe {
 namespace {
 
-/// Part of the stiffness of a body below which that of its loads is not counted in.
+/// Fraction of the stiffness of a body below which that of its loads is neglected.
 constexpr double least_part = 1e-6;
 
 bool lacks_nodes(const Body& b) { return b.data->projection && b.data->projection->h.size() == 0; }
 
-/// Geometric stiffening is possible, perhaps by preprocessing in place of projection.
+/// True if geometric stiffening is possible, perhaps by preprocessing instead of projection.
 bool can_stiffen(const Model& model, const Body& b) {
   if (b.modes() == 0 || !b.data->second_order) return false;
   if (model.simulation.inertia != InertiaMethod::projection || !lacks_nodes(b)) return true;
@@ -64,7 +64,7 @@ void name_bodies(CountedStiffening& c) {
                          named_bodies(c.bodies));
 }
 
-/// Bodies of which it can be computed what geometric stiffening does: with it, or without.
+/// Bodies for which the effect of geometric stiffening can be computed: with it, or without.
 Model stiffened(const Model& model, bool with) {
   Model out = model;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
@@ -73,7 +73,7 @@ Model stiffened(const Model& model, bool with) {
   return out;
 }
 
-/// d(M a - Q + Phi_q^T lambda)/dy of the amplitudes of bodies where a model has started.
+/// d(M a - Q + Phi_q^T lambda)/dy for the amplitudes of bodies in a started model.
 class ModalStiffness {
  public:
   ModalStiffness(const Model& model, const State& state)
@@ -113,12 +113,12 @@ class ModalStiffness {
   VecX a_, steps_;
 };
 
-/// The start of the model, and what loads and spin do to the stiffness of its bodies there.
+/// The start of the model, and the effect of loads and spin on the stiffness of its bodies there.
 class OperatingPoint {
  public:
   explicit OperatingPoint(const Model& model) : model_(model), start_(model, model.simulation) {}
 
-  /// The largest part of its stiffness that geometric stiffening changes in a body.
+  /// The largest relative change of the stiffness of a body by geometric stiffening.
   double part(std::size_t body) {
     if (!with_) {
       with_.emplace(stiffened(start_.model(), true), start_.state());
@@ -145,7 +145,7 @@ class OperatingPoint {
   std::optional<ModalStiffness> with_, without_;
 };
 
-/// A body that is asked to do without, or cannot have it.
+/// A body for which it is switched off or not available.
 void note_body(const Model& model, std::size_t body, OperatingPoint& at,
                std::vector<std::string>& notes) {
   const Body& b = model.bodies[body];

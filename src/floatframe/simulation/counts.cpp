@@ -14,9 +14,9 @@
 namespace floatframe {
 namespace {
 
-/// Wheels that hang far above their road or stand deep in it, where `f` is.
+/// Wheels far above their road or deep in it, at the state of `f`.
 void note_wheel_heights(const RelativeFormulation& f, std::vector<std::string>& notes) {
-  constexpr double high = 3.0, low = 0.6;  // of the radius
+  constexpr double high = 3.0, low = 0.6;  // relative to the radius
   const Model& model = f.model();
   for (const Force& tyre : model.forces) {
     if (tyre.road < 0) continue;
@@ -34,8 +34,8 @@ void note_wheel_heights(const RelativeFormulation& f, std::vector<std::string>& 
   }
 }
 
-/// Whether a run would start from an equilibrium that does not last. What else keeps it from
-/// starting, the run says.
+/// Checks whether a run would start from an unstable equilibrium. Other errors of the start are
+/// reported by the run.
 void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
   if (model.simulation.start != Start::equilibrium) return;
   constexpr int most = 300;  // unknowns: a check takes a moment
@@ -53,10 +53,10 @@ void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
   }
 }
 
-/// A toggle that is so near to straight has forces a hundred thousand times its loads.
+/// A toggle this close to straight has forces a hundred thousand times its loads.
 constexpr double nearly_singular = 1e-5;
 
-/// Reactions that no load explains.
+/// Reactions that are not explained by loads.
 bool out_of_proportion(const Model& model, const StaticsResult& s) {
   constexpr double most = 1e4;
   double load = 0.0, reaction = 0.0;
@@ -69,7 +69,7 @@ bool out_of_proportion(const Model& model, const StaticsResult& s) {
 }  // namespace
 
 ModelCounts check(const Model& model) {
-  started_model(built(model), model.simulation);  // a state of another model is refused as by a run
+  started_model(built(model), model.simulation);  // rejects a state of another model, as a run
   RelativeFormulation relative(model, model.simulation.inertia);
   const AbsoluteFormulation absolute(model, model.simulation.inertia);
   ModelCounts c;
@@ -83,7 +83,7 @@ ModelCounts check(const Model& model) {
   c.absolute = absolute.counts();
   // Rank at the assembled start, with position constraints only.
   State start = relative_start(relative, Start::given, &c.start);
-  // A singular mass matrix shows here.
+  // A singular mass matrix is detected here.
   const double penalty_mass = default_penalty_mass(model, Coordinates::relative);
   if (start_accelerations(relative, start, penalty_mass) && model.simulation.spectral_radius == 1.0)
     std::ranges::move(massless_notes(relative, start, penalty_mass),

@@ -1,4 +1,4 @@
-// The dense linear algebra of start accelerations, and what it says when it cannot find them.
+// The dense linear algebra of start accelerations, and its error messages.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ struct Motions {
 
 Motions motions(const MatX& J, const VecX& gamma, const VecX& possible) {
   const Eigen::Index nv = possible.size();
-  // In coordinates of like size: rows of lengths, angles and amplitudes have no rank in common.
+  // In coordinates of similar magnitude: rows of lengths, angles and amplitudes would mix scales.
   const VecX unit = possible.cwiseSqrt().cwiseInverse();
   if (J.rows() == 0 || nv == 0) return {VecX::Zero(nv), unit.asDiagonal()};
   // J^T P = Q R: the leading columns of Q span the rows of J, the others its null space.
@@ -43,14 +43,14 @@ Motions motions(const MatX& J, const VecX& gamma, const VecX& possible) {
   return {unit.cwiseProduct(a_p), unit.asDiagonal() * qr.Q.rightCols(nv - qr.rank)};
 }
 
-/// Directions without mass that nothing holds, of the columns of Z: N^T M N z = 0 for each of them.
+/// Unrestrained massless directions among the columns of Z: N^T M N z = 0 for each of them.
 ///
-/// What holds a direction n is the change of the work n^T r along the motion, and the direction
-/// turns with the motion: where J n = 0 and M n = 0 stay so, a point mass whose body frame lies
-/// elsewhere can turn freely, although gravity has a moment about its frame. So with ' along Z_j
+/// The stiffness of a direction n is the change of the work n^T r along the motion, and the
+/// direction rotates with it: while J n = 0 and M n = 0 hold, a point mass with a distant body
+/// frame can rotate freely, although gravity has a moment about its frame. So with ' along Z_j
 ///   H_ij = Z_i^T r' + n_i'^T r,   n_i' = nJ + N y,   J nJ = -J' Z_i,
 ///   N^T M N y = -N^T (M' Z_i + M nJ).
-/// One direction alone says little: a combination of two that are held may be free.
+/// Single directions are not sufficient: a combination of two restrained ones may be free.
 MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const MatX& N,
                       const MatX& half_inverse, const MatX& Z, const NeighbourAt& neighbour) {
   constexpr double step = 1e-6;
@@ -61,14 +61,14 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
   const VecX u = J.rows() > 0 ? LeastNorm(J.transpose(), 1e-11).solve(VecX(r - mass * w)) : VecX();
   MatX H(k, k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    // On both sides: along the bend of a bar that turns about itself the parts of H cancel, and
-    // what one side alone is off by, the lightest of the other motions would magnify.
+    // On both sides: along the bend of a bar that rotates about itself the parts of H cancel, and
+    // the error of a one-sided difference would be amplified by the lightest of the other motions.
     const Neighbour there = neighbour(step * Z.col(j), Z), back = neighbour(-step * Z.col(j), Z);
     H.col(j) = Z.transpose() * (there.r - back.r) - (there.MZ - back.MZ).transpose() * w;
     if (J.rows() > 0) H.col(j) -= (there.JZ - back.JZ).transpose() * u;
   }
   H /= 2.0 * step;
-  // Finite differences leave noise of the size of the forces times the step.
+  // Finite differences have noise of the magnitude of the forces times the step.
   const double noise = 1e-5 * (1.0 + r.lpNorm<Eigen::Infinity>()) + 1e-9 * H.cwiseAbs().maxCoeff();
   const SymmetricEigen eig = symmetric_eigen(0.5 * (H + H.transpose()));
   Eigen::Index loose = 0;
@@ -142,7 +142,7 @@ std::string named_text(const char* one, const char* many, const std::vector<std:
 std::string loose_sentence(const Model& model, const std::vector<std::size_t>& bodies,
                            const std::string& owner) {
   std::vector<std::string> names, points;
-  bool bars = false;  // or bodies that are like them
+  bool bars = false;  // or bodies like bars
   for (const std::size_t i : bodies) {
     const Body& b = model.bodies[i];
     const InertiaInvariants& v = b.data->invariants;
@@ -188,7 +188,7 @@ void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const Ve
   const Eigen::Index nv = mass.rows(), nc = J.rows();
   const Motions m = motions(J, gamma, possible);
   a = m.a_p;
-  // Nothing is left where the constraints prescribe all motion, whatever the masses.
+  // The constraints prescribe all motion: the masses do not matter.
   if (m.N.cols() > 0) a += m.N * free_accelerations(mass, possible, J, force, m, neighbour, loose);
   lambda = VecX::Zero(nc);
   if (nc == 0 || nv == 0) return;

@@ -1,19 +1,19 @@
 #pragma once
-// Divides steps where the law of a force goes from one branch to another
-// (model/force_evaluation.hpp): across such an edge the force or its slope jumps, and a step over
-// it is of first order only.
+// Divides steps where the law of a force changes its branch (model/force_evaluation.hpp): across
+// such an edge the force or its slope jumps, and an undivided step over it is only of first
+// order.
 //
-// A step is made with the branches of its beginning, on which all forces are smooth. If a force has
+// A step is made with the branches at its beginning, on which all forces are smooth. If a force has
 // left its branch at the end, the time of the first edge is found by a secant rule with steps from
-// the same beginning (regula falsi with the Illinois weights), to a part `close` of the step. That
-// step is kept, the force changes its branch, accelerations and multipliers of the new forces are
-// solved for, and the rest of the step is made. An edge next to the beginning, and the end next to
-// an edge, are reached by an explicit move (explicit_move.hpp).
+// the same beginning (regula falsi with the Illinois weights), to a fraction `close` of the step.
+// That step is kept, the force changes its branch, accelerations and multipliers of the new forces
+// are solved for, and the rest of the step is made. An edge close to the beginning, and an end
+// close to an edge, are reached by an explicit move (explicit_move.hpp).
 //
-// What leaves its branch and comes back within a step is looked for in the middle of the step, on
-// the cubic through both ends; seen there, half the step is made. What comes back within half a
-// step is not seen. A step with more than `most_edges` of them (a wheel that rests on an edge) is
-// finished as without this.
+// A force that leaves its branch and returns within a step is looked for in the middle of the step,
+// on the cubic through both ends; if one is found there, half the step is made. A return within
+// half a step is not detected. A step with more than `most_edges` of them (a wheel resting on an
+// edge) is finished without division.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -46,7 +46,7 @@ class EdgeLocator {
 
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
 
-  /// Branches of this place.
+  /// Holds the branches of the forces at this state.
   void hold(const State& state) noexcept {
     f_.hold_force_branches(free_);
     look(state, here_);
@@ -54,7 +54,7 @@ class EdgeLocator {
       f_.hold_force_branch(forces_[k], here_[k].next);
   }
 
-  /// One step of size h. If it is not accepted the state is that of the last edge that was passed.
+  /// One step of size h. If it is not accepted, the state is that of the last edge that was passed.
   StepAttempt step(State& state, double h, long& edges, long& passed) noexcept {
     if (forces_.empty()) return integrator_.step(state, h);
     const double end = state.t + h;
@@ -78,7 +78,7 @@ class EdgeLocator {
         attempt(state, 0.5 * left, total);
         if (!total.accepted()) return total;
         look(state, here_);
-        if (earliest(here_, 0.5, none).force == none) continue;  // it was no more than a guess
+        if (earliest(here_, 0.5, none).force == none) continue;  // the prediction was wrong
         last_ = here_;
         span = 0.5;
       } else if (earliest(last_, 1.0, none).force == none) {
@@ -103,8 +103,8 @@ class EdgeLocator {
  private:
   static constexpr int most_edges = 16, most_passes = 20;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  static constexpr double shortest = 0.02;  ///< of the step: what is made as a step
-  static constexpr double close = 1e-6;     ///< of the step: by which an edge may be missed
+  static constexpr double shortest = 0.02;  ///< of the step: the shortest that is made as a step
+  static constexpr double close = 1e-6;     ///< of the step: tolerance of the located edge
   using Sides = std::vector<ForceSide>;
 
   struct Crossing {
@@ -117,7 +117,7 @@ class EdgeLocator {
     for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.force_side(forces_[k]);
   }
 
-  /// In the middle of a step of size h, from `from_` to the state.
+  /// Looks in the middle of a step of size h, from `from_` to the state.
   void look_between(const State& state, double h) noexcept {
     x_ = (0.125 * h) * (3.0 * from_.v + state.v);
     f_.retract(from_.q, x_, q_);
@@ -152,7 +152,7 @@ class EdgeLocator {
     b.lambda = a.lambda;
   }
 
-  /// By straight lines from the beginning to `sides`, at `at`; `but`: not this one.
+  /// By linear interpolation from the beginning to `sides`, at `at`; `but`: the force to skip.
   Crossing earliest(const Sides& sides, double at, std::size_t but) const noexcept {
     Crossing c;
     for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -164,14 +164,14 @@ class EdgeLocator {
     return c;
   }
 
-  /// Brings the state to the first edge. False: a step to it was not accepted, and the state is
-  /// that of the beginning.
+  /// Moves the state to the first edge. Returns false if a step to it was not accepted; the state
+  /// is then that of the beginning.
   bool locate(State& state, double h, double left, double span, StepAttempt& total) noexcept {
     const double enough = close * h / left;
     std::size_t force = earliest(last_, span, none).force;
     double low = 0.0, high = span;
     double low_side = std::min(first_[force].beyond, 0.0), high_side = last_[force].beyond;
-    int idle = 0;  // how often in a row the other end stayed: > 0 the upper one
+    int idle = 0;  // passes in a row that kept the other end: > 0 the upper one
     for (int pass = 0; pass < most_passes; ++pass) {
       const double at = low + (high - low) * low_side / (low_side - high_side);
       return_to(state);
@@ -182,7 +182,7 @@ class EdgeLocator {
         attempt(state, at * left, total);
       if (!total.accepted()) return false;
       look(state, here_);
-      // On a curve another one may come first.
+      // The event functions are curved: another edge may be first.
       const Crossing other = earliest(here_, at, force);
       if (other.force != none && other.at < at - 2.0 * enough) {
         force = other.force;
@@ -196,7 +196,7 @@ class EdgeLocator {
       const double side = here_[force].beyond;
       const double slope = (last_[force].beyond - first_[force].beyond);
       const double distance = high - low;
-      // The line through the bracket says how far the edge is.
+      // The secant through the bracket estimates the distance of the edge.
       const double gap = std::abs(side) * distance / (high_side - low_side);
       if (gap <= enough || !(std::abs(side) > 1e-15 * std::abs(slope))) break;
       if (side > 0.0) {
@@ -216,13 +216,13 @@ class EdgeLocator {
     return true;
   }
 
-  /// The force that was found, and all that are at an edge too, change their branches.
+  /// The located force, and all others that are at an edge as well, change their branches.
   void pass(State& state, double h) noexcept {
     f_.forces();
-    // Multipliers that a state restored elsewhere has, too.
+    // Multipliers that are available in a restored state, too.
     watch_(state, moved_ ? state.lambda : integrator_.reactions());
     for (std::size_t k = 0; k < forces_.size(); ++k) {
-      const double way = last_[k].beyond - first_[k].beyond;  // in the step as it was first made
+      const double way = last_[k].beyond - first_[k].beyond;  // in the first attempt at the step
       const bool at_edge = last_[k].beyond > 0.0 && std::abs(here_[k].beyond) <= near_ * way;
       if (k == found_ || at_edge) f_.hold_force_branch(forces_[k], here_[k].next);
     }

@@ -1,15 +1,15 @@
 #pragma once
-// Energy balance of a run: the change of kinetic, potential and elastic energy against the work of
-// all that puts energy in or takes it out,
+// Energy balance of a run: the change of kinetic, potential and elastic energy compared with the
+// work of everything that adds or removes energy,
 //   remainder(t) = E(t) - E(0) - sum W_k(t),   W_k = int P_k dt,
-// with the powers taken after every accepted step and summed by the trapezoidal rule. Springs,
-// gravity and modal stiffness are part of E; constraints do no work but for prescribed motions,
-// whose power is sum lambda dPhi/dt with the multipliers of the projected accelerations. The energy
-// kept in tyres jumps with the steps of a road and where their dampers let them go; its changes
-// count as work of the tyres, besides that of their forces; and so those of springs whose target
-// jumps, a set point or an input, count as work of the actuators. What remains is the error of the
-// integration, of order h^2, and with a spectral radius below 1 what the integrator dissipates.
-// Nothing here allocates.
+// with the powers evaluated after every accepted step and integrated by the trapezoidal rule.
+// Springs, gravity and modal stiffness are part of E; constraints do no work except prescribed
+// motions, whose power is sum lambda dPhi/dt with the multipliers of the projected accelerations.
+// The energy stored in tyres jumps at the steps of a road and where their dampers make them lose
+// contact; these changes count as work of the tyres, in addition to that of their forces. Likewise
+// changes of springs whose target jumps, a set point or an input, count as work of the actuators.
+// The remainder is the integration error, of order h^2, and for a spectral radius below 1 the
+// dissipation of the integrator. Nothing here allocates.
 #include <algorithm>
 #include <cmath>
 
@@ -26,14 +26,14 @@ inline double wrench_power(const Force& force, const WrenchRow& w, const MarkerS
   return power;
 }
 
-/// Powers [W], positive into the system, and what the tyres and springs whose target may jump keep
-/// [J].
+/// Powers [W], positive into the system, and the energies stored in tyres and in springs whose
+/// target may jump [J].
 struct FlowSample {
   EnergyFlows power;
   double tyres = 0.0, targeted = 0.0;
 };
 
-/// Between two steps, or within one.
+/// True if the target may jump, between two steps or within one.
 inline bool target_may_jump(const Force& force) noexcept {
   return force.targeted &&
          (force.target.input >= 0 || !force.target.function.pieces.breaks().empty());
@@ -50,7 +50,7 @@ FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
     const ForceState& s = f.force(static_cast<int>(k));
     const MarkerState& b = f.marker(force.b);
     const MarkerState& a = force.a >= 0 ? f.marker(force.a) : b;
-    // What the wrench does and the spring does not keep or give.
+    // Power of the wrench that the spring neither stores nor releases.
     const double rest = wrench_power(force, s.wrench, a, b) + s.energy_rate;
     const EnergyCategory category = energy_category(force.type);
     if (category == EnergyCategory::tyres) {
@@ -76,13 +76,13 @@ class EnergyBalance {
  public:
   struct Energies {
     double kinetic = 0.0, potential = 0.0, elastic = 0.0;
-    double motion = 0.0;   ///< kinetic, if all mass moved as fast as the outermost may
-    double present = 0.0;  ///< what errors of the step may be small beside
-    double gravity = 0.0, springs = 0.0, tyres = 0.0;  ///< what `potential` consists of
+    double motion = 0.0;   ///< kinetic, if all mass moved at the largest possible speed
+    double present = 0.0;  ///< reference of the errors of a step
+    double gravity = 0.0, springs = 0.0, tyres = 0.0;  ///< terms of `potential`
     double total() const noexcept { return kinetic + potential + elastic; }
   };
 
-  /// `noise`: energy that means nothing [J].
+  /// `noise`: energies below it are insignificant [J].
   void start(double t, const FlowSample& flows, const Energies& e, double noise) noexcept {
     time_ = t;
     noise_ = noise;
@@ -93,7 +93,7 @@ class EnergyBalance {
     check(t, e);
   }
 
-  /// After every step.
+  /// To be called after every step.
   void advance(double t, const FlowSample& flows) noexcept {
     const double half = 0.5 * (t - time_);
     for (std::size_t k = 0; k < EnergyFlows::size(); ++k) {
@@ -135,11 +135,11 @@ class EnergyBalance {
   /// With the energies at that time.
   double remainder(const Energies& e) const noexcept { return e.total() - start_ - work_.total(); }
 
-  /// What the remainder is measured against [J]: the largest of the ranges of the energies and of
-  /// the amounts of work, and at least a millionth of the largest energy and the noise, below which
-  /// the tolerances of the solver show. Of a motion that has little energy itself the work of its
-  /// drive is the rounding of a multiplier: penalty (1e5 masses) times 1e-16 of the acceleration,
-  /// 1e-11 of `motion` per radian turned.
+  /// Reference value of the remainder [J]: the largest of the ranges of the energies and of the
+  /// amounts of work, and at least a millionth of the largest energy and the noise, below which the
+  /// tolerances of the solver are visible. In a motion with little energy the work of its drive is
+  /// the rounding of a multiplier: penalty (1e5 masses) times 1e-16 of the acceleration, 1e-11 of
+  /// `motion` per radian turned.
   double exchanged() const noexcept {
     double most = std::max({high_.kinetic - low_.kinetic, high_.potential - low_.potential,
                             high_.elastic - low_.elastic});
@@ -161,7 +161,7 @@ class EnergyBalance {
     out.largest_growth_to = growth_to_;
   }
 
-  /// For a run that goes on elsewhere (state_bytes.hpp).
+  /// For runs that are continued elsewhere (state_bytes.hpp).
   template <class Stream>
   void serialize(Stream& s) {
     for (double* x :

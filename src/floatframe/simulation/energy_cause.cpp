@@ -45,7 +45,7 @@ class CauseFinder {
       if (e < from_ || e > to_) continue;
       const EdgeSides s = edge_sides(f.pieces, e);
       const double jump = s.right.df - s.left.df;
-      // What it would pass in ten steps, against what it does in all.
+      // The path in ten steps at this velocity, relative to the total range.
       const double share = 10.0 * step_ * std::abs(jump) / std::max(range, 1e-300);
       if (std::abs(s.right.f - s.left.f) > 1e-6 * range)
         offer(1.0 + share,
@@ -60,8 +60,8 @@ class CauseFinder {
     }
   }
 
-  /// Values that steps sample as they are (time_corners.hpp): a good part of the whole way of
-  /// a table within one of them. Jumps that steps are divided at are resolved.
+  /// Jumps of values that are only sampled by steps (time_corners.hpp): a large part of the total
+  /// variation of a table within one step. Jumps at which steps are divided are resolved.
   void sampled(const std::string& name, const TimeFunction& f, const char* unit) {
     const std::vector<double>& breaks = f.pieces.breaks();
     if (breaks.empty()) return;

@@ -1,6 +1,6 @@
-// Static equilibrium in relative coordinates: Newton with the tangent of steps, which costs little
-// more than a step; with a tangent of finite differences where that stalls, since the tangent of
-// steps lacks the stiffness of gravity; then a downhill search.
+// Static equilibrium in relative coordinates: Newton with the tangent of steps, at little more than
+// the cost of a step; with a finite-difference tangent if that stalls, since the tangent of steps
+// lacks the stiffness of gravity; then a downhill search.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,13 +32,13 @@ class Statics {
     const VecX rest = evaluate(q, lambda);
     mass_ = mass_matrix(f_, VecX::Ones(f_.velocities()), rest, lambda);
   }
-  /// Where the model is: r, phi.
+  /// Evaluates the model at its present state: r, phi.
   void look(const VecX& q, const VecX& lambda) {
     r = evaluate(q, lambda);
     phi = f_.constraint_values();
     weight = acting();
   }
-  /// The same with J and K. `first`: least-squares multipliers instead of those given.
+  /// The same with J and K. `first`: least-squares multipliers instead of the given ones.
   void linearise(const VecX& q, VecX& lambda, bool first) {
     r = evaluate(q, lambda);
     J = f_.constraint_jacobian();
@@ -52,9 +52,9 @@ class Statics {
     at_.lambda = lambda;
     K = stiffness_matrix(f_, at_);
   }
-  /// What is out of balance or open where `linearise` was.
+  /// Imbalance and gaps at the state of `linearise`.
   double size() const { return largest(r) + 1e3 * weight * largest(phi); }
-  /// As `step`, by the tangent of steps where `look` was.
+  /// As `step`, with the tangent of steps at the state of `look`.
   bool step_by_tangent(double mu, VecX& dx, VecX& dlambda) {
     constexpr double s = 1e-4;  // [s2], as in steps of some 10 ms
     if (f_.factorize(mu * s, 0.0, s, penalty_mass_ / s) >= 0) return false;
@@ -89,10 +89,10 @@ class Statics {
 
   VecX r, phi;
   MatX J, K;
-  double weight = 0.0;  ///< the largest force that acts there, what balance is measured against [N]
+  double weight = 0.0;  ///< the largest acting force, the reference of the imbalance [N]
 
  private:
-  /// Of the weight and the forces where `f` is.
+  /// Magnitude of the weight and the forces at the state of `f`.
   double acting() const {
     double most = own_weight_;
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
@@ -108,7 +108,7 @@ class Statics {
   MatX mass_;
 };
 
-/// The best state met in a search.
+/// The best state of a search so far.
 struct Best {
   VecX q, lambda;
   double size = std::numeric_limits<double>::infinity();
@@ -129,12 +129,12 @@ struct Best {
   bool accepted() const { return size < 1e-7 * weight; }
 };
 
-/// Above, finite differences take minutes: the tangent of steps is used even where it converges
+/// Above it finite differences take minutes: the tangent of steps is used even if it converges
 /// slowly.
 constexpr long few_unknowns = 1000;
 
-/// Newton with the tangent of steps. Up to `few_unknowns` only as long as each iteration halves the
-/// residual: this converges to the equilibrium that the next search would find, which takes over
+/// Newton with the tangent of steps. Up to `few_unknowns` only while each iteration halves the
+/// residual: this converges to the same equilibrium as the next search, which takes over
 /// otherwise.
 void approach_by_tangent(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda,
                          int& iterations, Best& best) {
@@ -165,7 +165,7 @@ void approach_by_tangent(RelativeFormulation& f, Statics& statics, VecX q, VecX 
   }
 }
 
-/// Pseudo-transient Newton: quick where the start is near, and finds equilibria of any kind.
+/// Pseudo-transient Newton: fast close to the solution, and finds equilibria of any kind.
 void approach(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int& iterations,
               Best& best) {
   double mu = 1.0;  // [1/s2]: (mu M + K) x = -r
@@ -188,7 +188,7 @@ void approach(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int
 }
 
 /// Downhill, for starts far from equilibrium, where the residual must grow before it vanishes: a
-/// step is taken if the forces did work along it, (g(q) + g(q + dx)).dx < 0 with g the residual
+/// step is accepted if the forces did work along it, (g(q) + g(q + dx)).dx < 0 with g the residual
 /// without multipliers; otherwise mu grows until the step follows -M^-1 g.
 void descend(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int& iterations,
              Best& best) {
@@ -213,7 +213,7 @@ void descend(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int&
     const double size1 = largest(r1) + 1e3 * statics.weight * largest(f.constraint_values());
     const VecX g1 = statics.evaluate(q1, none);
     const double start = g.dot(dx), work = 0.5 * (start + g1.dot(dx));
-    // Closing constraints and the last digits do not follow the work.
+    // The closing of constraints and the last digits do not follow the work.
     const bool downhill = start < 0.0 && work < 0.0;
     const bool closer = size1 < 0.5 * size && size1 < 1e-3 * statics.weight;
     moved = downhill || closer;
@@ -228,8 +228,8 @@ void descend(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int&
   }
 }
 
-/// A vehicle on a road is in balance wherever it stands: free bodies go back to their start in the
-/// horizontal directions that the equilibrium does not care about.
+/// A vehicle on a road is in equilibrium at any position: free bodies are moved back to their start
+/// in the horizontal directions on which the equilibrium does not depend.
 template <class Evaluate>
 void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, double residual,
                             double weight, const Evaluate& evaluate) {

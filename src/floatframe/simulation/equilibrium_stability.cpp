@@ -1,12 +1,12 @@
-// Whether an equilibrium is stable. On the motions N z that the constraints leave free,
+// Stability of an equilibrium. On the motions N z that satisfy the constraints,
 //   N^T M N zddot + N^T K N z = 0,  K with the geometric stiffness of forces and multipliers,   (1)
-// grows without swinging, as e^(s t), if z^T K z = -s^2 z^T M z < 0 for some z; where K is not
-// symmetric (loads that follow, slopes), if (1) has a negative eigenvalue. K is of finite
-// differences, whose rounding is large beside small stiffnesses where other parts are stiff: what
-// is found counts only if the forces along that motion alone say the same.
+// grows without oscillation, as e^(s t), if z^T K z = -s^2 z^T M z < 0 for some z; where K is not
+// symmetric (following loads, slopes), if (1) has a negative eigenvalue. K is computed by finite
+// differences, whose rounding is large compared with small stiffnesses if other parts are stiff: a
+// result counts only if the forces along that motion alone confirm it.
 //
-// Most equilibria are clearly stable, which is cheaper to see: the tangent T of steps, with 1/s2
-// times the mass added, has no negative pivot, and K is positive definite on all soft motions of T
+// Most equilibria are clearly stable, which is cheaper to prove: the tangent T of steps, plus 1/s2
+// times the mass, has no negative pivot, and K is positive definite on all soft motions of T
 // (subspace iteration; finite differences along these only). T lacks the stiffness of gravity,
 // which can make only soft motions unstable.
 #include <fmt/format.h>
@@ -22,9 +22,9 @@
 namespace floatframe {
 namespace {
 
-/// Dense eigenvalues: seconds at this size, of general matrices at that.
+/// Dense eigenvalues, also of general matrices: seconds at this size.
 constexpr int most_unknowns = 1000, most_unsymmetric = 200;
-/// Slower growth than by e in a quarter of an hour is none [1/s2].
+/// Growth slower than by a factor e in a quarter of an hour is neglected [1/s2].
 constexpr double least_growth = 1e-6;
 
 /// The real negative eigenvalue of K x = lambda M x that is farthest from zero, with its vector.
@@ -70,9 +70,9 @@ void orthonormalise(MatX& X, const VecX& mass) {
   }
 }
 
-/// Subspace iteration for the softest motions of T, which is factorised in `slot` and holds `scale`
-/// times mass and stiffness. Returns about the stiffness per mass of the stiffest motion found
-/// [1/s2]: softer ones are not missing.
+/// Subspace iteration for the softest motions of T, which is factorised in `slot` and contains
+/// `scale` times mass and stiffness. Returns an estimate of the stiffness per mass of the stiffest
+/// motion found [1/s2]: all softer ones are found.
 double find_softest(RelativeFormulation& f, const VecX& mass, double scale, int slot, MatX& X) {
   constexpr int rounds = 3;
   for (Eigen::Index j = 0; j < X.cols(); ++j)
@@ -106,7 +106,7 @@ MatX stiffness_of(RelativeFormulation& f, const State& s, const MatX& X) {
   return 0.5 * (K + K.transpose());
 }
 
-/// The quick way above: true if nothing can be unstable.
+/// The fast check above: true if no motion can be unstable.
 bool surely_stable(RelativeFormulation& f, const State& s, const VecX& possible) {
   constexpr double scale = 1e-4;  // [s2], of T
   // Well above the negative stiffness of gravity per mass, g over the radius of gyration of a body:
@@ -149,7 +149,7 @@ std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const Ve
   if (!mass.allFinite() || !J.allFinite() || !K.allFinite()) return "";
   const MatX N = free_motions(J, possible);
   if (N.cols() == 0) return "";
-  // What has no mass falls over at once: a little of what it could have.
+  // A massless direction would be unstable at once: adds a small part of its possible mass.
   const MatX own = N.transpose() * mass * N;
   const MatX M =
       0.5 * (own + own.transpose()) +

@@ -42,7 +42,7 @@ ExcitedSystem<F>::ExcitedSystem(InitialisedModel<F>& started, std::vector<Output
                                        !started.report().redundant.empty()});
   const VecX still = VecX::Zero(f_.velocities());
   if (state_.a.size() != still.size()) state_.a = still;
-  this->outputs(still, still, still);  // angles over turns go on from here
+  this->outputs(still, still, still);  // angles over several turns are continued from here
 }
 
 template <class F>
@@ -73,7 +73,7 @@ void ExcitedSystem<F>::move(const LinearInput& input, const Vec3& by) {
     f_.set_inputs(moved);
   } else if (input.kind == LinearInput::Kind::motion) {
     const PiecewisePolynomial::Value v = evaluate(laws_[k], state_.t);
-    // In place: constraints point at the law.
+    // In place: constraints have pointers to the law.
     *model_.joints[k].motion = parabola(state_.t, Vec3(v.f, v.df, v.ddf) + by);
   } else {
     for (const int wheel : input.wheels)

@@ -1,7 +1,7 @@
 #pragma once
-// A model whose inputs can be moved about the values they have: external signals, laws of
-// prescribed motions, roads that are lifted under each wheel, each with its first and second
-// derivative at the present time. It has a copy of the model, so that nobody else sees it, and
+// A model whose inputs can be varied about their values: external signals, laws of prescribed
+// motions, roads that are lifted under each wheel, each with its first and second derivative at the
+// present time. It works on a copy of the model, so that the original is not modified, and has
 // outputs with reactions that satisfy the equations of motion. Load time only.
 #include <optional>
 #include <vector>
@@ -18,7 +18,7 @@ namespace floatframe {
 template <class F>
 class ExcitedSystem {
  public:
-  /// At the start that was found, with these outputs alone.
+  /// At the start state that was found, with these outputs only.
   ExcitedSystem(InitialisedModel<F>& started, std::vector<Output> outputs, double step);
   ExcitedSystem(const ExcitedSystem&) = delete;
   ExcitedSystem& operator=(const ExcitedSystem&) = delete;
@@ -28,13 +28,13 @@ class ExcitedSystem {
   const std::vector<std::string>& open_outputs() const noexcept;
 
   double value(const LinearInput& input) const;
-  /// The input by this much from its value, its rate and its second derivative; zeros put it back.
+  /// Moves the input by this much from its value, rate and second derivative; zeros reset it.
   void move(const LinearInput& input, const Vec3& by);
-  /// What it does where x, v, a and lambda are held: `step` as a change of the input.
+  /// Derivatives at constant x, v, a and lambda: `step` as a change of the input.
   void derivatives(const LinearInput& input, double step, Eigen::Index column, InputMotions& out);
-  /// Of a signal: a step that changes forces by 1e-4 of the weight of a body or so.
+  /// For a signal: a step that changes forces by about 1e-4 of the weight of a body.
   double step_of(const LinearInput& input);
-  /// At increments x, dv and da of the state.
+  /// Outputs at increments x, dv and da of the state.
   VecX outputs(const VecX& x, const VecX& dv, const VecX& da);
 
  private:
@@ -43,7 +43,7 @@ class ExcitedSystem {
   Model model_;
   F f_;
   State state_;
-  std::vector<TimeFunction> laws_;  ///< of the joints as they are
+  std::vector<TimeFunction> laws_;  ///< original laws of the joints
   std::vector<double> inputs_;
   std::optional<ReactionSolver<F>> reactions_;
   std::vector<FollowedOutput> followed_;

@@ -1,10 +1,10 @@
 #pragma once
-// A motion over a small part of a step by a single explicit formula. A step so short would turn
-// what the tolerances leave of constraints into accelerations. Each coordinate moves as an
-// oscillator of its own frequency omega by the trapezoidal rule,
+// A motion over a small fraction of a step by a single explicit formula. A regular step of that
+// size would convert constraint residuals within the tolerances into accelerations. Each coordinate
+// moves as an uncoupled oscillator of frequency omega by the trapezoidal rule,
 //   v1 (1 + omega^2 dt^2/4) = v (1 - omega^2 dt^2/4) + dt a,   x = dt (v + v1)/2
-// which is v + dt a where it has none, and then velocities are projected onto the constraints. The
-// error is of second order in the time that is moved over.
+// which is v + dt a for omega = 0; then velocities are projected onto the constraints. The error is
+// of second order in the length of the move.
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
 namespace floatframe {
@@ -18,7 +18,7 @@ class ExplicitMove {
     q_ = VecX::Zero(f_.configurations());
   }
 
-  /// By dt along velocities and accelerations; h: the size of steps.
+  /// Moves by dt along velocities and accelerations; h: the step size.
   void operator()(State& state, double dt, double h) noexcept {
     if (!(dt > 0.0)) return;
     const VecX& omega2 = f_.own_frequencies_squared();

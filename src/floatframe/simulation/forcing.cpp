@@ -12,14 +12,14 @@
 namespace floatframe {
 namespace {
 
-/// A value of a table between the ends of a step that neither of them nor what lies between them
-/// shows.
+/// A value of a table between the ends of a step that cannot be inferred from them or from the
+/// values between.
 struct Passed {
   double part = 0.0;  ///< of the range of the table
   double at = 0.0, value = 0.0, before = 0.0, after = 0.0, gap = 0.0;
 };
 
-/// Steps are divided there.
+/// True if steps are divided there.
 bool is_located(std::span<const TimeCorner> located, double t) {
   const auto c = std::lower_bound(located.begin(), located.end(), t,
                                   [](const TimeCorner& x, double at) { return x.to < at; });

@@ -1,8 +1,8 @@
 #pragma once
-// The health of a run at its recorded instants: what shows over time whether it can be trusted.
-// Violations of constraints and the effort of the steps since the instant before, every term of the
-// energy balance (energy_balance.hpp), and how far flexible bodies deform. Columns of a row of
-// states (state_layout.hpp); writing them allocates nothing.
+// Quality indicators of a run at its recorded instants: violations of constraints and the effort of
+// the steps since the previous instant, every term of the energy balance (energy_balance.hpp), and
+// the deformation of flexible bodies. Columns of a row of states (state_layout.hpp); writing them
+// does not allocate.
 #include <algorithm>
 #include <vector>
 
@@ -14,13 +14,13 @@
 
 namespace floatframe {
 
-/// Since the instant before: largest violations at the ends of steps [m, m/s], numbers of steps, of
-/// extra steps by halving, of iterations and of factorizations.
+/// Since the previous instant: largest violations at the ends of steps [m, m/s], numbers of steps,
+/// of extra steps due to halving, of iterations and of factorizations.
 class HealthEffort {
  public:
   static constexpr int columns = 6;
 
-  /// After every step.
+  /// To be called after every step.
   void observe(const StepAttempt& last) noexcept {
     position_ = std::max(position_, last.position_violation);
     velocity_ = std::max(velocity_, last.velocity_violation);
@@ -35,7 +35,7 @@ class HealthEffort {
     }
     position_ = velocity_ = 0.0;
   }
-  /// For a run that goes on elsewhere (state_bytes.hpp).
+  /// For runs that are continued elsewhere (state_bytes.hpp).
   template <class Stream>
   void serialize(Stream& s) {
     for (double* x : {&position_, &velocity_}) s(*x);
@@ -49,7 +49,7 @@ class HealthEffort {
 
 /// Columns of energies: kinetic, of gravity, springs, tyres and modes, works, remainder.
 inline constexpr int energy_columns = 6 + static_cast<int>(EnergyFlows::size());
-/// Those in front of the two of each flexible body.
+/// Columns before the two of each flexible body.
 inline constexpr int health_of_system = HealthEffort::columns + energy_columns;
 
 inline void write_energies(const EnergyBalance::Energies& e, const EnergyFlows& work,
@@ -59,7 +59,7 @@ inline void write_energies(const EnergyBalance::Energies& e, const EnergyFlows& 
   *row = remainder;
 }
 
-/// All of them, in the order of a row.
+/// All health columns, in the order of a row.
 std::vector<HealthColumn> health_columns(const Model& model, const RangeWatch& range);
 
 }  // namespace floatframe

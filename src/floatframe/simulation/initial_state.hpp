@@ -13,8 +13,8 @@
 //   start_accelerations   in any formulation
 //                           M a + Phi_q^T lambda = Q,  Phi_q a = gamma                     (3)
 //                         with gamma = -((Phi_q)dot v + Phi_tt): by the factorised tangent with a
-//                         penalty and passes that correct for it, or by dense linear algebra where
-//                         M is singular on the motions that the constraints leave free
+//                         penalty and iterative correction, or by dense linear algebra where M is
+//                         singular on the motions that satisfy the constraints
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
@@ -31,9 +31,9 @@
 
 namespace floatframe {
 
-/// At time t. Throws RunError naming the joint or rod that has a gap, or the joints that keep
-/// their values if that is the reason. Without `as_given` the positions are not those that the
-/// model gives, so nothing is held at what is given for joints.
+/// At time t. Throws RunError naming the joint or rod that has a gap, or the joints that keep their
+/// values if these are the reason. Without `as_given` the positions differ from those of the model,
+/// so no joint is held at its given value.
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool positions, double t = 0.0,
                  bool as_given = true);
 
@@ -44,50 +44,50 @@ struct Equilibrium {
 };
 /// Throws RunError naming the coordinate with the largest unbalanced force.
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q);
-/// What is to be said of an equilibrium that the smallest push leaves for good; empty: it is
-/// stable, or its matrices are too large to look. Moves `f`.
+/// Message about an equilibrium that a small disturbance would leave for good; empty: it is stable,
+/// or its matrices are too large to check. Moves `f`.
 std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const VecX& lambda);
 
-/// Start of a run in relative coordinates: the model's start values with loops closed, or the
-/// equilibrium with the model's start velocities. `start_state` knows states and offsets, too.
-/// `report`, if given, receives what became of the start values of the user, and redundant
+/// Start of a run in relative coordinates: the start values of the model with loops closed, or the
+/// equilibrium with the start velocities of the model. `start_state` handles states and offsets,
+/// too. `report`, if given, receives the changes of start values given by the user, and redundant
 /// directions of joints.
 State relative_start(RelativeFormulation& f, Start start, StartReport* report = nullptr);
 
-/// Start values of a joint with rotation vectors no longer than half a turn, as they are measured.
+/// Start values of a joint with rotation vectors of at most half a turn, as they are measured.
 std::vector<double> joint_coordinates_in_range(const Joint& joint,
                                                const std::vector<double>& values);
 
-/// Adds the start values that differ from those given, at the present positions and velocities of
-/// `f`, and the sentences that say so.
+/// Adds the start values that differ from the given ones, at the present positions and velocities
+/// of `f`, and the corresponding messages.
 void report_changes(const RelativeFormulation& f, const State& state, Start start,
                     StartReport& report);
 
-/// s alpha of the integrator when the user gives no penalty: 1e5 mean body masses, in absolute
-/// coordinates 1e8. There multipliers are unknowns, so that a stiff penalty costs no digits, and
-/// near singular positions, where a constraint hardly moves what it holds, none but a stiff one
-/// converges.
+/// s alpha of the integrator if the user gives no penalty: 1e5 mean body masses, in absolute
+/// coordinates 1e8. There multipliers are unknowns, so that a large penalty costs no digits, and
+/// near singular configurations, where a constraint has hardly any effect on its coordinates, only
+/// a large penalty converges.
 double default_penalty_mass(const Model& model, Coordinates coordinates);
 
-/// The integrator's options that a simulation description asks for.
+/// The options of the integrator for a simulation description.
 StepOptions step_options(const Model& model, const SimulationDescription& o);
 
-/// Below, inertias of parts of the body are no normal numbers [kg].
+/// Below it, inertias of parts of the body become denormal numbers [kg].
 inline constexpr double smallest_mass = 1e-300;
 
-/// Throws RunError if a mass is too small to compute with, or with the text of a number that is too
-/// large (`overflow_text`).
+/// Throws RunError if a mass is too small to compute with, or with the text about a number that is
+/// too large (`overflow_text`).
 void check_numbers(const Model& model, const std::string& overflow, double t);
 
-/// Throws RunError naming a coordinate whose generalised force at the start is not finite or beyond
-/// `largest_magnitude`: an overflow must not be taken for a singular matrix.
+/// Throws RunError naming a coordinate whose generalised force at the start is not finite or above
+/// `largest_magnitude`: an overflow must not be reported as a singular matrix.
 void check_magnitudes(const VecX& force, const std::function<std::string(int)>& owner);
 
 /// The same for the diagonal of the mass matrix.
 void check_masses(const VecX& diagonal, const std::function<std::string(int)>& owner);
 
-/// The system a little further along a direction: residual without acceleration (nv), and what mass
-/// matrix and constraint Jacobian there make of directions Z (nv x k, nc x k).
+/// The system at a small distance along a direction: residual without acceleration (nv), and the
+/// products of its mass matrix and constraint Jacobian with directions Z (nv x k, nc x k).
 struct Neighbour {
   VecX r;
   MatX MZ, JZ;
@@ -95,10 +95,10 @@ struct Neighbour {
 /// The system at the positions retracted by the increment `x`.
 using NeighbourAt = std::function<Neighbour(const VecX& x, const MatX& Z)>;
 
-/// Start accelerations by dense linear algebra, for mass matrices that are singular: on the null
-/// space of the constraints mass may be missing where stiffness acts. `mass`: nv x nv, `possible`:
-/// see mass_scale.hpp, `J`: nc x nv. Throws RunError if a direction has neither; `loose` is the
-/// sentence about directions (columns) that nothing holds.
+/// Start accelerations by dense linear algebra, for singular mass matrices: on the null space of
+/// the constraints mass may be zero where stiffness acts. `mass`: nv x nv, `possible`: see
+/// mass_scale.hpp, `J`: nc x nv. Throws RunError if a direction has neither; `loose` returns the
+/// sentence about unrestrained directions (columns).
 void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
                  const VecX& gamma, const NeighbourAt& neighbour,
                  const std::function<std::string(const MatX&)>& loose, VecX& a, VecX& lambda);
@@ -106,8 +106,8 @@ void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const Ve
 /// "body 'a'", "bodies 'a', 'b' and 'c'".
 std::string named_text(const char* one, const char* many, const std::vector<std::string>& names);
 
-/// That bodies move without mass, stiffness or constraint, and what they lack; without any: `owner`
-/// is who moves.
+/// The message that bodies move without mass, stiffness or constraint, and what is missing; without
+/// any body, `owner` names the moving coordinate.
 std::string loose_sentence(const Model& model, const std::vector<std::size_t>& bodies,
                            const std::string& owner);
 
@@ -133,7 +133,7 @@ std::vector<std::size_t> bodies_moved(F& f, const State& state, const MatX& dire
   return moved;
 }
 
-/// Who has the largest part in the first of the directions.
+/// The owner of the largest component of the first direction.
 template <class F>
 std::string coordinate_moved(F& f, const MatX& directions) {
   Eigen::Index worst = 0;
@@ -141,7 +141,7 @@ std::string coordinate_moved(F& f, const MatX& directions) {
   return f.coordinate_owner(static_cast<int>(worst));
 }
 
-/// The same in words.
+/// The names of the moving bodies; without any, the owner of that coordinate.
 template <class F>
 std::string moving_bodies(F& f, const State& state, const MatX& directions) {
   std::vector<std::string> names;
@@ -192,9 +192,9 @@ bool start_accelerations(F& f, State& state, double penalty_mass) {
   const VecX possible = possible_masses(f, state);
   dynamics_at(f, state);
   const VecX diagonal = mass_diagonal(f, state);
-  // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
+  // A coordinate whose mass is round-off may pass the pivot test by chance: check it first.
   const double growth = growth_by_mass(f, diagonal, possible, penalty_mass);
-  // Dense linear algebra also tells what springs under load do not hold, and is as fast below.
+  // Dense linear algebra also detects directions that preloaded springs do not hold, as fast.
   const bool small = diagonal.size() <= few_dense;
   const bool good = may_lack_mass(growth)
                         ? !small && start_held_by_stiffness(

@@ -16,8 +16,8 @@ constexpr double no_column = 1e-7;
 
 /// e of the factors, of the diagonal and of 1.
 constexpr double held_softly = 1e-11;
-/// What is left of the wrenches, against lambda, before the one correction: below the first it is
-/// not made, above the second, where more than 1e-8 would be left after it, the basis is.
+/// Residual of the wrenches relative to lambda before the correction: below the first limit none is
+/// made; above the second (more than 1e-8 after the correction) the basis is used.
 constexpr double negligible = 3e-11, correctable = 1e-5;
 
 std::vector<int> every_joint(const Model& model) {
@@ -28,7 +28,7 @@ std::vector<int> every_joint(const Model& model) {
 
 bool is_motion(const ConstraintPart& part) noexcept { return part.motion != nullptr; }
 
-/// What lambda scaled by this is the force or torque along the coordinate of a motion.
+/// lambda times this factor is the force or torque along the coordinate of a motion.
 double motion_scale(const ConstraintPart& part) noexcept {
   return constraint_kind(part.type).angle ? -part.scale : -1.0;
 }
@@ -229,7 +229,7 @@ void LeastReactions<F>::add_load(const F& f, int marker, const Vec3& force,
 template <class F>
 void LeastReactions<F>::find_load(const F& f, const Reactions& reactions) noexcept {
   load_.setZero();
-  // What acts on b acts back on a, where the points are apart with a moment.
+  // The reaction acts back on a, with a moment if the points are apart.
   const auto add = [&](int a, int b, const Reactions::Wrench& w) {
     const Vec3 d = f.marker(b).r - f.marker(a).r;
     add_load(f, b, -w.force, -w.torque);
@@ -251,7 +251,7 @@ bool LeastReactions<F>::solve_sparse() noexcept {
   add_times(x_, least_);
   times_transpose(least_, left_);
   left_ = load_ - left_;
-  // The correction leaves of this what this is of the load.
+  // The correction leaves a residual of this fraction of the load.
   const double error = largest(left_);
   if (!(error <= correctable * size)) return false;
   if (error > negligible * size) {
@@ -318,7 +318,7 @@ void LeastReactions<F>::multipliers(const Reactions& reactions, VecX& lambda) no
   lambda.setZero();
   std::size_t k = 0;
   const std::size_t parts = all_.parts().size();
-  // Motions and rods first: a joint's wrench holds that of its motion.
+  // Motions and rods first: the wrench of a joint includes that of its motion.
   for (k = 0; k < parts; ++k) {
     const ConstraintPart& p = all_.parts()[k];
     if (p.owner.kind == ConstraintOwner::Kind::rod)
@@ -332,7 +332,7 @@ void LeastReactions<F>::multipliers(const Reactions& reactions, VecX& lambda) no
       ++k;
       continue;
     }
-    // The parts of a joint follow each other: J_k^T lambda_k = -wrench of them, by the normal
+    // The parts of a joint are consecutive: J_k^T lambda_k = -wrench of them, by the normal
     // equations of its at most six rows.
     const int joint = first.owner.index, row = all_.offset(k);
     int n = 0;

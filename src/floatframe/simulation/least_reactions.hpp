@@ -1,18 +1,18 @@
 #pragma once
-// The reactions of least norm among those that move the bodies alike. With the rows of all joints,
-// rods and motions in J (each scaled to lengths), on what each body can do by itself - its frame
-// moves and turns, its amplitudes change - the wrenches J^T lambda do not change if a lambda with
-// J^T lambda = 0 is added. The one of least norm is
+// The reactions of least norm among those with the same effect on the bodies. Let J contain the
+// rows of all joints, rods and motions (each scaled to lengths), on the motions of the separate
+// bodies: translation and rotation of the frame, amplitudes. The wrenches J^T lambda do not change
+// if a lambda with J^T lambda = 0 is added. The one of least norm is
 //   lambda_least = J x,   J^T J x = J^T lambda,                                              (1)
-// and a quantity c . lambda is unique if this leaves c as it is. J^T lambda is what the wrenches of
-// the joints do to the bodies, so the numbers are the same in both formulations, and those of
-// `ConstraintAnalysis` at rest.
+// and a quantity c . lambda is unique if it has the same value for both. J^T lambda is the action
+// of the joints on the bodies, so the results are the same in both formulations, and equal to those
+// of `ConstraintAnalysis` at rest.
 //
 // J^T J couples bodies with common joints: sparse factors of J^T J + e, with a small e for motions
-// that the constraints leave free, corrected once. Where more than 1e-8 of J^T lambda would be
-// left, next to singular positions, an orthonormal basis U of the columns of J instead,
-// lambda_least = U U^T lambda, by Gram-Schmidt with pivoting, each column twice; columns that are
-// shorter than 1e-7 of the longest are what closed loops are off by. Step time: no heap, noexcept.
+// that the constraints leave free, with one correction. If the residual exceeds 1e-8 of J^T lambda,
+// close to singular configurations, an orthonormal basis U of the columns of J is used instead,
+// lambda_least = U U^T lambda, by Gram-Schmidt with pivoting, each column twice; columns shorter
+// than 1e-7 of the longest are gaps of closed loops. Step time: no heap, noexcept.
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
@@ -34,22 +34,22 @@ class LeastReactions {
   int rows() const noexcept { return all_.count(); }
   /// J at the present positions of f.
   void place(const F& f, double t) noexcept;
-  /// The reactions of least norm with the same effect as these, in place, after `place`.
+  /// Replaces reactions by those of least norm with the same effect, in place, after `place`.
   void project_to_minimum_norm(const F& f, Reactions& reactions) noexcept;
-  /// (1) of multipliers, in place.
+  /// Equation (1) applied to multipliers, in place.
   void project_to_minimum_norm(VecX& lambda) noexcept;
   /// The wrenches of lambda.
   void wrenches(const VecX& lambda, Reactions& reactions) const noexcept;
 
  private:
-  /// Rows on one body, as columns one after the other.
+  /// Rows on one body, stored as consecutive columns.
   struct Side {
     int body = -1;   ///< -1: the ground
     int size = 0;    ///< columns
     int at = 0;      ///< of the first row in `rows_of_J_`
     int column = 0;  ///< of J
   };
-  /// Parts between the same two bodies that follow each other: a joint with its motion.
+  /// Consecutive parts between the same two bodies: a joint with its motion.
   struct Group {
     Side a, b;
     int first = 0, parts = 0;  ///< parts
@@ -68,11 +68,11 @@ class LeastReactions {
   }
   void times_transpose(const VecX& lambda, VecX& out) const noexcept;
   void add_times(const VecX& x, VecX& lambda) const noexcept;
-  /// load_ = J^T lambda of these reactions.
+  /// load_ = J^T lambda for these reactions.
   void find_load(const F& f, const Reactions& reactions) noexcept;
   void add_load(const F& f, int marker, const Vec3& force, const Vec3& torque) noexcept;
   void multipliers(const Reactions& reactions, VecX& lambda) noexcept;
-  /// least_ of load_; false where it is not good enough.
+  /// least_ from load_; false if it is not accurate enough.
   bool solve_sparse() noexcept;
   void shorten_dense(VecX& lambda) noexcept;
   void orthonormalise() noexcept;

@@ -1,7 +1,7 @@
 #pragma once
-// Why a run may end that was begun with good masses: on the way a freedom loses its mass (a bar
-// without spin inertia whose joint comes to turn about the bar, a body held by forces alone). Its
-// speed is then unbounded, or its place jumps, and no step is small enough.
+// Explains the failure of a run that began with regular masses: a coordinate has lost its mass
+// during the run (a bar without spin inertia whose joint axis becomes parallel to it, a body held
+// by forces only). Its speed is then unbounded, or its position jumps, and no step is small enough.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ MatX free_motions(const MatX& J, const VecX& possible);
 
 /// The mass that combinations of the `motions` (columns) could have: the quadratic form of the sum
 /// of m (v^2 + w^2 l^2) over the bodies, with the velocity v of the body frame and the
-/// characteristic length l, and m x^2 of modes. It speaks of bodies only: all coordinates that
-/// describe a motion give it the same.
+/// characteristic length l, and m x^2 of modes. It depends on the bodies only, not on the
+/// coordinates that describe a motion.
 template <class F>
 MatX possible_mass_of(F& f, const State& state, const MatX& motions) {
   const Model& model = f.model();
@@ -45,12 +45,12 @@ MatX possible_mass_of(F& f, const State& state, const MatX& motions) {
   return moved.transpose() * moved;
 }
 
-/// The combinations of `motions` whose mass is less than `light` of what it could be.
+/// The combinations of `motions` whose mass is less than `light` times the possible mass.
 MatX light_directions(const MatX& mass, const MatX& possible_mass, const MatX& motions,
                       double light);
 
-/// The combinations of `directions` that move body frames. What is left out are modes without mass
-/// (torsion of a bar without spin inertia): their stiffness holds them.
+/// The combinations of `directions` that move body frames. The rest are massless modes (torsion of
+/// a bar without spin inertia), which are held by their stiffness.
 template <class F>
 MatX moving_frames(F& f, const State& state, const MatX& directions) {
   constexpr double moves = 1e-3;
@@ -70,10 +70,10 @@ MatX moving_frames(F& f, const State& state, const MatX& directions) {
   return directions.colwise().normalized() * eig.vectors.rightCols(directions.cols() - still);
 }
 
-/// What the failure of a run at this state should add, beginning with "; ", or nothing.
+/// Addition to the failure message of a run at this state, beginning with "; ", or nothing.
 template <class F>
 std::string light_motion_note(F& f, const State& state) {
-  constexpr int most = 1000;      // dense linear algebra beyond would take minutes
+  constexpr int most = 1000;      // dense linear algebra above this would take minutes
   constexpr double light = 1e-6;  // a radius of gyration of a thousandth of the length
   const int nv = f.velocities(), nc = f.constraints();
   if (nv == 0 || nv > most || !state.q.allFinite() || !state.v.allFinite()) return {};

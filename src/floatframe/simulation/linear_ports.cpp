@@ -16,7 +16,7 @@
 namespace floatframe {
 namespace {
 
-/// Those named, in that order; all if none is.
+/// The named ones, in that order; all if none is named.
 template <class T>
 std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>& names,
                       const char* kind) {
@@ -37,7 +37,7 @@ std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::string>&
   return found;
 }
 
-/// The longest step along a motion whose coordinates do not move further than `steps`.
+/// The longest step along a motion whose coordinates do not move farther than `steps`.
 double step_along(const VecX& motion, const VecX& steps) {
   double h = 1e300;
   for (Eigen::Index j = 0; j < motion.size(); ++j)
@@ -45,7 +45,7 @@ double step_along(const VecX& motion, const VecX& steps) {
   return h;
 }
 
-/// dy of a unit of what moves x, v and a by these columns.
+/// dy for unit motions with these columns of x, v and a.
 template <class F>
 VecX output_column(ExcitedSystem<F>& excited, double h, const VecX& x, const VecX& v,
                    const VecX& a) {

@@ -8,8 +8,8 @@
 // motion:
 //   zdot = A z + B0 u + B1 u' + B2 u'',   y = y0 + C z + D0 u + D1 u' + D2 u''                 (1)
 //   G(s) = C (s I - A)^-1 (B0 + s B1 + s^2 B2) + D0 + s D1 + s^2 D2
-// What moves by an input with z held is what the free coordinates of the model leave; z itself
-// moves with u.
+// A motion due to an input at constant z is in the dependent coordinates; z itself varies with
+// u.
 #include <string>
 #include <vector>
 
@@ -18,20 +18,20 @@
 
 namespace floatframe {
 
-/// What a linear system can be driven by.
+/// An input of a linear system.
 struct LinearInput {
   enum class Kind { signal, motion, road };
   std::string name;  ///< "damper", "motion of crank", "road", "road at front.tyre"
   std::string unit;
   Kind kind = Kind::signal;
   int index = -1;           ///< of the model's input, or of the joint
-  std::vector<int> wheels;  ///< of a road: the force elements that it moves under
+  std::vector<int> wheels;  ///< of a road: the force elements above it
   double place = 0.0;       ///< x of the centre of its wheel, if it is one, in a LinearModel [m]
-  /// How many derivatives enter: 0, 2 of motions, 1 of roads.
+  /// Number of derivatives that enter: 0, 2 of motions, 1 of roads.
   int order() const noexcept { return kind == Kind::motion ? 2 : kind == Kind::road ? 1 : 0; }
 };
 
-/// All that a model has: its inputs, its prescribed motions, "road" and, of several wheels, each.
+/// All inputs of a model: its own, its prescribed motions, "road" and, for several wheels, each.
 std::vector<LinearInput> linear_inputs(const Model& model);
 
 /// Names; none: all.
@@ -44,17 +44,17 @@ struct LinearModel {
   std::vector<LinearInput> inputs;
   std::vector<Column> outputs;
   MatX B[3], C, D[3];                ///< (1)
-  double time = 0.0;                 ///< where it was linearised [s]
-  VecX input_values, output_values;  ///< there; heights of roads count from there
+  double time = 0.0;                 ///< of the linearisation [s]
+  VecX input_values, output_values;  ///< there; heights of roads are relative to it
 };
 
-/// At the start that the options ask for, as `linear_system`, with the same exceptions. Throws
-/// InputError for a name that the model does not have.
+/// At the start state given by the options, as `linear_system`, with the same exceptions. Throws
+/// InputError for a name that does not exist in the model.
 LinearModel linear_model(const Model& model, const LinearPorts& ports = {},
                          const SimulationOptions& options = {});
 
 /// zdot = A z + B u, y = C z + D u, in changes from the point of linearisation. An input that
-/// enters by derivatives stands as the highest of them, and its value and rate are states:
+/// enters by derivatives is represented by the highest of them, with its value and rate as states:
 /// "rate of road", "acceleration of motion of crank".
 struct StateSpace {
   MatX A, B, C, D;

@@ -17,11 +17,11 @@ constexpr const char* held_by_nothing =
     "a motion has neither mass nor damping nor stiffness where the system was linearised; give "
     "mass or inertia, or remove the freedom";
 
-/// Which coordinates are free, and what follows from them (linear_system.hpp).
+/// Free coordinates, and the matrices of the dependent ones (linear_system.hpp).
 struct FreeCoordinates {
   std::vector<Eigen::Index> free;
   MatX N, P, R, T;    ///< nv x n
-  LinearInputs held;  ///< what inputs do with the free coordinates held: all but B
+  LinearInputs held;  ///< effect of inputs at constant free coordinates: all but B
 };
 
 /// The solution X of J X = B that is zero in the free coordinates.
@@ -35,7 +35,7 @@ MatX in_decided(const MatX& J_D, const std::vector<Eigen::Index>& decided, Eigen
 
 FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
   const Eigen::Index nv = m.M.rows();
-  // In coordinates of like size; rows of lengths and angles are of like size already.
+  // In coordinates of similar magnitude; rows of lengths and angles are already similar.
   const VecX unit = m.scale.cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   std::vector<Eigen::Index> decided;
   std::vector<bool> is_free(static_cast<std::size_t>(nv), true);
@@ -68,13 +68,13 @@ FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
   return c;
 }
 
-/// W B, where W is often the identity: of a model without constraints.
+/// W B, where W is often the identity: for a model without constraints.
 MatX times(const MatX& W, const MatX& B) {
   return W.rows() == W.cols() && W.isIdentity(0.0) ? B : MatX(W * B);
 }
 
-/// M wdot + C w + K y + sum F_k u^(k) = 0, ydot = w + Gamma y + turned u; x = X y, v = V y + W w,
-/// a = W wdot + R y + T w, each with what inputs add.
+/// M wdot + C w + K y + sum F_k u^(k) = 0, ydot = w + Gamma y + turned u; x = X y, v = V y + W w, a
+/// = W wdot + R y + T w, each plus contributions of the inputs.
 struct SecondOrderSystem {
   MatX M, C, K, Gamma, X, V, W, R, T;
   MatX F[3], turned;
@@ -98,16 +98,16 @@ SecondOrderSystem transformed(const SecondOrderSystem& s, const MatX& B, const M
           s.u};
 }
 
-/// Rows and columns without mass, of which the last `without` are also without damping.
+/// Rows and columns without mass, the last `without` of them also without damping.
 struct Masslessness {
   Eigen::Index heavy = 0, damped = 0, without = 0;
 };
 
-/// Below this part of what is possible a direction has no mass. Long chains fold up with a 1e-10 of
-/// theirs.
+/// Below this fraction of the possible mass a direction is massless. Long chains fold with 1e-10 of
+/// their mass.
 double least_mass(Eigen::Index degrees) { return degrees > few_degrees ? 1e-13 : no_mass; }
 
-/// The system in directions ordered by what holds them: with mass, damped without mass, neither.
+/// The system in directions sorted by type: with mass, damped without mass, neither.
 Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
   const Eigen::Index n = s.M.rows();
   Masslessness kinds{n, 0, 0};
@@ -138,7 +138,7 @@ Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
   return {n - light, light - undamped, undamped};
 }
 
-/// y = y_rest + Y u, w = w_rest + Y u': what follows is in the rest.
+/// y = y_rest + Y u, w = w_rest + Y u': the following equations are in the rest.
 void take_out(SecondOrderSystem& s, const MatX& Y) {
   s.F[0] += s.K * Y;
   s.F[1] += s.C * Y;
@@ -172,11 +172,11 @@ void follow_statics(SecondOrderSystem& s, Eigen::Index without) {
   s = transformed(s, B, left);
 }
 
-/// z = (y, w of what has mass).
+/// z = (y, w of directions with mass).
 LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
   const Eigen::Index n = s.M.rows(), light = n - heavy, nz = n + heavy, nu = s.turned.cols();
   LinearSystem out;
-  // w of what has no mass: C_ll w_l = -(C_lh w_h + K_l y + F0_l u + F1_l u').
+  // w of massless directions: C_ll w_l = -(C_lh w_h + K_l y + F0_l u + F1_l u').
   MatX w = MatX::Zero(n, nz), w_u[2] = {MatX::Zero(n, nu), MatX::Zero(n, nu)};
   w.topRightCorner(heavy, heavy).setIdentity();
   if (light > 0) {
@@ -187,7 +187,7 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
     w.bottomRows(light) = rows.leftCols(nz);
     for (int k = 0; k < 2; ++k) w_u[k].bottomRows(light) = rows.middleCols(nz + k * nu, nu);
   }
-  // What is by_y y + by_w w: y is the first part of z, and w the second if all has mass.
+  // Quantities by_y y + by_w w: y is the first part of z, and w the second if all has mass.
   const auto of_z = [&](const auto& by_y, const auto& by_w) {
     MatX columns = MatX::Zero(by_y.rows(), nz);
     columns.leftCols(n) = by_y;
@@ -229,7 +229,7 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
   return out;
 }
 
-/// "joint 'ball', coordinate 2" where several have one owner.
+/// "joint 'ball', coordinate 2" if several have the same owner.
 std::vector<std::string> disambiguated_names(const std::vector<std::string>& owners) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < owners.size(); ++k) {
@@ -278,7 +278,7 @@ SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
 /// Degrees of freedom up to which all eigenvalues take at most a few minutes.
 constexpr Eigen::Index all_in_minutes = 1000;
 
-/// Only the slowest motions, or nothing where all are found sooner: with w = y' - Gamma y,
+/// Only the slowest motions, or nothing if computing all is faster: with w = y' - Gamma y,
 ///   M y'' + (C - M Gamma) y' + (K - C Gamma) y = 0.
 LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int count) {
   const MatX damping = s.C - s.M * s.Gamma, stiffness = s.K - s.C * s.Gamma;

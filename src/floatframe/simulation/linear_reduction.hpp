@@ -10,7 +10,7 @@
 // where X, V, A are zero in the free coordinates, and
 //   N^T M N w' + N^T (M T + C N) w + N^T (M R + C P + K N) y + F0 u + F1 u' + F2 u'' = 0       (1)
 //   F0 = N^T (M A0 + C V0 + K X + r0), F1 = N^T (M A1 + C V1 + r1), F2 = N^T (M A2 + r2)
-// Directions without mass follow as those of the system do, the inputs with them.
+// Massless directions are eliminated as in the system, together with the inputs.
 #include <string>
 #include <vector>
 
@@ -20,8 +20,8 @@
 
 namespace floatframe {
 
-/// What a unit of each input (a column), of its rate and of its second derivative does to residual
-/// and constraints where x, v, a and lambda are held.
+/// Derivatives of residual and constraints with respect to each input (a column), its rate and its
+/// second derivative, at constant x, v, a and lambda.
 struct InputMotions {
   MatX residual[3];      ///< nv x nu
   MatX value, rate[3];   ///< nc x nu
@@ -35,20 +35,20 @@ struct LinearInputs {
   MatX x, v[2], a[3];
 };
 
-/// For coordinates with these owners. Throws RunError where a direction has neither mass nor
-/// stiffness nor damping. `response` is filled if there are inputs. `slowest`: as linear_system(),
-/// without inputs.
+/// For coordinates with these owners. Throws RunError if a direction has neither mass nor stiffness
+/// nor damping. `response` is filled if there are inputs. `slowest`: as in linear_system(), without
+/// inputs.
 LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
                             const InputMotions* inputs = nullptr, LinearInputs* response = nullptr,
                             int slowest = 0);
 
-/// Where `f` is started; `linear_system` of a model for formulations and states at hand.
+/// For a started formulation `f`: `linear_system` of a model for existing formulations and states.
 template <class F>
 LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs = nullptr,
                               LinearInputs* response = nullptr, int slowest = 0);
 
-/// The model with these options and the stiffening that counts there, and what is said of it in its
-/// linear system.
+/// The model with these options and the stiffening that matters there, and the messages about it in
+/// its linear system.
 CountedStiffening counted_at(const Model& model, const SimulationOptions& options);
 void say_counted(const CountedStiffening& counted, LinearSystem& system);
 

@@ -19,7 +19,7 @@ namespace floatframe {
 
 namespace {
 
-/// What the motions of each state are of bodies and force elements.
+/// Components of the motions of each state at bodies and force elements.
 template <class F>
 void describe_motions(F& f, const State& state, LinearSystem& system) {
   const Model& model = f.model();
@@ -35,7 +35,7 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
     for (int m = 0; m < y.size(); ++m) y[m] = f.amplitude(state.q, static_cast<int>(i), m);
     system.amplitudes.push_back(std::move(y));
   }
-  // The stiffness of forces where they are; their measures in the motions, below.
+  // The stiffness of forces at the present state; their measures in the motions, below.
   dynamics_at(f, state);
   std::vector<ForceState> found;
   for (Eigen::Index k = 0; k < forces; ++k) found.push_back(f.force(static_cast<int>(k)));
@@ -51,7 +51,7 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
       for (int m = 0; m < model.bodies[i].modes(); ++m, ++row)
         system.rates_of(row, z) = f.amplitude_rate(VecX(system.v_of.col(z)), k, m);
     }
-    // Increments move markers as velocities do.
+    // Increments move markers in the same way as velocities.
     const VecX x = system.x_of.col(z);
     f.velocities(x);
     for (int k = 0; k < static_cast<int>(model.bodies.size()); ++k) {

@@ -1,15 +1,15 @@
 #pragma once
-// The equations of motion near a state. With r(q, v, a, lambda) the residual without penalty,
+// The equations of motion about a state. With r(q, v, a, lambda) the residual without penalty,
 //   r = M a - Q(q, v, t) + Phi_q^T lambda,
 // small changes x of the configuration, their rates and accelerations, and dlambda of the
-// multipliers leave
+// multipliers give
 //   r + M xddot + C xdot + K x + J^T dlambda,   Phi + J x,                                     (1)
 //   M = dr/da,  C = dr/dv,  K = dr/dx,  J = Phi_q.
-// r is linear in a: a column of M is a difference of two residuals, exact but for round-off, which
-// is least if M times the trial acceleration is no smaller than the forces. C and K are central
-// differences (K holds the geometric stiffness of forces and multipliers), here at a = 0, as
-// statics needs them; small_motions.hpp has them at accelerations. Dense, allocates: load time
-// only.
+// r is linear in a: a column of M is a difference of two residuals, exact up to round-off, which is
+// smallest if M times the trial acceleration is at least as large as the forces. C and K are
+// central differences (K contains the geometric stiffness of forces and multipliers), here at a =
+// 0, as needed for statics; small_motions.hpp computes them at given accelerations. Dense,
+// allocates: load time only.
 #include <cmath>
 
 #include "floatframe/formulation/equations_of_motion.hpp"
@@ -35,8 +35,8 @@ MatX central_differences(Eigen::Index n, double step, const G& g) {
   return columns;
 }
 
-/// What rows and columns of a symmetric system are multiplied with, whose forces and lengths differ
-/// by many orders: the entries become of size one.
+/// Scale factors of rows and columns of a symmetric system whose forces and lengths differ by many
+/// orders of magnitude: the entries become of order one.
 inline VecX equilibration(const MatX& A) {
   VecX scale(A.rows());
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
@@ -56,7 +56,7 @@ VecX residual_at(F& f, double t, const VecX& q, const VecX& v, const VecX& lambd
   return r;
 }
 
-/// M d where `f` is, with r0 the residual there without accelerations: from that at size d.
+/// M d at the state of `f`, from r0, the residual there without accelerations, at size d.
 template <EquationsOfMotion F>
 VecX mass_times(F& f, const VecX& d, double size, const VecX& r0, const VecX& lambda) {
   VecX r(f.velocities());
@@ -64,7 +64,7 @@ VecX mass_times(F& f, const VecX& d, double size, const VecX& r0, const VecX& la
   return (r - r0) / size;
 }
 
-/// M where `f` is, its columns from trial accelerations of these sizes.
+/// M at the state of `f`, its columns from trial accelerations of these sizes.
 template <EquationsOfMotion F>
 MatX mass_matrix(F& f, const VecX& sizes, const VecX& r0, const VecX& lambda) {
   const int nv = f.velocities();
@@ -84,7 +84,7 @@ MatX stiffness_matrix(F& f, const State& s) {
   });
 }
 
-/// C at t, q, v: moves `f`. Inertia and laws of dampers are of second order in v or less: the step
+/// C at t, q, v: moves `f`. Inertia and laws of dampers are at most of second order in v: the step
 /// may be large.
 template <EquationsOfMotion F>
 MatX damping_matrix(F& f, const State& s) {

@@ -13,12 +13,12 @@
 namespace floatframe {
 namespace {
 
-/// Bodies lighter than this part of the mean, or that have no inertia, count as if they had it.
+/// Bodies lighter than this fraction of the mean, or without inertia, count as if they had it.
 constexpr double least_share = 1e-4;
-/// Amplitudes move last: as if the modes were so much heavier.
+/// Amplitudes change last: as if the modes were heavier by this factor.
 constexpr double elastic_cost = 100.0;
 
-/// Bodies of both ends of what closes loops: joints outside of the tree, and rods.
+/// Bodies at both ends of loop closures: joints outside of the tree, and rods.
 std::vector<std::array<int, 3>> closing_edges(const RelativeFormulation& f) {
   const Model& model = f.model();
   std::vector<char> in_tree(model.joints.size(), 0);
@@ -48,7 +48,7 @@ LoopMembers loop_members(const RelativeFormulation& f) {
     if (a == b) continue;
     m.any = true;
     if (joint >= 0) m.joint[joint] = 1;
-    // Up both sides to where they meet.
+    // Up both branches to their common body.
     for (int x = a, y = b; x != y;) {
       int& lower = depth_of(x) >= depth_of(y) ? x : y;
       m.body[lower] = 1;
@@ -65,7 +65,7 @@ std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembe
   int j = -1;
   for (const Joint& joint : f.model().joints) {
     ++j;
-    // Where a motion is prescribed it holds.
+    // A prescribed motion fixes its coordinate.
     if (!members.joint[j] || joint.motion) continue;
     const JointKind& kind = joint_kind(joint.type);
     const std::vector<double>& given = rates ? joint.velocity : joint.position;
@@ -239,8 +239,8 @@ LoopEquations::Step LoopEquations::step(const VecX& along, const VecX* d) const 
     N = qr.Q.rightCols(n - qr.rank);
   }
   if (wishes_.rows() > 0 && N.cols() > 0) {
-    // Values that may change: met as nearly as can be, before anything else is asked of what is
-    // left.
+    // Values that may change: satisfied as closely as possible, before any other criterion for the
+    // remaining freedom.
     const MatX C = wishes_ * W;
     const MatX CN = C * N;
     const double most = CN.rowwise().norm().maxCoeff(), zero = 1e-8 * C.norm();

@@ -1,14 +1,14 @@
 #pragma once
-// The equations of closed loops in the coordinates of the joints that lie in them. Their solutions
-// depend neither on the tree nor on the order of joints nor on which joint is cut: start values are
-// measured at all joints alike, and what they leave free moves the bodies of the loops as little as
-// possible, in the metric of their masses,
+// The equations of closed loops in the coordinates of the joints that belong to them. Their
+// solutions depend neither on the tree nor on the order of joints nor on which joint is cut: start
+// values are measured at all joints in the same way, and the remaining freedom is used to move the
+// bodies of the loops as little as possible, in the metric of their masses,
 //   D = 1/2 |d|^2 = 1/2 sum over the bodies of  int |x - x_0|^2 dm                            (1)
-// from a configuration 0. A body is its mass at the centre and three vectors from there,
-// int rho rho^T dm = sum lambda_k u_k u_k^T. With A = dd/dx, A^T A is the mass matrix, and a step
-// of Newton is
+// from a reference configuration 0. A body is its mass at the centre and three vectors from there,
+// int rho rho^T dm = sum lambda_k u_k u_k^T. With A = dd/dx, A^T A is the mass matrix, and a Newton
+// step is
 //   x = argmin |A x + d|^2   with   J x = -r                                                  (2)
-// of the constraints and the start values that hold. Load time.
+// for the constraints and the start values that are enforced. Load time.
 #include <iterator>
 #include <vector>
 
@@ -24,11 +24,11 @@ struct LoopMembers {
 };
 LoopMembers loop_members(const RelativeFormulation& f);
 
-/// What may move to close loops.
+/// Coordinates that may change to close loops.
 enum class LoopMoves {
-  joints,  ///< coordinates of joints in loops; start values hold
+  joints,  ///< coordinates of joints in loops; start values are fixed
   modes,   ///< amplitudes of the bodies in loops, too
-  values   ///< start values, too, as little as possible, but for those that are kept
+  values   ///< start values, too, as little as possible, except those marked `keep`
 };
 
 /// A start value of a joint in a loop, one coordinate or the three of a rotation vector, or an
@@ -45,41 +45,41 @@ struct LoopValue {
 std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembers& members,
                                    bool rates);
 
-/// Where a value that has one number is at the present positions, angles within half a turn of
-/// `reference`, and its rate.
+/// Present value of a start value with one component, angles within half a turn of `reference`, and
+/// its rate.
 double measured(const RelativeFormulation& f, const LoopValue& v, double reference);
 double measured_rate(const RelativeFormulation& f, const LoopValue& v, int k = 0);
 
 class LoopEquations {
  public:
-  /// Without `keeps` values that are kept are as others. Counts (1) from where `f` is.
+  /// Without `keeps`, values marked `keep` are as others. (1) is relative to the state of `f`.
   LoopEquations(RelativeFormulation& f, const LoopMembers& members, std::vector<LoopValue> values,
                 LoopMoves moves, bool keeps);
 
   const std::vector<LoopValue>& values() const noexcept { return values_; }
   Eigen::Index unknowns() const noexcept { return std::ssize(mobile_); }
-  /// Counts (1) from the present positions.
+  /// Makes the present positions the reference of (1).
   void begin_here();
-  /// Of the present positions.
+  /// At the present positions.
   VecX displacement() const;
   /// (2) at the present positions. `open`: residual of the constraints, those with `counts` zero
-  /// are left out; `off`: that of the values, entry by entry. The velocities are v then.
+  /// are omitted; `off`: residual of the values, entry by entry. Sets the velocities to v.
   void evaluate(const VecX& open, const std::vector<char>& counts, const VecX& off, const VecX& v);
-  /// Largest residual of what holds.
+  /// Largest residual of the enforced equations.
   double violation() const noexcept { return largest(r_); }
-  /// Of d, where all bodies move by their own length.
+  /// Norm of d if all bodies move by their characteristic length.
   double scale() const noexcept { return scale_; }
-  /// d of a change of all coordinates.
+  /// d due to a change of all coordinates.
   VecX moved(const VecX& x) const;
 
   struct Step {
     VecX x;                 ///< of all coordinates
     Eigen::Index rank = 0;  ///< of J
-    Eigen::Index free = 0;  ///< motions that J x = -r leaves
+    Eigen::Index free = 0;  ///< motions left free by J x = -r
   };
   /// The x nearest to `along` in the metric; with `d`, that of (2).
   Step step(const VecX& along, const VecX* d) const;
-  /// The x that comes nearest to (2), where the values are met rather than the constraints.
+  /// The x closest to (2) that satisfies the values instead of the constraints.
   VecX nearest() const;
 
  private:

@@ -21,10 +21,10 @@ double whole_turns(double angle) { return turn * std::round(angle / turn); }
 
 }  // namespace
 
-/// What changes from the start of a way, s = 0, to its end, s = 1.
+/// Differences between the start of a path, s = 0, and its end, s = 1.
 struct LoopPath::Stage {
   LoopEquations equations;
-  std::vector<char> counts = {};   ///< constraints that hold on this way
+  std::vector<char> counts = {};   ///< constraints that hold on this path
   VecX open = {};                  ///< of constraints at s = 0
   std::vector<Vec3> from = {};     ///< of each value; of rotations the vector of R R_given^T
   std::vector<double> turns = {};  ///< 2 pi scale of constraints on angles, else 0
@@ -51,7 +51,7 @@ Mat3 relative_rotation(const RelativeFormulation& f, const Joint& joint) {
 
 Vec3 rotation_log(const Mat3& R) { return quaternion_log(Eigen::Quaterniond(R)); }
 
-/// Where a value begins.
+/// Start of a value.
 Vec3 present(const RelativeFormulation& f, const LoopValue& v) {
   if (v.count == 3)
     return rotation_log(relative_rotation(f, f.model().joints[v.joint]) *
@@ -113,7 +113,7 @@ bool LoopPath::closes(const VecX& q) {
 }
 
 bool LoopPath::all_given() const {
-  // Bodies in loops that values hold together; ground: 0.
+  // Bodies in loops that are fixed to each other by values; ground: 0.
   const std::vector<Joint>& joints = f_.model().joints;
   UnionFind groups(static_cast<int>(members_.body.size()) + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
@@ -194,8 +194,8 @@ bool LoopPath::correct(VecX& q, LoopMoves moves, bool keeps) {
 }
 
 bool LoopPath::lead(Stage& stage, VecX& q) {
-  // Seen from far away the nearest configuration may be somewhere else: then all increments are
-  // smaller.
+  // From a distant start the nearest configuration may be on another branch: then all increments
+  // are smaller.
   const VecX q_start = q;
   for (int attempt = 0; attempt < 3; ++attempt, stage.increments *= 4) {
     q = q_start;
@@ -211,7 +211,7 @@ bool LoopPath::lead_in_increments(Stage& stage, VecX& q) {
   for (int k = 0; k < stage.increments; ++k) {
     f_.positions(t_, q);
     stage.equations.begin_here();
-    // Parts of an increment still move the bodies as little as possible from where it began: the
+    // Parts of an increment also move the bodies as little as possible from its beginning: the
     // result does not depend on them.
     double part = 1.0;
     for (double done = 0.0; done < 1.0;) {
@@ -252,7 +252,7 @@ bool LoopPath::increment(Stage& stage, const VecX& q, double from, double to, Ve
   for (int pass = 0, idle = 0; pass < 100 && !closed; ++pass) {
     evaluate_at(q_new);
     const VecX d = equations.displacement();
-    // In singular positions the motions that are free for a moment go on as they were.
+    // In singular positions instantaneously free motions are continued as before.
     step = equations.step(rest, nullptr);
     if (step.rank >= rank && step.free > 0) step = equations.step(rest, &d);
     stage.leaves_motions = step.free > 0;
@@ -260,8 +260,8 @@ bool LoopPath::increment(Stage& stage, const VecX& q, double from, double to, Ve
     const double size = equations.moved(step.x).norm() / equations.scale();
     idle = size < 0.9 * least ? 0 : idle + 1;
     least = std::min(least, size);
-    // At a singular position coordinates are known to the root of rounding only; elsewhere passes
-    // end where they come no nearer.
+    // At a singular position coordinates are only accurate to the root of rounding; elsewhere
+    // passes end when they no longer improve.
     closed = equations.violation() < 1e-12 * size_ &&
              (size < 1e-13 || (size < 1e-8 && idle > 5) ||
               (step.free == 0 && equations.violation() < 1e-14 * size_));

@@ -1,10 +1,10 @@
 #pragma once
-// From the drawn configuration, in which all joints are closed, to the start values of joints in
-// loops: in increments of at most 0.05 rad or 1 % of the size of the loops, so that loops close as
-// they are drawn. First rods that have other lengths than drawn, then values and prescribed motions
-// together, all in proportion. Each increment is predicted along the tangent, the last one where
-// the tangent is not unique (a change point, a dead centre), and corrected by `LoopEquations`;
-// where the correction is more than half of it, a smaller one is tried. Load time.
+// Path from the drawn configuration, in which all joints are closed, to the start values of joints
+// in loops: in increments of at most 0.05 rad or 1 % of the size of the loops, so that the assembly
+// branch is that of the drawing. First rods whose lengths differ from the drawing, then values and
+// prescribed motions together, all in proportion. Each increment is predicted along the tangent, or
+// along the last one where the tangent is not unique (a change point, a dead centre), and corrected
+// by `LoopEquations`; if the correction exceeds half of it, a smaller one is tried. Load time.
 #include "floatframe/simulation/loop_equations.hpp"
 
 namespace floatframe {
@@ -18,27 +18,27 @@ class LoopPath {
   bool starts_as_drawn() const;
   /// Constraints are met at `q`.
   bool closes(const VecX& q);
-  /// The values given leave no other joint in loops free.
+  /// The given values determine all joints in loops.
   bool all_given() const;
   /// The configuration as drawn, but with the start values of joints outside of loops.
   VecX drawn() const;
-  /// Moves `q`, as drawn, to the start values; false where it cannot go on.
+  /// Moves `q`, as drawn, to the start values; false if the path cannot be continued.
   bool follow(VecX& q, LoopMoves moves, bool keeps);
-  /// The same from where all values are given: closes what is open, and goes to what is not met.
+  /// The same from a state with all given values: closes gaps, then moves to unmet values.
   bool correct(VecX& q, LoopMoves moves, bool keeps);
-  /// Share of the way to the start values that the last of these went.
+  /// Fraction of the path to the start values that the last call reached.
   double reached() const noexcept { return reached_; }
-  /// At `q` there are more start values than motions: they can only be met by chance.
+  /// At `q` there are more start values than degrees of freedom: in general they contradict.
   bool contradictory(const VecX& q);
-  /// The last `follow` could close the drawn configuration.
+  /// True if the last `follow` could close the drawn configuration.
   bool drawn_closes() const noexcept { return drawn_closes_; }
   /// Constraints and start values are met at `q`.
   bool closed(const VecX& q);
-  /// Residual of the constraints where the start values are met all the same; from `q`.
+  /// Residual of the constraints with the start values satisfied nevertheless; starts from `q`.
   VecX gap(VecX& q);
-  /// `to` is no farther from `from` than one increment.
+  /// True if `to` is no farther from `from` than one increment.
   bool near(const VecX& from, const VecX& to);
-  /// Axes of joints outside of the tree point to where those of the drawn configuration do, at `q`.
+  /// True if the axes of joints outside of the tree point at `q` as in the drawn configuration.
   bool upright(const VecX& q);
 
  private:
@@ -53,7 +53,7 @@ class LoopPath {
   RelativeFormulation& f_;
   double t_;
   LoopMembers members_;
-  double size_ = 0.0;  ///< of the loops [m], once it is needed
+  double size_ = 0.0;  ///< of the loops [m], set when first needed
   double reached_ = 0.0;
   bool drawn_closes_ = true;
 };

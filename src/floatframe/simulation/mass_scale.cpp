@@ -36,7 +36,7 @@ VecX possible_masses(RelativeFormulation& f, const State& state) {
   const Model& model = f.model();
   const TreeKinematics& tree = f.tree();
   f.positions(state.t, state.q);
-  // Wrenches are taken about one common point, and their round-off grows with the distance from it.
+  // Wrenches are about one common point, and their round-off grows with the distance from it.
   std::vector<MatX> possible;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Vec3& p_OB = tree.body(static_cast<int>(i)).p_OB;

@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-/// Stiffness of so small a part that modes with mass hardly see it: s k = 1e-4 m for the stiffest.
+/// Stiffness so small that it hardly affects modes with mass: s k = 1e-4 m for the stiffest.
 template <class F>
 double little_stiffness(const F& f) {
   double stiffest = 0.0;
@@ -22,8 +22,8 @@ double little_stiffness(const F& f) {
   return std::min(1e-10, 1e-4 / std::max(stiffest, 1.0));
 }
 
-/// Some body is bent. What has no mass then is a bend that turns with its body, which stiffness
-/// seems to hold, although the elastic energy does not change.
+/// True if some body is bent. A massless direction is then a bend that rotates with its body, which
+/// seems to be held by stiffness, although the elastic energy does not change.
 template <class F>
 bool bent(const F& f, const VecX& q) {
   const Model& model = f.model();
@@ -34,7 +34,7 @@ bool bent(const F& f, const VecX& q) {
 }
 
 /// Penalty of the passes. They converge at a rate of 1 / (penalty mu), with the smallest eigenvalue
-/// mu of Phi_q M^-1 Phi_q^T, which for loops in a row falls with the square of their number.
+/// mu of Phi_q M^-1 Phi_q^T, which for chains of loops decreases with the square of their number.
 template <class F>
 double penalty_of_passes(const F& f, double penalty_mass) {
   if (std::is_same_v<F, AbsoluteFormulation>) return penalty_mass;
@@ -42,13 +42,13 @@ double penalty_of_passes(const F& f, double penalty_mass) {
   return penalty_mass * loops * loops;
 }
 
-/// From 0.5 to 1.5, of either sign: of a vector that no direction is orthogonal to but by chance.
+/// Values from 0.5 to 1.5, of either sign: a vector that is in general orthogonal to no direction.
 double varied(Eigen::Index i) {
   const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
   return (0.5 + golden - std::floor(golden)) * (i % 2 == 0 ? 1.0 : -1.0);
 }
 
-/// x without what of it has no mass, by T of slot 0: T^-1 M x with the same Phi_q x.
+/// x without its massless part, by T of slot 0: T^-1 M x with the same Phi_q x.
 template <class F>
 VecX with_mass(F& f, const VecX& x, const VecX& r0, const VecX& lambda, double penalty_mass) {
   VecX y = mass_times(f, x, 1.0, r0, lambda), rates(lambda.size()), mu(lambda.size());
@@ -135,7 +135,7 @@ bool start_by_passes(F& f, State& state, double s, double least_penalty, bool la
     if (!delta.allFinite()) return false;
     const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();
     const double change = delta.lpNorm<Eigen::Infinity>();
-    // Of long systems rounding leaves more than the first limit: then changes fall no more.
+    // In long systems rounding exceeds the first limit: then changes no longer decrease.
     settled = pass > 0 && violation < 1e-9 * size &&
               (change < 1e-9 * size || (change > 0.3 * before && change < 1e-6 * size));
     before = change;
@@ -148,7 +148,7 @@ template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass) {
   // Without mass and stiffness only rounding is left of a direction, whatever s.
   const double nothing = growth_of_motions(f, scale, 1e-30, penalty_mass);
-  // Beyond what dense linear algebra can judge the passes decide, as far as rounding lets them.
+  // Above the size for dense linear algebra the passes decide, as far as rounding permits.
   const bool large = scale.size() > most_dense;
   double s = little_stiffness(f);
   const int attempts = large || !bent(f, state.q) ? 2 : 0;
@@ -157,7 +157,7 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
     if (!(held < 1e13 && held < 1e-2 * nothing)) break;
     if (start_by_passes(f, state, s, penalty_mass, true, !large || attempt == 0)) return true;
   }
-  // Or there is mass, little but more than rounding: long chains fold up with a 1e-10 of theirs.
+  // Or the mass is small but above rounding: long chains fold with 1e-10 of their mass.
   return !lacks_mass(nothing) && start_by_passes(f, state, no_stiffness, penalty_mass, false, true);
 }
 

@@ -16,9 +16,9 @@ struct MemoryNumbers {
   Numbers given, own;
 };
 
-/// The least that counters and times of a simulation have in common.
+/// Common checks of the counters and times of a simulation.
 bool consistent(const SteppedMemory& m, double step) {
-  constexpr std::int64_t most = std::int64_t{1} << 53;  // beyond, sums would not be exact
+  constexpr std::int64_t most = std::int64_t{1} << 53;  // above it sums would not be exact
   const double t = m.state.t;
   if (!std::isfinite(t) || !std::isfinite(m.base) || m.since_base < 0 || m.since_base > most)
     return false;

@@ -1,6 +1,6 @@
 #pragma once
-// Whether what was kept of a run or a simulation can be gone on from. It may come from anywhere:
-// nothing of it is used before all of it has been checked.
+// Checks whether a run or a simulation can be continued from stored data. The data may come from
+// any source: nothing is used before everything has been checked.
 #include <span>
 #include <string>
 

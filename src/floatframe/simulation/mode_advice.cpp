@@ -96,7 +96,7 @@ void require_valid(const AdviceOptions& o) {
 Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) {
   require_modes(built(model), keep);
   Model out = model;
-  // Bodies that shared their data share it afterwards.
+  // Bodies that shared their data continue to share it.
   std::map<std::pair<const FlexibleBody*, std::vector<int>>, std::shared_ptr<const FlexibleBody>>
       known;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
@@ -149,7 +149,7 @@ void judge_bodies(const Model& model, const ResultTable& table, double step,
   }
 }
 
-/// Those that may go, those with the smallest shares first.
+/// Modes that may be removed, those with the smallest shares first.
 std::vector<ModeAdvice*> candidates_of(ModeAdviceReport& report, double drop_share) {
   std::vector<ModeAdvice*> candidates;
   for (BodyAdvice& body : report.bodies)
@@ -160,8 +160,8 @@ std::vector<ModeAdvice*> candidates_of(ModeAdviceReport& report, double drop_sha
   return candidates;
 }
 
-/// How many candidates may go together. Modes of equal shares go together: to drop one on the left
-/// of a vehicle and keep that on the right would make it lean.
+/// Number of candidates that may be removed together. Modes of equal shares go together: removing
+/// the left one of a vehicle and keeping the right one would make it asymmetric.
 std::vector<std::size_t> counts_of(const std::vector<ModeAdvice*>& candidates) {
   std::vector<std::size_t> counts{0};
   for (std::size_t k = 1; k <= candidates.size(); ++k)
@@ -180,14 +180,14 @@ Model without(const Model& model, const ModeAdviceReport& report,
   return with_modes(model, keep);
 }
 
-/// A model with fewer modes whose outputs do not show it.
+/// A model with fewer modes whose outputs do not change.
 struct Reduced {
   Model model;
   std::size_t dropped = 0;  ///< of the candidates, from the first
   std::vector<RangeWarning> warnings;
 };
 
-/// The largest number of candidates whose loss the outputs do not show, by halving.
+/// The largest number of candidates that can be removed without changing the outputs, by bisection.
 Reduced drop_most(const Model& model, const SimulationDescription& simulation,
                   const ResultTable& table, const std::vector<ModeAdvice*>& candidates,
                   double tolerance, ModeAdviceReport& report) {
@@ -202,7 +202,7 @@ Reduced drop_most(const Model& model, const SimulationDescription& simulation,
   std::size_t good = 0, bad = counts.size();
   Reduced out{model, 0, {}};
   while (bad - good > 1) {
-    // All of them first: most often that is the answer.
+    // All of them first: this is the most frequent result.
     const std::size_t at = bad == counts.size() ? bad - 1 : (good + bad) / 2;
     const Model trial = without(model, report, std::span(candidates).first(counts[at]));
     ++report.trials;
@@ -232,7 +232,7 @@ Reduced drop_most(const Model& model, const SimulationDescription& simulation,
   return out;
 }
 
-/// What to do with each mode; the number kept of each body.
+/// The recommendation for each mode; the number of modes kept for each body.
 std::vector<double> decide(const std::vector<ModeAdvice*>& candidates, std::size_t dropped,
                            double static_ratio, ModeAdviceReport& report) {
   for (std::size_t k = 0; k < candidates.size(); ++k) {
@@ -257,7 +257,7 @@ std::vector<double> decide(const std::vector<ModeAdvice*>& candidates, std::size
   return kept_modes;
 }
 
-/// Cost with the tolerance given, alternating so that a change of the machine's load meets both.
+/// Cost with the given tolerance, alternating so that a varying load of the machine affects both.
 void measure(const Model& model, const Model& reduced, const SimulationDescription& given,
              int repeat, ModeAdviceReport& report) {
   RunOptions quiet;
@@ -278,14 +278,14 @@ ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
                         const AdviceOptions& options) {
   require_valid(options);
   built(model);
-  // What a mode does to the outputs must not drown in what the Newton tolerance does to them (a
-  // tyre that meets an edge a moment later): runs that are compared have a tolerance of their own.
+  // The effect of a mode on the outputs must exceed that of the Newton tolerance (a tyre that meets
+  // an edge slightly later): compared runs use a separate, smaller tolerance.
   SimulationDescription simulation = given;
   simulation.output_interval = 0.0;
   simulation.tolerance = std::min(given.tolerance, std::max(1e-3 * given.tolerance, 1e-12));
   ModeAdviceReport report;
   RunResult full = run(watched(model), simulation);
-  if (full.summary.status != "completed") {  // closer than round-off allows
+  if (full.summary.status != "completed") {  // below round-off
     simulation.tolerance = given.tolerance;
     full = run(watched(model), simulation);
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Which modes of which flexible bodies a model could do without, found from the bodies, from a run
-// of the model, and verified by a second run without them.
+// Finds the modes of flexible bodies that a model does not need, from the bodies and from a run of
+// the model, and verifies the result by a second run without them.
 //
 // For amplitude k of a body with stiffness K and mass M_ff (both modal), h the step:
 //   frequency        sqrt(K_kk / M_kk) / 2 pi                     the body frame held
@@ -25,7 +25,7 @@ namespace floatframe {
 
 enum class ModeAction {
   keep,
-  /// Needed for its compliance only: its own vibration is not resolved or not excited.
+  /// Needed for its compliance only: its vibration is not resolved or not excited.
   quasi_static,
   drop
 };
@@ -39,7 +39,7 @@ struct ModeAdvice {
   double kinetic_ratio = 0;
   double rms = 0, peak = 0;  ///< of the amplitude in the run
   ModeAction action = ModeAction::keep;
-  bool retained = false;  ///< small enough to be dropped, but the verification was against it
+  bool retained = false;  ///< small enough to be dropped, but rejected by the verification
 };
 
 struct BodyAdvice {
@@ -53,14 +53,14 @@ struct OutputDifference {
   std::string name, unit;
   double range = 0;  ///< largest minus smallest sample of the full model
   double rms = 0;    ///< root mean square of the difference between the two runs
-  /// Largest difference; in a sharp peak that comes a little later it is large.
+  /// Largest difference; it is large for a sharp peak that is slightly delayed.
   double largest = 0;
   double peaks = 0;  ///< difference of the largest or of the smallest samples, the larger one
   double noise = 0;  ///< largest difference when the full model is run with ten times the tolerance
-  /// What is judged: the larger of rms and peaks over the range. The range counts as at least a
-  /// millionth of the largest range of an output in the same unit, and an output that stays below a
-  /// thousandth of that is not compared within ten times its noise (0): it stands still but for the
-  /// solver's round-off.
+  /// The criterion: the larger of rms and peaks over the range. The range is taken as at least a
+  /// millionth of the largest range of an output in the same unit. An output below a thousandth of
+  /// that is not compared within ten times its noise (0): its variation is only round-off of the
+  /// solver.
   double relative = 0;
 };
 
@@ -68,34 +68,34 @@ struct AdviceOptions {
   double drop_share = 1e-3;    ///< both shares below this: may be dropped
   double static_ratio = 0.05;  ///< kinetic ratio below this: follows its load
   double tolerance = 0.01;     ///< of the range of every output: rms and peak differences allowed
-  int repeat = 3;              ///< runs of which the quickest counts
+  int repeat = 3;              ///< number of runs, of which the fastest counts
 };
 
 struct ModeAdviceReport {
   std::vector<BodyAdvice> bodies;
   int modes = 0, dropped = 0, quasi_static = 0, candidates = 0;
-  int trials = 0;        ///< reduced models that were run
-  double tolerance = 0;  ///< Newton tolerance of the runs compared, below that of the model
-  /// Quickest of the repeated runs; with the warnings of those compared.
+  int trials = 0;        ///< number of reduced models that were run
+  double tolerance = 0;  ///< Newton tolerance of the compared runs, below that of the model
+  /// Fastest of the repeated runs; with the warnings of the compared runs.
   RunSummary full, reduced;
   std::vector<OutputDifference> differences;  ///< the largest first
-  /// The output that changed most in the smallest model refused, and by what part of its range; ""
-  /// if the model did not run.
+  /// The output with the largest change in the smallest rejected model, and the change as a
+  /// fraction of its range; "" if the model did not run.
   std::string refused_by;
   double refused_difference = 0;
-  /// A step's floating-point operations for the flexible bodies, counted and not measured: inertia
+  /// Floating-point operations per step for the flexible bodies, counted and not measured: inertia
   /// terms of all iterations and elimination of the amplitudes in all factorisations of the full
   /// model.
   double flops_full = 0, flops_reduced = 0;
 };
 
-/// Runs the model (several times) with `simulation`. Throws InputError for options that are not
-/// valid, RunError if the full model cannot run.
+/// Runs the model (several times) with `simulation`. Throws InputError for invalid options,
+/// RunError if the full model cannot run.
 ModeAdviceReport advise(const Model& model, const SimulationDescription& simulation,
                         const AdviceOptions& options);
 
-/// The model with some amplitudes of some bodies held at zero: `keep[i]` for body i. Outputs of
-/// amplitudes that are gone go too. Throws InputError for indices that are not those of modes.
+/// The model with some amplitudes of some bodies fixed at zero: `keep[i]` for body i. Outputs of
+/// removed amplitudes are removed, too. Throws InputError for indices that are not those of modes.
 Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep);
 
 /// "keep", "quasi-static", "drop"

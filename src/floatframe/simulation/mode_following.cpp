@@ -9,8 +9,8 @@ namespace {
 constexpr double same_mode = 0.8;
 constexpr int deepest = 9;
 
-/// Modes of equal frequency, which may stand as any combinations of each other: an orthonormal
-/// basis of each such set of more than one, and whose set it is.
+/// Modes of equal frequency, which may be arbitrary combinations of each other: an orthonormal
+/// basis of each set of more than one, and the set of each mode.
 struct EqualModes {
   std::vector<Eigen::MatrixXcd> bases;
   std::vector<int> set_of;  ///< -1: the mode is alone
@@ -52,7 +52,7 @@ struct ModePair {
   std::size_t next = no_mode;
   double mac = 0.0, apart = 0.0;
   double rival = 0.0;  ///< MAC of one of the two with another mode of nearly this frequency
-  /// How much the two are one, at most 1.1.
+  /// Similarity of the two, at most 1.1.
   double likeness() const noexcept { return mac - 2.0 * apart; }
 };
 
@@ -61,7 +61,7 @@ double apart(const TurningMode& a, const TurningMode& b) {
   return size > 0.0 ? std::abs(a.lambda - b.lambda) / size : 0.0;
 }
 
-/// Of the modes of `a` that swing those of `b` that do: the most alike first.
+/// Matches the oscillating modes of `a` with those of `b`: the most similar first.
 std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
   struct Candidate {
     double like;
@@ -94,7 +94,7 @@ std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
   return pairs;
 }
 
-/// Those that end in one mode.
+/// Paths that end in the same mode.
 std::vector<std::size_t> paths_that_meet(const std::vector<ModePath>& paths) {
   std::vector<std::size_t> met;
   for (std::size_t i = 0; i < paths.size(); ++i)
@@ -106,7 +106,7 @@ std::vector<std::size_t> paths_that_meet(const std::vector<ModePath>& paths) {
   return met;
 }
 
-/// Paths to `middle` and, of those that come so far, on by `go_on` from there.
+/// Paths to `middle` and, for those that reach it, onwards by `go_on`.
 template <class Begin, class GoOn>
 std::vector<ModePath> joined(std::vector<ModePath> paths, double middle,
                              const std::vector<Begin>& begins, const GoOn& go_on) {
@@ -133,9 +133,9 @@ std::vector<ModePath> joined(std::vector<ModePath> paths, double middle,
 bool is_accepted(const ModePair& p, bool last_resort) {
   if (p.next == no_mode) return false;
   if (p.mac > same_mode && (last_resort || p.likeness() > 0.4)) return true;
-  // A shape that takes a little of many others while its frequency stays.
+  // A shape with small components of many others and an unchanged frequency.
   if (p.mac > 0.5 && p.apart < 1e-3 && p.rival < 0.5 * p.mac) return true;
-  // In the middle of two lines that nearly meet either continuation is as good, and neither jumps.
+  // In the middle of two nearly crossing lines either continuation is equally good and continuous.
   return last_resort && p.mac > 0.3 && p.apart < 1e-3;
 }
 
@@ -152,7 +152,7 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
   std::vector<Begin> begins;
   for (const std::size_t k : modes) begins.push_back({from, std::abs(at(from)[k].lambda)});
   std::vector<ModePath> paths = follow(from, to, modes, begins, 0);
-  // Paths by different speeds between may meet, where one of them has taken too long a step.
+  // Paths by different intermediate speeds may merge if one of them has taken too long a step.
   for (int level = 1; level <= 5; ++level) {
     const std::vector<std::size_t> met = paths_that_meet(paths);
     if (met.empty()) return paths;
@@ -198,7 +198,7 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
   std::vector<Begin> open_begins;
   const double middle = 0.5 * (from + to);
   const bool last = depth == deepest || (out_of_speeds() && known_.count(middle) == 0);
-  std::size_t still = 0;  // rigid motions at standstill, two for each that begins to swing
+  std::size_t still = 0;  // rigid motions at standstill, two per mode that starts
   while (still < b.size() && is_rigid(b, still)) ++still;
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const ModePair& p = pairs[modes[k]];

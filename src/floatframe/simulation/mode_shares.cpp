@@ -18,7 +18,7 @@ MatX recoil_mass(const InertiaInvariants& v) {
   const MatX M = mass_matrix_at_rest(v);
   const Mat6 M_rr = M.topLeftCorner<6, 6>();
   const MatX M_rf = M.topRightCorner(6, v.modes());
-  // A thin rod has no inertia about its axis: the least solution leaves that rotation alone.
+  // A thin rod has no inertia about its axis: the least-norm solution leaves that rotation zero.
   return modal_mass(v) - M_rf.transpose() * LeastNorm(M_rr, 1e-12).solve(M_rf);
 }
 
@@ -40,7 +40,7 @@ VecX frequencies(const MatX& K, const MatX& M) {
   return f;
 }
 
-/// Markers through which joints, rods and forces act on a body; outputs are no loads.
+/// Markers through which joints, rods and forces act on a body; outputs do not load it.
 std::set<int> loaded_markers(const Model& model, int body) {
   std::set<int> markers;
   const auto add = [&](int m) {

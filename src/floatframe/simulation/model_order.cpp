@@ -16,10 +16,10 @@
 namespace floatframe {
 namespace {
 
-/// Own frequencies of a body should reach this many times the range.
+/// Ratio between the frequencies of a body and the range below which the warning is given.
 constexpr double enough_above = 1.5;
 
-/// Swings, and is no rigid motion (to round-off).
+/// True if it oscillates and is no rigid motion (to round-off).
 bool vibrates(const LinearMode& m, double stiffest) {
   return m.lambda.imag() > 1e-7 * std::abs(m.lambda) && std::abs(m.lambda) > 1e-7 * stiffest;
 }
@@ -55,7 +55,7 @@ double kinetic_energy_of(const Model& model, const LinearSystem& system, const L
   return energy;
 }
 
-/// (1) of every amplitude for one vibration, where it is larger than what is known.
+/// (1) for every amplitude and one vibration; keeps the largest value.
 void estimate(const Model& model, const LinearSystem& system, const LinearMode& mode,
               std::vector<BodyOrder>& bodies) {
   const double w = std::abs(mode.lambda);
@@ -75,7 +75,7 @@ void estimate(const Model& model, const LinearSystem& system, const LinearMode& 
   }
 }
 
-/// Amplitudes in the order in which they go: estimate, entry of `bodies`, mode.
+/// Amplitudes in the order of removal: estimate, entry of `bodies`, mode.
 struct Going {
   double change;
   std::size_t body;
@@ -92,7 +92,7 @@ std::vector<Going> order_of_going(const std::vector<BodyOrder>& bodies) {
   return all;
 }
 
-/// How many may go together, those of equal estimates at once.
+/// Number of amplitudes removed together, those of equal estimates at once.
 std::vector<std::size_t> group_ends(const std::vector<Going>& all) {
   std::vector<std::size_t> ends{0};
   for (std::size_t k = 1; k <= all.size(); ++k)
@@ -109,8 +109,8 @@ std::vector<std::vector<int>> kept_without(const Model& model, const std::vector
   return keep;
 }
 
-/// Frequencies of the range without amplitudes, and their largest change; infinite if they cannot
-/// be found.
+/// Frequencies of the range without the amplitudes, and their largest change; infinite if they
+/// cannot be computed.
 double change_without(const Model& reduced, const std::vector<double>& full,
                       std::vector<double>& found) {
   try {

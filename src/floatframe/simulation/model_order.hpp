@@ -1,20 +1,20 @@
 #pragma once
-// Model order: how many modes of each flexible body the assembled system needs, so that its
-// vibrations below a frequency are right.
+// Model order: the number of modes that each flexible body needs for accurate vibrations of the
+// assembled system below a frequency.
 //
-// Estimate. Without amplitude k of a body a vibration of the whole, (K - w^2 M) x = 0, has the
-// Rayleigh quotient of x with x_k = 0, so that its frequency grows by at most about
+// Estimate. Without amplitude k of a body, a vibration of the system, (K - w^2 M) x = 0, has the
+// Rayleigh quotient of x with x_k = 0, so that its frequency increases by at most about
 //   dw / w = (K_kk - w^2 M_kk) |x_k|^2 / (4 T)                                                  (1)
-// with T = 1/2 w^2 x^T M x the kinetic energy, K_kk and M_kk of the body. The amplitudes with the
-// smallest of the largest estimates over all vibrations of the range go first, those of equal
-// estimates (left and right) together.
+// with T = 1/2 w^2 x^T M x the kinetic energy, K_kk and M_kk of the body. For each amplitude the
+// largest estimate over all vibrations of the range is taken; those with the smallest are removed
+// first, those with equal estimates (left and right) together.
 //
-// Verified. The linear system without them is computed, and its frequencies compared one by one; by
-// halving the largest number is found with which all stay within the tolerance. Then the model is
-// run without them, and its outputs are compared as those of `advise`.
+// Verification. The linear system without them is computed and its frequencies are compared one by
+// one; bisection finds the largest number for which all stay within the tolerance. Then the model
+// is run without them, and its outputs are compared as in `advise`.
 //
-// Modes that the bodies do not have cannot be judged by this: of those whose own frequencies end
-// within the range or not far above it a warning says so.
+// Modes that the bodies do not contain cannot be assessed in this way: a warning names the bodies
+// whose highest frequency is within the range or not far above it.
 #include <string>
 #include <vector>
 
@@ -32,7 +32,7 @@ struct BodyOrder {
   std::string name;
   std::vector<int> needed;        ///< modes from 0, ascending
   std::vector<double> estimates;  ///< (1) of each mode, the largest over the range
-  double own = 0.0;  ///< highest own frequency of its normal modes [Hz]; 0: it has none
+  double own = 0.0;               ///< highest frequency of its normal modes [Hz]; 0: it has none
 };
 
 struct ModelOrder {
@@ -46,8 +46,8 @@ struct ModelOrder {
   std::vector<std::string> warnings;
 };
 
-/// At the start that the model asks for. Throws InputError for options that are not valid,
-/// RunError as `linear_system`.
+/// At the start state given by the model. Throws InputError for invalid options, RunError as
+/// `linear_system`.
 ModelOrder model_order(const Model& model, const ModelOrderOptions& options);
 
 }  // namespace floatframe

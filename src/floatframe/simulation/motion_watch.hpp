@@ -1,7 +1,7 @@
 #pragma once
-// Watches deformation, spin and phase of a run of any formulation, from a formulation whose
+// Monitors deformation, spin and phase of a run in any formulation, from a formulation whose
 // positions and velocities are those of the state. Nothing here allocates after construction; the
-// formulation and the state stay as they are.
+// formulation and the state are not changed.
 #include <map>
 #include <vector>
 
@@ -36,7 +36,7 @@ class MotionWatch {
     range_.serialize(s);
   }
 
-  /// Deformation, spin and turn of all bodies.
+  /// Deformation, spin and rotation of all bodies.
   void look(const State& s) noexcept {
     for (std::size_t i = 0; i < range_.bodies().size(); ++i) {
       const int body = static_cast<int>(i);
@@ -46,8 +46,8 @@ class MotionWatch {
     }
   }
 
-  /// Of each flexible body: its largest elastic displacement, and the largest that one of its modes
-  /// alone makes [m].
+  /// For each flexible body: its largest elastic displacement, and the largest due to a single mode
+  /// [m].
   void deformations(const State& s, double* out) noexcept {
     for (std::size_t i = 0; i < range_.bodies().size(); ++i) {
       const int modes = f_.model().bodies[i].modes();
@@ -59,7 +59,7 @@ class MotionWatch {
     }
   }
 
-  /// Of all bodies [J].
+  /// For all bodies [J].
   double kinetic_energy(const State& s) noexcept {
     double sum = 0.0;
     for (std::size_t i = 0; i < energy_.size(); ++i) {
@@ -76,7 +76,7 @@ class MotionWatch {
     return sum;
   }
 
-  /// Velocities at the start, and after every full step since.
+  /// Velocities at the start and after every full step.
   void start(const State& s) noexcept {
     meters(s, [](PhaseMeter& m, const Vec3& v) { m.start(v); });
     range_.turns().start(f_);
@@ -102,8 +102,8 @@ class MotionWatch {
   F& f_;
   RangeWatch range_;
   VecX y_, ydot_;
-  std::vector<BodyEnergy> energies_;  ///< of bodies that are alike one
-  std::vector<std::size_t> energy_;   ///< which, of each body
+  std::vector<BodyEnergy> energies_;  ///< one for equal bodies
+  std::vector<std::size_t> energy_;   ///< index for each body
 };
 
 }  // namespace floatframe

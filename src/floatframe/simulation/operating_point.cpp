@@ -66,7 +66,7 @@ Model at_operating_point(const Model& model, const std::string& at) {
     const double time = time_of(at);
     d.state = std::make_shared<SystemState>(state_after(model, time));
     d.start = Start::state;
-    d.velocity.setZero();  // the state holds it
+    d.velocity.setZero();  // included in the state
   }
   d.offset.clear();
   d.given_by("--at", "start");

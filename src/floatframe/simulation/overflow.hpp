@@ -1,6 +1,6 @@
 #pragma once
-// Numbers of a model that double precision cannot compute with. What they make of matrices and
-// iterations (vanishing pivots, no convergence) looks like another cause.
+// Numbers of a model that double precision cannot compute with. Their effects on matrices and
+// iterations (vanishing pivots, no convergence) would suggest another cause.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,13 +12,13 @@
 
 namespace floatframe {
 
-/// Squares of what is larger overflow.
+/// Squares of larger numbers overflow.
 inline constexpr double largest_magnitude = 1e100;
-/// Beside what is larger nothing of the size of 1 is left: blamed when a step has failed.
+/// Above it, values of order 1 are lost in round-off: reported as the cause of a failed step.
 inline constexpr double largest_beside_one = 1e15;
 
 /// "the spring of 's' has a slope of 1e+308 [N/m, N m/rad]", or nothing if all numbers of the model
-/// at these positions and velocities and the time t are below the limit. The words are the same in
+/// at these positions and velocities and the time t are below the limit. The text is the same in
 /// all formulations. Moves `f`.
 template <class F>
 std::string overflow_text(F& f, const State& state, double t, double limit) {

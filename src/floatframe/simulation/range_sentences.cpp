@@ -1,5 +1,5 @@
-// What the range watch has to say: one sentence per kind of limit, about the body that passed it
-// furthest.
+// Messages of the range checks: one sentence per kind of limit, about the body that exceeded it
+// most.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-/// The body with the largest value relative to its limit, and how many others passed theirs.
+/// The body with the largest value relative to its limit, and the number of others above theirs.
 struct Worst {
   int body = -1, others = -1;
   double ratio = 1.0;
@@ -29,7 +29,7 @@ struct Worst {
 
 std::string percent(double x) { return fmt::format("{:.3g} %", 100.0 * x); }
 
-/// What is left out of the stiffness of a body at a spin [rad/s].
+/// The neglected part of the stiffness of a body at a spin [rad/s].
 std::string tension_text(const BodyRange& body, double spin) {
   const double ratio = spin / body.lowest_frequency();
   if (body.stiffening() > 0.0)
@@ -131,7 +131,7 @@ class Writer {
       double furthest = 0.0;
       for (std::size_t k = 0; k < meters[i].size(); ++k) {
         const PhaseMeter& m = meters[i][k];
-        // Of too few steps nothing can be said; vibrations count among themselves if they count.
+        // Too few steps give no estimate; vibrations are compared among themselves if significant.
         const bool counts =
             m.energy() > limits_.share * all ||
             (k >= 2 && elastic > least_vibration * all && m.energy() > limits_.share * elastic);
@@ -165,10 +165,10 @@ class Writer {
                std::vector<RangeWarning>& out) const {
     if (!e.balanced) return;
     const double x = std::abs(e.largest_remainder), part = x / e.exchanged;
-    // A small part of all energy there is an error of the size of the step, however little of it
-    // changes hands.
+    // A small fraction of the total energy is an error due to the step size, even if little energy
+    // is exchanged.
     if (!(x > limits_.of_present * e.present)) return;
-    // With numerical damping a loss is what was asked for, unless it is much.
+    // With numerical damping a loss is expected, unless it is large.
     const bool damped = spectral_radius < 1.0 && e.largest_remainder < 0.0;
     if (damped && part > limits_.dissipation)
       out.push_back(
@@ -193,7 +193,7 @@ class Writer {
   }
 
  private:
-  /// What the balance came apart by, if that can be seen; else the step is to blame.
+  /// The cause of the imbalance, if it can be identified; else the step size.
   std::string remedy(const EnergySummary& e, const char* or_else) const {
     const std::string cause =
         energy_cause(model_, e.largest_growth_from, e.largest_growth_to, step_, corners_);
@@ -202,7 +202,7 @@ class Writer {
                        e.largest_growth, e.largest_growth_from, e.largest_growth_to, cause);
   }
 
-  /// The trapezoidal rule does not damp what it does not resolve.
+  /// The trapezoidal rule does not damp unresolved motions.
   bool gain_of_vibrations(const EnergySummary& e, double spectral_radius) const {
     return e.largest_remainder > 0.0 && spectral_radius == 1.0 &&
            std::any_of(model_.bodies.begin(), model_.bodies.end(),
@@ -212,7 +212,7 @@ class Writer {
   static constexpr long least_steps = 6;
   static constexpr double least_vibration = 1e-4;
 
-  /// The sentence about the body that is furthest beyond its limit; a limit of 0 is none.
+  /// The sentence about the body that exceeds its limit most; a limit of 0 is none.
   template <class Limit, class Sentence>
   void about_worst(RangeLimit kind, const Largest& (BodyRange::*measure)() const,
                    const Limit& limit, const Sentence& sentence,

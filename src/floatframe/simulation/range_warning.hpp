@@ -6,19 +6,19 @@
 
 namespace floatframe {
 
-/// The limit that was passed.
+/// The limit that was exceeded.
 enum class RangeLimit {
   displacement,  ///< a body deforms too far
   rotation,      ///< it bends too far
   spin,          ///< it spins too fast for its stiffness
-  turn,          ///< it turns too far in one step
+  turn,          ///< it rotates too far in one step
   phase,         ///< the step is too long for a motion or vibration
   sine,          ///< ... for the sine of a load or motion
   table,         ///< ... for a table
   damping,       ///< numerical damping takes too much energy
   balance,       ///< the energy balance does not close
-  branch,        ///< the mechanism passed a singular position, where it may branch
-  half_turn      ///< the rotation that a force element measures passed half a turn
+  branch,        ///< the mechanism passed a singular configuration, where it may branch
+  half_turn      ///< the rotation measured by a force element exceeded half a turn
 };
 /// In this order.
 inline constexpr std::array<const char*, 11> range_limit_names{

@@ -1,5 +1,5 @@
 #pragma once
-// Warnings about the range of the method (docs/range.md) after the run that gave them.
+// Warnings about the range of the method (docs/range.md) after the run that produced them.
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {

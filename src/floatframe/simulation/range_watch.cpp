@@ -37,8 +37,8 @@ Mat3 central_moments(const InertiaInvariants& v) {
   return v.P_u - v.m * c * c.transpose();
 }
 
-/// Of unit spins about the columns of E: how much of it changes the stiffness of the body, 0 or 1.
-/// Sections of a shaft that turns about its own axis are rigid: what spins there pulls nothing.
+/// For unit spins about the columns of E: the fraction that changes the stiffness of the body, 0 or
+/// 1. Sections of a shaft that spins about its axis are rigid: this spin loads nothing.
 Vec3 stiffening_directions(const FlexibleBody& body, const Mat3& E) {
   if (!body.second_order) return Vec3::Ones();
   Vec3 size;
@@ -59,7 +59,7 @@ BodyRange::BodyRange(const Model& model, int index) : data_(*model.bodies[index]
   const Mat3 P = central_moments(data_.invariants);
   if (data_.invariants.m > 0.0 && P.trace() > 0.0) {
     size_ = 2.0 * std::sqrt(P.trace() / data_.invariants.m);
-    // Spin w pulls with int |w x u|^2 dm = w^T (tr(P) I - P) w.
+    // Spin w causes the load int |w x u|^2 dm = w^T (tr(P) I - P) w.
     const Mat3 pull = (P.trace() * Mat3::Identity() - P) / P.trace();
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(pull);
     const Mat3 E = solver.eigenvectors();
@@ -132,8 +132,8 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
   const Eigen::Index modes = data_.modes();
   if (modes == 0) return;
   if (softened_ > 0.0) spin_.offer(pulling_spin(w), t, l.spin * softened_);
-  // The modes together move no node further than each its own: nodes are looked at one by one only
-  // when that could be a new largest value.
+  // All modes together move no node farther than the sum of each: single nodes are checked only if
+  // that sum could be a new largest value.
   double move = 0.0, turn = 0.0;
   for (Eigen::Index k = 0; k < modes; ++k) {
     move += displaced_[k] * std::abs(y[k]);

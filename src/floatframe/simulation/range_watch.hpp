@@ -1,7 +1,7 @@
 #pragma once
-// Watches whether a run stays in the range of the method (docs/range.md): small elastic
-// deformations, slow spin, a step that resolves the motion. `observe` functions belong to a run:
-// noexcept, no allocation; what is measured becomes sentences at the end.
+// Monitors whether a run stays in the range of the method (docs/range.md): small elastic
+// deformations, slow spin, a step that resolves the motion. `observe` functions are called in a
+// run: noexcept, no allocation; the measurements are turned into sentences at the end.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -28,17 +28,17 @@ struct RangeLimits {
   double phase = 1.0;         ///< of an oscillation per step [rad]
   double share = 0.05;        ///< of the kinetic energy of all oscillations that counts
   double imbalance = 0.05;    ///< remainder of the energy balance over the energy exchanged
-  double dissipation = 0.1;   ///< the same of what numerical damping takes out
-  double of_present = 1e-4;   ///< of the energy present, below which no remainder counts
+  double dissipation = 0.1;   ///< the same for numerical dissipation
+  double of_present = 1e-4;   ///< fraction of the present energy below which no remainder counts
 };
 
-/// Motion in a step below which only the tolerances of the solver show [m, rad].
+/// Motion per step below which only the tolerances of the solver are visible [m, rad].
 inline constexpr double least_motion = 1e-8;
 
-/// The largest value met, with the time it first passed its limit.
+/// The largest value so far, with the time at which it first exceeded its limit.
 struct Largest {
   double value = 0.0, at = 0.0;
-  double first = -1.0;  ///< below zero: the limit was not passed
+  double first = -1.0;  ///< below zero: the limit was not exceeded
   int node = -1;
   void offer(double x, double t, double limit) noexcept {
     if (x > limit && first < 0.0) first = t;
@@ -56,7 +56,7 @@ struct Largest {
   }
 };
 
-/// Deformation, spin and turn of one body.
+/// Deformation, spin and rotation of one body.
 class BodyRange {
  public:
   explicit BodyRange(const Model& model, int index);
@@ -64,18 +64,18 @@ class BodyRange {
   /// `w`: angular velocity in body axes [rad/s]; `y`: modal amplitudes; h: the step [s].
   void observe(double t, double h, const Vec3& w, const double* y, const RangeLimits& l) noexcept;
 
-  /// Of the nodes that are looked at [m].
+  /// For the monitored nodes [m].
   double displacement_now(const double* y) const noexcept;
-  /// The largest of a node that one of the modes alone makes [m].
+  /// The largest displacement of a node due to a single mode [m].
   double displacement_of_one_mode(const double* y) const noexcept;
 
   double size() const noexcept { return size_; }
   /// Lowest angular frequency with the body frame held [rad/s]; 0: none.
   double lowest_frequency() const noexcept { return lowest_; }
-  /// Lowest stiffness with centrifugal stiffening over that without, less 1, per squared spin about
-  /// the worst axis [s2]; 0: not known.
+  /// Lowest stiffness with centrifugal stiffening divided by that without, minus 1, per squared
+  /// spin about the worst axis [s2]; 0: unknown.
   double stiffening() const noexcept { return stiffening_; }
-  /// The part of a spin that pulls at the body [rad/s]; w: in body axes.
+  /// The component of a spin that loads the body [rad/s]; w: in body axes.
   double pulling_spin(const Vec3& w) const noexcept { return (stretch_ * w).norm(); }
   const Largest& displacement() const { return displacement_; }  ///< [m]
   const Largest& rotation() const { return rotation_; }          ///< [rad]
@@ -83,7 +83,7 @@ class BodyRange {
   const Largest& turn() const { return turn_; }                  ///< [rad]
   /// "node 'tip'", "node 7", "the surface point at (0.5, 0, 0.02) m" (of the undeformed body).
   std::string node_name(int node) const;
-  /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
+  /// Stores and restores the record, for runs that are continued elsewhere (state_bytes.hpp).
   template <class Stream>
   void serialize(Stream& s) {
     for (Largest* l : {&displacement_, &rotation_, &spin_, &turn_}) l->serialize(s);
@@ -95,23 +95,23 @@ class BodyRange {
 
   const FlexibleBody& data_;
   double size_ = 0.0, lowest_ = 0.0;
-  double softened_ = 0.0;  ///< `lowest_` if centrifugal tension is left out, else 0
+  double softened_ = 0.0;  ///< `lowest_` if centrifugal tension is omitted, else 0
   double stiffening_ = 0.0;
-  /// |stretch w| is the spin that pulls at the body: that about a slender body's axis does not.
+  /// |stretch w| is the spin that loads the body: a spin about the axis of a slender body does not.
   Mat3 stretch_ = Mat3::Zero();
-  /// Those that move or turn most in a mode, and those with markers.
+  /// Nodes with the largest motion or rotation in a mode, and nodes with markers.
   std::vector<int> nodes_;
   VecX displaced_, rotated_;  ///< largest motion and rotation of a node in each mode
   Largest displacement_, rotation_, spin_, turn_;
 };
 
 /// Phase per step of a velocity, from its changes: cos(phase) = 1 - mean |dv|^2 / (2 var v), exact
-/// for one frequency and weighted with the kinetic energy for a mixture.
+/// for one frequency and weighted with the kinetic energy for several.
 class PhaseMeter {
  public:
   explicit PhaseMeter(double mass) noexcept : mass_(mass) {}
   void start(const Vec3& v) noexcept { previous_ = v; }
-  /// After every full step.
+  /// To be called after every full step.
   void observe(const Vec3& v) noexcept {
     changes_ += (v - previous_).squaredNorm();
     previous_ = v;
@@ -120,10 +120,10 @@ class PhaseMeter {
     mean_ += off / static_cast<double>(count_);
     spread_ += off.dot(v - mean_);
   }
-  /// Mean kinetic energy of what is not uniform motion [J].
+  /// Mean kinetic energy of the non-uniform part of the motion [J].
   double energy() const noexcept;
   double phase() const noexcept;  ///< [rad]
-  double speed() const noexcept;  ///< root mean square of what is not uniform [m/s, rad/s]
+  double speed() const noexcept;  ///< root mean square of the non-uniform part [m/s, rad/s]
   long count() const noexcept { return count_; }
   template <class Stream>
   void serialize(Stream& s) {
@@ -138,16 +138,16 @@ class PhaseMeter {
   Vec3 previous_ = Vec3::Zero(), mean_ = Vec3::Zero();
 };
 
-/// Watches the rotations that force elements measure. A rotation vector jumps from one side to the
-/// other at half a turn: theta_n . theta_n-1 < 0 at more than a quarter turn. The angle of a joint
-/// spring counts turns from one step to the next, which needs less than half a turn in each.
-/// `start` and `follow` allocate nothing.
+/// Monitors the rotations that force elements measure. A rotation vector changes its sign at half a
+/// turn: theta_n . theta_n-1 < 0 at more than a quarter turn. The angle of a joint spring counts
+/// turns from one step to the next, which requires less than half a turn per step. `start` and
+/// `follow` do not allocate.
 class TurnWatch {
  public:
-  /// Of runs in steps of this size [s].
+  /// For runs with this step size [s].
   TurnWatch(const Model& model, double step);
 
-  /// At the start, and after every step: `f` is there with positions and velocities.
+  /// At the start, and after every step: `f` has the positions and velocities of that state.
   template <class F>
   void start(const F& f) noexcept {
     for (Watched& x : watched_)
@@ -171,10 +171,10 @@ class TurnWatch {
     }
   }
 
-  /// The sentence about the element that went too far first, if there is one.
+  /// The sentence about the first element that exceeded its limit, if there is one.
   void warn(std::vector<RangeWarning>& out) const;
 
-  /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
+  /// Stores and restores the record, for runs that are continued elsewhere (state_bytes.hpp).
   template <class Stream>
   void serialize(Stream& s) {
     for (Watched& x : watched_) {
@@ -188,7 +188,7 @@ class TurnWatch {
     int force = -1;
     bool counts = false;        ///< a joint spring
     Vec3 theta = Vec3::Zero();  ///< the last one [rad]
-    double first = -1.0;        ///< when it went too far [s]; below zero: it did not
+    double first = -1.0;        ///< time at which it exceeded the limit [s]; below zero: it did not
     double most = 0.0;          ///< angle in one step [rad]
   };
   static bool quarter(const Vec3& theta) noexcept { return theta.norm() > 0.5 * std::numbers::pi; }
@@ -210,17 +210,17 @@ class RangeWatch {
 
   std::vector<BodyRange>& bodies() noexcept { return bodies_; }
   const std::vector<BodyRange>& bodies() const noexcept { return bodies_; }
-  /// Two per body, its motion and its turning, then one per mode.
+  /// Two per body, its translation and its rotation, then one per mode.
   std::vector<PhaseMeter>& meters(int body) noexcept { return meters_[body]; }
-  /// Of the force elements that measure rotations.
+  /// For the force elements that measure rotations.
   TurnWatch& turns() noexcept { return turns_; }
   double step() const noexcept { return step_; }
   /// Energy of all bodies moving by `least_motion` per step [J].
   double noise() const noexcept;
   const RangeLimits& limits() const noexcept { return limits_; }
 
-  /// One sentence for each kind of limit that was passed; balance and corners, which steps were
-  /// divided at, are those of the same run.
+  /// One sentence for each kind of limit that was exceeded; the balance and the corners, at which
+  /// steps were divided, are those of the same run.
   std::vector<RangeWarning> warnings(const EnergySummary& energy, double spectral_radius,
                                      std::span<const TimeCorner> corners) const;
   template <class Stream>
@@ -240,13 +240,13 @@ class RangeWatch {
   TurnWatch turns_;
 };
 
-/// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind.
+/// Equilibria outside of the range: bodies with excessive deformation, one sentence per kind.
 /// `bodies` are those of the model, in its order.
 std::vector<RangeWarning> equilibrium_warnings(const Model& model,
                                                const std::vector<StaticsBody>& bodies,
                                                const RangeLimits& limits = {});
 
-/// What is said of a body that spins too fast for its stiffness, w in body axes, in one state.
+/// Message about a body that spins too fast for its stiffness, w in body axes, in one state.
 std::string spin_sentence(const Model& model, const BodyRange& range, int body, const Vec3& w);
 
 }  // namespace floatframe

@@ -13,15 +13,15 @@ namespace floatframe {
 namespace {
 
 constexpr int reaction_slot = 0;
-/// Passes of (2): it ends before when the last ones have not come nearer.
+/// Largest number of passes of (2); ends earlier if the last ones have not improved.
 constexpr int most_passes = 60, idle_passes = 3;
-/// Changes that count no more, of accelerations and of multipliers.
+/// Relative changes below which accelerations and multipliers count as converged.
 constexpr double enough = 1e-11;
-/// Fewer passes where redundant constraints cost more per row.
+/// Penalty factor: saves passes where redundant constraints increase the cost per row.
 constexpr double stiffer = 30.0;
-/// A pass that leaves more than this of the multipliers' errors does not make them smaller.
+/// A pass that leaves more than this fraction of the multipliers' errors does not reduce them.
 constexpr double slow = 0.5;
-/// A part of what redundant constraints leave open that counts, of the whole.
+/// Relative variation due to redundant constraints above which an output is not unique.
 constexpr double left_open = 1e-6;
 
 double largest_entry(const VecX& x) noexcept {
@@ -46,7 +46,7 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
   reactions_.joint_impulses.assign(model.joints.size(), Vec3::Zero());
   reactions_.rod_impulses.assign(model.rods.size(), Vec3::Zero());
   if (options.redundant) {
-    // That of absolute coordinates is as stiff as digits allow.
+    // The penalty of absolute coordinates is already as large as digits allow.
     if (std::is_same_v<F, RelativeFormulation>) options_.penalty_mass *= stiffer;
     least_.emplace(model);
   }
@@ -73,14 +73,14 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   f_.set_spring_angles(spring_angles);
   dynamics_at(f_, state);
   a_ = state.a;
-  // Of redundant constraints any will do: those of the step are near.
+  // With redundant constraints any solution will do: those of the step are close.
   if (least_)
     lambda_ = state.lambda;
   else
     lambda_.setZero();
   f_.residual(a_, lambda_, 0.0, residual_);  // multipliers of the tangent
   const bool factorised = factorize() < 0;
-  // Without multipliers there is nothing but the forces to refine.
+  // Without multipliers only the forces are refined.
   const bool shortened = factorised && has_W_ && f_.constraints() > 0;
   if (factorised) iterate(!shortened);
   find_force_error();
@@ -102,9 +102,9 @@ void ReactionSolver<F>::find_force_error() noexcept {
   force_error_ = largest_entry(residual_);
 }
 
-/// (2), with the residual at hand. With W itself a pass leaves nothing of the forces in (1), and
-/// Phi_q a - gamma is known from the solution; `refines`: they are found anew. The best of the
-/// passes is kept: round-off may make the last ones worse.
+/// (2), with the residual already computed. With W itself a pass leaves no forces in (1), and Phi_q
+/// a - gamma is known from the solution; `refines`: both are computed again. The best of the passes
+/// is kept: round-off may make the last ones worse.
 template <class F>
 void ReactionSolver<F>::iterate(bool refines) noexcept {
   const double p = options_.penalty_mass;
@@ -135,8 +135,8 @@ void ReactionSolver<F>::iterate(bool refines) noexcept {
     const double step = p * largest_entry(work_);
     const double slower = step > 0.0 ? step / last_step : 0.0, rate = std::max(slower, size / last);
     const double rest_a = enough * largest_entry(a_), rest_lambda = enough * largest_entry(lambda_);
-    // What the next pass would change is less than rounding shows, or a multiple of forces that
-    // balance each other: what redundant constraints disagree by does not shrink.
+    // The change of the next pass would be below rounding, or a multiple of self-balancing forces:
+    // contradictions of redundant constraints do not decrease.
     if (size == 0.0 || (pass > 0 && rate * size < rest_a && rate * step < rest_lambda) ||
         (least_ && size < rest_a && slower > slow))
       break;

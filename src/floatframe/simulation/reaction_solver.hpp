@@ -1,29 +1,29 @@
 #pragma once
 // Accelerations a and multipliers lambda that satisfy the equations of motion at a state (q, v):
 //   M a + Phi_q^T lambda = Q,   Phi_q a = gamma                                              (1)
-// with gamma = -((Phi_q)dot v + Phi_tt), and the wrenches that joints, rods and motors transmit
-// with them. A step knows neither: its accelerations are those of the integrator before and after
+// with gamma = -((Phi_q)dot v + Phi_tt), and the resulting wrenches of joints, rods and motors.
+// Neither is available in a step: its accelerations are those of the integrator before and after
 // their projection, and the projections exchange impulses.
 //
-// With the penalty p and W = M + p Phi_q^T Phi_q, from lambda = 0 on, until round-off is left:
+// With the penalty p and W = M + p Phi_q^T Phi_q, starting at lambda = 0, until round-off remains:
 //   W da = -(M a + Phi_q^T lambda - Q) - p Phi_q^T (Phi_q a - gamma)
 //   a += da,   lambda += p (Phi_q a - gamma)                                                 (2)
-// The errors shrink with each pass by 1 / (1 + p e), e the eigenvalues of Phi_q M^-1 Phi_q^T. All
-// of lambda comes from Phi_q times something: where (1) leaves it open it is that of least norm, of
-// the formulation's own multipliers. Where the start shows redundant constraints, the passes begin
-// with the multipliers of the step, and `LeastReactions` makes of their wrenches those of least
-// norm of the multipliers of all joints, which are the same in both formulations. A freedom without
-// mass makes W singular; then W = M + h^2 K + p Phi_q^T Phi_q with the step h: accelerations along
-// such a freedom mean nothing, and no reaction depends on them.
+// Each pass reduces the errors by 1 / (1 + p e), e the eigenvalues of Phi_q M^-1 Phi_q^T. All of
+// lambda is a product with Phi_q: where (1) does not determine it, it is that of least norm in the
+// multipliers of the formulation. If constraints are redundant at the start, the passes begin with
+// the multipliers of the step, and `LeastReactions` converts their wrenches to those of least norm
+// in the multipliers of all joints, which are the same in both formulations. A massless coordinate
+// makes W singular; then W = M + h^2 K + p Phi_q^T Phi_q with the step h: accelerations along such
+// a coordinate are undefined, and no reaction depends on them.
 //
 // Wrenches. In absolute coordinates all joints have multipliers; in relative coordinates those of
-// the tree are what balances each body, from the leaves to the root
-// (`RelativeFormulation::tree_joint_wrench`). Either way the balance of every body - inertia,
+// the tree follow from the balance of each body, from the leaves to the root
+// (`RelativeFormulation::tree_joint_wrench`). In both cases the balance of every body - inertia,
 // applied forces, reactions, modal forces - is (1).
 //
-// It has a formulation of its own, so that a step does not depend on whether its reactions are
-// looked at, and remembers nothing of earlier states. Built only if a model asks for such outputs;
-// `solve` allocates nothing.
+// It uses a separate formulation, so that steps do not depend on whether reactions are evaluated,
+// and keeps no data of earlier states. Constructed only if a model has such outputs; `solve` does
+// not allocate.
 #include <optional>
 #include <span>
 #include <string>
@@ -38,20 +38,20 @@ namespace floatframe {
 struct ReactionOptions {
   double penalty_mass = 1.0;  ///< p [kg]
   double step = 1e-3;         ///< h [s]
-  bool redundant = false;     ///< constraints are, at the start
+  bool redundant = false;     ///< true if constraints are redundant at the start
 };
 
 template <class F>
 class ReactionSolver {
  public:
-  /// `start`: a state at which masses and redundant constraints are judged. Allocates; throws as F.
+  /// `start`: the state at which masses and redundancy are checked. Allocates; throws as F.
   ReactionSolver(const Model& model, InertiaMethod method, const State& start,
                  const ReactionOptions& options);
   ReactionSolver(const ReactionSolver&) = delete;
   ReactionSolver& operator=(const ReactionSolver&) = delete;
 
-  /// At t, q, v of the state, with the inputs, angles of springs and branches of forces (those that
-  /// are held) of the formulation that made it; `a` of the state is where the iteration begins.
+  /// At t, q, v of the state, with the inputs, angles of springs and held branches of forces of the
+  /// formulation that produced the state; the iteration starts from the `a` of the state.
   void solve(const State& state, std::span<const double> inputs,
              std::span<const double> spring_angles,
              std::span<const std::int64_t> force_branches = {}) noexcept;
@@ -62,14 +62,14 @@ class ReactionSolver {
   const VecX& accelerations() const noexcept { return a_; }
   const VecX& multipliers() const noexcept { return lambda_; }
   const Reactions& reactions() const noexcept { return reactions_; }
-  /// What is left of (1), the largest generalised force.
+  /// The residual of (1), as the largest generalised force.
   double force_error() const noexcept { return force_error_; }
-  /// A freedom has no mass at the start.
+  /// True if some coordinate is massless at the start.
   bool lacks_mass() const noexcept { return lacks_mass_; }
   /// At the last state, with its accelerations.
   F& formulation() noexcept { return f_; }
 
-  /// The outputs of the model, by name, that redundant constraints leave open at the start.
+  /// The names of outputs that are not unique at the start because of redundant constraints.
   const std::vector<std::string>& open_outputs() const noexcept { return open_; }
 
  private:

@@ -13,7 +13,7 @@ namespace floatframe {
 
 namespace {
 
-/// Rows that are nearer to those before them than this are called dependent.
+/// Rows closer than this to the span of those before them count as dependent.
 constexpr double dependent = 1e-9;
 
 /// "x", "-y" is "y", "[0.6, 0, 0.8]": a line, without a sense.
@@ -36,7 +36,7 @@ std::string direction_text(const ConstraintPart& part, const ConstraintRow& row)
   return "translation along " + line_text(row.gradient.Fb);
 }
 
-/// The motions x of a body, its columns, that satisfy its own constraints J x = 0.
+/// The motions x of a body, as columns, that satisfy its internal constraints J x = 0.
 MatX null_space(const MatX& J) {
   return pivoted_qr(J.transpose()).Q.rightCols(J.cols() - J.rows());
 }
@@ -87,7 +87,7 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
   const SparseRowMatrix all = f_.constraint_rows();
   VecX load(nq);
   f_.residual(VecX::Zero(nq), VecX::Zero(f_.constraints()), 0.0, load);
-  // Motions that each body has by itself: its coordinates and its own constraints follow those of
+  // Motions of the separate bodies: coordinates and internal constraints of a body follow those of
   // the bodies before it.
   Eigen::Index column = 0, row = 0, motions = 0;
   std::vector<MatX> own_motions;
@@ -142,7 +142,7 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
   return found;
 }
 
-/// A motion that is not constant, whose row depends on those of joints and rods. They come first.
+/// A motion that varies, whose row depends on those of joints and rods, which come first.
 bool ConstraintAnalysis::holds_motion(std::size_t part) const {
   const ConstraintPart& p = parts()[part];
   if (p.motion == nullptr || !changes(*p.motion, model_.simulation.duration)) return false;

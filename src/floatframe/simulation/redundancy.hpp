@@ -1,10 +1,10 @@
 #pragma once
-// Redundant constraints. With the rows of all joints, rods and motions in J (each scaled to
-// lengths), on the motions that the bodies have by themselves (three translations, three rotations
-// and the amplitudes each):
+// Redundant constraints. Let J contain the rows of all joints, rods and motions (each scaled to
+// lengths), on the motions of the separate bodies (three translations, three rotations and the
+// amplitudes each):
 //   a row that depends on the rows before it is redundant, in the order of joints, rods, motions;
 //   reactions are J^T lambda, so a lambda with J^T lambda = 0 may be added to them: a component
-//   that all of these leave alone is unique, for the others the lambda of least norm is given.
+//   unaffected by all of these is unique, for the others the lambda of least norm is given.
 // Tree joints of the relative formulation have no multipliers, so the rows are those of the
 // absolute formulation. Load time only.
 #include "floatframe/formulation/absolute.hpp"
@@ -15,16 +15,16 @@ namespace floatframe {
 
 class ConstraintAnalysis {
  public:
-  /// Of the model as `tree` has it at the configuration q, at rest.
+  /// For the model as stored in `tree` at the configuration q, at rest.
   ConstraintAnalysis(RelativeFormulation& tree, const VecX& q);
 
-  /// Rows that repeat earlier ones, but for those of `held_motions`.
+  /// Rows that repeat earlier ones, except those of `held_motions`.
   std::vector<RedundantDirection> redundant() const;
-  /// Joints that prescribed motions move and that other constraints hold still.
+  /// Joints with a prescribed motion that other constraints prevent.
   std::vector<std::string> held_motions() const;
 
-  /// Sets the reactions of joints and the forces of rods to those of least norm that hold the
-  /// model, and marks those that are not unique. False (nothing is changed) if none holds it.
+  /// Sets the reactions of joints and the forces of rods to those of least norm that balance the
+  /// model, and marks those that are not unique. False (nothing is changed) if no balance exists.
   bool set_reactions(StaticsResult& statics);
 
  private:
@@ -34,25 +34,25 @@ class ConstraintAnalysis {
 
   const Model& model_;
   AbsoluteFormulation f_;
-  Eigen::Index first_ = 0;  ///< row of the first part: rows of bodies come before
+  Eigen::Index first_ = 0;  ///< row of the first part, after the rows of bodies
   SparseRowMatrix J_;       ///< rows of the parts on the motions of the bodies
-  VecX load_;               ///< what J_^T lambda must be
+  VecX load_;               ///< required value of J_^T lambda
   std::vector<ConstraintRow> rows_;
 };
 
-/// Adds redundant directions at the start and the sentence that names them. Looks closer only if
-/// the rank of the constraints of the relative formulation shows that there are any.
+/// Adds redundant directions at the start and the sentence that names them. The full analysis is
+/// made only if the rank of the constraints of the relative formulation shows that there are any.
 void report_redundancy(RelativeFormulation& f, const State& state, StartReport& report);
 
 /// Rank of the rows of J.
 int rank_of(const SparseRowMatrix& J);
-/// The rows with the largest part in the combination of rows of J that is nearest to zero without
-/// being zero.
+/// The rows with the largest coefficients in the combination of rows of J with the smallest nonzero
+/// norm.
 std::vector<int> dependent_rows(const MatX& J);
-/// Some rows of J that are independent are so to a hundredth only.
+/// True if some independent rows of J are independent to a hundredth only.
 bool nearly_dependent(const MatX& J);
-/// How much of its length a row of J has at least that the rows before it lack, of those rows that
-/// are not redundant; a part of the longest row.
+/// Smallest part of a row of J that is independent of the rows before it, over the rows that are
+/// not redundant; relative to the longest row.
 double independence(const MatX& J);
 
 }  // namespace floatframe

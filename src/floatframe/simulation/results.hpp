@@ -1,5 +1,5 @@
 #pragma once
-// What a run, a check and an equilibrium computation hand to writers: plain data, no dependence on
+// Results of a run, a check and an equilibrium computation for writers: plain data, independent of
 // the model.
 #include <array>
 #include <cstddef>
@@ -20,12 +20,12 @@ namespace floatframe {
 
 struct SystemState;
 
-/// What puts energy into a system or takes it out.
+/// Sources and sinks of the energy of a system.
 enum class EnergyFlow : std::size_t {
   loads,          ///< applied forces and torques
   actuators,      ///< actuators and moving targets of force elements
   dampers,        ///< of force elements
-  tyres,          ///< their dampers, and the road that moves under them
+  tyres,          ///< their dampers, and the motion of the road below them
   modal_damping,  ///< of flexible bodies
   motions         ///< prescribed motions of joints
 };
@@ -48,13 +48,13 @@ struct EnergyFlows {
 struct EnergySummary {  ///< [J]
   double kinetic_start = 0, potential_start = 0, elastic_start = 0, total_start = 0;
   double kinetic_end = 0, potential_end = 0, elastic_end = 0, total_end = 0;
-  bool balanced = false;  ///< the run kept the balance: what follows is valid
+  bool balanced = false;  ///< the run monitored the balance: the following values are valid
   EnergyFlows work;       ///< over the run
-  double remainder = 0;   ///< change of the total less all work, at the end
+  double remainder = 0;   ///< change of the total minus all work, at the end
   double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
-  double exchanged = 0;                                    ///< what remainders are measured against
+  double exchanged = 0;                                    ///< reference value of remainders
   double present = 0;  ///< the most in motion and modes together: weight and springs have no zero
-  /// The largest change of the remainder from one look at it to the next, and when these were [s].
+  /// The largest change of the remainder between two consecutive checks, and their times [s].
   double largest_growth = 0, largest_growth_from = 0, largest_growth_to = 0;
 };
 
@@ -72,8 +72,8 @@ struct RunSummary {
   long steps = 0, substeps = 0;   ///< accepted output steps; extra steps by halving
   long iterations = 0, factorizations = 0;
   bool locates_edges = false;        ///< with `locate_edges`
-  long edges = 0, edges_passed = 0;  ///< edges that steps were divided at; steps with too many
-  long corners = 0;                  ///< of functions of time, that steps were divided at
+  long edges = 0, edges_passed = 0;  ///< edges at which steps were divided; steps with too many
+  long corners = 0;                  ///< of functions of time, at which steps were divided
   double cpu = 0;                    ///< [s] of stepping, without input and output
   double real_time_factor = 0;       ///< duration / cpu
   StepTimes step_times;
@@ -82,13 +82,13 @@ struct RunSummary {
   EnergySummary energy;
   /// "completed", "failed" or "interrupted"; "running" in a summary that is written at the start.
   std::string status = "completed";
-  std::string message;  ///< why it failed: when, and what to look at
+  std::string message;  ///< cause of the failure: its time and the place to check
   StartReport start;
-  /// Where the run left the range of the method: one sentence each (docs/range.md).
+  /// Departures of the run from the range of the method: one sentence each (docs/range.md).
   std::vector<RangeWarning> warnings;
   bool strict = false;  ///< failed only because warnings count as errors: the results are complete
-  /// What the run was made from: parameters set, as NAME=VALUE, and every file read with the hash
-  /// of its content. Empty unless the caller fills them.
+  /// Inputs of the run: parameters set, as NAME=VALUE, and every file read with the hash of its
+  /// content. Empty unless the caller fills them.
   std::vector<std::string> settings;
   std::map<std::string, std::string> files;
 };
@@ -96,7 +96,7 @@ struct RunSummary {
 struct RunResult {
   ResultTable table;
   RunSummary summary;
-  std::shared_ptr<SystemState> state;  ///< at the end, if it was asked for
+  std::shared_ptr<SystemState> state;  ///< at the end, if requested
 };
 
 struct ModelCounts {
@@ -108,9 +108,9 @@ struct ModelCounts {
   StartReport start;
 };
 
-/// Where constraints are redundant some reactions are not unique: any multiple of forces that
-/// balance each other may be added. Then all reactions are those of minimum norm: the sum of the
-/// squares of the forces and of the torques divided by the length of the child.
+/// With redundant constraints some reactions are not unique: any multiple of self-balancing forces
+/// may be added. Then all reactions are those of minimum norm: the sum of the squares of the forces
+/// and of the torques divided by the length of the child.
 struct StaticsForce {
   std::string name, type;
   double force = 0;   ///< tension positive [N]; torque [N m] for joint springs on revolutes;
@@ -139,7 +139,7 @@ struct StaticsResult {
   std::vector<StaticsBody> bodies;
   std::shared_ptr<SystemState> state;  ///< the equilibrium, at rest
   std::vector<RedundantDirection> redundant;
-  std::vector<std::string> notes;  ///< what else to know of the equilibrium: it is unstable
+  std::vector<std::string> notes;  ///< other notes about the equilibrium: it is unstable
 };
 
 }  // namespace floatframe

@@ -14,10 +14,10 @@
 namespace floatframe {
 namespace {
 
-/// Of the integral over frequencies, evenly on a logarithmic axis.
+/// Number of points of the frequency integral, uniform on a logarithmic axis.
 constexpr int least_points = 4000;
 
-/// (1) at a frequency, without looking at the band.
+/// (1) at a frequency, ignoring the band.
 double density_of(const RoadLoading& loading, double f) {
   return loading.roughness *
          std::pow(f / loading.speed / road_classes::reference, -loading.waviness) / loading.speed;
@@ -104,7 +104,7 @@ RoadResponse road_response(const Model& model, const std::vector<std::string>& o
     for (std::size_t k = 0; k < r.outputs.size(); ++k)
       r.outputs[k].density.push_back(density[static_cast<Eigen::Index>(k)]);
   }
-  // int S df = int S f d(ln f), by trapezia.
+  // int S df = int S f d(ln f), by the trapezoidal rule.
   const int count = std::max(least_points, static_cast<int>(frequencies.size()));
   const double h = std::log(r.to / r.from) / (count - 1);
   VecX squares = VecX::Zero(linear.C.rows());

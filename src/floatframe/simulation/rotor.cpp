@@ -26,7 +26,7 @@ int joint_named(const Model& model, const std::string& name) {
                                                      excerpt(name), did_you_mean(name, names)));
 }
 
-/// The bodies that hang on `root` in the tree, itself first.
+/// The bodies below `root` in the tree, itself first.
 std::vector<int> bodies_below(const TreeKinematics& tree, int root) {
   std::vector<int> found{root};
   for (const int i : tree.order())
@@ -75,7 +75,7 @@ bool equal_modes(double a, double b) {
   return b - a <= 2.0 * equal_frequencies * b * std::max(1.0 - b, 0.0) + 1e-11;
 }
 
-/// What is seen from the axis: rows of three, columns of modes, lengths.
+/// Components visible at the axis: rows of three, columns of modes, lengths.
 std::vector<Mat3X> seen_from_axis(const FlexibleBody& body, const Vec3& p_BP,
                                   const std::vector<int>& on_axis) {
   const InertiaInvariants& I = body.invariants;
@@ -101,7 +101,7 @@ std::vector<Mat3X> seen_from_axis(const FlexibleBody& body, const Vec3& p_BP,
   return seen;
 }
 
-/// The skew matrix that fits e x x = x G best; zero where nothing is seen.
+/// The skew matrix that fits e x x = x G best; zero without any component.
 MatX fitted_turning(const std::vector<Mat3X>& seen, const MatX& columns, const Vec3& axis,
                     double visible) {
   const Eigen::Index n = columns.cols(), unknowns = n * (n - 1) / 2;
@@ -140,7 +140,7 @@ MatX fitted_turning(const std::vector<Mat3X>& seen, const MatX& columns, const V
   return G;
 }
 
-/// The axis as the body that hangs on the joint turns about it, undeformed.
+/// The axis of rotation of the body attached to the joint, undeformed.
 Vec3 axis_in_body(RelativeFormulation& f, const Rotor& rotor) {
   VecX q, v;
   f.start(q, v);

@@ -12,7 +12,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::size_t most_speeds = 2000;
-/// Above it squares of speeds leave the range in which eigenvalues can be found.
+/// Above it squares of speeds are out of range for the eigenvalue computation.
 constexpr double most_speed = 1e9;
 
 }  // namespace

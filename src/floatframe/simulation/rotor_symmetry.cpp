@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-/// Of bodies welded to each other, in the design configuration, world axes.
+/// Mass properties of welded bodies, in the design configuration, world axes.
 struct RigidRotor {
   double mass = 0.0;
   Vec3 centre = Vec3::Zero();
@@ -39,7 +39,7 @@ struct RigidRotor {
   }
 };
 
-/// Moments of inertia across an axis: largest and smallest, and the product with the axis.
+/// Moments of inertia normal to an axis: largest and smallest, and the product with the axis.
 struct AcrossInertia {
   double low, high, product;
 
@@ -68,7 +68,7 @@ std::string distance_text(const Model& model, const RotorBody& r) {
                      b.name, m, off, m * off);
 }
 
-/// The mass that is furthest off, if the rotor is out of balance.
+/// The mass farthest off the axis, if the rotor is out of balance.
 std::optional<std::string> unbalance(const Model& model, const Rotor& rotor) {
   Vec3 sum = Vec3::Zero();
   double mass = 0.0, largest = 0.0;
@@ -91,7 +91,7 @@ std::optional<std::string> unbalance(const Model& model, const Rotor& rotor) {
              rotor.name);
 }
 
-/// Index of the one of `axes` (world) that all bearings between `bodies` and others have.
+/// Index of the one of `axes` (world) shared by all bearings between `bodies` and others.
 std::optional<int> axis_of_bearings(const Model& model, const std::vector<int>& bodies,
                                     const Mat3& axes) {
   const auto on_rotor = [&](int marker) {
@@ -137,7 +137,7 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
       found.push_back(fmt::format("body '{}': {}", b.name,
                                   cut_pair_text(*cut, bars ? "normal_modes" : "modes")));
     } else if (n > 0 && !bars && (n == 1 || !equal_frequency(f[n - 2], f[n - 1]))) {
-      // Files of bodies do not say what was left out.
+      // Body files do not contain the omitted modes.
       found.push_back(
           fmt::format("body '{}': its last mode ({:.6g} Hz) may be one of a pair that 'modes: {}' "
                       "cuts (the report of its reduction says so)",

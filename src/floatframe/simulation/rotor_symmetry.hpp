@@ -1,5 +1,5 @@
 #pragma once
-// Whether a rotor is symmetric about its axis, and what makes it unsymmetric.
+// Checks whether a rotor is symmetric about its axis, and finds the causes of asymmetry.
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace floatframe {
 
-/// Change of eigenvalues with the angle that is still called symmetric: meshes are not quite round.
+/// Change of eigenvalues with the angle that still counts as symmetric: meshes are not quite round.
 inline constexpr double symmetric_enough = 5e-3;
 
-/// Throws RunError with its reasons if eigenvalues change by more with the angle.
+/// Throws RunError with the causes if eigenvalues change by more with the angle.
 void require_symmetry(const Model& model, const Rotor& rotor, double dependence);
 
-/// What makes the rotor unsymmetric, a phrase each: masses off the axis, moments of inertia that
-/// differ, numbers of modes that cut a pair.
+/// The causes of asymmetry, one phrase each: masses off the axis, different moments of inertia,
+/// numbers of modes that separate a pair.
 std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor);
 
-/// Of a free joint without a given axis: the one of `axes` (world) along the bearings that hold
-/// `bodies`, else the one about which they are symmetric. Throws InputError if there is not one.
+/// For a free joint without a given axis: the one of `axes` (world) along the bearings that hold
+/// `bodies`, else the one of their symmetry. Throws InputError unless there is exactly one.
 int fitting_axis(const Model& model, const std::string& joint, const std::vector<int>& bodies,
                  const Mat3& axes);
 

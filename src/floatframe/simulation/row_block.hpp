@@ -1,6 +1,6 @@
 #pragma once
-// Rows of a run on their way out: as many as fit into a small block, which is handed over when it
-// is full or old.
+// Output buffer for rows of a run: a small block of rows, which is handed over when it is full or
+// old.
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -21,18 +21,18 @@ class RowBlock {
     data_.resize(rows_ * columns.size());
   }
 
-  /// Where the next row goes. Allocates nothing.
+  /// Position of the next row. Does not allocate.
   double* next() noexcept { return data_.data() + columns_.size() * used_++; }
 
-  /// Between steps: true if the rows should be handed over now. Steps as long as the last one are
-  /// expected to follow.
+  /// Between steps: true if the rows should be handed over now. The next steps are expected to take
+  /// as long as the last one.
   bool due() noexcept {
     const Clock::time_point now = Clock::now();
     const Clock::duration step = now - looked_;
     looked_ = now;
     return used_ == rows_ || (used_ > 0 && now - handed_ + step >= oldest);
   }
-  /// Throws what the sink throws.
+  /// Throws the exceptions of the sink.
   void hand_over() {
     const std::size_t rows = used_;
     used_ = 0;

@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// A run that cannot start or go on: cannot be assembled, singular mass matrix, loop that cannot
+/// A run that cannot start or continue: no assembly, a singular mass matrix, a loop that cannot
 /// close. Exit code 1.
 class RunError : public std::exception {
  public:

@@ -1,6 +1,6 @@
 #pragma once
-// One run: its steps, what is recorded and watched of them, its summary, and between steps what
-// leaves it: rows, checkpoints.
+// One run: its steps, recording and monitoring, its summary, and between steps the output of rows
+// and checkpoints.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -103,7 +103,7 @@ class Run {
     steps_.sample(block_ ? block_->next() : table.data.data() + table.columns.size() * rows_++);
   }
 
-  /// After `sample`, which has brought the formulation there.
+  /// After `sample`, which has brought the formulation to the state.
   void sample_state(long step) noexcept {
     state_row_ = nullptr;
     if (!state_block_ || (step != planned_ && step / every_ % states_every_ != 0)) return;
@@ -111,7 +111,7 @@ class Run {
     states_->sample(steps_.state(), state_row_);
   }
 
-  /// In the row that `sample_state` has begun, when the step has been watched.
+  /// Fills the row begun by `sample_state`, after the step was monitored.
   void sample_health() noexcept {
     if (!state_row_ || !watch_) return;
     watch_->health(steps_.state(), steps_.counters(),
@@ -119,7 +119,7 @@ class Run {
     state_row_ = nullptr;
   }
 
-  /// False: the run is to end here.
+  /// Returns false if the run is to end here.
   bool go_on() {
     if (!options_.stop || !options_.stop->load(std::memory_order_relaxed)) return true;
     RunSummary& s = result_.summary;
@@ -130,7 +130,7 @@ class Run {
     return false;
   }
 
-  /// False: it failed.
+  /// Returns false if the step failed.
   bool step() {
     RunSummary& s = result_.summary;
     const long k = made_ + 1;
@@ -158,7 +158,7 @@ class Run {
     return false;
   }
 
-  /// Between steps. False: it cannot be written.
+  /// Between steps. Returns false if the data cannot be written.
   bool flush_if_due() {
     if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
       return write_checkpoint();
@@ -190,7 +190,7 @@ class Run {
       write();
       return true;
     } catch (const OutputError& error) {
-      block_.reset();  // what is on its way is lost
+      block_.reset();  // buffered rows are discarded
       state_block_.reset();
       result_.summary.status = "failed";
       result_.summary.message = fmt::format("at t = {:.9g} s {}", steps_.state().t, error.what());
@@ -248,19 +248,19 @@ class Run {
   const SimulationDescription& o_;
   const RunOptions& options_;
   SteppedModel<F> steps_;
-  const long planned_, every_;   ///< every so many of the planned steps are sampled
+  const long planned_, every_;   ///< sampling interval in planned steps
   const long checkpoint_every_;  ///< steps; 0: no checkpoints
   long made_ = 0;                ///< steps
   RunResult result_;
   Histogram step_times_;
   std::size_t rows_ = 0;           ///< in the table
-  std::optional<RowBlock> block_;  ///< of rows that leave
+  std::optional<RowBlock> block_;  ///< of output rows
   std::optional<StateSampler<F>> states_;
-  long states_every_ = 1;  ///< of the rows so many are states
+  long states_every_ = 1;  ///< interval of states in rows
   std::vector<Column> state_columns_;
   RowBlock::Sink state_sink_;
-  std::optional<RowBlock> state_block_;  ///< of states that leave
-  double* state_row_ = nullptr;          ///< one of it that has no health yet
+  std::optional<RowBlock> state_block_;  ///< of output states
+  double* state_row_ = nullptr;          ///< its row without health columns yet
   std::optional<JointFollower> joints_;
   std::optional<RunWatch<F>> watch_;
 };

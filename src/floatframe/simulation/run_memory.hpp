@@ -11,22 +11,22 @@
 
 namespace floatframe {
 
-/// What must agree: what it is, and its value in words.
+/// An identity that must agree: its kind, and its value as text.
 using RunIdentity = std::vector<std::pair<std::string, std::string>>;
 
-/// What a run keeps beside its rows.
+/// Data that a run keeps in addition to its rows.
 struct RunKeeps {
   bool rows = true, watch = true, state = false;
   std::string states = "none";  ///< recorded: see `record_text`
 };
 
-/// Which states are recorded, in words.
+/// Describes which states are recorded.
 std::string record_text(const RecordDescription& record, long every);
 
 RunIdentity run_identity(const Model& model, const SimulationDescription& options,
                          const RunKeeps& keeps);
 
-/// Of a run, beside what it watches.
+/// For a run, without its monitors.
 struct RunMemory {
   std::int64_t made = 0;  ///< steps
   double cpu = 0.0;       ///< [s]
@@ -36,8 +36,8 @@ struct RunMemory {
 };
 
 void serialize_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory);
-/// Throws InputError if the identity is another one or the memory is not one of a run of `planned`
-/// steps of that size, with this memory and number of joint coordinates.
+/// Throws InputError if the identity differs or the memory is not that of a run of `planned` steps
+/// of that size, with this memory and number of joint coordinates.
 RunMemory serialize_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
                            double step, std::size_t joints, std::int64_t planned);
 
@@ -53,7 +53,7 @@ RunCheckpoint to_checkpoint(const RunIdentity& identity, RunMemory& memory,
   return {memory.steps.state.t, std::move(out.bytes)};
 }
 
-/// Fills `watch`. See `walk_memory` for what it throws.
+/// Fills `watch`. See `walk_memory` for its exceptions.
 template <class Watch>
 RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& identity,
                           const SteppedMemory& own, double step, std::size_t joints,

@@ -1,8 +1,8 @@
 #pragma once
-// Keeps the energy balance and the range watch of a run of any formulation. Powers and phases are
-// taken after every step, deformations and spin at recorded instants, energies at some of these
-// (the kinetic energy costs as much as half an iteration). `start` and `step` do not allocate and
-// leave the run as it is, bit for bit.
+// Updates the energy balance and the range checks of a run in any formulation. Powers and phases
+// are evaluated after every step, deformations and spin at recorded instants, energies at some of
+// these (the kinetic energy costs as much as half an iteration). `start` and `step` do not allocate
+// and do not change the run, bit for bit.
 #include <vector>
 
 #include "floatframe/integrator/augmented_lagrangian.hpp"
@@ -16,7 +16,7 @@ namespace floatframe {
 template <class F>
 class RunWatch {
  public:
-  /// `records`: rows that will be recorded.
+  /// `records`: number of rows that will be recorded.
   RunWatch(F& formulation, double step, long records)
       : f_(formulation),
         motion_(formulation, step),
@@ -25,17 +25,17 @@ class RunWatch {
     double total = 0.0;
     for (const Body& b : f_.model().bodies) mass_.push_back(b.data->invariants.m);
     for (const double m : mass_) total += m;
-    // Without any mass the penalty is scaled by 1 kg, and so is what rounding leaves of it.
+    // Without any mass the penalty is scaled by 1 kg, and so is its rounding error.
     weightless_ = total == 0.0;
     if (weightless_) mass_.assign(mass_.size(), massless * f_.model().mean_mass);
   }
 
-  /// What `health` writes.
+  /// The columns that `health` writes.
   std::vector<HealthColumn> health_columns() const {
     return floatframe::health_columns(f_.model(), motion_.range());
   }
 
-  /// At the start of the run; `lambda` belongs to its accelerations.
+  /// At the start of the run; `lambda` is consistent with its accelerations.
   void start(const State& s) noexcept {
     evaluate(s);
     balance_.start(s.t, flows(f_, s.v, s.lambda), energies(s), motion_.range().noise());
@@ -43,10 +43,10 @@ class RunWatch {
     motion_.start(s);
   }
 
-  /// After a step; `sampled`: outputs have just been taken there.
+  /// To be called after a step; `sampled`: outputs were evaluated at its end.
   void step(const State& s, const VecX& reactions, bool sampled, bool full) noexcept {
     if (!sampled) {
-      // A step with constraints leaves positions and velocities of its end behind.
+      // A step with constraints leaves the formulation at its end positions and velocities.
       if (f_.constraints() > 0)
         f_.forces();
       else
@@ -69,19 +69,19 @@ class RunWatch {
     motion_.deformations(s, row + health_of_system);
   }
 
-  /// At an edge that a step was divided at, before and after it: powers jump there. The formulation
-  /// is at this state, with its forces.
+  /// Before and after an edge at which a step was divided: powers jump there. The formulation is at
+  /// this state, with its forces.
   void edge(const State& s, const VecX& reactions) noexcept {
     balance_.advance(s.t, flows(f_, s.v, reactions));
   }
 
-  /// After a step, too: its last attempt.
+  /// Also after a step: its last attempt.
   void attempt(const State& s, const StepAttempt& a) noexcept {
     branches_.observe(s, a);
     effort_.observe(a);
   }
 
-  /// What was watched so far, for a run that goes on elsewhere (state_bytes.hpp).
+  /// Stores and restores the record, for runs that are continued elsewhere (state_bytes.hpp).
   template <class Stream>
   void serialize(Stream& s) {
     balance_.serialize(s);
@@ -91,8 +91,8 @@ class RunWatch {
     s(records_);
   }
 
-  /// Fills the balance and the warnings of the summary, with the state at the end. `corners`: what
-  /// steps were divided at.
+  /// Fills the balance and the warnings of the summary, with the state at the end. `corners`: those
+  /// at which steps were divided.
   void finish(const State& s, double spectral_radius, std::span<const TimeCorner> corners,
               RunSummary& out) {
     const auto branch = branches_.warning(f_);
@@ -105,11 +105,11 @@ class RunWatch {
   }
 
  private:
-  /// In a run: the work is summed over all steps, so that a remainder does not get lost between
-  /// checks. Each costs as much as 8 % of a step of a vehicle, all else that is watched 2 %.
+  /// Number of checks in a run: work is summed over all steps, so that a remainder between checks
+  /// is not lost. Each check costs up to 8 % of a step of a vehicle, all other monitoring 2 %.
   static constexpr long energy_checks = 50;
-  /// Of the mean mass, for bodies in a model without mass: a millionth of their energy is the least
-  /// that counts as exchanged, and rounding is 1e-11 of it.
+  /// Fraction of the mean mass, for bodies in a model without mass: a millionth of their energy is
+  /// the smallest exchanged energy, and rounding is 1e-11 of it.
   static constexpr double massless = 1e-4;
 
   void evaluate(const State& s) noexcept {
@@ -133,7 +133,7 @@ class RunWatch {
     return e;
   }
 
-  /// All but the kinetic one.
+  /// All energies except the kinetic one.
   void add_stored(const State& s, EnergyBalance::Energies& e) const noexcept {
     e.potential = e.gravity = f_.gravity_energy(s.q);
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {

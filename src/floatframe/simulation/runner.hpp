@@ -1,6 +1,6 @@
 #pragma once
-// Steps any formulation through a run: outputs sampled into a table sized beforehand, substeps when
-// a step does not converge, counters for the summary. Nothing in `advance` or `sample` allocates.
+// Advances any formulation through a run: outputs sampled into a preallocated table, substeps if a
+// step does not converge, counters for the summary. Nothing in `advance` or `sample` allocates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,12 +23,12 @@
 
 namespace floatframe {
 
-/// What a runner has beside the state and the formulation: with it, the next steps and outputs are
+/// Data of a runner besides the state and the formulation: with it, the next steps and outputs are
 /// the same, bit for bit.
 struct RunnerMemory {
   TangentReuse tangent_reuse;
   std::vector<FollowedOutput> outputs;
-  std::vector<double> inputs;  ///< that the accelerations of the state belong to
+  std::vector<double> inputs;  ///< consistent with the accelerations of the state
   StepCounters counters;
 };
 
@@ -41,19 +41,19 @@ class Runner {
     memory_.inputs.assign(f_.inputs().begin(), f_.inputs().end());
     terms_ = output_terms(f_.model());
   }
-  /// What outputs of reactions are taken from; it must outlive this.
+  /// Source of the outputs of reactions; it must outlive this.
   void set_reaction_solver(ReactionSolver<F>& solver) {
     reactions_ = &solver;
     integrator_.keep_impulses();
   }
 
-  /// From now on steps are divided at the edges of forces; branches are those of the present state.
+  /// Divides further steps at the edges of forces; branches are those of the present state.
   void locate_edges() {
     locator_.emplace(f_, integrator_);
     locator_->hold(state_);
   }
   bool locates_edges() const noexcept { return locator_.has_value(); }
-  /// From now on steps, of about this size, are divided at these corners of functions of time.
+  /// Divides further steps, of about this size, at these corners of functions of time.
   void locate_corners(const std::vector<TimeCorner>& corners, double step) {
     if (!corners.empty()) corners_.emplace(f_, integrator_, corners, step);
   }
@@ -61,11 +61,11 @@ class Runner {
     return corners_ ? std::span<const TimeCorner>(corners_->corners())
                     : std::span<const TimeCorner>();
   }
-  /// Inputs that have jumped act like a ramp over the step, not held over its whole length.
+  /// Inputs that have jumped act as a ramp over the step instead of being constant over it.
   void use_inputs(InputUse use) noexcept { input_use_ = use; }
   InputUse input_use() const noexcept { return input_use_; }
 
-  /// Of the edges and corners that are located, and of inputs that jump.
+  /// Called at located edges and corners, and at jumps of inputs.
   void set_edge_watch(const EdgeWatch& watch) noexcept {
     watch_ = watch;
     if (locator_) locator_->set_watch(watch);
@@ -74,7 +74,7 @@ class Runner {
 
   State& state() noexcept { return state_; }
   const State& state() const noexcept { return state_; }
-  /// Multipliers that go with the accelerations of the last accepted step.
+  /// Multipliers consistent with the accelerations of the last accepted step.
   const VecX& reactions() const noexcept { return integrator_.reactions(); }
   /// The last attempt of the last `advance`.
   const StepAttempt& last() const noexcept { return last_; }
@@ -90,7 +90,7 @@ class Runner {
     integrator_.set_tangent_reuse(m.tangent_reuse);
   }
 
-  /// Advances by h, in substeps if need be. False: the step did not converge at the smallest
+  /// Advances by h, in substeps if necessary. False: the step did not converge with the smallest
   /// substep.
   bool advance(double h) noexcept {
     asked_ = h;
@@ -161,14 +161,14 @@ class Runner {
   }
   double elastic_energy() noexcept { return f_.elastic_energy(state_.q); }
 
-  /// The cause of the last failed step, in words.
+  /// The cause of the last failed step, as a sentence.
   std::string failure() const {
-    std::string text = step_failure();  // first: of the iteration that failed
+    std::string text = step_failure();  // first: refers to the failed iteration
     const std::string numbers = overflow();
     return numbers.empty() ? text : numbers;
   }
 
-  /// The same from what the last iteration has left.
+  /// The same from the results of the last iteration.
   std::string step_failure() const {
     if (const std::string text = unreachable_tolerance(); !text.empty()) return text;
     const char* what =
@@ -179,7 +179,7 @@ class Runner {
                                 ? f_.constraint_set().owner_of_row(last_.constraint)
                             : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)
                                                     : "the constraints";
-    // A force that grew out of all proportion is a better hint than the coordinate it acts on.
+    // An excessive force is a more useful hint than the coordinate it acts on.
     const int force = largest_force();
     std::string text =
         fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
@@ -190,7 +190,7 @@ class Runner {
     return text + singular_position();
   }
 
-  /// The rest of the sentence if constraints hinder the step that depend on each other nearly.
+  /// The rest of the sentence if nearly dependent constraints prevent the step.
   std::string singular_position() const {
     constexpr int most = 1000;  // coordinates; dense linear algebra
     if (last_.status != AttemptStatus::not_converged || f_.constraints() == 0 ||
@@ -216,7 +216,7 @@ class Runner {
     return force;
   }
 
-  /// Why the last step failed if numbers of the model are beyond what can be computed with.
+  /// The cause of the last failed step if numbers of the model are too large to compute with.
   std::string overflow() const {
     std::string text;
     if (!(asked_ < largest_beside_one))
@@ -228,7 +228,7 @@ class Runner {
                        smallest(), overflow_sentence(text, state_.t, largest_beside_one));
   }
 
-  /// Why the last step failed if a tolerance asks for more digits than double precision has.
+  /// The cause of the last failed step if a tolerance needs more digits than double precision has.
   std::string unreachable_tolerance() const {
     if (last_.status != AttemptStatus::not_converged) return {};
     const bool newton = last_.constraint < 0;
@@ -269,13 +269,13 @@ class Runner {
 
   bool meets_corner(double h) const noexcept { return corners_ && corners_->within(state_.t, h); }
 
-  /// What forces are on their branches for may jump.
+  /// To be called where forces on fixed branches may jump.
   void hold_branches() noexcept {
     if (locator_) locator_->hold(state_);
   }
 
-  /// Inputs that have jumped since the last step are held over the whole of the next one, of size
-  /// h: accelerations and multipliers are those of the new values.
+  /// Inputs that have jumped since the last step are constant over the whole next one, of size h:
+  /// accelerations and multipliers are those of the new values.
   void take_inputs(double h) noexcept {
     const std::span<const double> now = f_.inputs();
     if (std::equal(now.begin(), now.end(), memory_.inputs.begin())) return;
@@ -286,7 +286,7 @@ class Runner {
     watch_(state_, integrator_.reactions());
   }
 
-  /// Substep that was tried last [s].
+  /// Last substep that was attempted [s].
   double smallest() const noexcept { return std::min(min_step_, asked_); }
 
   void count(const StepAttempt& r) noexcept {
@@ -314,7 +314,7 @@ class Runner {
   ReactionSolver<F>* reactions_ = nullptr;
 };
 
-// Compiled once, in runner.cpp: every run of a formulation does the same arithmetic.
+// Compiled once, in runner.cpp: all runs of a formulation use the same arithmetic.
 extern template class AugmentedLagrangian<RelativeFormulation>;
 extern template class AugmentedLagrangian<AbsoluteFormulation>;
 extern template class Runner<RelativeFormulation>;

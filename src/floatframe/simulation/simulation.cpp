@@ -29,7 +29,7 @@ double default_penalty_mass(const Model& model, Coordinates coordinates) {
 
 namespace {
 
-/// Of the bodies: masses and principal moments of inertia that are more than rounding.
+/// Smallest mass or principal moment of inertia of the bodies above rounding.
 double smallest_inertia(const Model& model) {
   double least = 1.0;
   for (const Body& b : model.bodies) {
@@ -48,7 +48,7 @@ double smallest_inertia(const Model& model) {
 
 StepOptions step_options(const Model& model, const SimulationDescription& o) {
   StepOptions s;
-  // A force of 1 N on a part of 1e-7 kg is no sign of a direction without mass.
+  // A force of 1 N on a part of 1e-7 kg does not indicate a massless direction.
   s.largest_acceleration /= smallest_inertia(model);
   s.spectral_radius = o.spectral_radius;
   s.tolerance = o.tolerance;

@@ -1,5 +1,5 @@
 #pragma once
-// The entry points above the formulations: count, find the equilibrium of, and run a model.
+// Entry points independent of the formulation: counts, equilibrium and run of a model.
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -22,13 +22,13 @@ ModelCounts check(const Model& model);
 /// Static equilibrium from the design configuration. Throws RunError naming the cause.
 StaticsResult statics(const Model& model);
 
-/// Throws InputError unless the step and the duration make at least one whole step, or the duration
+/// Throws InputError unless the step and the duration give at least one whole step, or the duration
 /// is zero.
 void check_step(const SimulationDescription& options);
 
-/// All that decides how a run goes on from a step, and what its summary says of the steps before:
-/// the rest of the run and its summary are those of a run that was not interrupted, to the bit. It
-/// belongs to one model and one set of options, and to the copy of the library it was made with.
+/// Complete state of an interrupted run: the rest of the run and its summary are those of an
+/// uninterrupted run, bit for bit. It is valid for one model, one set of options, and the build of
+/// the library that made it.
 struct RunCheckpoint {
   double time = 0.0;  ///< [s]
   std::vector<std::byte> bytes;
@@ -38,38 +38,38 @@ struct RunOptions {
   /// Called about every 1 % of the run with the fraction done (0..1); outside the timed part.
   std::function<void(double)> progress;
   bool record = true;
-  /// Keep the state at the end in the result (where a run that fails came to).
+  /// Keep the final state in the result (for a failed run, the last state reached).
   bool keep_state = false;
-  /// Keep the energy balance and say where the run leaves the range of the method (with `record`).
+  /// Monitor the energy balance and departures from the range of the method (with `record`).
   bool watch = true;
-  /// Takes the rows as they are recorded, in blocks: after the step that ends half a second after
-  /// the last block, when a block is full, and at the end. The table of the result has no rows
-  /// then, and the memory of a run does not depend on its length. At the start of a run that is
-  /// resumed it is called without numbers. An OutputError that it throws ends the run, which fails.
+  /// Receives the rows as they are recorded, in blocks: after the first step that ends half a
+  /// second after the last block, when a block is full, and at the end. The table of the result has
+  /// no rows then, and memory does not depend on the length of the run. At the start of a resumed
+  /// run it is called without numbers. An OutputError that it throws ends the run, which fails.
   std::function<void(const std::vector<Column>&, std::span<const double>)> rows;
-  /// Takes the states of the run, as `record` of its description says which: blocks of whole rows,
-  /// as `rows` (only where rows are recorded), handed over after these. At the start of a run
-  /// that is resumed it is called without numbers.
+  /// Receives the states of the run, as selected by `record` of its description: blocks of whole
+  /// rows, like `rows` (only where rows are recorded), after these. At the start of a resumed run
+  /// it is called without numbers.
   std::function<void(const StateLayout&, std::span<const double>)> states;
-  /// Looked at between steps: true ends the run, whose status is "interrupted".
+  /// Checked between steps: true ends the run with the status "interrupted".
   const std::atomic<bool>* stop = nullptr;
-  /// Called every so many seconds of simulated time [s], and when the run is interrupted, after all
-  /// rows up to there were handed over. What it throws is taken as from `rows`.
+  /// Called at this interval of simulated time [s], and when the run is interrupted, after all rows
+  /// up to there were handed over. Its exceptions are treated like those of `rows`.
   double checkpoint_every = 0.0;
   std::function<void(const RunCheckpoint&)> checkpoint;
-  /// Goes on from there. The run throws InputError if it is of another model or other options.
+  /// Continues from this state. Throws InputError if it is of another model or other options.
   const RunCheckpoint* resume = nullptr;
 };
 
-/// What a summary says of a run before its first step.
+/// The contents of a summary before the first step.
 RunSummary asked_summary(const std::string& model, const SimulationDescription& options);
 /// The summary of a run that could not start.
 RunSummary failed_summary(const std::string& model, const SimulationDescription& options,
                           const std::string& message);
 
-/// Runs the model with the options given (those of the model file, changed as the user wishes). A
-/// step that cannot converge ends the run: the result holds all up to there and summary.status =
-/// "failed". Throws RunError when it cannot start.
+/// Runs the model with the given options (those of the model file, changed by the user). A step
+/// that cannot converge ends the run: the result contains everything up to there and summary.status
+/// = "failed". Throws RunError if it cannot start.
 RunResult run(const Model& model, const SimulationDescription& options,
               const RunOptions& run_options = {});
 /// With the options of the model.

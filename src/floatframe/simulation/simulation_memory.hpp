@@ -10,7 +10,7 @@
 namespace floatframe {
 
 struct SimulationState::Data {
-  /// Of the model, and the options that decide the steps: what differs makes other steps.
+  /// Of the model, and of the options that determine the steps: a difference leads to other steps.
   std::string fingerprint;
   std::int64_t coordinates = 0, inertia = 0, max_iterations = 0, locate_edges = 0, input = 0;
   double step = 0.0, spectral_radius = 0.0, tolerance = 0.0, min_step = 0.0, penalty = 0.0;

@@ -4,7 +4,7 @@
 
 namespace floatframe {
 
-/// Those of the model with what is replaced. Throws InputError if they are not valid.
+/// The options of the model with the given replacements. Throws InputError if they are not valid.
 SimulationDescription described(const Model& model, const SimulationOptions& options);
 
 }  // namespace floatframe

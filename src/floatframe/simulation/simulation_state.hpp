@@ -1,11 +1,11 @@
 #pragma once
-// What `Simulation::save` gives and `Simulation::restore` takes: all that decides the next steps,
-// so that a simulation that goes on from it makes the same steps, bit for bit, in the same program
-// or in another process.
+// Result of `Simulation::save` and argument of `Simulation::restore`: everything that determines
+// the next steps, so that a continued simulation makes the same steps, bit for bit, in the same
+// program or in another process.
 //
-// As bytes: the magic word and the version, then the content, then a checksum of all before it.
-// Numbers are little-endian; doubles are kept bit by bit. The model itself is not in them, only a
-// fingerprint of what decides its motion.
+// As bytes: the magic word and the version, then the content, then a checksum of everything before
+// it. Numbers are little-endian; doubles are stored bit by bit. The model itself is not included,
+// only a fingerprint of the data that determine its motion.
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -15,7 +15,7 @@ namespace floatframe {
 
 class SimulationState {
  public:
-  /// Of no simulation: `restore` refuses it.
+  /// An empty state: `restore` rejects it.
   SimulationState() = default;
 
   bool empty() const noexcept { return data_ == nullptr; }

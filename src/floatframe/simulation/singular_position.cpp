@@ -11,7 +11,7 @@ namespace floatframe {
 
 namespace {
 
-/// What rows count: not those of prescribed motions.
+/// Rows to include: not those of prescribed motions.
 MatX without_motions(const RelativeFormulation& f, const MatX& all) {
   std::vector<int> rows;
   const ConstraintSet& set = f.constraint_set();

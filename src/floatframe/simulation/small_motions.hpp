@@ -1,16 +1,16 @@
 #pragma once
-// First derivatives of everything that small motions about a state meet, at rest or moving. With
+// First derivatives of all equations for small motions about a state, at rest or moving. With
 // increments x of the configuration, q = q0 (+) x, at accelerations a and multipliers lambda,
 //   M = dr/da,  C = dr/dv,  K = dr/dx           r = M a - Q + Phi_q^T lambda                    (1)
 //   J = dPhi/dx = dPhidot/dv,  G = dPhidot/dx,  H = dPhiddot/dx,  D = dPhiddot/dv
 //   d(dx)/dt = dv + Gamma dx                                                                    (2)
-// K and C hold d(M a - Q_v)/dq, dQ_v/dv and all of Phi_q^T lambda. Gamma is what angular velocities
-// are not the rates of rotation vectors: with the increment of two increments one after the other,
-// x * d = x + d + b(x, d) + ..., Gamma x = b(x, v) - b(v, x).
+// K and C include d(M a - Q_v)/dq, dQ_v/dv and all of Phi_q^T lambda. Gamma is the difference
+// between angular velocities and the rates of rotation vectors: with the composition of two
+// increments, x * d = x + d + b(x, d) + ..., Gamma x = b(x, v) - b(v, x).
 //
-// Differences over steps h and h/2 on both sides, extrapolated: the error falls with h^4. A force
-// whose slope jumps within the steps shows in second differences that fall with h instead of h^2.
-// Dense, allocates: load time only.
+// Differences over steps h and h/2 on both sides, extrapolated: the error decreases with h^4. A
+// force whose slope jumps within the steps is detected by second differences that decrease with h
+// instead of h^2. Dense, allocates: load time only.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ struct SmallMotions {
   std::vector<int> kinks;  ///< coordinates along which a force has no one slope
 };
 
-/// Columns dg/dx_j at 0, of a g that gives a vector; steps: one for each x_j. `work`: what it is,
-/// for who shows progress.
+/// Columns dg/dx_j at 0, of a vector function g; steps: one for each x_j. `work`: name of the task
+/// for progress reports.
 struct PreciseDifferences {
   MatX columns;
   std::vector<int> kinks;  ///< columns whose first `watched` rows have no one slope
@@ -76,7 +76,7 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
       bends.push_back(bend[1]);
     }
   }
-  // What is zero but for the last digits of forces that balance has no corner.
+  // A value that is zero up to the round-off of balanced forces has no corner.
   const double least =
       watched > 0 && n > 0 ? 1e-10 * d.columns.topRows(watched).cwiseAbs().maxCoeff() : 0.0;
   for (std::size_t k = d.kinks.size(); k-- > 0;)
@@ -84,7 +84,7 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
   return d;
 }
 
-/// What angular velocities are not the rates of rotation vectors, (2). Moves `f`.
+/// Difference between angular velocities and rates of rotation vectors, (2). Moves `f`.
 template <EquationsOfMotion F>
 MatX connection(F& f, const State& s) {
   const Eigen::Index nv = f.velocities();
@@ -113,8 +113,8 @@ MatX connection(F& f, const State& s) {
   return gamma;
 }
 
-/// Steps of increments that move bodies by like distances, 0.1 mm of a metre, with the masses that
-/// coordinates could have (mass_scale.hpp).
+/// Steps of increments that move bodies by similar distances, 0.1 mm per metre, with the masses
+/// that coordinates could have (mass_scale.hpp).
 inline VecX motion_steps(const Model& model, const VecX& scale) {
   double length = 0.0, mass = 0.0;
   const auto bodies = static_cast<double>(model.bodies.size());
@@ -128,12 +128,12 @@ inline VecX motion_steps(const Model& model, const VecX& scale) {
   return steps;
 }
 
-/// At t, q, v, a, lambda of the state (a: none counts as zero), where `f` is afterwards.
+/// At t, q, v, a, lambda of the state (a: empty counts as zero), where `f` is afterwards.
 template <EquationsOfMotion F>
 SmallMotions small_motions(F& f, const State& s) {
   const Eigen::Index nv = f.velocities(), nc = f.constraints();
   const VecX a = s.a.size() == nv ? s.a : VecX::Zero(nv);
-  // These matrices, their columns before they are taken apart, and what is made of them.
+  // Memory for these matrices, their columns before the split, and derived matrices.
   const double numbers = nv * (14.0 * nv + 6.0 * nc);
   if (const std::string complaint = memory_complaint(8.0 * numbers); !complaint.empty())
     throw RunError(

@@ -1,4 +1,4 @@
-// What became of the start values of the user.
+// Changes to the start values of the user.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace floatframe {
 
 namespace {
 
-/// Smaller changes are the rounding of numbers that a person writes.
+/// Smaller changes are the rounding of numbers written by hand.
 constexpr double noticeable = 1e-6;
 
 std::string quantity(JointType type, std::size_t component) {
@@ -42,7 +42,7 @@ class Changes {
     for (std::size_t k = 0; k < given.size(); ++k) {
       const int component = static_cast<int>(k);
       double wanted = given[k];
-      // All free joints to the ground have the velocity of the simulation on top of their own.
+      // Free joints to the ground have the velocity of the simulation added to theirs.
       if (rate && joint_is_free(j.type) && j.parent < 0 && k < 3)
         wanted += model.simulation.velocity[component];
       const double used =
@@ -76,7 +76,7 @@ class Changes {
   StartReport& report_;
 };
 
-/// Springs whose ends (within 1e-9 m) start values have brought together.
+/// Springs whose ends are made coincident (within 1e-9 m) by start values.
 void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
   for (const Force& force : f.model().forces)
     if (force_kind(force.type).along_line &&
@@ -87,18 +87,18 @@ void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
           force.name));
 }
 
-/// The body goes on from the node of the marker in a direction in which the joint slides.
+/// True if the body extends from the node of the marker in a sliding direction of the joint.
 bool slides_along(const Body& body, const Marker& marker, int slides) {
   const Vec3 from = body.data->nodes[marker.node].p, axis = marker.X_NM.R.col(2);
   return std::any_of(body.data->nodes.begin(), body.data->nodes.end(), [&](const ModalNode& n) {
     const Vec3 d = n.p - from;
     const double along = std::abs(d.dot(axis)), length = d.norm();
-    // Of two directions the axis is their normal.
+    // Of two directions: the axis is their normal.
     return length > 0.0 && (slides == 1 ? along > 0.9 * length : along < 0.4 * length);
   });
 }
 
-/// Joints that slide along a body that bends, at one of its nodes.
+/// Joints that slide along a flexible body, at one of its nodes.
 void report_rigid_tangents(const Model& model, StartReport& report) {
   for (const Joint& j : model.joints) {
     int slides = 0;
@@ -136,7 +136,7 @@ void report_changes(const RelativeFormulation& f, const State& state, Start star
   const Model& model = f.model();
   const bool balanced = start == Start::equilibrium;
   Changes changes(report);
-  // An equilibrium is another question than the positions given, except to what must be kept.
+  // An equilibrium is expected to change the given positions, except those that must be kept.
   for (const Joint& j : model.joints)
     if (!balanced || j.keep)
       changes.joint(model, j, false, joint_coordinates_in_range(j, j.position), f);

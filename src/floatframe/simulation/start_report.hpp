@@ -1,11 +1,11 @@
 #pragma once
-// What became of the start values of the user, and what else he should know of the start of a run.
+// Changes to the start values of the user, and other messages about the start of a run.
 #include <string>
 #include <vector>
 
 namespace floatframe {
 
-/// A start value that the user gave and that closing the loops has changed.
+/// A start value given by the user that was changed by closing the loops.
 struct StartChange {
   std::string owner;     ///< "joint 'crank'", "body 'beam'"
   std::string quantity;  ///< "angle", "displacement", "coordinate 2", "amplitude 3"
@@ -14,7 +14,7 @@ struct StartChange {
   double given = 0.0, used = 0.0;
 };
 
-/// A direction of a joint that the rest of the model prescribes already.
+/// A direction of a joint that is already constrained by the rest of the model.
 struct RedundantDirection {
   std::string owner;      ///< "joint 'hinge'", "rod 'tie'"
   std::string direction;  ///< "translation along x", "rotation about [0.6, 0, 0.8]", "length"
@@ -23,11 +23,11 @@ struct RedundantDirection {
 /// "joint 'hinge': translation along x, translation along y; rod 'tie': length"
 std::string redundancy_text(const std::vector<RedundantDirection>& redundant);
 
-/// What a user should know of the state a run starts from.
+/// Information for the user about the start state of a run.
 struct StartReport {
   std::vector<StartChange> changes;
   std::vector<RedundantDirection> redundant;
-  std::vector<std::string> notes;  ///< all of it in sentences
+  std::vector<std::string> notes;  ///< all messages as sentences
 };
 
 }  // namespace floatframe

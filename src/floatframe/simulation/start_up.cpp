@@ -12,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-/// Markers on bodies that stiffen, at nodes that move but have no displacements of second order.
+/// Markers on stiffening bodies, at moving nodes without second-order displacements.
 void note_linear_markers(const Model& model, StartReport& report) {
   std::vector<std::pair<int, int>> said;  // body, node
   for (const Marker& m : model.markers) {
@@ -36,7 +36,7 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
-/// A model that can move as its motions ask.
+/// A model that can satisfy its prescribed motions.
 const Model& movable(const Model& model) {
   for (const LockedLoops& locked : model.hints.locked)
     if (locked.driven)

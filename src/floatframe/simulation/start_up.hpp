@@ -1,7 +1,7 @@
 #pragma once
-// The start of every run, whoever makes the steps: a model with the start values that its options
-// ask for, a formulation, the state at the start with loops closed or in equilibrium, accelerations
-// and constraint forces, the options of the integrator.
+// The start of every run, independent of the stepping: a model with the start values given by its
+// options, a formulation, the start state with loops closed or in equilibrium, accelerations and
+// constraint forces, the options of the integrator.
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,24 +13,24 @@
 
 namespace floatframe {
 
-/// F: RelativeFormulation or AbsoluteFormulation, whatever the options say of coordinates.
+/// F: RelativeFormulation or AbsoluteFormulation, regardless of the coordinates in the options.
 template <class F>
 class InitialisedModel {
  public:
   /// The options must be valid (`require_valid`); the model must outlive this. Throws InputError
-  /// for a state of another model, RunError if the start cannot be.
+  /// for a state of another model, RunError if there is no start state.
   InitialisedModel(const Model& given, const SimulationDescription& options);
-  /// Another system at the start of `found`, which must outlive it: nothing is searched for again.
+  /// Another system at the start of `found`, which must outlive it: the search is not repeated.
   InitialisedModel(const InitialisedModel& found);
   InitialisedModel& operator=(const InitialisedModel&) = delete;
 
-  /// That of the formulation: with the start values of the state, if the run starts from one.
+  /// The model of the formulation: with the start values of the state, if the run starts from one.
   const Model& model() const noexcept { return changed_ ? *changed_ : given_; }
   F& formulation() noexcept { return f_; }
   InertiaMethod inertia() const noexcept { return inertia_; }
   const State& state() const noexcept { return state_; }
   const StartReport& report() const noexcept { return report_; }
-  /// What else the user should know of the start.
+  /// Other information for the user about the start.
   void add_note(std::string note) { report_.notes.push_back(std::move(note)); }
   const StepOptions& step_options() const noexcept { return step_options_; }
   /// Smallest substep [s].

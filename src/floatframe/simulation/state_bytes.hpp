@@ -1,7 +1,7 @@
 #pragma once
-// Numbers and texts as bytes, for states that are kept: numbers are little-endian, doubles bit by
-// bit. What is kept is walked through in one order for writing and for reading: `s(x)` of a
-// StateWriter takes x, of a StateReader gives it.
+// Numbers and texts as bytes, for stored states: numbers are little-endian, doubles bit by bit. One
+// function defines the order for writing and for reading: `s(x)` of a StateWriter stores x, of a
+// StateReader restores it.
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -51,10 +51,10 @@ class StateWriter {
   std::vector<std::byte> bytes;
 };
 
-/// Asks for no more memory than bytes are left.
+/// Allocates no more memory than bytes remain.
 class StateReader {
  public:
-  /// `what` they are, in the sentence about bytes that are damaged.
+  /// `what`: their name, in the sentence about damaged bytes.
   StateReader(std::span<const std::byte> bytes, const char* what) : left_(bytes), what_(what) {}
   bool at_end() const { return left_.empty(); }
 
@@ -110,7 +110,7 @@ class StateReader {
   const char* what_;
 };
 
-/// All that decides the next steps.
+/// Everything that determines the next steps.
 template <class Stream, class Memory>
 void serialize_steps(Stream& s, Memory& m) {
   s(m.since_base);

@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// A run of which every output is a state has at most so many, unless it is told how many.
+/// Default limit of states of a run in which every output instant could be a state.
 constexpr long most_states = 20000;
 
 template <class F>
@@ -48,7 +48,7 @@ StateSampler<F>::StateSampler(F& formulation, const RecordDescription& record,
   place_columns(record);
 }
 
-/// Those that are named, and in joint coordinates all that they hang from.
+/// The named bodies, and in joint coordinates also all between them and the ground.
 template <class F>
 void StateSampler<F>::keep_bodies(const RecordDescription& record) {
   const std::vector<Body>& bodies = f_.model().bodies;

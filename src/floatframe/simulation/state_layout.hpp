@@ -1,12 +1,12 @@
 #pragma once
-// The states of a run as rows of numbers, for who keeps them (history/states_file.hpp). A row is
-// one instant: the time, the coordinates q and velocities v of the formulation, its accelerations,
-// the angles that tell turns of joint springs, the inputs, and for those who have no formulation
-// the pose of each body. With them (`StateSampler`, history/recorded_motion) the formulation is
-// where it was, to the bit.
+// The states of a run as rows of numbers, for storage (history/states_file.hpp). A row is one
+// instant: the time, the coordinates q and velocities v of the formulation, its accelerations, the
+// angles that count turns of joint springs, the inputs, and, for readers without a formulation, the
+// pose of each body. From them (`StateSampler`, history/recorded_motion) the formulation is
+// restored, bit for bit.
 //
-// Accelerations are the integrator's: it leaves a step with them before velocities and positions
-// are projected, so (q, v) decide them to its tolerance only.
+// Accelerations are those of the integrator: they are computed before velocities and positions are
+// projected at the end of a step, so (q, v) determine them to its tolerance only.
 #include <string>
 #include <vector>
 
@@ -15,7 +15,7 @@
 
 namespace floatframe {
 
-/// One number of the health of a run at a recorded instant (health.hpp).
+/// One health value of a run at a recorded instant (health.hpp).
 struct HealthColumn {
   std::string name, unit;
   std::string group;   ///< "constraints", "effort", "energy", "range"
@@ -29,14 +29,14 @@ struct StateLayout {
     int first = 0, count = 0;  ///< columns
   };
   /// time, q, v, accelerations, spring_angles, inputs, poses: x, y, z [m] of the body frame and its
-  /// quaternion (w, x, y, z), body to world; of a run that is watched health.
+  /// quaternion (w, x, y, z), body to world; for a monitored run the health columns.
   std::vector<Group> groups;
   int columns = 0;
-  std::vector<int> q, v;  ///< the coordinates that are kept, as the formulation numbers them
-  int configurations = 0, velocities = 0;  ///< all there are
+  std::vector<int> q, v;  ///< the stored coordinates, as numbered by the formulation
+  int configurations = 0, velocities = 0;  ///< total numbers
   std::vector<std::string> owners;         ///< of each velocity: "joint 'hinge'"
 
-  /// First columns; -1: not kept.
+  /// First columns; -1: not stored.
   struct BodyColumns {
     int pose = -1;
     int amplitudes = -1, rates = -1;  ///< of its modes, among q and v; without modes -1
@@ -53,20 +53,20 @@ struct StateLayout {
 
 inline constexpr const char* health_group = "health";
 
-/// Of the recorded rows every so many are states, in a run that records so many rows.
+/// Interval of states among the recorded rows, for a run that records this number of rows.
 long states_every(const RecordDescription& record, long rows) noexcept;
 
 /// Writes the states of one formulation as rows.
 template <class F>
 class StateSampler {
  public:
-  /// `health`: columns that are left to others. Throws InputError for a body that the model does
-  /// not have.
+  /// `health`: columns reserved for other writers. Throws InputError for a body that does not exist
+  /// in the model.
   StateSampler(F& formulation, const RecordDescription& record,
                std::vector<HealthColumn> health = {});
 
   const StateLayout& layout() const noexcept { return layout_; }
-  /// The formulation has been brought to the state. Allocates nothing.
+  /// The formulation is at the state. Does not allocate.
   void sample(const State& state, double* row) const noexcept;
 
  private:

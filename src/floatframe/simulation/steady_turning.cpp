@@ -12,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-/// The unknowns of (1): increments of q, of the multipliers, and the torque if nothing drives.
+/// The unknowns of (1): increments of q, of the multipliers, and the torque without a drive.
 class TurningEquations {
  public:
   TurningEquations(RelativeFormulation& f, const Rotor& rotor, double speed)
@@ -63,7 +63,7 @@ class TurningEquations {
   double speed_;
 };
 
-/// The constraints hold during the motion, not only now.
+/// Checks that the constraints hold during the whole rotation, not only at this angle.
 void require_motion(RelativeFormulation& f, const Rotor& rotor, const SteadyTurning& s) {
   VecX rate(f.constraints()), acceleration(f.constraints());
   f.constraint_rates(rate);
@@ -128,7 +128,7 @@ SteadyTurning steady_turning(RelativeFormulation& f, const Rotor& rotor, const V
       throw RunError(ErrorCode::not_steady,
                      fmt::format("'{}' at {:g} rad/s: no steady state was found{}", rotor.name,
                                  speed, rotor.other_axis));
-    s.state.lambda += step.segment(nv, nc);  // linear in these: right at the first step already
+    s.state.lambda += step.segment(nv, nc);  // linear in these: exact after the first step
     if (!rotor.driven) tau += step[nv + nc];
     if (length < 1e-13 || (length < 1e-9 && length >= 0.5 * before)) break;
     before = length;

@@ -1,5 +1,5 @@
 #pragma once
-// What a step of a simulation reports, and what all of them add up to.
+// The report of a step of a simulation, and the totals over all steps.
 #include <cstdint>
 #include <string_view>
 
@@ -9,12 +9,12 @@ enum class StepStatus : std::uint8_t {
   completed,
   not_converged,     ///< at the smallest substep
   singular_tangent,  ///< a freedom without mass and stiffness
-  not_finite,        ///< numbers grew beyond all bounds
-  failed_before,     ///< a step after one that failed: nothing was done
-  invalid_step,   ///< a step size that is no positive number, or is lost in rounding: nothing done
-  invalid_input,  ///< the force callback gave a value that the input does not take: nothing done
-  callback_failed,  ///< the force callback threw an exception: nothing done
-  busy              ///< called from the force callback: nothing done
+  not_finite,        ///< numbers grew without bounds
+  failed_before,     ///< a step after a failed one: no effect
+  invalid_step,      ///< a step size that is not positive, or lost in rounding: no effect
+  invalid_input,     ///< the force callback returned an invalid value of an input: no effect
+  callback_failed,   ///< the force callback threw an exception: nothing done
+  busy               ///< called from the force callback: nothing done
 };
 
 /// "completed", "not_converged", ...
@@ -22,10 +22,10 @@ const char* step_status_name(StepStatus status) noexcept;
 
 struct StepReport {
   StepStatus status = StepStatus::completed;
-  /// Of a step that failed, where to look: "joint 'crank'", "mode 2 of body 'beam'", "input 'f'".
-  /// Belongs to the simulation.
+  /// For a failed step, the place of the failure: "joint 'crank'", "mode 2 of body 'beam'", "input
+  /// 'f'". Owned by the simulation.
   std::string_view where;
-  double time = 0.0;   ///< reached: the end of the step, or where it was given up [s]
+  double time = 0.0;   ///< reached: the end of the step, or of its accepted part [s]
   int iterations = 0;  ///< Newton iterations of this step
   int factorizations = 0;
   int substeps = 0;                 ///< that it was divided into; 0: made in one
@@ -36,7 +36,7 @@ struct StepReport {
 
 /// Sums and largest values since the start.
 struct StepCounters {
-  long steps = 0;     ///< asked for and completed
+  long steps = 0;     ///< requested and completed
   long substeps = 0;  ///< by halving of steps that did not converge
   long iterations = 0, factorizations = 0;
   long edges = 0;                       ///< that steps were divided at (`locate_edges`)

@@ -3,7 +3,7 @@
 namespace floatframe {
 namespace {
 
-/// Bins of the histogram that are shown as one: eight an octave are left.
+/// Bins of the histogram that are merged into one: eight per octave remain.
 constexpr std::size_t bins_together = Histogram::parts / 8;
 
 }  // namespace

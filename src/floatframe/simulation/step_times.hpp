@@ -1,5 +1,5 @@
 #pragma once
-// What a histogram of step times says in a summary.
+// Summary of a histogram of step times.
 #include "floatframe/core/histogram.hpp"
 #include "floatframe/simulation/results.hpp"
 

@@ -100,13 +100,13 @@ void SteppedModel<F>::sample(double* row) noexcept {
 template <class F>
 Energies SteppedModel<F>::energies() noexcept {
   Energies e;
-  e.potential = runner_.potential_energy();  // brings the formulation there
+  e.potential = runner_.potential_energy();  // brings the formulation to the state
   e.elastic = runner_.elastic_energy();
   e.kinetic = runner_.kinetic_energy();
   return e;
 }
 
-/// `lost_mass` of the first body that has any to tell.
+/// `lost_mass` of the first body with a message.
 template <class F>
 std::string lost_masses(const Model& model, const F& f, const VecX& q) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
@@ -119,7 +119,7 @@ std::string lost_masses(const Model& model, const F& f, const VecX& q) {
 
 template <class F>
 std::string SteppedModel<F>::failure() {
-  const std::string text = runner_.failure();  // first: of the iteration that failed
+  const std::string text = runner_.failure();  // first: refers to the failed iteration
   const std::string lost = lost_masses(model(), f_, runner_.state().q);
   return text + (lost.empty() ? light_motion_note(f_, runner_.state()) : "; " + lost);
 }

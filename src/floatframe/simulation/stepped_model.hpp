@@ -1,9 +1,9 @@
 #pragma once
 // A model in one formulation that makes steps: its start, its runner, the grid of its times. The
-// loops of `run`, `Simulation`, real time and `bench` are written around it, so that all of them
-// start alike and make the same steps, bit for bit; what they do between steps - sample, watch,
-// pace, measure - is theirs. After construction nothing allocates but `failure`, `system_state` and
-// `memory`.
+// loops of `run`, `Simulation`, real time and `bench` use it, so that all of them start in the same
+// way and make the same steps, bit for bit; they differ in their tasks between steps: sampling,
+// monitoring, pacing, measuring. After construction only `failure`, `system_state` and `memory`
+// allocate.
 #include <optional>
 #include <span>
 #include <string>
@@ -17,7 +17,7 @@
 
 namespace floatframe {
 
-/// What a loop asks for beside the options of the model.
+/// Options of a loop in addition to those of the model.
 struct StepLimits {
   double duration = TimeGrid::endless;  ///< of the grid [s]
   std::optional<double> min_step = {};  ///< smallest substep [s]; else that of the options
@@ -26,14 +26,14 @@ struct StepLimits {
   bool bounded = false;                 ///< steps are not divided at edges and corners
 };
 
-/// All that decides the next steps, beside the inputs.
+/// Everything that determines the next steps, except the inputs.
 struct SteppedMemory {
   /// Of the grid.
   double base = 0.0;
   std::int64_t since_base = 0;
   State state;
   std::vector<double> spring_angles;         ///< turns of joint springs
-  std::vector<std::int64_t> force_branches;  ///< that are held; empty unless edges are located
+  std::vector<std::int64_t> force_branches;  ///< held branches; empty unless edges are located
   RunnerMemory runner;
 };
 
@@ -41,10 +41,10 @@ struct SteppedMemory {
 template <class F>
 class SteppedModel {
  public:
-  /// Finds the start; see InitialisedModel for what it asks and throws.
+  /// Finds the start state; see InitialisedModel for its requirements and exceptions.
   SteppedModel(const Model& model, const SimulationDescription& options,
                const StepLimits& limits = {});
-  /// Another system at the start of `found`, which must outlive it: nothing is searched for again.
+  /// Another system at the start of `found`, which must outlive it: the search is not repeated.
   SteppedModel(const SteppedModel& found, double duration);
   SteppedModel(const SteppedModel&) = delete;
   SteppedModel& operator=(const SteppedModel&) = delete;
@@ -57,15 +57,15 @@ class SteppedModel {
   const F& formulation() const noexcept { return f_; }
   const TimeGrid& grid() const noexcept { return grid_; }
 
-  /// The next step of the grid. False: it failed, and the formulation is left as it shows where to
-  /// look; the state is the last good one.
+  /// The next step of the grid. Returns false if it failed: the formulation then remains at the
+  /// failed iteration for diagnosis; the state is the last accepted one.
   bool advance() noexcept { return advance(grid_.next()); }
-  /// One that `grid()` has planned. A step longer than those of the grid is not divided into more
-  /// parts than one of them: its work is bounded.
+  /// A step planned by `grid()`. A step longer than those of the grid is not divided into more
+  /// parts than one of them: its cost is bounded.
   bool advance(const PlannedStep& step) noexcept;
 
   const State& state() const noexcept { return runner_.state(); }
-  /// The last attempt at a step, and of the last accepted one the multipliers that go with its
+  /// The last attempt at a step, and the multipliers of the last accepted one, consistent with its
   /// accelerations.
   const StepAttempt& last() const noexcept { return runner_.last(); }
   const VecX& reactions() const noexcept { return runner_.reactions(); }
@@ -79,21 +79,21 @@ class SteppedModel {
   /// them, and after inputs have jumped.
   void set_edge_watch(const EdgeWatch& watch) noexcept { runner_.set_edge_watch(watch); }
 
-  /// Time and outputs at the present state, to which the formulation is brought. Outputs count
-  /// turns from one sample to the next.
+  /// Time and outputs at the present state; brings the formulation there. Outputs count turns from
+  /// one sample to the next.
   void sample(double* row) noexcept;
-  /// At the present state, to which the formulation is brought.
+  /// At the present state; brings the formulation there.
   Energies energies() noexcept;
-  /// Why the last step failed, in a sentence. Moves the formulation.
+  /// The cause of the last failed step, as a sentence. Moves the formulation.
   std::string failure();
   /// By the names of joints and bodies; `joints` has followed the steps. Brings the formulation to
   /// the present state.
   SystemState system_state(JointFollower& joints);
 
   SteppedMemory memory() const;
-  /// `m` is of the same model and options.
+  /// `m` must be of the same model and options.
   void set_memory(const SteppedMemory& m);
-  /// Back to the start.
+  /// Returns to the start.
   void restart() { set_memory(first_); }
 
  private:
@@ -106,7 +106,7 @@ class SteppedModel {
   StepOptions step_options_;
   double min_step_;  ///< [s]
   Runner<F> runner_;
-  std::optional<ReactionSolver<F>> reactions_;  ///< if an output asks for them
+  std::optional<ReactionSolver<F>> reactions_;  ///< if an output needs them
   TimeGrid grid_;
   SteppedMemory first_;
 };

@@ -26,7 +26,7 @@ class Simulation::EngineOf final : public Simulation::Engine {
   const StartReport& start_report() const noexcept override { return steps_.start_report(); }
   StepCounters counters() const noexcept override { return steps_.counters(); }
   SystemState state() override {
-    // By what was followed at the last step: it need not be followed again.
+    // Uses the data of the last step: it need not be tracked again.
     JointFollower joints = joints_;
     return steps_.system_state(joints);
   }
@@ -34,7 +34,7 @@ class Simulation::EngineOf final : public Simulation::Engine {
  protected:
   const TimeGrid& grid() const noexcept override { return steps_.grid(); }
   bool advance(const PlannedStep& step) noexcept override {
-    // Of a step that failed the formulation is left as it is: it shows where to look.
+    // After a failed step the formulation remains at the failed iteration for diagnosis.
     if (!steps_.advance(step)) return false;
     sample();
     return true;

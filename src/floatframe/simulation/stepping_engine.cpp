@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// Of the step of the options. Squares of smaller ones vanish beside the masses.
+/// For the step of the options. Squares of smaller ones vanish compared with the masses.
 constexpr double smallest_part = 1e-9;
 
 std::string input_expectation(const Input& input) {
@@ -149,7 +149,7 @@ std::string Simulation::Engine::failure() {
     case StepStatus::not_finite:
       break;
   }
-  // Once: looking for the cause moves the formulation.
+  // Once: finding the cause moves the formulation.
   if (sentence_.empty()) sentence_ = sentence();
   return sentence_;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What is behind a Simulation: the part that knows no formulation, and what it asks of the one that
-// does. A few virtual calls per step, none within.
+// Implementation of a Simulation: the part that is independent of the formulation, and its
+// interface to the part that is not. A few virtual calls per step, none within.
 #include <exception>
 
 #include "floatframe/model/input_value.hpp"
@@ -39,18 +39,18 @@ class Simulation::Engine {
   virtual SystemState state() = 0;
 
  protected:
-  /// Where an attempt at a step failed, as an index into `owners_`; -1: not known.
+  /// Coordinate or constraint of a failed attempt, as an index into `owners_`; -1: unknown.
   struct Place {
     StepStatus status = StepStatus::completed;
     int owner = -1;
-    double time = 0.0;  ///< that was reached [s]
+    double time = 0.0;  ///< end of the accepted part [s]
   };
   virtual const TimeGrid& grid() const noexcept = 0;
   /// Makes a step and samples at its end. False if it failed.
   virtual bool advance(const PlannedStep& step) noexcept = 0;
   virtual Place place() const noexcept = 0;
   virtual const StepAttempt& attempt() const noexcept = 0;
-  /// In words, of the step that has just failed.
+  /// As a sentence, for the step that has just failed.
   virtual std::string sentence() = 0;
   virtual void inputs_to_formulation() noexcept = 0;
   virtual void collect(SimulationState::Data& out) const = 0;

@@ -15,7 +15,7 @@ struct NamedNumbers {
   std::span<const double> given, own;
 };
 
-/// Options that decide the steps: name, found, expected.
+/// Options that determine the steps: name, found, expected.
 struct NamedOption {
   const char* name;
   double given, own;

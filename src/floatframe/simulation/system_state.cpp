@@ -51,7 +51,7 @@ template <class Entity>
 const Entity& named(const std::vector<Entity>& list, const std::string& name) {
   for (const Entity& e : list)
     if (e.name == name) return e;
-  return list.front();  // `same_names` has looked
+  return list.front();  // checked by `same_names`
 }
 
 bool finite(const std::vector<double>& v) {
@@ -60,7 +60,7 @@ bool finite(const std::vector<double>& v) {
   return true;
 }
 
-/// A step must show in the time, to enough digits that functions of time see it.
+/// A step must change the time, with enough digits for functions of time.
 void check_time(const SystemState& state, double step) {
   constexpr double digits = 1e-9;
   if (step >= digits * std::abs(state.time)) return;
@@ -71,7 +71,7 @@ void check_time(const SystemState& state, double step) {
                   state.time, step, step / digits, digits));
 }
 
-/// Poses and velocities of f against those kept with the state.
+/// Compares poses and velocities of f with those stored in the state.
 void compare_bodies(const RelativeFormulation& f, const SystemState& state) {
   for (std::size_t i = 0; i < f.model().bodies.size(); ++i) {
     const int k = static_cast<int>(i);
@@ -95,8 +95,8 @@ void compare_bodies(const RelativeFormulation& f, const SystemState& state) {
   }
 }
 
-/// What is missing of the offsets: three rows per body for the position and, if `turning`, three
-/// for the orientation.
+/// Remaining offsets: three rows per body for the position and, if `turning`, three for the
+/// orientation.
 class OffsetGoal {
  public:
   OffsetGoal(RelativeFormulation& f, const std::map<std::string, StartOffset>& offsets) : f_(f) {
@@ -167,8 +167,8 @@ class OffsetGoal {
   std::vector<Target> targets_;
 };
 
-/// Least change of the rigid coordinates that brings the bodies to their places with loops closed.
-/// Returns what is missing [m, rad].
+/// Least change of the rigid coordinates that moves the bodies to their positions with loops
+/// closed. Returns the remaining error [m, rad].
 double move_bodies(RelativeFormulation& f, OffsetGoal& goal, double t, bool hold, VecX& q) {
   const VecX rest = VecX::Zero(f.velocities());
   const int nc = f.constraints(), n = goal.rows(hold);
@@ -198,15 +198,15 @@ double move_bodies(RelativeFormulation& f, OffsetGoal& goal, double t, bool hold
   return left;
 }
 
-/// Moves the bodies that are named, by the least change of the rigid coordinates that keeps loops
-/// closed, at time t. A body keeps its orientation if its joints let it. Throws InputError for an
-/// unknown body, RunError if the joints do not let a body move there.
+/// Moves the named bodies, by the least change of the rigid coordinates that keeps loops closed, at
+/// time t. A body keeps its orientation if its joints allow it. Throws InputError for an unknown
+/// body, RunError if the joints prevent a body from moving there.
 void apply_offsets(RelativeFormulation& f, const std::map<std::string, StartOffset>& offsets,
                    double t, VecX& q) {
   kinematics_at(f, t, q, VecX::Zero(f.velocities()));
   OffsetGoal goal(f, offsets);
   const VecX from = q;
-  // As it is oriented now; a joint that does not let it keep that turns it.
+  // With its present orientation; a joint that prevents this rotates it.
   constexpr double met = 1e-9;
   if (move_bodies(f, goal, t, true, q) < met) return;
   q = from;
@@ -242,7 +242,7 @@ Model with_start_values(const Model& model, const SystemState& state) {
              fmt::format("found numbers that are not finite at joint '{}'", j.name));
     j.position = kept.position;
     j.velocity = kept.velocity;
-    j.keep = false;  // all of them are given, to the tolerances of the run
+    j.keep = false;  // all values are given, to the tolerances of the run
   }
   for (std::size_t i = 0; i < out.bodies.size(); ++i) {
     const SystemState::Body& kept = named(state.bodies, out.bodies[i].name);

@@ -1,5 +1,5 @@
 #pragma once
-// States that are kept, and runs that start from one or away from an equilibrium.
+// Stored states, and runs that start from one or away from an equilibrium.
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,21 +16,21 @@ namespace floatframe {
 /// The model with the start values of a state. Throws InputError if the state is of another model.
 Model with_start_values(const Model& model, const SystemState& state);
 
-/// The model a run with these options starts from, if it is not the one that is given.
+/// The model that a run with these options starts from, if it differs from the given one.
 std::optional<Model> started_model(const Model& model, const SimulationDescription& options);
 
 /// Start of a run in relative coordinates: given values, equilibrium or a state, and offsets from
 /// the latter two, with loops closed. Throws InputError for a state of another model, RunError if
-/// the start cannot be.
+/// there is no start state.
 State start_state(RelativeFormulation& f, const SimulationDescription& options,
                   StartReport* report = nullptr);
 
-/// Follows the coordinates of all joints, so that turns are counted.
+/// Tracks the coordinates of all joints, so that turns are counted.
 class JointFollower {
  public:
   explicit JointFollower(const Model& model);
 
-  /// After a step: brings f to the state and counts on.
+  /// After a step: brings f to the state and updates the counts.
   template <class F>
   void follow(F& f, const State& state) {
     kinematics_at(f, state);
@@ -59,7 +59,7 @@ class JointFollower {
   }
   const std::vector<SystemState::Joint>& joints() const noexcept { return joints_; }
 
-  /// Coordinates and rates of all joints one after the other, to be kept with the time they are of.
+  /// Coordinates and rates of all joints one after the other, to be stored with their time.
   std::vector<double> numbers() const;
   std::size_t size() const noexcept;
   double time() const noexcept { return time_; }
@@ -75,7 +75,7 @@ class JointFollower {
 /// Poses and velocities of the bodies from the rest of a state.
 void place_bodies(const Model& model, InertiaMethod inertia, SystemState& state);
 
-/// The state of f at `state`, which becomes its present one; poses are left to `place_bodies`.
+/// The state of f at `state`, to which f is moved; poses are set by `place_bodies`.
 template <class F>
 SystemState system_state(F& f, const State& state, JointFollower& joints) {
   joints.follow(f, state);

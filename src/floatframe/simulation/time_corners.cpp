@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-/// Corners that follow one another within two steps, and are located all the same.
+/// Number of corners within two steps up to which they are located nevertheless.
 constexpr std::size_t most_together = 4;
 constexpr double near_steps = 2.0;
 
@@ -93,7 +93,7 @@ bool ends_a_step(double at, const TimeCornerOptions& o) {
   return std::abs(steps - std::round(steps)) < time_corner_width;
 }
 
-/// Leaves what is to be located; the number of what is too dense.
+/// Keeps the corners to be located; returns the number of those that are too dense.
 std::size_t thin_out(std::vector<Kink>& kinks, const TimeCornerOptions& o) {
   const double near = near_steps * o.step * (1.0 + time_corner_width);
   std::vector<Kink> located;
@@ -190,7 +190,7 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
       first = missed->at;
       earliest = f.name;
     }
-    // Steps count what is hardly behind the begin to what is before it.
+    // Steps treat corners at most a rounding error after the beginning as before it.
     const double first_step = o.begin + 2.0 * time_corner_width * o.step;
     for (const Kink& kink : k.located) times.push_back(std::max(kink.at, first_step));
   }

@@ -1,14 +1,14 @@
 #pragma once
-// Where functions of time - loads, actuators, targets, motions - jump or have a corner. Over such
-// an instant a step is of first order only, or of second order by chance; steps are divided there
-// (corner_steps.hpp).
+// Jumps and corners of functions of time: loads, actuators, targets, motions. An undivided step
+// over such an instant is only of first order, or of second order by chance; steps are divided
+// there (corner_steps.hpp).
 //
-// What jumps is the value or the slope; the curvature of a target whose derivative is its rate, and
-// of a piece that steps do not resolve (the flank of a cubic table); the acceleration of a motion,
-// which acts like a load. Jumps of values are located always. Corners are where no more than a few
-// follow one another within two steps: a pulse, a flank. What is denser is a signal that steps
-// sample as it is. A velocity of a motion that jumps asks for an impulse, which no division of
-// steps resolves: it is named, not located.
+// A jump may be that of the value or the slope; of the curvature, for a target whose derivative is
+// its rate, and for a piece that steps do not resolve (the flank of a cubic table); of the
+// acceleration, for a motion, which acts like a load. Jumps of values are always located. Corners
+// are located if only a few follow one another within two steps: a pulse, a flank. A denser signal
+// is sampled by steps as it is. A jump in the velocity of a motion requires an impulse, which no
+// division of steps resolves: it is reported, not located.
 #include <string>
 #include <vector>
 
@@ -16,7 +16,7 @@
 
 namespace floatframe {
 
-/// Corners that lie within this part of a step are one.
+/// Corners within this fraction of a step count as one.
 inline constexpr double time_corner_width = 1e-6;
 
 /// The functions go from their left sides at `from` to their right sides at `to` [s].
@@ -24,24 +24,24 @@ struct TimeCorner {
   double from = 0.0, to = 0.0;
 };
 
-/// What a run looks for.
+/// Corners to be located in a run.
 struct TimeCornerOptions {
   double step = 0.0;      ///< [s]
   double begin = 0.0;     ///< [s]
-  double duration = 0.0;  ///< what lies behind is not told of; may be infinite [s]
+  double duration = 0.0;  ///< later corners are not reported; may be infinite [s]
   bool all = false;       ///< in dense tables, too
 };
 
 struct TimeCorners {
   std::vector<TimeCorner> located;  ///< ascending
-  /// Sentences: motions whose velocity jumps; tables that are too dense; for steps that are not
-  /// divided, corners within a step. Corners at the end of a step are not mentioned.
+  /// Sentences: motions whose velocity jumps; tables that are too dense; for undivided steps,
+  /// corners within a step. Corners at the end of a step are not mentioned.
   std::vector<std::string> velocity_jumps, dense, passed;
 };
 
 TimeCorners time_corners(const Model& model, const TimeCornerOptions& options);
 
-/// What a model prescribes over time.
+/// The prescribed functions of time of a model.
 struct Forcing {
   enum class Kind { load, target, motion } kind = Kind::load;
   std::string name;  ///< "the load 'push'"

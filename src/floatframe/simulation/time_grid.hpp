@@ -1,13 +1,13 @@
 #pragma once
-// The times of the steps of a run. Step k ends at base + (k + 1) h, so that rounding does not add
-// up, and has exactly the size h, not a difference of times that varies in its last bits; only the
-// last step of a duration may be a part of one.
+// The times of the steps of a run. Step k ends at base + (k + 1) h, so that rounding does not
+// accumulate, and has exactly the size h, not a difference of times that varies in its last bits;
+// only the last step of a duration may be shorter.
 #include <cstdint>
 #include <limits>
 
 namespace floatframe {
 
-/// A step that is to be made.
+/// A planned step.
 struct PlannedStep {
   double size = 0.0;    ///< [s]
   double to = 0.0;      ///< its end [s]
@@ -19,22 +19,22 @@ class TimeGrid {
  public:
   static constexpr double endless = std::numeric_limits<double>::infinity();
 
-  /// `duration`: from `base` on [s].
+  /// `duration`: counted from `base` [s].
   TimeGrid(double base, double step, double duration) noexcept
       : base_(base), step_(step), duration_(duration) {}
 
   double step() const noexcept { return step_; }
-  /// In the duration, a last part counted as one.
+  /// Number of steps in the duration, including a shorter last one.
   long steps() const noexcept;
 
-  /// The step after those that were made.
+  /// The step after those already made.
   PlannedStep next() const noexcept;
-  /// One of size h from the time `now`: the next one if it is of the size of the grid.
+  /// A step of size h from the time `now`: the next one if it is of the size of the grid.
   PlannedStep of_size(double h, double now) const noexcept;
   void made(const PlannedStep& step) noexcept;
 
   double base() const noexcept { return base_; }
-  /// Steps that were made since `base`.
+  /// Number of steps made since `base`.
   std::int64_t since_base() const noexcept { return since_base_; }
   void restore(double base, std::int64_t since_base) noexcept {
     base_ = base;

@@ -26,9 +26,9 @@ SteadyTurning TurningModel::Impl::steady(double speed, double angle) {
   return s;
 }
 
-/// W: what velocities are in the world, of each body the velocity of a point (of the axis, else the
-/// origin), its angular velocity times a length, and amplitude rates, those of the rotor turned by
-/// `angle` into the world. At the present positions of `f`.
+/// W: maps velocities to the inertial frame, for each body the velocity of a point (of the axis,
+/// else the origin), its angular velocity times a length, and amplitude rates, those of the rotor
+/// rotated by `angle` into the inertial frame. At the present positions of `f`.
 MatX TurningModel::Impl::motion_map(const SteadyTurning& s, double angle) const {
   const int nv = f->velocities();
   Eigen::Index rows = 0;
@@ -59,7 +59,7 @@ MatX TurningModel::Impl::motion_map(const SteadyTurning& s, double angle) const 
   return W;
 }
 
-/// (W 0; d(W v)/dq W), `angle` further along the steady motion.
+/// (W 0; d(W v)/dq W), at `angle` later along the steady motion.
 MatX TurningModel::Impl::world_map(const SteadyTurning& s, double angle) const {
   const VecX q1 = turned(*f, rotor, s.state.q, angle);
   VecX v, a, q2 = q1;
@@ -106,7 +106,7 @@ TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s,
   return w;
 }
 
-/// The shape of the rotor turns in its own axes.
+/// The shape of the rotor rotates in the axes of the rotor.
 bool TurningModel::Impl::bent(const SteadyTurning& s) const {
   for (const RotorBody& r : rotor.bodies) {
     const TreeBody& b = f->tree().body(r.body);
@@ -118,8 +118,8 @@ bool TurningModel::Impl::bent(const SteadyTurning& s) const {
   return false;
 }
 
-/// Directions without mass follow the others by statics, at once: a bend that turns through them
-/// would need the rates of what they follow by.
+/// Massless directions follow the others statically: a bend that rotates through them would require
+/// the rates of the directions they follow.
 TurningModel::Impl::InWorld TurningModel::Impl::in_world(double speed, double angle,
                                                          SteadyTurning& s) {
   s = steady(speed, angle);

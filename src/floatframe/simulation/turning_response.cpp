@@ -1,4 +1,4 @@
-// Outputs of a turning model under forces that turn with its rotor.
+// Outputs of a rotating model under forces that rotate with its rotor.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -110,7 +110,7 @@ class OutputSlopes {
   VecX steps_, means_;
 };
 
-/// Columns of real and imaginary part, together.
+/// Columns of real and imaginary part, joined.
 Eigen::VectorXcd both(const MatX& columns) {
   return columns.col(0).cast<Complex>() + imaginary * columns.col(1).cast<Complex>();
 }
@@ -129,7 +129,7 @@ Mat3 TurningModel::directions() const {
 TurningResponse TurningModel::response(double speed, const std::vector<AxisForce>& forces,
                                        const std::vector<int>& outputs, double angle) {
   const Mat3 frame = directions();
-  // Of the system at an angle z and loads; at angle 0 in the world.
+  // For the system at an angle z and loads; at angle 0 in the inertial frame.
   const auto linear_at = [&](const SteadyTurning& s, LinearInputs& moved) {
     RelativeFormulation& f = *impl_->f;
     const Eigen::VectorXcd Q = generalised(f, impl_->model, s.state, forces, frame);
@@ -145,7 +145,7 @@ TurningResponse TurningModel::response(double speed, const std::vector<AxisForce
     return linear_system_at(f, s.state, &inputs, &moved);
   };
   SteadyTurning s;
-  impl_->in_world(speed, 0.0, s);  // also decides whether the weight counts
+  impl_->in_world(speed, 0.0, s);  // also decides whether the weight is included
   LinearInputs moved;
   LinearSystem system = linear_at(s, moved);
   const Impl::InWorld here = impl_->in_world(s, system);

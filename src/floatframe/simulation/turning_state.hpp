@@ -1,5 +1,5 @@
 #pragma once
-// What a turning model holds, for the sources that it is made of.
+// Members of a turning model, for its source files.
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/linear_reduction.hpp"
 #include "floatframe/simulation/small_motions.hpp"
@@ -12,17 +12,17 @@ struct TurningModel::Impl {
   Model model;
   std::unique_ptr<RelativeFormulation> f;
   Rotor rotor;
-  VecX q;  ///< of the last steady state: where the next begins
+  VecX q;  ///< of the last steady state: initial guess for the next
   double torque = 0.0;
   int degrees = 0, massless = 0;
-  bool weightless = false;  ///< gravity was left out
+  bool weightless = false;  ///< gravity is omitted
   std::vector<std::string> notes;
 
   SteadyTurning steady(double speed, double angle);
   MatX motion_map(const SteadyTurning& s, double angle) const;
   MatX world_map(const SteadyTurning& s, double angle) const;
 
-  /// What a state z is in the world, and its rate along the steady motion: T and Tdot + T A.
+  /// Maps a state z to the inertial frame, and its rate along the steady motion: T, Tdot + T A.
   struct InWorld {
     MatX T, rate;
   };
@@ -32,7 +32,7 @@ struct TurningModel::Impl {
   InWorld in_world(double speed, double angle, SteadyTurning& s);
 };
 
-/// T^+ B; the columns of T are of unlike size.
+/// T^+ B; the columns of T have different magnitudes.
 inline MatX least_squares(const MatX& T, const MatX& B) {
   const VecX unit = T.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
   return unit.asDiagonal() * qr_solve(T * unit.asDiagonal(), B);

@@ -17,7 +17,7 @@
 namespace floatframe {
 namespace {
 
-/// The point of the axis that an unbalance sits at.
+/// The point of the axis at which an unbalance acts.
 AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u) {
   std::vector<std::string> names;
   const RotorBody* on = nullptr;
@@ -79,7 +79,7 @@ std::vector<int> chosen_outputs(const Model& model, const std::vector<std::strin
   return found;
 }
 
-/// Leaves out those with `bad`, with a note.
+/// Omits those with `bad`, with a note.
 void leave_out(const Model& model, std::vector<int>& outputs, const std::vector<char>& bad,
                const char* why, std::vector<std::string>& notes) {
   std::vector<int> left;
@@ -98,7 +98,7 @@ std::vector<AxisForce> at_speed(std::vector<AxisForce> forces, double speed) {
   return forces;
 }
 
-/// Outputs that turn with the rotor differ from angle to angle; sizes of what is zero at rest have
+/// Outputs that rotate with the rotor differ from angle to angle; norms that are zero at rest have
 /// no slope.
 void keep_outputs(TurningModel& turning, const std::vector<AxisForce>& forces, double speed,
                   std::vector<int>& outputs, std::vector<std::string>& notes) {
@@ -154,7 +154,7 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     r.curves.push_back({{output.name, output.unit}, {}, {}});
   }
   for (const double speed : r.speeds) {
-    // At standstill nothing turns, and nothing holds what may turn.
+    // At standstill nothing rotates, and the rotation is not restrained.
     const TurningResponse y =
         turning.response(speed == 0.0 ? 1e-3 * o.step : speed, at_speed(forces, speed), outputs);
     for (std::size_t k = 0; k < r.curves.size(); ++k) {

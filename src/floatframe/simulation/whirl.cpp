@@ -8,8 +8,8 @@
 namespace floatframe {
 namespace {
 
-/// Both of an exact pair of equal frequencies whirl on circles, one each way: their `whirl` forms
-/// H = U^H (what it measures) U, made diagonal.
+/// Both modes of an exact pair of equal frequencies whirl on circles, in opposite senses: their
+/// `whirl` forms H = U^H (its quadratic form) U, diagonalised.
 void part_by_whirl(TurningMode& a, TurningMode& b, const MatX& first, const MatX& second) {
   b.m -= a.m.dot(b.m) * a.m;
   const double rest = b.m.norm();
@@ -35,10 +35,10 @@ void part_by_whirl(TurningMode& a, TurningMode& b, const MatX& first, const MatX
   a.m = one;
 }
 
-/// Motions of the axis across itself that are none beside the others, in parts of squares.
+/// Lateral motions of the axis below this fraction of squares count as zero.
 constexpr double least_across = 1e-3, least_energy = 1e-10;
-/// Unbalance excites from here on: of the motion of the axis the part that goes with the rotor, of
-/// the energy of the mode that of the axis.
+/// Unbalance excites a mode above these fractions: of the motion of the axis the component that
+/// whirls with the rotor, of the energy of the mode that of the axis.
 constexpr double least_forward = 1e-3, least_axis_energy = 1e-6;
 
 double largest_square(const Eigen::VectorXcd& x) {

@@ -3,7 +3,7 @@
 //   gradient   -d/L on r_a, d/L on r_b
 //   quad       ddot.ddot / L
 //   curvature  d(d/L) = (dr_b - dr_a) / L
-// Quadratic in d, so without a root; the gradient is a unit vector where phi = 0. The multiplier is
+// Quadratic in d, so without a root; the gradient is a unit vector if phi = 0. The multiplier is
 // then the force in the rod [N], tension positive.
 #include "floatframe/model/constraint_part.hpp"
 

@@ -1,5 +1,5 @@
-// Prescribed angle: x of b is turned by f(t) from x of a about z, which both markers share: the
-// other parts of the joint see to that. The row is scaled by a body length l.
+// Prescribed angle: x of b is rotated by f(t) from x of a about z, which is kept common to both
+// markers by the other parts of the joint. The row is scaled by a body length l.
 //   phi        l (atan2(y_a.x_b, x_a.x_b) - f(t)) = 0, within half a turn          1 row
 //   gradient   -l z_a on pi_a, l z_a on pi_b
 //   quad       l (w_a x z_a).(w_b - w_a)

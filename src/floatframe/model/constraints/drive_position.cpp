@@ -1,6 +1,6 @@
 // Prescribed displacement: the point of b is f(t) along the z axis of a. With d = r_b - r_a:
 //   phi        z_a.d - f(t) = 0                               1 row
-//   gradient, quad and curvature: those along an axis that turns with a (axis_row.hpp)
+//   gradient, quad and curvature: those along an axis that rotates with a (axis_row.hpp)
 //   in time    phi_t = -fdot, phi_tt = -fddot
 #include "floatframe/model/axis_row.hpp"
 

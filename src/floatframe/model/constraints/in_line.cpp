@@ -1,6 +1,6 @@
 // In line: the point of b stays on the z axis of a. With d = r_b - r_a and x, y of a:
 //   phi        x_a.d = 0, y_a.d = 0                           2 rows
-//   gradients, quad and curvature: those along an axis that turns with a (axis_row.hpp)
+//   gradients, quad and curvature: those along an axis that rotates with a (axis_row.hpp)
 #include "floatframe/model/axis_row.hpp"
 
 namespace floatframe {

@@ -1,6 +1,6 @@
 // In plane: the point of b stays in the xy plane of a. With d = r_b - r_a:
 //   phi        z_a.d = 0                                      1 row
-//   gradient, quad and curvature: those along an axis that turns with a (axis_row.hpp)
+//   gradient, quad and curvature: those along an axis that rotates with a (axis_row.hpp)
 #include "floatframe/model/axis_row.hpp"
 
 namespace floatframe {

@@ -8,7 +8,7 @@
 //   forces         f = K s + C s',  6 each; row and column 6 of K are zero
 //   wrench         Q = -sum f_i g_i, g_i the gradients of s_i (of s_6' in the rates)
 //   energy         U = 1/2 s^T K_s s of the symmetric part K_s; all else, s'^T C s' + s'^T K_a s,
-//                  is booked as what dampers take out, and may be less than zero: K_a drives whirl
+//                  counts as damping power, which may be negative: K_a drives whirl
 // With a table over the spin W = s_6' (bearing_table.hpp) K and C are those of the present W, and
 // the energy is that of its first row.
 // Derivatives, with u = w_b - w_a and phi = e.n, e fixed in a, n in b:
@@ -59,7 +59,7 @@ struct BearingMeasures {
   }
 };
 
-/// Of the first row of a table.
+/// For the first row of a table.
 double first_spin(const Force& f) noexcept { return f.numbers[bearing_numbers + 1]; }
 
 void add_scaled(double f, const WrenchRow& g, WrenchRow& w) noexcept {
@@ -190,7 +190,7 @@ void bearing_validate(const ForceCheck& check) {
 /// Directions in which A and B are both diagonal, and their diagonals there:
 /// A = sum k_r t_r t_r^T, B = sum c_r t_r t_r^T; false if there are none.
 bool both_diagonal(const Mat6& A, const Mat6& B, Mat6& T, Vec6& k, Vec6& c) {
-  // Measures of unlike units: rows and columns scaled by the sum's diagonal.
+  // Measures with different units: rows and columns scaled by the sum's diagonal.
   const double a = A.cwiseAbs().maxCoeff(), b = B.cwiseAbs().maxCoeff();
   Mat6 P = Mat6::Zero();
   if (a > 0.0) P += A / a;
@@ -214,7 +214,7 @@ bool both_diagonal(const Mat6& A, const Mat6& B, Mat6& T, Vec6& k, Vec6& c) {
   T = back * own.vectors;
   k = own.values;
   c = (own.vectors.transpose() * (to.transpose() * B * to) * own.vectors).diagonal();
-  // What the sum does not see, the parts must not have.
+  // Directions in the null space of the sum must be in that of both parts.
   const double left = (T * k.asDiagonal() * T.transpose() - A).cwiseAbs().maxCoeff();
   return left <= 1e-9 * a;
 }

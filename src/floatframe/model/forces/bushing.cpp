@@ -2,7 +2,7 @@
 // axes e_1..3 = columns of R_a; both markers have the same orientation in the design configuration.
 //   displacements  s_i = e_i.d, d = r_b - r_a                        (axis_measure.hpp)
 //   rotations      theta = rotation vector of R_ab = R_a^T R_b = exp(skew(theta)), |theta| <= pi
-// Each measure has a spring and a damper of its own:
+// Each measure has a separate spring and damper:
 //   energy         U = sum_i int spring_i(s_i) ds_i + sum_i int spring_i(theta_i) dtheta_i
 //   forces         f_i = spring_i(s_i) + damper_i(sdot_i),  tau_i likewise of theta_i
 //   wrench         Q = -sum f_i g_i - sum tau_i h_i with the gradients g_i of s_i, h_i of theta_i,
@@ -21,14 +21,14 @@
 //   d(thetadot)    = E(u) B dphi + B R_a^T skew(w_b - w_a) dpi_a
 //   d(R_a B^T tau) = dpi_a x (R_a B^T tau) + R_a D(tau) B dphi
 //   stiffness  sum f_s g g^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion),  damping f_sdot g g^T
-// over all six; the rows of the step hold f_s g g^T and the damping. At |theta| = pi the rotation
-// vector jumps: a bushing is meant for less.
+// over all six; the rows of the step contain f_s g g^T and the damping. At |theta| = pi the
+// rotation vector jumps: a bushing must stay below it.
 // Dampers of rotations are laws of thetadot_i, or with `rotation_rate: angular_velocity` of the
 // components u_i themselves, moments about the axes of a: with equal ones -c (w_b - w_a), a viscous
 // ball joint, which turns without end. Then
 //   moment     R_a tau^d, tau^d_i = damper_i(u_i), gradients (0, -e_i, 0, e_i)
 //   d(u)       = R_a^T skew(w_b - w_a) dpi_a,   d(R_a tau^d) = dpi_a x (R_a tau^d) + R_a d(tau^d)
-// and the rows of the dampers stand beside those of the springs.
+// and the rows of the dampers are added to those of the springs.
 // Mirrored: axis and axis_2 are polar, so e_2 = e_3 x e_1 and the axial theta reflect such that,
 // for an odd number of planes, s_2, theta_1 and theta_3 change their signs: their laws become
 // -f(-x).
@@ -41,8 +41,8 @@ namespace floatframe {
 
 namespace {
 
-/// beta and gamma. Below |theta| = 0.3 by their series, which leave out less than 1e-12 of the sum;
-/// above it the formulas keep ten digits or more.
+/// beta and gamma. Below |theta| = 0.3 by their series, with a truncation error below 1e-12; above
+/// it the formulas keep ten digits or more.
 struct AngleCoefficients {
   double beta, gamma;
   explicit AngleCoefficients(double t2) noexcept {
@@ -91,7 +91,7 @@ const PiecewisePolynomial& damper(const ForceInput& in, int i) noexcept {
   return in.force.laws[6 + i];
 }
 
-/// Dampers of rotations are laws of the angular velocity.
+/// True if dampers of rotations are laws of the angular velocity.
 bool of_angular_velocity(const Force& force) noexcept { return !force.numbers.empty(); }
 
 /// The measure i with its gradient.
@@ -101,7 +101,7 @@ AxisMeasure bushing_measure(const ForceInput& in, const Turn& turn, int i) noexc
   return {turn.theta[i - 3], turn.rate[i - 3], {Vec3::Zero(), -h, Vec3::Zero(), h}};
 }
 
-/// The rate that the damper i is a law of, with its gradient; `m`: the measure i.
+/// The argument of the law of damper i, with its gradient; `m`: the measure i.
 AxisMeasure damped_measure(const ForceInput& in, const Turn& turn, int i,
                            const AxisMeasure& m) noexcept {
   if (i < 3 || !of_angular_velocity(in.force)) return m;

@@ -1,4 +1,4 @@
-// Applied force on b: direction x (magnitude(t) + input). A direction that follows the body turns
+// Applied force on b: direction x (magnitude(t) + input). A direction that follows the body rotates
 // with it: dF = dpi_b x F, so -dF/dpi_b = skew(F). A fixed one has no tangent.
 #include "floatframe/model/force_kind.hpp"
 

@@ -4,7 +4,7 @@
 //   force        f = spring(s) + damper(sdot) + actuator, tension positive: f e on b, and -f e on
 //                the body of a at the point r_b, which is -f e at r_a with the torque f e x d
 //   stiffness    f_s g g^T + f_sdot g g'^T - f dg/d(motion),   damping   f_sdot g g^T
-// The row of the step holds f_s g g^T and the damping.
+// The row of the step contains f_s g g^T and the damping.
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/force_kind.hpp"
 

@@ -9,7 +9,7 @@
 // q = x_b.y_a; m = z on the axis. The torque stays along z.
 //   stiffness    f_s g (ds/d(motion))^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion)
 //   damping      f_sdot g g^T
-// The row of the step holds f_s g g^T and the damping.
+// The row of the step contains f_s g g^T and the damping.
 #include <cmath>
 #include <numbers>
 
@@ -39,7 +39,7 @@ Coordinate coordinate(const ForceInput& in) noexcept {
   return {in.reference_angle + turns, z.dot(in.b.w - in.a.w), {Vec3::Zero(), -z, Vec3::Zero(), z}};
 }
 
-/// f and its slopes; spring and damper pull to the target.
+/// f and its slopes; spring and damper act towards the target.
 struct Law {
   double f, f_s, f_rate;
   double stretch;               ///< s - target
@@ -52,7 +52,7 @@ Law law_at(const ForceInput& in, const Coordinate& m) noexcept {
   if (in.force.targeted) {
     const PiecewisePolynomial::Value position = evaluate(in.force.target.function, in.t);
     target = position.f + in.input(in.force.target.input);
-    moves = position.df;  // an input is held during a step
+    moves = position.df;  // an input is constant during a step
     target_rate = in.force.derived_rate ? position.df
                                         : evaluate(in.force.target_rate.function, in.t).f +
                                               in.input(in.force.target_rate.input);

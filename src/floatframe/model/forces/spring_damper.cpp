@@ -11,8 +11,8 @@ namespace floatframe {
 
 namespace {
 
-/// Points closer than this have no line between them: the force keeps the direction x and only the
-/// slope of the law is left of the tangent [m].
+/// Points closer than this define no line: the force keeps the direction x, and the tangent only
+/// contains the slope of the law [m].
 constexpr double coincident = 1e-12;
 
 struct Line {

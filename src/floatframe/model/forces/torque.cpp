@@ -1,6 +1,6 @@
-// Applied torque on b: direction x (magnitude(t) + input). A direction that follows the body turns
-// with it: dT = dpi_b x T, so -dT/dpi_b = skew(T), which is antisymmetric: the rows leave nothing
-// symmetric out. A fixed one has no tangent.
+// Applied torque on b: direction x (magnitude(t) + input). A direction that follows the body
+// rotates with it: dT = dpi_b x T, so -dT/dpi_b = skew(T), which is antisymmetric: the rows omit no
+// symmetric term. A fixed direction has no tangent.
 #include "floatframe/model/force_kind.hpp"
 
 namespace floatframe {

@@ -1,22 +1,22 @@
 // Penalty tyre on a road profile of slope sigma and curvature kappa below the wheel centre, at the
-// height h above the road; it pushes or does nothing.
+// height h above the road; it can only push.
 //   vertical   f = k (R - h) - c hdot upwards at the centre, hdot = v_z - sigma v_x
 //   radial     f = q (k (R - h) - c hdot), q = 1/sqrt(1 + sigma^2), along the normal
 //              n = q (-sigma, 0, 1) of the straight line through the road point below the centre.
 //              It acts at the contact point, r_w below the centre in the plane of the wheel:
 //              e_x = axis x n / |axis x n|, e_z = e_x x axis, arm = -r_w e_z, r_w = h q^2 / e_z.z
 //   energy     k/2 (q (R - h))^2 while it touches
-// A road that is lifted as a whole by the target of the element (linearisations do, model files
-// cannot) has h and hdot less by the lift and its rate.
+// A road that is lifted as a whole by the target of the element (in linearisations, not in model
+// files) has h and hdot reduced by the lift and its rate.
 // Derivatives, with dsigma = kappa dx, dh = dz - sigma dx, dq = -sigma q^3 dsigma,
 // dn = -q^2 tau dsigma, tau = q (1, 0, sigma) along the road:
 //   df = q (-k dh + c v_x dsigma) + f dq/q - q c (dv_z - sigma dv_x)
 //   d(torque) = d(arm) x f n + arm x d(f n)
-// Branches: the stretches of the road between its edges, each with touch and without. Without, the
-// wheel touches when both R - h and f are positive; a wheel that touches lets go when f, which is
-// then negative on this branch, vanishes. Only at the other end of touch does f jump, by -c hdot.
-// On a straight road -df = k n.dr of a radial tyre: one row. What the row leaves out does not
-// change the number of iterations of a vehicle on stairs.
+// Branches: the segments of the road between its edges, each with and without contact. Without it,
+// contact begins when both R - h and f are positive; it ends when f, which is then negative on this
+// branch, vanishes. f jumps only at the beginning of contact, by -c hdot. On a straight road -df =
+// k n.dr of a radial tyre: one row. The terms that the row omits do not change the number of
+// iterations of a vehicle on stairs.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -69,7 +69,7 @@ Contact contact(const ForceInput& in) noexcept {
   return c;
 }
 
-/// The branch of a place on a stretch of the road.
+/// The branch of a position on a segment of the road.
 std::int64_t tyre_branch(const ForceInput& in, std::size_t stretch) noexcept {
   ForceInput there = in;
   there.branch = TyreBranch::of(stretch, false);
@@ -84,7 +84,7 @@ ForceSide tyre_side(const ForceInput& in) noexcept {
   if (in.branch == free_branch) return {-1.0, tyre_branch(in, road.stretch_index(c.x))};
   const TyreBranch held{in.branch};
   const StretchSide s = stretch_side(road, held.stretch(), c.x);
-  // The force as a depth.
+  // The force expressed as a depth.
   const double push = c.f / (t.stiffness > 0.0 ? t.stiffness : 1.0);
   const double touch = held.touches() ? -push : std::min(t.radius - c.h, push);
   if (s.beyond > touch) return {s.beyond, tyre_branch(in, s.next)};
@@ -97,8 +97,8 @@ struct Wheel {
   double r_w;
 };
 
-/// False for a wheel that lies on the road: it has no contact point below its centre. At 1e-6 rad
-/// from there e_x is a quotient of small numbers and r_w is far longer than the radius.
+/// False for a wheel that lies flat on the road: it has no contact point below its centre. At 1e-6
+/// rad from there e_x is a quotient of small numbers and r_w is far longer than the radius.
 bool upright(const ForceInput& in, const Contact& c, Wheel& w) noexcept {
   w.axis = in.b.R * in.force.axis;
   const Vec3 u = w.axis.cross(c.n);
@@ -230,7 +230,7 @@ ForceExample tyre_example(std::size_t regime, ExampleNumbers& numbers) {
   x.origin = numbers.vector(1.0);
   MarkerState& b = x.b;
   b = numbers.marker();
-  // A steered wheel, turned about its axis; upright across the road unless it heels.
+  // A steered wheel, rotated about its axis; upright across the road unless it is cambered.
   const Vec3 place = b.r + x.origin;
   const RoadPoint below = road_at(road, place.x());
   const Vec3 normal = Vec3(-below.slope, 0.0, 1.0).normalized();

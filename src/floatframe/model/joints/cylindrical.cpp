@@ -1,4 +1,4 @@
-// Cylindrical: M slides along z, the common axis of F and M, and turns about it.
+// Cylindrical: M slides along z, the common axis of F and M, and rotates about it.
 //   coordinates  s: displacement along z [m]; q: angle from x_F to x_M about z [rad]
 //   pose         R_FM = R_z(q), p_FM = s z
 //   velocity     v_FM = z sdot, w_FM = z qdot: H constant, so the bias is zero

@@ -1,5 +1,5 @@
-// Free: M moves in any way; the frames have world axes in the design configuration. Bodies that no
-// joint leads to hang from one.
+// Free: M moves without constraints; the frames have world axes in the design configuration. Bodies
+// without a joint that leads to them get one.
 //   coordinates  displacement p_FM [m]; rotation vector theta of M in F [rad], in the configuration
 //                a unit quaternion
 //   pose         R_FM = exp(skew(theta)), p_FM

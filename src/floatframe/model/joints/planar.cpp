@@ -1,6 +1,6 @@
-// Planar: M slides in the plane normal to z, the common normal of F and M, and turns about z. The
-// first direction in the plane, e1, is axis_2 without its part along z; e2 = z x e1. Both are fixed
-// in F.
+// Planar: M slides in the plane normal to z, the common normal of F and M, and rotates about z. The
+// first direction in the plane, e1, is axis_2 without its component along z; e2 = z x e1. Both are
+// fixed in F.
 //   coordinates  x, y: displacements along e1 and e2 [m]; q: angle from x_F to x_M about z [rad]
 //   pose         R_FM = R_z(q), p_FM = x e1 + y e2
 //   velocity     v_FM = xdot e1 + ydot e2, w_FM = z qdot: H constant, so the bias is zero

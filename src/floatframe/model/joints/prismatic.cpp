@@ -1,4 +1,4 @@
-// Prismatic: M slides along z, the common axis of F and M, and does not turn.
+// Prismatic: M slides along z, the common axis of F and M, and does not rotate.
 //   coordinate   q: displacement along z [m]
 //   pose         R_FM = I, p_FM = q z
 //   velocity     v_FM = z qdot: H = (z; 0), constant, so the bias is zero

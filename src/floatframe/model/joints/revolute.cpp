@@ -1,4 +1,4 @@
-// Revolute: a hinge. M turns about z, the common axis of F and M.
+// Revolute: a hinge. M rotates about z, the common axis of F and M.
 //   coordinate   q: angle from x_F to x_M about z [rad]
 //   pose         R_FM = R_z(q), p_FM = 0
 //   velocity     w_FM = z qdot: H = (0; z), constant, so the bias is zero

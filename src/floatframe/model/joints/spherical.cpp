@@ -1,4 +1,4 @@
-// Spherical: a ball joint. M turns in any way about the origin of F; the frames have world axes in
+// Spherical: a ball joint. M rotates freely about the origin of F; the frames have world axes in
 // the design configuration.
 //   coordinates  rotation vector theta of M in F [rad]; the configuration holds a unit quaternion
 //   pose         R_FM = exp(skew(theta)), p_FM = 0

@@ -1,11 +1,11 @@
-// Universal: M turns about e1, fixed in F, and about e2, fixed in M. In the design configuration
+// Universal: M rotates about e1, fixed in F, and about e2, fixed in M. In the design configuration
 // both are given in the joint frame, with z = e1; they need not be perpendicular.
 //   coordinates  q1: angle about e1, q2: angle about e2 [rad]
 //   pose         R_FM = exp(q1 e1) exp(q2 e2), p_FM = 0
 //   velocity     w_FM = e1 q1dot + e2' q2dot with e2' = exp(q1 e1) e2 = R_FM e2
-//   bias         e2' turns about e1: q1dot q2dot e1 x e2'
+//   bias         e2' rotates about e1: q1dot q2dot e1 x e2'
 //   parts        r_M = r_F; e1.e2' keeps its value
-//   measured     q1 turns e2 about e1 onto e2'; q2 is what is left about e2. With c = e1.e2',
+//   measured     q1 rotates e2 about e1 onto e2'; q2 is the rest, about e2. With c = e1.e2',
 //                a = e1.w_FM = q1dot + c q2dot, b = e2'.w_FM = c q1dot + q2dot:
 //                q1dot = (a - c b)/(1 - c^2), q2dot = (b - c a)/(1 - c^2). c = e1.e2 at any q1, so
 //                it never reaches 1: parallel axes are refused in the design configuration

@@ -1,4 +1,4 @@
-// Weld: M stays where F is.
+// Weld: M is fixed to F.
 //   coordinates  none: R_FM = I, p_FM = 0
 //   parts        r_M = r_F and three direction rows: z_F.x_M = z_F.y_M = x_F.y_M = 0
 //   mirrored, reversed: nothing to change; the frames have world axes in the design configuration

@@ -1,4 +1,4 @@
-// Force that a joint transmits to its child, its motion included, or a rod to the body at `to` [N].
+// Force of a joint on its child, including that of its motion, or of a rod on the body at `to` [N].
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {

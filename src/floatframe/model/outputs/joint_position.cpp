@@ -1,7 +1,7 @@
-// Coordinate of a joint, read off its frames F and M. Angles are followed over turns with the mean
-// velocity since the last sample: of the angles that the frames allow, the value is that nearest to
+// Coordinate of a joint, measured at its frames F and M. Turns of angles are counted with the mean
+// velocity since the last sample: of the possible angles the value is that nearest to
 //   q_last + (t - t_last) (qdot_last + qdot) / 2
-// The first one is nearest to the start value or the motion that the user gave.
+// The first one is nearest to the start value or the motion given by the user.
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -11,7 +11,7 @@ namespace floatframe {
 
 namespace {
 
-/// So that an output begins at the turn that the user means.
+/// So that an output begins at the turn intended by the user.
 double start_position(const Joint& joint, int component, double t) noexcept {
   if (joint.motion) return evaluate(*joint.motion, t).f;
   const std::size_t k = component;

@@ -1,6 +1,6 @@
-// Torque that a joint transmits to its child, its motion included, or a rod to the body at `to`
-// [N m]. With the force F and the torque T_M about the point M of the joint on the child (of a rod
-// its end at `to`), the torque about a point P is
+// Torque of a joint on its child, including that of its motion, or of a rod on the body at `to` [N
+// m]. With the force F and the torque T_M about the point M of the joint on the child (of a rod its
+// end at `to`), the torque about a point P is
 //   T_P = T_M + (p_WM - p_WP) x F
 #include "floatframe/model/output_kind.hpp"
 

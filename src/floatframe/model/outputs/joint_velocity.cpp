@@ -1,4 +1,4 @@
-// Rate of a joint coordinate, read off its frames F and M, as in H v.
+// Rate of a joint coordinate, measured at its frames F and M, as in H v.
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"

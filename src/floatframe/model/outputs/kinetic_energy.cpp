@@ -1,4 +1,4 @@
-// Kinetic energy of a body, that of its modes included [J].
+// Kinetic energy of a body, including that of its modes [J].
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {

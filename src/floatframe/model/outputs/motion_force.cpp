@@ -1,5 +1,5 @@
-// Force [N] or torque [N m] of a prescribed motion along the coordinate it prescribes, on the
-// child: what a motor must supply.
+// Force [N] or torque [N m] of a prescribed motion along its coordinate, on the child: the load of
+// a motor.
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
 

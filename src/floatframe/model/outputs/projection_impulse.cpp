@@ -1,5 +1,5 @@
-// Impulse that the projection of the velocities onto the constraints gave the child of a joint, or
-// the body at `to` of a rod, in the last step [N s]: what the reactions leave out.
+// Impulse of the velocity projection onto the constraints on the child of a joint, or on the body
+// at `to` of a rod, in the last step [N s]: it is not included in the reactions.
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {

@@ -1,4 +1,4 @@
-// Strain along a direction at a place of a flexible body, as a strain gauge reads it
+// Strain along a direction at a location of a flexible body, as measured by a strain gauge
 // (model/gauge.hpp). Three of them at 0, 45 and 90 degrees are a rosette.
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_kind.hpp"

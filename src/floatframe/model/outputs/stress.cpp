@@ -1,4 +1,4 @@
-// Stress at a place of a flexible body, body axes [Pa] (model/gauge.hpp): components, von Mises,
+// Stress at a location of a flexible body, body axes [Pa] (model/gauge.hpp): components, von Mises,
 // von Mises with the sign of the principal stress of largest magnitude (for fatigue), principal
 // stresses in descending order.
 #include <cmath>
