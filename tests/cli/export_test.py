@@ -319,7 +319,7 @@ class Export(RunCase):
         self.run_model()
         self.refused("found no file to write, expected --vtk, --glb, --npz or --csv", "out")
         self.refused("found --stress without --npz, expected the file that is to hold it", "out", "--stress", "--csv", "m.csv")
-        self.refused("--stress: none of the bodies whose states were recorded knows its stress", "out", "--stress", "--npz", "m.npz", "--body", "disc")
+        self.refused("--stress: none of the bodies whose states were recorded has stress data", "out", "--stress", "--npz", "m.npz", "--body", "disc")
         said = self.program("export", "out", "--csv", "m.csv", "--body", "baem", code=2).stderr
         self.assertIn("--body: found 'baem', ", said)
         self.refused("out/states.ffr: found no recorded instant from 3 s on, expected some of the 201 from 0 to 0.2 s",

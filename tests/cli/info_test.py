@@ -238,7 +238,7 @@ class Info(unittest.TestCase):
         facts = self.facts(beam)
         self.assertEqual((facts["possible_interfaces"], facts["spiders"], facts["beam_arms"]), (["set:S"], [], 3))
         self.assertEqual(self.pasted(facts["command"]), ["S"])
-        self.assertIn("  beam arms     at 3 nodes: ends of beams or bars beside them\n", self.expect(0, "info", "part.inp").stdout)
+        self.assertIn("  beam arms     at 3 nodes: ends of beams or bars away from them\n", self.expect(0, "info", "part.inp").stdout)
         facts = self.facts(beam + "*RIGID BODY, NSET=S, REF NODE=9\n*NODE\n9, .5, 0., .3\n")
         self.assertEqual(facts["possible_interfaces"], ["node:9"])
 

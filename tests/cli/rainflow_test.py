@@ -84,7 +84,7 @@ class Rainflow(unittest.TestCase):
         (self.folder / "clock.csv").write_text("time [s]\n0\n1\n")
         found = rainflow(self.folder / "clock.csv")
         self.assertEqual(found.returncode, 2)
-        self.assertIn("clock.csv:1: found no channel beside the time", found.stderr)
+        self.assertIn("clock.csv:1: found no channel but the time", found.stderr)
 
 
 if __name__ == "__main__":

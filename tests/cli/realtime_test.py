@@ -115,14 +115,14 @@ class RealTime(unittest.TestCase):
             (["cart.yaml", "--fallback", "stop"], "--fallback: found without --input udp"),
             (["cart.yaml", "--output", "udp", "--input-timeout", "2"], "--input-timeout: found without --input udp"),
             (["cart.yaml", "--input", "udp", "--listen", "[::1]:0", "--peer", "127.0.0.1"],
-             "--peer: found 127.0.0.1, from which no packet can come to [::1], expected both IPv4 or both IPv6"),
+             "--peer: found 127.0.0.1, which cannot send packets to [::1], expected both IPv4 or both IPv6"),
             (["cart.yaml", "--input", "udp", "--timeout", "2"], "--timeout: found without --lockstep"),
             (["cart.yaml", "--log", "same", "--report", "same"], "--log and --report: found 'same' for both"),
             (["cart.yaml", "--log", "nowhere/log.csv"], "--log: 'nowhere/log.csv' cannot be written"),
             (["falling.yaml", "--input", "udp"], "found no inputs in the model 'falling'"),
             (["nobody.yaml"], "nobody.yaml"),
             (["cart.yaml", "--set", "weight=3"], "unknown parameter 'weight'"),
-            (["cart.yaml", "--endless", "--duration", "1"], "--duration: found with --endless, expected one of the two"),
+            (["cart.yaml", "--endless", "--duration", "1"], "--duration: excludes --endless"),
         ]
         for arguments, expected in cases:
             with self.subTest(arguments=arguments):
@@ -244,7 +244,7 @@ class RealTime(unittest.TestCase):
         done = self.floatframe("cart.yaml", "--input", "udp", "--output", "udp", "--lockstep", "--no-pace", "--listen",
                                "127.0.0.1:0", "--send", f"127.0.0.1:{self.link().address[1]}", "--timeout", "0.2")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("no inputs came in answer to the outputs at t = 0 s", done.stderr)
+        self.assertIn("no inputs arrived in reply to the outputs at t = 0 s", done.stderr)
 
     def test_bad_packets_and_values_are_counted_and_ignored(self):
         link = self.link()
@@ -364,7 +364,7 @@ class RealTime(unittest.TestCase):
             sent += 1
         errors = process.communicate(timeout=PATIENCE)[1]
         self.assertEqual(process.returncode, 1, errors)
-        self.assertRegex(errors, r"the run failed: no inputs came for 0\.1 s after t = ")
+        self.assertRegex(errors, r"the run failed: no inputs arrived for 0\.1 s after t = ")
         self.assertGreater(self.report()["inputs"]["push"]["refused"], 10)
 
     def test_a_silent_controller_is_reported_and_the_fallback_acts(self):
@@ -389,7 +389,7 @@ class RealTime(unittest.TestCase):
                 self.assertFalse(silence["came_again"])
                 self.assertEqual(process.returncode, 1 if fallback == "stop" else 0, errors)
                 if fallback == "stop":
-                    self.assertRegex(errors, r"the run failed: no inputs came for 0\.1 s after t = 0(\.\d*)? s")
+                    self.assertRegex(errors, r"the run failed: no inputs arrived for 0\.1 s after t = 0(\.\d*)? s")
                     self.assertAlmostEqual(report["time_s"] - silence["from_s"], 0.1, delta=0.003)
                 else:
                     self.assertEqual(report["time_s"], 0.8)

@@ -129,7 +129,7 @@ class Stress(RunCase):
         self.assertEqual(self.stress("--top", "0")["bodies"][0]["hot_spots"], [])
 
     def test_what_has_no_stress_is_said_in_one_sentence(self):
-        self.refused("--body: body 'slider' is rigid and knows no stress, expected a flexible body with stress", "out",
+        self.refused("--body: body 'slider' is rigid and has no stress data, expected a flexible body with stress", "out",
                      "--body", "slider")
         self.refused("--body: found 'beem', expected a body of the model, did you mean 'beam'?", "out", "--body", "beem")
         self.refused("found --from 2 after --to 1, expected an earlier time", "out", "--from", "2", "--to", "1")
@@ -137,7 +137,7 @@ class Stress(RunCase):
                 "  loose: {type: free, child: stone, at: [0, 0, 0]}\nsimulation: {step: 0.01, duration: 0.1}\n"
         (self.folder / "rigid.yaml").write_text(rigid)
         self.program("run", "rigid.yaml", "--out", "stone", "--quiet", "--no-report")
-        self.refused("stone/states.ffr: found no body that knows its stress, expected a flexible body of bars, or a part reduced "
+        self.refused("stone/states.ffr: found no body with stress data, expected a flexible body of bars, or a part reduced "
                      "with stresses", "stone")
 
 

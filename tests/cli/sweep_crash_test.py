@@ -150,7 +150,7 @@ bodies:
         os.kill(everyone[0], signal.SIGTERM)  # is for the program to decide about
         os.kill(everyone[0], signal.SIGKILL)
         _, errors = process.communicate(timeout=60)
-        self.assertEqual(errors, "floatframe: the process that watches over a worker was ended from outside\n")
+        self.assertEqual(errors, "floatframe: the watching process of a worker was killed\n")
         self.assertEqual(process.returncode, 1)
         self.wait_until_gone(everyone)
         done = self.sweep(0, CRANK, *LONG, "--threads", "2", "--out", "out")

@@ -200,7 +200,7 @@ class Input(Sweep):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
                 ((CRANK,), "expected --vary or --table: what changes from run to run"),
-                ((CRANK, "--vary", "rate=1,2", "--table", "x.csv"), "found --vary and --table, expected one of the two"),
+                ((CRANK, "--vary", "rate=1,2", "--table", "x.csv"), "--vary and --table exclude each other"),
                 ((CRANK, "--vary", "rate"), "--vary rate: expected NAME=LO:HI:N"),
                 ((CRANK, "--vary", "rate=1:2:0"), "found '0', expected"),
                 ((CRANK, "--vary", "raet=1,2"), "nor a simulation option, did you mean 'rate'?"),

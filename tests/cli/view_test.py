@@ -258,7 +258,7 @@ class View(RunCase):
     def test_what_grows_is_said(self):
         (self.folder / "upright.yaml").write_text(UPRIGHT)
         page, _ = self.modes_page("upright.yaml")
-        self.assertRegex(page["status"]["warnings"][0], r"^Mode \d grows without swinging, by e in 0.3193 s")
+        self.assertRegex(page["status"]["warnings"][0], r"^Mode \d grows without oscillating, by e in 0.3193 s")
         self.assertEqual({m["kind"] for m in page["scene"]["vibrations"]["list"]}, {"growth", "decay"})
 
     def test_a_reduced_part_shows_its_modes(self):

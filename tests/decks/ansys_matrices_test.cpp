@@ -220,7 +220,7 @@ TEST(AnsysLayers, OfSeveralMaterials) {
       ASSERT_EQ(e.layup, 0);
       EXPECT_EQ(m.notes.at(0),
                 "a.cdb: 1 solids have layers: each layer has the points of its element here, in "
-                "ANSYS as many through its thickness as SECDATA says");
+                "ANSYS as many through its thickness as SECDATA gives");
       const std::vector<ShellPly>& plies = m.layups.at(0).plies;
       ASSERT_EQ(plies.size(), 3u);
       const double thickness[] = {0.25, 1.0, 0.75}, angle[] = {30, 0, -45};

@@ -39,9 +39,9 @@ TEST(CutDecks, CountsOfAnsysBlocksAreCompared) {
   elements.replace(elements.find("2,2"), 3, "9,3");
   const FeModel m = ansys_of(cut_types + nodes + "N,R5.3,LOC,-1\n" + elements + "      -1\n");
   EXPECT_TRUE(contains(m.notes,
-                       "a.cdb:5: NBLOCK says 7 nodes, 5 follow: if the file is not cut short, "
+                       "a.cdb:5: NBLOCK announces 7 nodes, 5 follow: if the file is not cut short, "
                        "nothing is missing"));
-  EXPECT_TRUE(contains(m.notes, "a.cdb:13: EBLOCK says 3 elements, 2 follow"));
+  EXPECT_TRUE(contains(m.notes, "a.cdb:13: EBLOCK announces 3 elements, 2 follow"));
 }
 
 TEST(CutDecks, WhatWorkbenchWritesAroundTheMesh) {

@@ -183,7 +183,7 @@ TEST(Stiffeners, ANoteCountsTheirNodes) {
   const FeModel m = nastran_plate(rib_property("PBAR"));
   EXPECT_EQ(stiffened_nodes(m), cells_along + 1u);
   EXPECT_TRUE(std::any_of(m.notes.begin(), m.notes.end(), [](const std::string& note) {
-    return note.starts_with("at 5 nodes of beams along shells and beside them the shells do not");
+    return note.starts_with("at 5 nodes of beams along shells and next to them the shells do not");
   }));
   EXPECT_EQ(stiffened_nodes(calculix_plate()), cells_along + 1u);
 }

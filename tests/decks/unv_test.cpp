@@ -127,8 +127,8 @@ TEST(Unv, SkinsAndEdgesMakeNodeSets) {
   EXPECT_EQ(m.node_sets.at("EDGE"), (std::vector<int>{0, 3}));
   ASSERT_EQ(m.notes.size(), 5u);
   EXPECT_EQ(m.notes[0],
-            "a.unv:7: the file says that its units are '1 SI: Meter (newton)  2'; the units given "
-            "with the file are taken");
+            "a.unv:7: the file declares units '1 SI: Meter (newton)  2'; the units given "
+            "with the file are used");
   EXPECT_EQ(m.notes[1],
             "a.unv: 1 members of groups are neither nodes nor elements (kind 5) and are left out");
   EXPECT_EQ(m.notes[3],

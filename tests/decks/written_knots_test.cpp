@@ -178,8 +178,8 @@ TEST(WrittenKnots, NoMoreModesThanCalculixFinds) {
   const std::vector<std::string> notes = written(model, ".inp", 20).notes;
   EXPECT_EQ(
       notes.back(),
-      "the step asks for 6 modes, a fifth of the 30 degrees of freedom of the deck: asked for "
-      "more than it can find, CalculiX prints zeros");
+      "the step requests 6 modes, a fifth of the 30 degrees of freedom of the deck: if more are requested "
+      "than exist, CalculiX prints zeros");
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST(RealTime, FailsWhenInputsDoNotCome) {
   port.patience = 4;
   const RealTimeReport r = run_real_time(model(), simulation(0.05), unpaced(), &port);
   EXPECT_EQ(r.status, "failed");
-  EXPECT_EQ(r.message, "no inputs came in answer to the outputs at t = 0.02 s");
+  EXPECT_EQ(r.message, "no inputs arrived in reply to the outputs at t = 0.02 s");
   EXPECT_EQ(r.steps, 4);
   EXPECT_EQ(port.last_step, 4u);
   EXPECT_TRUE(port.ended);

@@ -119,14 +119,14 @@ TEST(Silence, ASilentPartnerStopsTheRunOnlyIfItEverSpoke) {
   Sometimes silent([](long k) { return k == 3; }), mute([](long) { return false; });
   const RealTimeReport r = run_real_time(model(), simulation(0.1), options, &silent);
   EXPECT_EQ(r.status, "failed");
-  EXPECT_EQ(r.message, "no inputs came for 0.02 s after t = 0.01 s");
+  EXPECT_EQ(r.message, "no inputs arrived for 0.02 s after t = 0.01 s");
   EXPECT_EQ(r.steps, 6);
   EXPECT_TRUE(silent.ended);
   // A silence before the first inputs is none of the partner's.
   Sometimes late([](long k) { return k == 8; });
   const RealTimeReport after = run_real_time(model(), simulation(0.2), options, &late);
   EXPECT_EQ(after.input_timeouts, 2);
-  EXPECT_EQ(after.message, "no inputs came for 0.02 s after t = 0.035 s");
+  EXPECT_EQ(after.message, "no inputs arrived for 0.02 s after t = 0.035 s");
   const RealTimeReport waiting = run_real_time(model(), simulation(0.1), options, &mute);
   EXPECT_EQ(waiting.status, "completed");
   EXPECT_EQ(waiting.input_timeouts, 1);

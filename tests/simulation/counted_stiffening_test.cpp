@@ -72,7 +72,7 @@ TEST(CountedStiffening, TensionStiffensTorsion) {
   const LinearSystem system = linear_system(at_operating_point(model, "equilibrium"));
   EXPECT_EQ(system.stiffened, std::vector<std::string>{"b"});
   expect_in(system.stiffening, "body 'b'");
-  expect_in(system.stiffening, "'run' leaves it out unless the model says geometric_stiffening");
+  expect_in(system.stiffening, "'run' leaves it out unless the model sets geometric_stiffening");
   // The keys are obeyed; the other one is said.
   const Model off = model_of(pulled(N, key_is_false)), on = model_of(pulled(N, key_is_true));
   EXPECT_EQ(linear_system(on).stiffened.size(), 0U);

@@ -66,7 +66,7 @@ export function modes(options: { hostile?: boolean } = {}): { page: PageJson; wr
     page: {
       ...page,
       kind: 'modes',
-      status: { state: 'completed', sentences: ['The natural vibrations of the model about its equilibrium.'], warnings: ['Mode 2 (10.25 Hz) is unstable: it grows while it swings.'] },
+      status: { state: 'completed', sentences: ['The natural vibrations of the model about its equilibrium.'], warnings: ['Mode 2 (10.25 Hz) is unstable: its oscillation grows.'] },
       tables: [{ heading: 'Vibrations', columns: ['mode', 'f [Hz]', 'undamped [Hz]', 'damping', 'kind', 'moves', 'is held by'], rows: Array.from({ length: 25 }, (_, k) => [String(k + 1), k === 24 ? '99.5' : '1.5235', '1.6', '0.3669', 'vibration', 'chassis 83 %', 'front_left_spring 50 %']) }],
       curves: null,
       trust: null,
