@@ -19,7 +19,7 @@ struct Bar {
   double from_fraction = 0.0;  ///< ... at this fraction of its length counted from its start
   int elements = 1;
   BeamSection section;
-  Vec3 reference = Vec3::UnitZ();  ///< local y lies in the plane of the bar and this vector
+  Vec3 reference = Vec3::UnitZ();  ///< local y is in the plane of the bar and this vector
 };
 
 struct BarFrame {

@@ -1,5 +1,5 @@
 #pragma once
-// Loads of a body's own mass: densities rho e_j and rho r_i e_j, of which the inertia forces and
+// Loads of a body's mass: densities rho e_j and rho r_i e_j, which make up the inertia forces and
 // the weight of a rigid body are made, with the consistent masses of the elements. Column j:
 // rho e_j; column 3 + 3 i + j: rho r_i e_j, r from the origin of the body.
 #include "floatframe/fe/fe_model.hpp"
@@ -18,10 +18,10 @@ inline constexpr int linear_load_cases = 12;
 void linear_fields(const ElementInput& input, int nodes, int dofs_per_node, bool beam,
                    MatX& fields);
 
-/// Where the mass of an element is felt.
+/// Displacement field on which the mass of an element acts.
 enum class ElementMass {
-  linear,          ///< of displacements that are linear between the nodes: forces alone
-  consistent,      ///< of the shape functions
+  linear,          ///< linear displacements between the nodes: forces only
+  consistent,      ///< the shape functions
   section_inertia  ///< with the rotary and torsional inertia of beam sections
 };
 void element_mass(const ElementKernel& kernel, const ElementInput& input, ElementMass mass,

@@ -18,8 +18,8 @@ using Terms = DependentDofs::Terms;
 
 std::vector<int> dofs_of_nodes(const FeModel& model);
 
-/// Resolves one dependence after the other; what it is made of is expressed at once in the dofs
-/// that are independent so far.
+/// Resolves one dependence after the other; its terms are expressed immediately in the dofs that
+/// are independent so far.
 class Resolver {
  public:
   Resolver(const FeModel& model, const DofTable& table, ErrorList& errors)
@@ -73,8 +73,8 @@ class Resolver {
   }
 
   /// sum of terms = 0, solved for `first` if it is still free (and, unless `for_first`, its factor
-  /// not small), else for the dof with the largest factor. Nothing is left to solve if other
-  /// equations say the same.
+  /// not small), else for the dof with the largest factor. Redundant equations leave nothing to
+  /// solve.
   void add_equation(int owner, int first, bool for_first, const Terms& terms) {
     double scale = 0.0;
     for (const auto& [dof, factor] : terms) scale = std::max(scale, std::abs(factor));
@@ -114,7 +114,7 @@ class Resolver {
     }
   }
 
-  /// Directions of carried nodes that no equation names: nothing moves there.
+  /// Directions of carried nodes that no equation contains: they are fixed.
   void fix_idle() {
     const std::vector<int> count = dofs_of_nodes(model_);
     std::vector<char> named(out_.dependent.size(), 0);
@@ -201,7 +201,7 @@ Mat6 mean_sums(const FeModel& model, const DofTable& table, const Spider& s, dou
   return normal;
 }
 
-/// Displacements of the nodes of a mean spider that depend on nothing yet.
+/// Displacements of the nodes of a mean spider that are not dependent yet.
 std::vector<Dof> free_dofs(const DofTable& table, const Spider& s, const Resolver& resolver) {
   std::vector<Dof> out;
   for (const int node : s.nodes)
@@ -336,7 +336,7 @@ std::vector<int> dofs_of_nodes(const FeModel& model) {
   return count;
 }
 
-/// Equations carry nodes that nothing else uses (points that decks hold and drive) with the others.
+/// Equations also carry nodes that nothing else uses (reference points of decks).
 void add_carried(const FeModel& model, std::vector<int>& count) {
   for (bool more = true; more;) {
     more = false;

@@ -30,17 +30,17 @@ struct EngineeringConstants {
   double G12 = 0.0, G13 = 0.0, G23 = 0.0;
 };
 Mat6 elasticity_of(const EngineeringConstants& c);
-/// What is wrong with the constants ("NU12 is 3, expected ..."); empty if they make a positive
-/// definite matrix. Of a lamina only those of its plane count, and shear across it may be 0.
+/// Error in the constants ("NU12 is 3, expected ..."); empty if they give a positive definite
+/// matrix. For a lamina only the in-plane ones count, and transverse shear may be 0.
 std::string engineering_error(const EngineeringConstants& c, bool lamina);
 
-/// Of the plane of a layer: E1, E2, nu12, G12, and the shear moduli G13 and G23 across it.
+/// In the plane of a layer: E1, E2, nu12, G12, and the transverse shear moduli G13 and G23.
 Mat6 lamina_elasticity(const EngineeringConstants& c);
-/// Of a layer: its plane Q (xx, yy, xy) and the shear moduli across it.
+/// Of a layer: plane-stress matrix Q (xx, yy, xy) and the transverse shear moduli.
 Mat6 layer_elasticity(const Mat3& Q, double G13, double G23);
 
-/// What keeps a matrix from being positive definite, with the name of the constant at (i, j); empty
-/// if nothing does. `plane`: of xx, yy, xy only.
+/// Reason why a matrix is not positive definite, with the name of the constant at (i, j); empty if
+/// it is. `plane`: of xx, yy, xy only.
 std::string elasticity_error(const Mat6& D, bool plane,
                              const std::function<std::string(int i, int j)>& name);
 

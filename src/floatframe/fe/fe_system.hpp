@@ -1,13 +1,13 @@
 #pragma once
 // Equations of a finite-element model with spiders and linear equations eliminated: u = T q, K =
 // T^T K_e T, M = T^T M_e T. A node has three degrees of freedom, six if it belongs to a beam or
-// shell, is the reference of a spider or carries a rotary inertia, none if nothing uses it.
+// T^T K_e T, M = T^T M_e T. A node has three degrees of freedom, six if it belongs to a beam or
 // Dependent dofs have no row of their own. Models given by matrices keep those matrices' dofs.
 //   rigid spider  u_i = u_r + theta_r x (x_i - x_r)
 //   mean spider   u_r, theta_r = weighted least squares of the u_i: six dofs of the nodes (chosen
 //                 by pivoting) depend on q_r and the other dofs of the nodes
-// Load time: allocates and throws InputError (a node that depends twice, an RBE3 whose nodes lie on
-// a line, ...).
+// Load time: allocates and throws InputError (a node that depends twice, an RBE3 with collinear
+// nodes, ...).
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
@@ -48,8 +48,8 @@ struct PointArm {
 /// its static moments and its inertia exactly. Elements whose mass differs between directions
 /// (Hermite beams) are sums of stations (ElementKernel::mass_stations): each adds its centre and a
 /// point on an arm for each of its second moments. So kinetic energy is that of the system.
-/// Matrices of another program may differ between directions too; M_s is made of the mean of the
-/// three there, and `anisotropy` says how far off that is.
+/// Matrices of another program may differ between directions too; M_s is the mean of the
+/// three there, and `anisotropy` is the resulting deviation.
 struct PointModel {
   Mat3X p;                  ///< 3 x N positions
   SparseRows M_s;           ///< N x N

@@ -47,7 +47,7 @@ std::string flat_nodes(const FeModel& model) {
   }
   for (const LinearEquation& equation : model.equations)
     for (const LinearEquation::Term& term : equation.terms) hold(term.node);
-  // Planes that differ by less than 1e-4 are one: Nastran's AUTOSPC takes 1e-8 of the stiffness.
+  // Planes closer than 1e-4 are treated as equal: Nastran's AUTOSPC takes 1e-8 of the stiffness.
   constexpr double least = 1e-8;
   int count = 0, first = -1;
   for (int k = 0; k < model.nodes(); ++k) {

@@ -106,7 +106,7 @@ class TurningGroups {
         if (node == s.reference || (turns(node) && all_turns(s))) continue;
         g.points.push_back(node);
         if (!turns(node)) continue;
-        add_point(node);  // a reference of its own, carried by this one
+        add_point(node);  // a separate reference, carried by this one
         if ((s.mask & 56u) != 0u) hold(node), g.held = true;
       }
     }
@@ -195,7 +195,7 @@ bool find_holder(const FeModel& model, const std::vector<std::vector<int>>& elem
   return false;
 }
 
-/// The node whose rotation is not that of another one: no rigid spider moves it.
+/// The node with an independent rotation: no rigid spider moves it.
 int leading_node(const FeModel& model, const std::vector<char>& follows,
                  const std::vector<int>& group) {
   for (const int k : group)
@@ -232,7 +232,7 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
     if (size(1) > line_width * size(2)) continue;
     FreeTurn turn;
     turn.group = group.nodes;
-    // Of everything that turns, to tell a point from a line.
+    // Of all nodes that rotate, to distinguish a point from a line.
     for (const int k : group.nodes)
       turn.length =
           std::max(turn.length, (model.positions[k] - model.positions[group.points[0]]).norm());

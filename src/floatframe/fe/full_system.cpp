@@ -12,7 +12,7 @@ namespace floatframe {
 namespace {
 
 /// Assembly of large symmetric matrices from blocks of nodes: the pattern (which nodes share an
-/// element) is made once, element matrices are added in place.
+/// element) is built once, element matrices are added in place.
 class BlockAssembly {
  public:
   /// `blocks`: nodes that share stiffness without an element.
@@ -25,7 +25,7 @@ class BlockAssembly {
   void add_scalar(const int* nodes, int count, const MatX& scalar);
   /// Single entry.
   void add(Dof row, Dof column, double value);
-  /// Entries that are exactly zero are left out. Ends the assembly.
+  /// Entries that are exactly zero are omitted. Ends the assembly.
   SparseMatrix finish();
 
  private:

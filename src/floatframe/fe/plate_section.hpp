@@ -1,6 +1,6 @@
 #pragma once
-// Sections of beams made of rectangles ("plates") with sides along y and z, which touch and do not
-// overlap: I, L, T, channels, boxes, hats.
+// Sections of beams composed of rectangles ("plates") with sides along y and z, which touch and do
+// not overlap: I, L, T, channels, boxes, hats.
 #include <Eigen/Core>
 #include <span>
 

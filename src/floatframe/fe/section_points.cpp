@@ -37,7 +37,7 @@ std::vector<SectionPoint> round_points(const BeamSection& s) {
   return out;
 }
 
-/// Of a rectangle 2 a along y and 2 b along z at the middles of its sides, per G theta': -tau_xy at
+/// In a rectangle 2 a along y and 2 b along z at the middles of its sides, per G theta': -tau_xy at
 /// z = b and tau_xz at y = a.
 struct Torsion {
   double at_b = 0.0, at_a = 0.0;

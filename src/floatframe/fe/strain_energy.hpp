@@ -22,7 +22,7 @@ inline MatX rows_of_nodes(const MatX& X, int axis) {
   return out;
 }
 
-/// U, Theta: translations and rotations of all nodes, 3 rows per node, one column a shape. Models
+/// U, Theta: translations and rotations of all nodes, 3 rows per node, one column per shape. Models
 /// given by matrices have no elements and no energy here.
 MatX strain_energy(const FeModel& model, const MatX& U, const MatX& Theta,
                    Integration integration = Integration::exact);
@@ -39,8 +39,8 @@ void check_digits(const FeModel& model, const MatX& U, const MatX& Theta, const 
                   const std::vector<std::string>& names,
                   Integration integration = Integration::exact);
 
-/// Runs `factor`; if it finds a stiffness that is singular, and there are so many beams that
-/// rounding may be the cause, the error says so.
+/// Runs `factor`; if it finds a singular stiffness, and there are so many beams that round-off may
+/// be the cause, the error mentions it.
 void with_digits_hint(const FeModel& model, const std::function<void()>& factor);
 
 }  // namespace floatframe

@@ -49,7 +49,7 @@ void clamp_to(const Face& face, double& r, double& s) {
     s = std::clamp(s, -1.0, 1.0);
     return;
   }
-  // The nearest point of the triangle of area coordinates, whose sides are one long.
+  // The nearest point of the triangle in area coordinates, with sides of length one.
   if (r + s > 1.0) {
     const double more = (r + s - 1.0) / 2.0;
     r -= more;
@@ -165,7 +165,7 @@ std::vector<Face> gather_faces(const FeModel& model, const std::vector<ElementFa
   return faces;
 }
 
-/// u of the node as the head of this file says: an equation for each direction.
+/// u of the node by the formula in the header: an equation for each direction.
 void add_equations(FeModel& model, int node, const Face& face, const FacePoint& at, bool rotations,
                    const FeSource& source) {
   const FaceShape f = shape_at(face, at.r, at.s);
@@ -187,7 +187,7 @@ void add_equations(FeModel& model, int node, const Face& face, const FacePoint& 
     for (int i = 0; i < face.count; ++i) {
       const Vec3 grad = f.r[i] * gr + f.s[i] * gs;
       for (int k = 0; k < 3; ++k) {
-        // A node beside the face takes its motion from the plane that continues it.
+        // A node outside the face moves with the plane that continues it.
         const double factor =
             (axis == k ? f.N[i] + grad.dot(gap) : 0.0) - g * grad(axis) * normal(k);
         if (std::abs(factor) > 1e-14) equation.terms.push_back({face.nodes[i], k, -factor});

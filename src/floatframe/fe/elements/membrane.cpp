@@ -184,7 +184,7 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
   });
 }
 
-/// What is fitted to the points and carried to the nodes.
+/// The quantity fitted to the points and extrapolated to the nodes.
 template <int nodes>
 VecX smooth(double r, double s) {
   if (nodes == 3) return VecX::Ones(1);
