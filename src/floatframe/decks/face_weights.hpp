@@ -9,7 +9,7 @@
 
 namespace floatframe {
 
-/// Of the nodes of a triangle or quadrilateral, corners first, mid-side nodes after them or none;
+/// Weights of the nodes of a triangle or quadrilateral, corners first, then mid-side nodes if any;
 /// their sum is the area. Quadrilaterals as parallelograms of the same diagonals.
 inline std::vector<double> face_weights(std::span<const Vec3> p, std::size_t nodes) {
   const bool triangle = p.size() == 3;

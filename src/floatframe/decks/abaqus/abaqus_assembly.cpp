@@ -1,7 +1,7 @@
 // Parts and instances of an Abaqus deck. Each instance has the numbers and names of its part, the
-// assembly has its own; from there things of an instance are INSTANCE.NAME and INSTANCE.12. What
-// stands in the scope of a part stands once more in that of a further instance, and of a part
-// without instances not at all.
+// assembly has separate ones; it refers to an instance by INSTANCE.NAME and INSTANCE.12. The
+// content of the scope of a part is copied for each further instance, and omitted for a part
+// without instances.
 #include <algorithm>
 #include <numbers>
 #include <set>
@@ -87,7 +87,7 @@ void copy_numbered(AbaqusNumbered<T>& all, std::size_t begin, std::size_t end, A
   }
 }
 
-/// The names of a scope once more in another one; the keys begin with it.
+/// Copies the names of a scope into another one; the keys begin with it.
 template <typename Map>
 void copy_names(Map& map, AbaqusScope from, AbaqusScope to, TextSource& source) {
   const ScopeChange change(from, to);
@@ -108,7 +108,7 @@ AbaqusSizes abaqus_sizes(const AbaqusContent& c) {
   return sizes;
 }
 
-/// What a part has once more, for an instance of it. Throws if instances make too much.
+/// Copies the content of a part for an instance of it. Throws if instances need too much memory.
 void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
                       TextSource& source) {
   const ScopeChange change(part.scope, to);

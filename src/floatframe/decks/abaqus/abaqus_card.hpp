@@ -1,9 +1,9 @@
 #pragma once
 // A keyword line with its data lines, as its handler reads them into the content of the deck. Data
-// lines that a handler leaves are skipped.
+// lines that a handler does not read are skipped.
 //
-// Handlers of keywords of Abaqus and CalculiX decks, and what they share. `abaqus_readers` in
-// read_abaqus.cpp says which keyword has which.
+// Handlers of keywords of Abaqus and CalculiX decks, and their common functions. The table
+// `abaqus_readers` in read_abaqus.cpp assigns them to keywords.
 #include <fmt/format.h>
 
 #include <utility>
@@ -28,7 +28,7 @@ class AbaqusCard : public AbaqusKeyword {
   std::string_view required(std::string_view parameter);
   /// The value of a parameter as a name: upper case without blanks.
   std::string word(std::string_view parameter) const { return abaqus_name(value(parameter)); }
-  /// Is a parameter missing, or has it one of some values, between blanks? Else an error:
+  /// Is a parameter missing, or equal to one of some values (separated by blanks)? Else an error:
   /// "has the type {}, expected ISOTROPIC".
   bool is_one_of(std::string_view parameter, std::string_view values,
                  fmt::format_string<std::string> text, ErrorCode code = ErrorCode::wrong_value);
@@ -60,7 +60,7 @@ class AbaqusCard : public AbaqusKeyword {
   double real_or(std::size_t k, double otherwise, std::string_view what) {
     return field(k).empty() ? otherwise : real(k, what);
   }
-  /// One error if it is no positive number.
+  /// One error if it is not a positive number.
   double positive(std::size_t k, std::string_view what);
   /// Three fields from k on, 0 where they are empty or missing.
   Vec3 vector(std::size_t k, std::string_view what);
@@ -71,12 +71,12 @@ class AbaqusCard : public AbaqusKeyword {
   /// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from k on, as a
   /// mask; 0 and an error if they are none.
   unsigned dofs(std::size_t k, std::string_view what);
-  /// An error if the line has more than `count` fields, or another one follows it.
+  /// An error if the line has more than `count` fields, or another line follows.
   void no_more(std::size_t count);
 
   /// Is there an error in what was read since the keyword or the last line?
   bool misread() const noexcept { return source.errors() != errors_before_line_; }
-  /// Errors up to here count no more for `wrong`.
+  /// Errors so far no longer count for `wrong`.
   void start() noexcept { errors_before_ = source.errors(); }
   /// Is there an error since the parameters were looked at, or the last `start`?
   bool wrong() const noexcept { return source.errors() != errors_before_; }
@@ -138,7 +138,7 @@ void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content);
 AbaqusHandler read_abaqus_solid_section, read_abaqus_shell_section, read_abaqus_membrane_section;
 AbaqusHandler read_abaqus_nodal_thickness, read_abaqus_surface_section;
 AbaqusHandler read_abaqus_mass, read_abaqus_rotary_inertia;
-/// What all sections have; false if the section cannot be used.
+/// The common part of all sections; false if the section cannot be used.
 bool begin_abaqus_section(AbaqusCard& card, AbaqusType::Family family, AbaqusSection& section);
 AbaqusHandler read_abaqus_nonstructural_mass;
 AbaqusHandler read_abaqus_beam_section, read_abaqus_place_in_section;

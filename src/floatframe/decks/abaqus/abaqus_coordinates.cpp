@@ -15,7 +15,7 @@
 namespace floatframe {
 namespace {
 
-/// Columns are the turned axes; nothing if they are not determined.
+/// Columns are the rotated axes; null if they are not determined.
 std::optional<Mat3> axes_at(const AbaqusTransform& t, const Vec3& p) {
   Mat3 R;
   if (t.cylindrical) {
@@ -71,7 +71,7 @@ void read_abaqus_system(AbaqusCard& card) {
   if (plane) {
     in_plane = card.vector(0, what) - system.origin;
   } else {
-    // The third axis stays, the first is seen along it.
+    // The third axis is kept, the first is projected along it.
     x.z() = 0.0;
     in_plane = Vec3::UnitZ().cross(x);
   }

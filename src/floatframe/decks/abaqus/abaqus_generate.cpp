@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_nested = 50;
 
-/// Puts nodes and elements into the content, as if they stood in the deck at a line.
+/// Adds nodes and elements to the content, as if they were in the deck at a line.
 class Generated {
  public:
   /// The sets that get them are those of two parameters, if they are there.
@@ -23,7 +23,7 @@ class Generated {
         nodes_(card.set(card.content.node_sets, node_set)),
         elements_(card.set(card.content.element_sets, element_set)) {}
 
-  /// The place of a node; nothing and an error if it is not there.
+  /// The position of a node; null and an error if it is missing.
   std::optional<Vec3> place(int id) {
     const int found = content_.nodes.find(content_.scope, id);
     if (found >= 0) return content_.nodes[found].p;
@@ -42,7 +42,7 @@ class Generated {
                         number, card_.place(content_.nodes[there].at));
   }
 
-  /// An element like another one with other numbers.
+  /// A copy of an element with other numbers.
   void element(const AbaqusElement& like, std::int64_t id, std::int64_t node_increment) {
     if (like.directed)
       return card_.error_in_line(
@@ -70,7 +70,7 @@ class Generated {
     return nullptr;
   }
 
-  /// Numbers of a set or of one node or element; nothing and an error if there are none.
+  /// Numbers of a set or of a single node or element; empty and an error if there are none.
   std::vector<int> numbers(std::string_view field, bool of_nodes) {
     std::vector<int> out;
     const AbaqusReference r = content_.reference(field, card_.here());
@@ -86,7 +86,7 @@ class Generated {
  private:
   void belongs(AbaqusSet* set, int number) {
     if (set == nullptr) return;
-    // Numbers one after another are one range.
+    // Consecutive numbers are one range.
     if (!set->items.empty()) {
       AbaqusReference& last = set->items.back();
       if (last.name < 0 && last.scope == content_.scope && last.step == 1 &&
@@ -111,7 +111,7 @@ class Generated {
       const auto it = sets.find({r.scope, r.name});
       if (it == sets.end() || depth > most_nested) return;
       for (const AbaqusReference& item : it->second.items) {
-        card_.source.make(1);  // sets of sets of sets may name the same ones very often
+        card_.source.make(1);  // nested sets may name the same numbers very often
         append(item, of_nodes, out, depth + 1);
       }
       return;
@@ -137,7 +137,7 @@ struct ArcOfNodes {
   Vec3 at(double t) const { return centre + Eigen::AngleAxisd(t * angle, normal) * (a - centre); }
 };
 
-/// Nothing and an error if the three points make none.
+/// Null and an error if the three points define none.
 std::optional<ArcOfNodes> arc_of(AbaqusCard& card, const Vec3& centre, const Vec3& a,
                                  const Vec3& b) {
   const Vec3 ra = a - centre, rb = b - centre, n = ra.cross(rb);
@@ -219,7 +219,7 @@ void fill_between(AbaqusCard& card, Generated& out) {
   }
 }
 
-/// Shift, and two points of an axis with an angle, of *NCOPY; nothing and an error if the axis has
+/// Shift, and two points of an axis with an angle, of *NCOPY; null and an error if the axis has
 /// no length. At q: R (q + t - a) + a.
 std::optional<AbaqusPlacement> read_shift(AbaqusCard& card) {
   AbaqusPlacement shift;

@@ -1,7 +1,7 @@
 #pragma once
-// What the commands of an ANSYS deck say, by kind and with the user's numbers, before it is a
-// model; elements of ANSYS by their number, and the solids and shells that their repeated nodes
-// make of them.
+// Content of the commands of an ANSYS deck, by kind and with the user's numbers, before it is a
+// model; elements of ANSYS by their number, and the solids and shells that result from repeated
+// nodes.
 #include <array>
 #include <map>
 #include <optional>
@@ -57,9 +57,9 @@ struct AnsysShape {
   int count = 0;
 };
 
-/// The shape of an element with the given nodes (0: none). Mid-side nodes that are not there have
-/// 0 at their place; an element without any is of first order. None if the nodes repeat in a way
-/// that makes no element.
+/// The shape of an element with the given nodes (0: none). Missing mid-side nodes have 0 at their
+/// place; an element without any is of first order. None if the repeated nodes do not define an
+/// element.
 std::optional<AnsysShape> ansys_shape(const AnsysLibraryElement& element, const AnsysType& type,
                                       std::span<const int> nodes);
 
@@ -106,7 +106,7 @@ struct AnsysSection {
   FeSource at;
 };
 
-/// 0 where nothing is given.
+/// 0 if undefined.
 inline double ansys_value(const std::vector<double>& row, std::size_t k) noexcept {
   return k < row.size() ? row[k] : 0.0;
 }

@@ -175,7 +175,7 @@ Vec3 NastranBuild::place_of(int id, const NastranSystem& system) {
   if (it == grid_of_.end()) {
     source.error(ErrorCode::not_found, system.at,
                  "coordinate system {} has node {}, which is not in the file", system.id, id);
-    return Vec3(id, 0.1 * id * id, 1.0);  // somewhere; the error is known
+    return Vec3(id, 0.1 * id * id, 1.0);  // any position; the error is reported already
   }
   const NastranGrid& g = content.grids[it->second];
   return to_basic(frame(g.cp, g.at), g.x);
@@ -285,7 +285,7 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
     auto& sets = set.elements ? build.model.element_sets : build.model.node_sets;
     const std::string key =
         name == c.names.sets.end() ? fmt::format("SET {}", set.id) : name->second;
-    // Each member once, in the order of the file; several cards of one set add up.
+    // Members without duplicates, in the order of the file; several cards of one set are combined.
     std::vector<int>& known = sets[key];
     std::unordered_set<int>& there = members_of[{set.elements, key}];
     if (there.empty()) there.insert(known.begin(), known.end());

@@ -78,7 +78,7 @@ std::string material_misfit(const NastranMaterial& m, std::string_view card) {
   return solid ? "MAT1 or MAT9" : shell ? "MAT1, MAT2 or MAT8" : "MAT1";
 }
 
-/// What is wrong with the constants of a MAT2 that is the material of a shell.
+/// Errors in the constants of a MAT2 that is the material of a shell.
 std::string nastran_plane_error(const NastranMaterial& m) {
   return m.card == "MAT2" ? elasticity_error(*m.elasticity, true, plane_constant) : std::string();
 }
