@@ -1,7 +1,7 @@
 #pragma once
-// The body file `.ffb`: a reduced part with everything that a simulation, a picture and a sceptic
-// need. An uncompressed zip of `header.json` and `.npy` arrays (little-endian doubles and
-// integers), so numpy.load reads it. SI units. docs/body-file.md names every member.
+// The body file `.ffb`: a reduced part with all data for simulation, display and
+// verification. An uncompressed zip of `header.json` and `.npy` arrays (little-endian doubles and
+// integers), so numpy.load reads it. SI units. docs/body-file.md describes every member.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,7 +26,7 @@ struct BodyFile {
   Provenance provenance;
 };
 
-/// Version of the format that is written; newer ones are refused.
+/// Version of the format that is written; newer ones are rejected.
 inline constexpr int body_file_version = 1;
 inline constexpr const char* body_file_units = "SI (m, kg, s, rad)";
 

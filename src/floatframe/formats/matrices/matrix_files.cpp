@@ -74,7 +74,7 @@ Path with_letter(const Path& stem, char letter) {
   return name.substr(0, name.size() - 1) + (name.back() == 'K' ? other : lower_case(other));
 }
 
-/// arm_C.mtx beside arm_K.mtx, arm_DMPV1.mtx beside arm_STIF1.mtx.
+/// arm_C.mtx next to arm_K.mtx, arm_DMPV1.mtx next to arm_STIF1.mtx.
 Path damping_beside(const Path& stiffness) {
   const std::string ending = plain_name(stiffness).extension().string();
   if (!same_word(ending, ".mtx")) return {};

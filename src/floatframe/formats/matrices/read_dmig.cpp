@@ -18,7 +18,7 @@ struct DmigEntry {
   FeSource at;
 };
 
-/// The matrices of one file. Stiffness, mass and viscous damping are read, others only named.
+/// The matrices of one file. Stiffness, mass and viscous damping are read, others only listed.
 class DmigFile {
  public:
   explicit DmigFile(TextSource& source) : source_(source) {
