@@ -107,8 +107,8 @@ class TextSource {
   std::size_t errors() const noexcept { return errors_.size(); }
   static constexpr std::size_t most_errors = 50;
 
-  /// A line may define many nodes, elements or cards (generated, copied, repeated): each reports its
-  /// number of created or visited ones. Throws when the total is too large, since a short file
+  /// A line may define many nodes, elements or cards (generated, copied, repeated): each reports
+  /// how many it creates or visits. Throws when the total is too large, since a short file
   /// could fill any memory.
   void make(std::int64_t count);
   void may_make(std::int64_t most) noexcept { may_make_ = most; }
