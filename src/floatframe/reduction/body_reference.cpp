@@ -14,7 +14,7 @@ namespace {
 
 constexpr double no_mass = 1e-13;  ///< of the largest eigenvalue
 
-/// A in the directions C, symmetric but for rounding.
+/// A in the directions C, symmetric except for round-off.
 MatX in_directions(const MatX& A, const MatX& C) {
   const MatX a = C.transpose() * A * C;
   return 0.5 * (a + a.transpose());

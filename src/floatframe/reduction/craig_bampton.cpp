@@ -36,7 +36,7 @@ int node_of(const FeModel& model, const NodeDofs& selection, const char* what, E
   return node;
 }
 
-/// Throws if the clamped dofs leave a rigid motion, and says which.
+/// Throws if the clamped dofs leave a rigid motion, with a description of it.
 void check_reference(const FeModel& model, const std::vector<Role>& roles, int d) {
   Vec3 centre = Vec3::Zero();
   int count = 0;

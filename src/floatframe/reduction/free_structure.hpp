@@ -1,9 +1,9 @@
 #pragma once
-// A structure that nothing holds. Its stiffness is singular, so A = K - sigma M with a negative
+// A free structure. Its stiffness is singular, so A = K - sigma M with a negative
 // shift is factored instead; M may be singular as well.
 //   free modes        K x = w^2 M x; the first six are rigid motions
 //   inertia relief    K u = f - M R (R^T M R)^-1 R^T f,   R^T M u = 0: elastic displacements of the
-//                     body that flies under the forces f
+//                     free body under the forces f
 // Load time: allocates and throws InputError.
 #include <functional>
 #include <string>

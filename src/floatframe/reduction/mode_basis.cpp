@@ -157,7 +157,7 @@ ModeBasis craig_bampton_basis(const PlacedPart& part, std::optional<FixedInterfa
     const VecX full = (F.transpose() * Y).diagonal();
     const VecX weight = normal.omega.cwiseAbs2().cwiseInverse();
     Y -= normal.shapes * weight.asDiagonal() * (normal.shapes.transpose() * F);
-    // (F - M x x^T F)^T Y = F^T Y: what is left is orthogonal to the normal modes.
+    // (F - M x x^T F)^T Y = F^T Y: the remainder is orthogonal to the normal modes.
     const MatX added = independent(Y, F.transpose() * Y, full, names);
     append_modes(basis, added, MatX::Identity(added.cols(), added.cols()), names);
   }
@@ -177,7 +177,7 @@ ModeBasis free_basis(const PlacedPart& part, std::optional<FreeStructure>& struc
       structure.emplace(system.K, system.M, R, 0.01 * estimate, options.solver,
                         [&](int row) { return row_label(model, system, row); });
     } catch (const InputError&) {
-      // Of very few elements a mechanism moves as simply as the shapes of the estimate do.
+      // With very few elements a mechanism moves as simply as the shapes of the estimate.
       if (softest.size() > 0) check_stiffness_of(model, system, softest);
       throw;
     }

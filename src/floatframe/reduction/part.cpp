@@ -57,8 +57,8 @@ void fix_signs(const MatX& X, MatX& C) {
   }
 }
 
-/// Every shape of the basis gets a largest displacement of 1, rotations counted times the size of
-/// the part: what has mass, and what has none, then shows whatever the units and the size.
+/// Every shape of the basis is scaled to a largest displacement of 1, rotations counted times the
+/// size of the part: then masses are distinguished from zero in any units and at any size.
 void normalise(const FeSystem& system, double size, ModeBasis& basis) {
   const VecX lengths = row_lengths(system, size);
   VecX factor(basis.X.cols());
@@ -118,7 +118,7 @@ void add_surface(const FeModel& model, const FeSystem& system, const MatX& X, Re
   }
 }
 
-/// What is written must be what can be read.
+/// Written data must be readable.
 void check_body(const FlexibleBody& body, bool rotary) {
   ErrorList errors;
   for (const InvariantError& f :
@@ -149,7 +149,7 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
                                  worst, hold_text(model, health.rigid_residual)));
 }
 
-/// What the model weighs, and whether its stiffness lets it move freely.
+/// Mass of the model, and whether its stiffness allows rigid motions.
 void check_model(const PlacedPart& part, HealthReport& health) {
   const FeModel& model = part.model;
   const FeSystem& system = part.system;
@@ -187,7 +187,7 @@ void add_second_order(const PlacedPart& part, const PointModel& points, const Ma
   if (part.options.keep_projection) body.projection = projection_of(points, X, second_order.twist);
 }
 
-/// In the mean-axis frame: those of the body that nothing holds.
+/// In the mean-axis frame: those of the free body.
 ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
                                 const ModeBasis& basis, const InertiaInvariants& raw) {
   ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
@@ -196,7 +196,7 @@ ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
   return free;
 }
 
-/// In the frame that is asked for.
+/// In the requested frame.
 ElasticModes body_modes(const PlacedPart& part, const ModeBasis& basis,
                         const InertiaInvariants& raw, HealthReport& health) {
   ElasticModes modes = elastic_modes(basis.K, raw, reference_conditions(part, basis, raw));
@@ -214,8 +214,8 @@ ElasticModes body_modes(const PlacedPart& part, const ModeBasis& basis,
   return modes;
 }
 
-/// Modes of the free part, of the model itself beside those of the body if asked for. `structure`:
-/// if its factors are there already. One mode at least shows what holds the part.
+/// Modes of the free part: of the model in addition to those of the body on request. `structure`:
+/// if its factors exist already. At least one mode is computed, to detect supports of the part.
 void check_free_modes(const PlacedPart& part, const VecX& reduced, Eigen::Index fixed_modes,
                       std::optional<FreeStructure>& structure, HealthReport& health) {
   const auto& [model, system, R, interfaces, markers, options] = part;

@@ -32,7 +32,7 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   if (!(properties.mass > 0.0))
     throw InputError(ErrorCode::singular,
                      "the part has no mass: every density is zero, and there is no point mass");
-  double rounding = 0.0;  // what is left of springs within a rigid body
+  double rounding = 0.0;  // remainder of springs within a rigid body
   if (model.elements.empty())
     for (const Spring& s : model.springs) rounding = std::max(rounding, 1e-12 * s.stiffness);
   // `check_rigid_motions` refuses what is not finite.
@@ -45,7 +45,7 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
 
 void require_inertia(const FeModel& model, const FeSystem& system, const PartOptions& options,
                      const MassProperties& properties) {
-  // In the frame of an interface what holds it is enough.
+  // In the frame of an interface its supports are enough.
   if (options.method == ModeMethod::craig_bampton &&
       options.reference.kind == BodyReference::Kind::node)
     return;

@@ -98,7 +98,7 @@ MatX free_response(const PlacedPart& part, const MatX& loads, const MatX& B,
 namespace {
 
 /// Forces of elements and springs on the nodes that are fixed to others, less the forces of the
-/// cases there: three rows a node, one column a case.
+/// cases there: three rows per node, one column per case.
 class ForcesOnFollowers {
  public:
   ForcesOnFollowers(const FeModel& model, const std::vector<PointArm>& followers)

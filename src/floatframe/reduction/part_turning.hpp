@@ -21,7 +21,7 @@ void add_integrals(const SecondOrder& from, SecondOrder& to);
 /// S2 and S2i of the arms, weighed by the masses of the points, of the modes X (n x nm).
 SecondOrder turning_of(const PointModel& points, std::span<const PointArm> arms, const MatX& X);
 
-/// Null: nothing turns.
+/// Null: no rotating masses.
 std::shared_ptr<const SecondOrder> part_turning(const PointModel& points, const MatX& X,
                                                 const std::optional<SecondOrder>& twist);
 

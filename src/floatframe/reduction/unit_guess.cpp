@@ -1,4 +1,4 @@
-// Nothing in most files states the units. Numbers that no material has tell of a wrong choice.
+// Most files do not state the units. Numbers that no material has indicate a wrong choice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace floatframe {
 namespace {
 
-/// What the check looks at; zero: not known.
+/// Quantities used by the check; zero: unknown.
 struct Numbers {
-  double density = 0.0;  ///< of the first material, or mass by the volume of the box [kg/m3]
+  double density = 0.0;  ///< of the first material, or mass per volume of the box [kg/m3]
   double young = 0.0;    ///< [Pa]
   double size = 0.0;     ///< diagonal of the box [m]
   bool of_material = false;
