@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that look and bend alike, so that pictures and files need one of them: the four wheels of
-// a car, links of a chain.
+// Bodies of equal appearance and deformation, which pictures and files need once: the four wheels
+// of a car, links of a chain.
 #include "floatframe/body/flexible_body.hpp"
 
 namespace floatframe {

@@ -2,11 +2,11 @@
 // Stress of a finite-element model from displacement fields: solids and shells at the nodes of the
 // surface, beams at the outer points of both ends of every element.
 //
-// Solids: strains where they are best, carried to the nodes (ElementKernel::nodal_strains). Shells:
-// both sides at the corners (layer_stresses). Both are averaged over the elements at a node that
-// are of one material (of plies, the ply at the node; shells: of one section too, and whose
-// normals differ by less than 20 degrees; at a node the normals tell the sides, whatever way round
-// its elements are numbered).
+// Solids: strains at the optimal points, extrapolated to the nodes (ElementKernel::nodal_strains).
+// Shells: both sides at the corners (layer_stresses). Both are averaged over the elements at a node
+// that are of one material (of plies, the ply at the node; shells: of one section too, and whose
+// normals differ by less than 20 degrees; at a node the normals identify the sides, for any
+// orientation of its elements).
 // Beams: section forces of the ends, f_e = K_e u_e - M_e a_e with a_e the field that loads the
 // element inside: exact for the loads of fe/body_loads.hpp, not those of the middle of the element.
 // Body frame, SI units. Load time.

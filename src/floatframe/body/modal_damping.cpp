@@ -120,7 +120,7 @@ ReferenceModes mounted_modes(const FlexibleBody& body, const BodyMotions& motion
     N = rows.Q.rightCols(6 + nm - rows.rank).eval();
   }
   if (N.cols() > 0) {
-    // What is left may hold rigid motions: turns about a single interface without turns.
+    // The remainder may include rigid motions: rotations about an interface without rotations.
     const MatX Ny = N.bottomRows(nm);
     const PivotedQr elastic = pivoted_qr(Ny.transpose(), interface_rank);
     const MatX P = size.asDiagonal() * (N * elastic.Q.leftCols(elastic.rank));

@@ -46,7 +46,7 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
   const MatX M_ff = modal_mass(v);
   const double top = nm > 0 ? M_ff.diagonal().maxCoeff() : 0.0;
   std::vector<Eigen::Index> massive;
-  // A mode without mass has a frequency of its own that is beyond all others.
+  // A massless mode has a separate frequency beyond all others.
   double lowest = 0.0;
   if (K.rows() == nm)
     for (Eigen::Index k = 0; k < nm; ++k)
