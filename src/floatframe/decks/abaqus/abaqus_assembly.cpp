@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-/// A name without an instance is looked for in all of them.
+/// A name without an instance is looked up in all of them.
 constexpr std::size_t most_instances = 2000;
 
 /// References of a thing into another scope.

@@ -142,7 +142,7 @@ struct AbaqusBuild {
   /// plies have separate orientations.
   std::map<std::string, int> orientation_index;
   std::map<std::vector<long>, int> turned_sections;
-  /// Of sections: elements along their direction 1, the first in words.
+  /// For sections: elements along their direction 1, the first in words.
   std::map<const AbaqusSection*, std::pair<std::string, long>> along_direction;
 
   AbaqusBuild(const AbaqusContent& c, TextSource& s)
@@ -232,7 +232,7 @@ void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
-/// Of a 2-node beam: its shear area over the area of the section.
+/// For a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;
 /// Mass and shear of the elements as the program of the deck has them.
 void as_in_home_program(AbaqusBuild& build);
@@ -246,7 +246,7 @@ std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build);
 /// The surface of a name and its name in the model; null and an error if there is none.
 const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
                                          std::string& shown_name);
-/// Of a surface of nodes.
+/// For a surface of nodes.
 std::vector<int> abaqus_surface_nodes(AbaqusBuild& build, const AbaqusSurface& surface);
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
 

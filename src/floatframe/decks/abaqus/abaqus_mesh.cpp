@@ -140,7 +140,7 @@ bool may_be_name(std::string_view field) {
          !parse_real(field).has_value();
 }
 
-/// Of the parameter INSTANCE; an error if it does not exist.
+/// Scope of the parameter INSTANCE; an error if it does not exist.
 AbaqusScope scope_of_set(AbaqusCard& card) {
   const AbaqusContent& content = card.content;
   if (card.value("INSTANCE").empty()) return content.scope;

@@ -114,7 +114,7 @@ bool changes_part(const AbaqusKeyword& keyword) {
          !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
 }
 
-/// The keywords of a deck in turn.
+/// The keywords of a deck in order.
 class DeckReader {
  public:
   DeckReader(AbaqusLines& lines, AbaqusContent& content) : lines_(lines), content_(content) {}

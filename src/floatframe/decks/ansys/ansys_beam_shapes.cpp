@@ -247,7 +247,7 @@ class BeamShape {
       note("its shear centre is taken at its centroid");
   }
 
-  /// Iy, Iz of the principal axes and the turn, from moments about y and z.
+  /// Iy, Iz of the principal axes and their angle, from moments about y and z.
   void set_principal(double Iyy, double Izz, double Iyz) {
     beam_.section.Iy = Iyy;
     beam_.section.Iz = Izz;

@@ -19,7 +19,7 @@ struct AnsysBeam {
   BeamSection section;
   double turn = 0.0;                ///< of y towards z [rad]
   double mass = 0.0;                ///< in addition to the material [mass/length]
-  double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the turn
+  double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the rotation
 };
 
 struct AnsysBuild {

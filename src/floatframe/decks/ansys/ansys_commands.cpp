@@ -23,7 +23,7 @@ void set_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), f
 /// Its value is unknown: an error where it is used.
 void get_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), {}); }
 
-/// Of CDWRITE: *IF,_CDRDOFF,EQ,1,THEN / *ELSE / *ENDIF around NUMOFF; its *ELSE is read.
+/// In CDWRITE: *IF,_CDRDOFF,EQ,1,THEN / *ELSE / *ENDIF around NUMOFF; its *ELSE is read.
 void begin_branch(AnsysFields& f, AnsysContent& c) {
   if (f.word(1) != "_CDRDOFF")
     f.stop(ErrorCode::unsupported,

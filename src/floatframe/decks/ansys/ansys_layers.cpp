@@ -281,7 +281,7 @@ bool build_ansys_layers(AnsysBuild& b, const AnsysElement& e, const AnsysType& t
   const bool uniform = std::all_of(plies.begin(), plies.end(), [&](const ShellPly& ply) {
     return ply.material == plies.front().material;
   });
-  // Layers of SOLID185 have enhanced strains, whatever its KEYOPT(2).
+  // Layers of SOLID185 have enhanced strains for any KEYOPT(2).
   const bool brick = element.type == ElementType::hex8 || element.type == ElementType::hex8r;
   if (brick && type.number == 185) element.type = ElementType::hex8i;
   if (uniform && !b.model.materials[element.material].elasticity) return true;

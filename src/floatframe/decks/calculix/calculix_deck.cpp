@@ -21,7 +21,7 @@ std::string calculix_type(ElementType type) {
       {Type::hex8, "C3D8"},      {Type::hex8i, "C3D8I"},      {Type::hex8r, "C3D8R"},
       {Type::hex20, "C3D20"},    {Type::hex20r, "C3D20R"},    {Type::wedge6, "C3D6"},
       {Type::wedge15, "C3D15"},  {Type::pyramid5, "C3D8"},    {Type::pyramid13, "C3D20"},
-      {Type::shear4, "S4"}};  // the last is refused before
+      {Type::shear4, "S4"}};  // the last is rejected earlier
   return names.at(type);
 }
 

@@ -199,7 +199,7 @@ void build_nastran_nodes(NastranBuild& build) {
     model.positions.push_back(to_basic(build.frame(g.cp, g.at), g.x));
     model.node_ids.push_back(g.id);
     model.node_sources.push_back(g.at);
-    // Cylindrical and spherical systems turn with the place.
+    // Cylindrical and spherical systems rotate with the position.
     const Orientation* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
     build.turned.push_back(cd != nullptr &&
                            (cd->kind != SystemKind::rectangular || !cd->axes.isIdentity(1e-9)));

@@ -44,7 +44,7 @@ struct NastranBuild;
 /// Location of a scalar point in the model.
 struct NastranScalarPoint {
   int node = -1;
-  int axis = 0;         ///< 0, or 3 if its springs turn
+  int axis = 0;         ///< 0, or 3 if its springs are torsional
   bool sprung = false;  ///< a spring ends there
   int root = 0;         ///< link to another point joined by springs
   FeSource at;          ///< of its first reference

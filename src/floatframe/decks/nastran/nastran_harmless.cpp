@@ -5,7 +5,7 @@ namespace {
 
 /// Cards that change neither stiffness nor mass nor geometry; '*' matches any end.
 constexpr std::string_view harmless_cards =
-    // loads, methods, what is held
+    // loads, methods, supports
     "EIG* FORCE* MOMENT* MOMAX PLOAD* PRES* GRAV RFORCE* ACCEL* LOAD* CLOAD TEMP* TTEMP SPCD SPCR "
     "SPCAX SPCOFF* ASET* BSET* BNDFIX* BNDFRE* CSET* QSET* USET* OMIT* SUPORT* SUPAX DAREA DELAY "
     "DPHASE DLOAD LSEQ SLOAD DEFORM TIC* DYNRED SEQGP BOLT* RVDOF* FREQ* RLOAD* TLOAD* TSTEP* "
@@ -33,7 +33,7 @@ constexpr std::string_view harmless_cards =
     "RADCAV RADCOL RADCT VIEW* BDYOR CHGEN* CFTUBE PFTUBE THPAD "
     // dampers
     "CVISC PVISC CDAMP* PDAMP "
-    // properties of elements that are refused, or of what depends on frequency
+    // properties of elements that are rejected, or of frequency-dependent ones
     "PELAST PBUSHT PBUSH2D PDAMPT PDAMP5 PGAP PFAST PWELD PSEAM PAABSF PACABS PACBAR PACINF PBEND "
     "PCONEAX PLPLANE PRAC2D PRAC3D "
     // aeroelasticity, also of ZAERO and ASTROS

@@ -172,7 +172,7 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
     if (!error.empty()) b_.error(ErrorCode::wrong_value, m, "{}", error);
   }
   if (m.elasticity) return anisotropic_material(c_.stiffness_factor * *m.elasticity, m.plane, 0.0);
-  if (m.card != "MAT1") return result;  // refused already
+  if (m.card != "MAT1") return result;  // rejected already
   const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
   if (given < 2) {
     if (first)

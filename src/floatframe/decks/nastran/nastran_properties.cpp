@@ -118,7 +118,7 @@ void set_shear(const std::array<double, 2>& factors, double A, BeamSection& s) {
   s.shear_z = factors[1] * A;
 }
 
-/// I12 turns the principal axes, about which I1 and I2 would not be those of the card.
+/// I12 rotates the principal axes, about which I1 and I2 would not be those of the card.
 void check_product(NastranFields& f, const NastranSection& s) {
   if (s.I12 == 0.0 || (s.I1 > 0.0 && s.I2 > 0.0 && s.I12 * s.I12 < s.I1 * s.I2)) return;
   f.error(ErrorCode::out_of_range,

@@ -65,7 +65,7 @@ NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
   const NastranStation middle = between_stations(a, b, 0.5 * (a.x + b.x));
   NastranSection s = middle.section;
   s.J = harmonic(a.section.J, b.section.J);
-  // Turned principal axes turn along the piece: those of its middle.
+  // Rotated principal axes vary along the piece: those at its middle.
   if (a.section.I12 == 0.0 && b.section.I12 == 0.0) {
     s.I1 = harmonic(a.section.I1, b.section.I1);
     s.I2 = harmonic(a.section.I2, b.section.I2);
