@@ -48,7 +48,7 @@ enum class DeckContact {
 /// Treatment of springs to the ground, to which a floating part cannot be tied.
 enum class GroundedSprings {
   refuse,  ///< an error of the part
-  ignore   ///< left out
+  ignore   ///< ignored
 };
 
 struct FeReadOptions {

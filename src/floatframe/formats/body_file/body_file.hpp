@@ -32,7 +32,7 @@ inline constexpr const char* body_file_units = "SI (m, kg, s, rad)";
 
 /// Writes to a temporary name and renames. Equal contents give equal bytes. Throws OutputError.
 void write_body_file(const std::filesystem::path& file, const BodyFile& content);
-/// Throws InputError with every error: file, member, what was found and what was expected.
+/// Throws InputError with every error: file, member, value found and value expected.
 BodyFile read_body_file(const std::filesystem::path& file);
 
 /// The same with the bytes of the file; `name` is for the messages.

@@ -9,7 +9,7 @@
 
 namespace floatframe {
 
-/// Values in C order (the last index runs fastest), whatever the order in the file was.
+/// Values in C order (the last index runs fastest), for any order in the file.
 struct NpyArray {
   std::vector<std::size_t> shape;  ///< empty: one number
   std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>> values;

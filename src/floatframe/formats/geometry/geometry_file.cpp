@@ -240,7 +240,7 @@ TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
 }
 
 TriangleGeometry read_geometry(const std::filesystem::path& file) {
-  // An unsupported ending is reported before the file is looked for.
+  // An unsupported ending is reported before the file is searched.
   if (!is_geometry_file(file))
     throw InputError(ErrorCode::wrong_file, SourceMark{file.string(), 0, 0},
                      "found this ending, expected .stl, .obj, .gltf or .glb");

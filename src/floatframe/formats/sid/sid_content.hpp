@@ -109,7 +109,7 @@ inline constexpr SidBlock<SidFrame> sid_frame_blocks[] = {
 /// The blocks of a body. Me, Ke and De are symmetrised.
 SidContent sid_content(const FlexibleBody& body);
 
-// Of moments s(i, j) = int a_i b_j dm, with a = r or phi_l and b = phi_k:
+// For moments s(i, j) = int a_i b_j dm, with a = r or phi_l and b = phi_k:
 inline constexpr int sid_pairs_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};  ///< behind the squares
 inline constexpr int sid_pairs_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};   ///< behind the diagonal
 /// Row k of Oe.

@@ -10,7 +10,7 @@
 // Oe has first-order terms and these are those of inertia only (Oe m1 of the first three columns
 // then sums to -2 Me; geometric stiffening breaks that). `write_sid` writes them. If they
 // are missing, S^11, S^22, S^33 are each taken as Me / 3 and the symmetric sums as zero, which
-// keeps the mass matrix positive and the trace of the inertia tensor exact; a note says so.
+// keeps the mass matrix positive and the trace of the inertia tensor exact; a note reports it.
 #include <filesystem>
 #include <string>
 #include <string_view>

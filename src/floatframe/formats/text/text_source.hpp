@@ -18,7 +18,7 @@
 
 namespace floatframe {
 
-/// Limit of a file after decompression: a file of a few kilobytes can be made to fill any
+/// Limit of a file after decompression: a file of a few kilobytes can be built to fill any
 /// memory.
 inline constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;  ///< [byte]
 /// Above 64 MiB, no file may be compressed better than this; decks and matrices reach 20.
