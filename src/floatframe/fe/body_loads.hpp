@@ -1,6 +1,6 @@
 #pragma once
 // Loads of a body's mass: densities rho e_j and rho r_i e_j, which make up the inertia forces and
-// the weight of a rigid body are made, with the consistent masses of the elements. Column j:
+// the weight of a rigid body, with the consistent masses of the elements. Column j:
 // rho e_j; column 3 + 3 i + j: rho r_i e_j, r from the origin of the body.
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/fe/integration.hpp"

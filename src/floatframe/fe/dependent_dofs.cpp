@@ -239,7 +239,7 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   if (line && spread.vectors.col(0).head<3>().norm() > 1e-6)
     return refuse(ErrorCode::singular,
                   "its reference is off the line of its nodes, about which it turns freely");
-  // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without the turn about it.
+  // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without rotation about it.
   const int m = line ? 5 : 6;
   const MatX chosen = line ? MatX(spread.vectors.rightCols(5)) : MatX(MatX::Identity(6, 6));
   const Mat6 inverse =
@@ -336,7 +336,7 @@ std::vector<int> dofs_of_nodes(const FeModel& model) {
   return count;
 }
 
-/// Equations also carry nodes that nothing else uses (reference points of decks).
+/// Equations also carry nodes without other elements (reference points of decks).
 void add_carried(const FeModel& model, std::vector<int>& count) {
   for (bool more = true; more;) {
     more = false;

@@ -2,7 +2,7 @@
 // Elasticity matrices, sigma = D epsilon with (xx, yy, zz, xy, yz, zx) and engineering shear. In
 // axes R (columns: the axes of the material) sigma_body = T sigma, epsilon = T^T epsilon_body, so
 //   D_body = T D T^T,   T(ij, ab) = R_ia R_jb (+ R_ib R_ja of a shear)
-// Of engineering constants the compliance is
+// From engineering constants the compliance is
 //   S_11 = 1/E_1, S_12 = -nu_12/E_1, ..., S_44 = 1/G_12;   nu_ij = -epsilon_j/epsilon_i under
 //   stress along i, so nu_ji = nu_ij E_j/E_i
 // Plane stress leaves the rows and columns xx, yy, xy of the compliance, inverted.
@@ -36,7 +36,7 @@ std::string engineering_error(const EngineeringConstants& c, bool lamina);
 
 /// In the plane of a layer: E1, E2, nu12, G12, and the transverse shear moduli G13 and G23.
 Mat6 lamina_elasticity(const EngineeringConstants& c);
-/// Of a layer: plane-stress matrix Q (xx, yy, xy) and the transverse shear moduli.
+/// For a layer: plane-stress matrix Q (xx, yy, xy) and the transverse shear moduli.
 Mat6 layer_elasticity(const Mat3& Q, double G13, double G23);
 
 /// Reason why a matrix is not positive definite, with the name of the constant at (i, j); empty if

@@ -105,7 +105,7 @@ inline bool is_membrane(ElementType type) noexcept {
 inline bool has_shell_section(ElementType type) noexcept {
   return is_shell(type) || is_panel(type) || is_membrane(type);
 }
-/// Of a shell or membrane.
+/// For a shell or membrane.
 ShellLayers layers_of(const ElementInput& in);
 
 ElementInput gather(const FeModel& model, const Element& element,

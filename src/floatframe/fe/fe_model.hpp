@@ -68,7 +68,7 @@ struct BeamSection {
   double Iz = 0.0;  ///< bending in the local xy plane [m4]
   double J = 0.0;   ///< torsion constant [m4]
 
-  /// Its shape, which decides where its stress is looked at; unknown if only constants are given.
+  /// Its shape, which defines its stress points; unknown if only constants are given.
   enum class Outline { unknown, round, rectangle };
   Outline outline = Outline::unknown;
   double width = 0.0, height = 0.0;  ///< along local y and z [m]; round: the diameter
@@ -99,7 +99,7 @@ struct Element {
   /// In FeModel::orientations; -1: solids have the body's axes, shells the first axis of their
   /// material along the side 1-2. A shell uses the first axis of an orientation, projected.
   int orientation = -1;
-  double angle = 0.0;  ///< shells: turns that axis about the normal [rad]
+  double angle = 0.0;  ///< shells: rotates that axis about the normal [rad]
   int layup = -1;      ///< solids: their plies, in FeModel::layups; -1: one material
   /// Shells, bit k: the rotation about the normal at node k is independent of that of the node.
   unsigned own_drilling = 0;
@@ -120,7 +120,7 @@ struct ShellSection {
   double thickness = 0.0;  ///< [m], of all plies
   /// Transverse shear force over a width = G shear gamma, 5/6 of the thickness of a homogeneous
   /// shell; 0: no shear deformation (thin). Of plies G is their mean.
-  /// Of a shear panel: the thickness that carries shear, 0: all.
+  /// For a shear panel: the thickness that carries shear, 0: all.
   double shear = 0.0;                ///< [m]
   double offset = 0.0;               ///< of its middle from the nodes, along the normal [m]
   double mass = 0.0;                 ///< in addition to the materials, at the middle [kg/m2]

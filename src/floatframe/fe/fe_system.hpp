@@ -2,7 +2,7 @@
 // Equations of a finite-element model with spiders and linear equations eliminated: u = T q, K =
 // T^T K_e T, M = T^T M_e T. A node has three degrees of freedom, six if it belongs to a beam or
 // T^T K_e T, M = T^T M_e T. A node has three degrees of freedom, six if it belongs to a beam or
-// Dependent dofs have no row of their own. Models given by matrices keep those matrices' dofs.
+// Dependent dofs have no row. Models given by matrices keep those matrices' dofs.
 //   rigid spider  u_i = u_r + theta_r x (x_i - x_r)
 //   mean spider   u_r, theta_r = weighted least squares of the u_i: six dofs of the nodes (chosen
 //                 by pivoting) depend on q_r and the other dofs of the nodes
@@ -60,7 +60,7 @@ struct PointModel {
   // Displacements of second order.
   SparseRows rotations;        ///< 3r x n
   std::vector<PointArm> arms;  ///< ascending; a point that is fixed to several has several
-  /// Of points that belong to solids, rods or membranes as well and are bent by these: a share of
+  /// For points that also belong to solids, rods or membranes and are bent by these: a part of
   /// geometric stiffening.
   std::vector<PointArm> strained_arms;
   std::vector<PointArm> followers;  ///< of nodes that are fixed to other nodes (rigid_leaders)

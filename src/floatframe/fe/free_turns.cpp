@@ -20,11 +20,11 @@ namespace {
 /// Squares of widths: what is narrower than 1e-5 of its length is a line.
 constexpr double line_width = 1e-10;
 
-/// Nodes that turn together.
+/// Nodes that rotate together.
 struct TurningGroup {
   std::vector<int> nodes;
   std::vector<int> points;  ///< whose places matter: something moves them, or they move something
-  bool held = false;        ///< something may resist its turn
+  bool held = false;        ///< its rotation may have stiffness
   bool bars = false;
   std::string label;
   FeSource source;
@@ -169,8 +169,8 @@ void ascending_once(std::vector<int>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-/// A node of the elements that holds the group, and those around it that show how they turn: none
-/// that a spider ties, whose motion may come from another such turn.
+/// A node of the elements that holds the group, and those around it that define its rotation: none
+/// that is tied by a spider, whose motion may come from another such rotation.
 bool find_holder(const FeModel& model, const std::vector<std::vector<int>>& elements,
                  const std::vector<char>& tied, const TurningGroup& group, FreeTurn& turn) {
   const auto carried = [&](int k) {

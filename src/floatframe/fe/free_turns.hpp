@@ -21,14 +21,14 @@ struct FreeTurn {
   bool every_way = false;  ///< held in one point: about every axis, else about `axis`
   Vec3 axis = Vec3::UnitX();
   double length = 0.0;      ///< farthest node of the group from what holds it [m]
-  std::vector<int> group;   ///< nodes that turn together, ascending
+  std::vector<int> group;   ///< nodes that rotate together, ascending
   int holder = -1;          ///< node of elements that holds the group
   std::vector<int> around;  ///< nodes of these elements, without those that the group moves
   std::string label;        ///< of the spider or bar
   FeSource source;
 };
 
-/// Those of a valid model. None of a model of matrices: what does not turn has no row there.
+/// For a valid model. None for a model of matrices: nodes without rotation have no row there.
 std::vector<FreeTurn> free_turns(const FeModel& model);
 /// The rotations about their lines of the references of mean spiders with collinear nodes. Throws
 /// InputError if no elements off the line define the rotation of the part there.

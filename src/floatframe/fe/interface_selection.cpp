@@ -175,7 +175,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
 }
 
 /// Smallest width of the cloud of nodes against its largest but one: on a line if tiny.
-/// The direction of the line if the nodes lie on one.
+/// The direction of the line if the nodes are collinear.
 std::optional<Vec3> line_of(const FeModel& model, const std::vector<int>& nodes) {
   Vec3 centre = Vec3::Zero();
   for (const int node : nodes) centre += node_position(model, node);

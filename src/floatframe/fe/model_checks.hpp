@@ -26,7 +26,7 @@ std::vector<int> unreferenced_nodes(const FeModel& model);
 /// nodes, elements on the same nodes.
 std::vector<std::string> model_warnings(const FeModel& model);
 
-/// Of the elements [m3]: beams A L, shells area times thickness.
+/// Of all elements [m3]: beams A L, shells area times thickness.
 double volume(const FeModel& model);
 /// Volume times density and point masses [kg].
 double volume_times_density(const FeModel& model);

@@ -34,7 +34,7 @@ struct ShellLayers {
   /// the membrane stiffness, at least 0.01.
   double beta_0 = 0.0;
   unsigned own_drilling = 0;  ///< of a triangle, bit k: constant stress has no moment at corner k
-  bool directional = true;    ///< false: isotropic in its plane, whatever the axis
+  bool directional = true;    ///< false: isotropic in its plane, for any axis
   Vec3 axis = Vec3::UnitX();  ///< axis 1 in the body
 };
 

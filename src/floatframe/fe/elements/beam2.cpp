@@ -20,7 +20,7 @@
 //   theta_1' - 1/2 (theta_2 theta_3' - theta_3 theta_2')
 // on which a torque works (a beam bent in two planes twists), and fibres off the axis lengthen
 // by 1/2 (y^2 + z^2) rx'^2, on which tension works.
-// K and M turn into body axes by T on each group of three. Loads at the ends are answered exactly.
+// K and M are rotated to body axes by T on each group of three. The response to end loads is exact.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), stiffness with shear,
 // consistent mass with rotary and torsional inertia.
 #include <cmath>

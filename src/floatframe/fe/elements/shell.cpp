@@ -4,7 +4,7 @@
 // the middles of the edges; quad8 four quad4 that meet in its middle, -1/4 of the corners and 1/2
 // of the middles of the edges, a node that carries no load and is condensed (its mass moves with
 // the same weights). They bend and stretch as a mesh twice as fine as their corners does, with all
-// their nodes on the surface: constant strain and curvature are exact whatever their shape, errors
+// their nodes on the surface: constant strain and curvature are exact for any shape, errors
 // fall with the square of the size. Scalar mass: of displacements that are linear in each triangle.
 // Where the rotation about the normal is independent (ElementInput::own_drilling) constant stress
 // has no moment there (alpha = 0 on the sides at it), so it remains exact, and the further part of
