@@ -81,7 +81,7 @@ void add_shortening_inside(const ElementInput& in, const BentBeam& beam, SecondO
 }
 
 /// And the twist: int (int_0^x g dx - x/L tau) dx = int (L/2 - x) g dx, g = v'^T w'' - w'^T v'',
-/// which turns the sections about the axis.
+/// which rotates the sections about the axis.
 void add_twist_inside(const ElementInput& in, const BentBeam& beam, SecondOrder& out) {
   static const LineRule rule = gauss_jacobi(5, 0);
   const Eigen::Index nm = beam.q.cols();

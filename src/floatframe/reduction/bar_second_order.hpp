@@ -21,7 +21,7 @@
 namespace floatframe {
 
 struct BarSecondOrder {
-  std::shared_ptr<const SecondOrder> turning;       ///< null: no mass turns
+  std::shared_ptr<const SecondOrder> turning;       ///< null: no rotating mass
   std::shared_ptr<const SecondOrder> second_order;  ///< null: unknown
   MatX h;  ///< as ProjectionData::h; not of mass_model hermite, and only with all nodes
 };

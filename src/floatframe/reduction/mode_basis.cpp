@@ -32,7 +32,7 @@ MatX forces_of(const std::vector<MarkerPlace>& markers, int n, std::vector<std::
 }
 
 /// Independent directions of attachment modes: X with X^T K X = I among them. `full`: the energies
-/// 1/2 f u before the share of other modes was taken out.
+/// 1/2 f u before the component of other modes was removed.
 MatX independent(const MatX& X, const MatX& energy, const VecX& full,
                  std::vector<std::string>& names) {
   std::vector<Eigen::Index> kept;

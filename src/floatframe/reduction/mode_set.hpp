@@ -20,7 +20,7 @@ struct ModeSet {
   int equal_left_out = 0;  ///< as of FlexibleBody
 };
 
-/// Of a structure held at its interfaces (FixedInterface, BarChains): the number of normal modes
+/// For a structure held at its interfaces (FixedInterface, BarChains): the number of normal modes
 /// within a largest number and a frequency limit [Hz] (0: none).
 template <class Fixed>
 int normal_mode_count(const Fixed& fixed, std::optional<int> number, double max_frequency) {

@@ -50,7 +50,7 @@ class Stages {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Columns get the sign that makes their largest component positive.
+/// Columns are given the sign that makes their largest component positive.
 void fix_signs(const MatX& X, MatX& C) {
   for (Eigen::Index a = 0; a < C.cols(); ++a) {
     C.col(a) *= sign_of_largest(X * C.col(a));

@@ -25,7 +25,7 @@ Vec3 centre_of(const FeModel& model, const std::vector<int>& nodes) {
 }
 
 /// Largest over smallest singular value of the rigid motions of the nodes, lengths in units of
-/// their radius of gyration about their centre; on a line without the turn about it.
+/// their radius of gyration about their centre; on a line without rotation about it.
 double condition_of(const FeModel& model, const std::vector<int>& nodes, bool on_line) {
   const Vec3 c = centre_of(model, nodes);
   double size = 0.0;

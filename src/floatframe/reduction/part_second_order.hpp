@@ -43,7 +43,7 @@ struct PartSecondOrder {
   std::shared_ptr<const SecondOrder> stiffening;  ///< nodes: interfaces, then markers
   std::optional<SecondOrder> twist;               ///< of beams, on the masses
 };
-/// Of the modes X (n x nm).
+/// For the modes X (n x nm).
 PartSecondOrder part_second_order(const PlacedPart& part, const PointModel& points, const MatX& X,
                                   const MatX& response);
 
