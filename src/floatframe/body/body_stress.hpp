@@ -75,7 +75,7 @@ struct BodyStress {
 
 struct FlexibleBody;
 
-/// Of the mirrored body: s holds the signs of the coordinates.
+/// For the mirrored body: s holds the signs of the coordinates.
 BodyStress mirrored(const BodyStress& stress, const Vec3& s);
 /// For the body with the modes `keep` of `body`: the static responses of the others join the loads.
 BodyStress with_kept_modes(const BodyStress& stress, const FlexibleBody& body,

@@ -135,7 +135,7 @@ class Check {
     }
   }
 
-  /// A share of the modal mass.
+  /// A part of the modal mass.
   void positive(const std::string& name, const MatX& share) {
     for (Eigen::Index k = 0; k < nm_; ++k) {
       if (!(share(k, k) < -rounding * std::abs(M_ff_(k, k)))) continue;

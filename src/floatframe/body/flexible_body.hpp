@@ -74,9 +74,9 @@ struct FlexibleBody {
   std::vector<ModalNode> nodes;  ///< FE nodes, in the order of the FE model; empty for a rigid body
   std::shared_ptr<const ProjectionData> projection;  ///< null: only preprocessing is possible
   MassModel mass_model = MassModel::isoparametric;
-  /// Displacements of second order of what is fixed to nodes that turn - sections, thicknesses,
+  /// Displacements of second order of masses fixed to nodes that rotate - sections, thicknesses,
   /// discs - and the twist of second order of beams, on the masses: always part of the inertia
-  /// terms. No nodes; null: no mass turns.
+  /// terms. No nodes; null: no rotating mass.
   std::shared_ptr<const SecondOrder> turning = nullptr;
   /// The others, for geometric stiffening: foreshortening, and the effect of loads on all of them.
   /// Without those in `turning`. null: unknown.

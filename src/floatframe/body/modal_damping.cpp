@@ -19,12 +19,12 @@ namespace {
 constexpr NumberRule damping_fraction{"a fraction of critical damping from 0 to 1", "", 0.0, 1.0};
 constexpr const char* damping_reference_words[] = {"frame", "free", "mounted"};
 
-/// Below this share of the largest 1/w^2 a mode is taken as massless: rounding.
+/// Below this fraction of the largest 1/w^2 a mode is taken as massless: rounding.
 constexpr double massless_share = 1e-14;
 /// Rank of the conditions of interfaces, all of them displacements of about the same size.
 constexpr double interface_rank = 1e-9;
 
-/// Motions z = (q_r, y) with turns of the frame as displacements of a length, and M(0) of them.
+/// Motions z = (q_r, y) with rotations of the frame as displacements of a length, and their M(0).
 struct BodyMotions {
   explicit BodyMotions(const FlexibleBody& body)
       : length(std::sqrt(
@@ -69,7 +69,7 @@ void append(const MatX& K, const MatX& Y, const MatX& M, ReferenceModes& modes) 
   }
 }
 
-/// Rows B of B z = 0, turns as displacements.
+/// Rows B of B z = 0, rotations as displacements.
 MatX interface_rows(const FlexibleBody& body, double length) {
   const Eigen::Index nm = body.modes();
   MatX B(0, 6 + nm);

@@ -5,7 +5,7 @@
 // for modes (w_k, y_k), y_k^T K y_k = 1, with the supports selected by `reference`:
 //   frame    its frame:       K y = w^2 M_ff y
 //   free     nothing:         K y = w^2 (M_ff - M_fr M_rr^+ M_rf) y, the vibrations of the free
-//            body, whatever its frame; with mean axes M_fr = 0 and they are those of `frame`
+//            body, for any frame; with mean axes M_fr = 0 and they are those of `frame`
 //   mounted  its interfaces:  motions z = (q_r, y) of M(0) z'' + diag(0, K) z = 0 with B z = 0, B
 //            the displacements and rotations of all degrees of freedom of the interfaces. They omit
 //            deformations w by motions of the interfaces alone, Y^T K w = 0 (constraint modes

@@ -9,7 +9,7 @@
 namespace floatframe {
 namespace {
 
-/// A mode is taken as massless below this share of the largest modal mass, unless its frequency is
+/// A mode is taken as massless below this part of the largest modal mass, unless its frequency is
 /// of a magnitude with that of the others: rounding, squared.
 constexpr double no_mass = 1e-14;
 

@@ -48,7 +48,7 @@ void add_turning(const Mat3& P, const Mat3X& theta, SecondOrder& out);
 
 /// The same in the modes X C. C: nm x new modes.
 SecondOrder combined(const SecondOrder& second_order, const MatX& C);
-/// Of the mirrored body: s holds the signs of the coordinates.
+/// For the mirrored body: s holds the signs of the coordinates.
 SecondOrder mirrored(const SecondOrder& second_order, const Vec3& s);
 
 }  // namespace floatframe
