@@ -74,7 +74,7 @@ class FrameBuilder {
     return node;
   }
 
-  /// The node that a bar starts at; -1 after an error.
+  /// The start node of a bar; -1 after an error.
   int first_node(const Bar& bar, const std::string& label) {
     if (bar.from_bar.empty()) return end_node(bar, bar.from);
     const auto other = nodes_of_bar_.find(bar.from_bar);

@@ -1,8 +1,8 @@
 #pragma once
 // A frame of straight bars, each divided into equal 2-node beams: the convenient way to make a beam
 // model. Bars that share an end point share its node; a bar may also start at an inner node of an
-// earlier bar. Nodes are numbered along the bars in their order; end points give their names to
-// nodes.
+// earlier bar. Nodes are numbered along the bars in their order; nodes are named after end
+// points.
 #include <string>
 #include <utility>
 #include <vector>

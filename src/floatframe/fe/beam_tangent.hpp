@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// Along the axis of a beam at node k of `p`; of three nodes that of the quadratic shapes.
+/// Tangent of a beam at node k of `p`; with three nodes that of the quadratic shapes.
 inline Vec3 beam_tangent(const std::array<Vec3, 3>& p, int nodes, int k) {
   if (nodes == 2) return p[1] - p[0];
   if (k == 0) return -1.5 * p[0] + 2.0 * p[1] - 0.5 * p[2];

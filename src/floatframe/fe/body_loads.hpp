@@ -14,7 +14,7 @@ struct ElementKernel;
 inline constexpr int linear_load_cases = 12;
 
 /// The fields e_j and r_i e_j at the nodes of an element, its degrees of freedom x 12: exact for
-/// beams (slopes of the axis) and solids; of shells and about a beam's axis half the curl.
+/// beams (slopes of the axis) and solids; for shells and about a beam's axis half the curl.
 void linear_fields(const ElementInput& input, int nodes, int dofs_per_node, bool beam,
                    MatX& fields);
 
@@ -27,7 +27,7 @@ enum class ElementMass {
 void element_mass(const ElementKernel& kernel, const ElementInput& input, ElementMass mass,
                   MatX& M);
 
-/// Forces and moments at all nodes, 3 nodes() x 12 each; point masses with them.
+/// Forces and moments at all nodes, 3 nodes() x 12 each, including point masses.
 NodalShapes linear_loads(const FeModel& model, ElementMass mass = ElementMass::section_inertia,
                          Integration integration = Integration::exact);
 

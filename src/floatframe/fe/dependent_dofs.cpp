@@ -35,7 +35,7 @@ class Resolver {
     return static_cast<int>(owners_.size()) - 1;
   }
 
-  /// Terms in dofs that are independent now. What was resolved earlier may hold dofs that have
+  /// Terms in dofs that are independent now. Terms resolved earlier may contain dofs that have
   /// become dependent since.
   Terms reduce(const Terms& terms) const {
     std::map<int, double> sum;
@@ -98,7 +98,7 @@ class Resolver {
     owner_[dof] = owner;
   }
 
-  /// Dofs that the matrices of another program leave out.
+  /// Dofs that the matrices of another program do not contain.
   void fix_missing(const std::vector<Dof>& present) {
     std::vector<char> there(out_.dependent.size(), 0);
     const auto place = [&](const Dof& d) { return table_.begin[d.node] + d.axis; };
@@ -137,7 +137,7 @@ class Resolver {
   const SourceMark& mark() const { return mark_; }
 
  private:
-  /// Once for a node, not for each of its dofs.
+  /// Once per node, not for each of its dofs.
   void refuse(ErrorCode code, int owner, int node, int axis, const std::string& what) {
     if (refused_ != node || refused_owner_ != owner)
       errors_.add(
@@ -329,7 +329,7 @@ std::vector<int> dofs_without_springs(const FeModel& model) {
 
 namespace {
 
-/// Degrees of freedom of each node, behind a leading 0, without those that only equations give.
+/// Degrees of freedom of each node, after a leading 0, without those that only equations give.
 std::vector<int> dofs_of_nodes(const FeModel& model) {
   std::vector<int> count = dofs_without_springs(model);
   if (!model.springs.empty()) add_spring_dofs(model, count);

@@ -15,13 +15,13 @@ struct DofTable {
   std::vector<int> begin;  ///< nodes + 1
   int size() const noexcept { return begin.back(); }
   int count(int node) const noexcept { return begin[node + 1] - begin[node]; }
-  /// -1: there is no such dof.
+  /// -1 if the dof does not exist.
   int index(int node, int axis) const noexcept {
     return axis < count(node) ? begin[node] + axis : -1;
   }
 };
 DofTable dof_table(const FeModel& model);
-/// Their number of each node, behind a leading 0, without what springs and equations need.
+/// Their number for each node, after a leading 0, without those needed by springs and equations.
 std::vector<int> dofs_without_springs(const FeModel& model);
 
 struct DependentDofs {

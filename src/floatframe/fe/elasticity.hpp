@@ -21,7 +21,7 @@ Mat6 turned_elasticity(const Mat6& D, const Mat3& R);
 
 /// (xx, yy, xy) of plane stress in the axes of the material.
 Mat3 plane_stress(const Material& material);
-/// The same in axes from which those of the material are turned by an angle about the normal.
+/// The same in axes relative to which those of the material are rotated about the normal.
 Mat3 turned_plane(const Mat3& Q, double angle);
 
 struct EngineeringConstants {
@@ -47,7 +47,7 @@ std::string elasticity_error(const Mat6& D, bool plane,
 /// "D(xx, yz)"
 std::string elasticity_name(int i, int j);
 
-/// A material with a matrix; Young's modulus and Poisson's ratio to be shown follow.
+/// A material with a matrix; Young's modulus and Poisson's ratio for display follow from it.
 Material anisotropic_material(const Mat6& D, bool plane, double density);
 
 }  // namespace floatframe

@@ -58,7 +58,7 @@ struct NodalPly {
   Mat6 D = Mat6::Zero();  ///< elasticity there, in body axes [Pa]
 };
 
-/// Which section an element has: a beam's (rods too), a shell's (panels and membranes too), or
+/// Kind of section of an element: a beam's (rods too), a shell's (panels and membranes too), or
 /// none.
 enum class ElementFamily { beam, shell, solid, rod, panel, membrane };
 
@@ -78,7 +78,7 @@ struct ElementKernel {
   /// the same in all directions.
   void (*mass_stations)(const ElementInput&, std::vector<MassStation>&) = nullptr;
   /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows per node, from the
-  /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
+  /// displacements of the nodes: evaluated at the optimal points and extrapolated to the nodes.
   /// Null for beams, shells and membranes.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
   void (*stressed_points)(const ElementInput&, std::vector<StressedPoint>&) = nullptr;
@@ -86,7 +86,7 @@ struct ElementKernel {
   /// node: on the side of the normal (top), then on the other (bottom), from the displacements of
   /// the nodes.
   void (*layer_stresses)(const ElementInput&, MatX&) = nullptr;
-  /// Solids that may have plies; null: it may have none.
+  /// For solids that may have plies; else null.
   NodalPly (*nodal_ply)(const ElementInput&, int node) = nullptr;
   ElementShape shape = {};
 };

@@ -189,12 +189,12 @@ struct LinearEquation {
   };
   std::vector<Term> terms;
   FeSource source;
-  /// Solved for its first term however small its factor: a rotation that follows displacements,
+  /// Solved for its first term even if its factor is small: a rotation that follows displacements,
   /// whose factors are of another unit.
   bool for_first = false;
 };
 
-/// A support in the user's file. Not applied: a hint where the part is held.
+/// A support in the user's file. Not applied: a hint for the interfaces of the part.
 struct Support {
   int node = -1;
   unsigned mask = 0;  ///< bit 0..5 = ux..rz
@@ -216,7 +216,7 @@ struct FeMatrices {
   SparseMatrix K, M;      ///< symmetric, both halves stored
   std::vector<Dof> dofs;  ///< of each row
   SparseMatrix C = {};    ///< viscous damping; 0 x 0: none given
-  /// Nodes, ascending, that are no points: their row rx is the amplitude of a mode, at rest in a
+  /// Nodes, ascending, that are not points: their row rx is the amplitude of a mode, at rest in a
   /// rigid motion.
   std::vector<int> scalars = {};
   bool is_scalar(int node) const;
@@ -273,8 +273,8 @@ struct FeModel {
 };
 
 /// Throws InputError with the errors, at most 20 of a kind: indices out of range, non-physical
-/// materials, sections and masses, degenerate or inverted elements, spiders, equations and matrices
-/// that do not make sense.
+/// materials, sections and masses, degenerate or inverted elements, spiders, equations
+/// and matrices that are inconsistent.
 void validate(const FeModel& model);
 
 /// Stiffness, (dofs_per_node n)^2.

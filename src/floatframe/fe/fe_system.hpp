@@ -65,7 +65,7 @@ struct PointModel {
   std::vector<PointArm> strained_arms;
   std::vector<PointArm> followers;  ///< of nodes that are fixed to other nodes (rigid_leaders)
 };
-/// Below it is the rounding of numbers in files.
+/// Smaller values are rounding of numbers in files.
 inline constexpr double least_anisotropy = 1e-9;
 
 PointModel point_model(const FeModel& model, const FeSystem& system,

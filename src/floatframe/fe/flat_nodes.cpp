@@ -8,7 +8,7 @@
 namespace floatframe {
 namespace {
 
-/// Directions that an element resists at its nodes, as a projection.
+/// Directions of the stiffness of an element at its nodes, as a projection.
 Mat3 resisted(const ElementInput& in, const ElementKernel& kernel) {
   if (kernel.family == ElementFamily::rod) {
     const Vec3 axis = (in.p[1] - in.p[0]).normalized();

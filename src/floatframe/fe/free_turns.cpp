@@ -17,7 +17,7 @@
 namespace floatframe {
 namespace {
 
-/// Squares of widths: what is narrower than 1e-5 of its length is a line.
+/// Squares of widths: a cloud narrower than 1e-5 of its length is a line.
 constexpr double line_width = 1e-10;
 
 /// Nodes that rotate together.
@@ -203,7 +203,7 @@ int leading_node(const FeModel& model, const std::vector<char>& follows,
   return -1;
 }
 
-/// Whose translation or rotation a rigid spider decides.
+/// Nodes whose translation or rotation is prescribed by a rigid spider.
 std::vector<char> followers(const FeModel& model) {
   std::vector<char> out(model.positions.size(), 0);
   for (const Spider& s : model.spiders)

@@ -19,7 +19,7 @@ class BlockAssembly {
   BlockAssembly(const FeModel& model, const DofTable& table,
                 std::span<const SpringBlock> blocks = {});
 
-  /// Element matrix with d dofs per node, as the kernels make it.
+  /// Element matrix with d dofs per node, as returned by the kernels.
   void add(const int* nodes, int count, int d, const MatX& matrix);
   /// Scalar mass of an element, times the identity of the translations.
   void add_scalar(const int* nodes, int count, const MatX& scalar);
@@ -37,7 +37,7 @@ class BlockAssembly {
   SparseMatrix matrix_;
 };
 
-/// Elements, then blocks: what has nodes in common.
+/// Elements, then blocks: groups of coupled nodes.
 class NodeGroups {
  public:
   NodeGroups(const FeModel& model, std::span<const SpringBlock> blocks) : model_(model) {

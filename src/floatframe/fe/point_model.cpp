@@ -63,8 +63,8 @@ struct PointMasses {
   }
 };
 
-/// Length of the arms that carry rotary inertia: about the size of the part, so that no digits are
-/// lost whatever that is; a power of two, so that a part about 1 m large has arms of 1 m.
+/// Length of the arms that carry rotary inertia: about the size of the part, which preserves
+/// accuracy at any size; a power of two, so that a part about 1 m large has arms of 1 m.
 double arm_length(const FeModel& model) {
   Eigen::AlignedBox3d box;
   for (const Element& e : model.elements)
@@ -94,7 +94,7 @@ std::vector<int> arm_points(const DofTable& table, const SparseMatrix& M, int no
   return extra;
 }
 
-/// Scalar masses between the points of nodes a and b, that of the nodes themselves last.
+/// Scalar masses between the points of nodes a and b, last that of the nodes themselves.
 void add_masses(const PointMasses& m, int a, int b, int ea, int eb, Triplets& masses) {
   double rest = m.mu;
   for (int l = 0; l < 3 && eb >= 0; ++l) {

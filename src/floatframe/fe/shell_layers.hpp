@@ -53,7 +53,7 @@ std::string section_error(const ShellSection& section, const std::vector<Materia
 /// Normal of a shell with 3 or 4 corners first among its nodes.
 Vec3 shell_normal(std::span<const Vec3> corners);
 /// Axis 1 of a shell: the first axis of an orientation at its middle, or the side 1-2, projected on
-/// the shell and turned about the normal. Zero if the axis has no projection.
+/// the shell and rotated about the normal. Zero if the axis has no projection.
 Vec3 first_axis(std::span<const Vec3> corners, const Orientation* orientation, double angle);
 
 }  // namespace floatframe

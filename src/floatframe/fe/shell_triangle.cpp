@@ -71,7 +71,7 @@ Eigen::Matrix<double, 9, 3> lumping(const Plane& t, unsigned own_drilling) {
   return 0.5 * L;
 }
 
-/// The higher-order membrane strains, which the drilling rotations turn on: at corner i 3/2 Te Q_i
+/// The higher-order membrane strains, driven by the drilling rotations: at corner i 3/2 Te Q_i
 /// T of (u, v, rz), xx, yy and xy in the axes of the triangle; its energy counts beta_0 times. The
 /// mean of the two divisions of a rectangle then holds the stress of plane bending exactly.
 struct HigherStrains {

@@ -116,7 +116,7 @@ class CondensedSprings {
   }
 
   /// K_CC - K_CL K_LL^+ K_LC; the first `inner` are L. Scaled by the diagonal, so that lengths and
-  /// angles compare.
+  /// angles are comparable.
   static MatX without(const MatX& K, Eigen::Index inner) {
     const Eigen::Index outer = K.rows() - inner;
     MatX out = K.bottomRightCorner(outer, outer);
@@ -195,7 +195,7 @@ SpringSystem spring_system(const FeModel& model, const DofTable& table) {
     groups.try_emplace(joins.root(s.nodes[end]), model, loose).first->second.add(s);
   }
   for (auto& [root, group] : groups) group.finish(out);
-  // Directions that no spring has are not held either.
+  // Directions without a spring are not held either.
   out.condensed.clear();
   std::vector<char> on_spring(model.positions.size(), 0);
   for (const Spring& s : model.springs)

@@ -49,10 +49,10 @@ struct SpringError {
 };
 std::vector<SpringError> spring_errors(const FeModel& model);
 
-/// Nodes that only springs hold, ascending: they do not feel the mass of the part.
+/// Nodes held only by springs, ascending: the mass of the part does not act on them.
 std::vector<int> nodes_on_springs(const FeModel& model);
 
-/// Leaves out the springs to the ground and returns how many these are.
+/// Removes the springs to the ground and returns their number.
 int remove_grounded_springs(FeModel& model);
 
 /// Energy of the springs in shapes (3 rows per node each): U^T K U.

@@ -1,10 +1,10 @@
 #pragma once
-// The modal stiffness X^T K X element by element. The motion of the whole part is taken out of each
-// element before its matrix is used,
+// The modal stiffness X^T K X element by element. The motion of the whole part is subtracted from
+// the displacements of each element before its matrix is used,
 //   u_k - mean(u) - w x (p_k - mean(p)),  theta_k - w,  w = mean(theta)
 // (elements with rotations), so that in meshes of very many elements the digits of the deformation
 // are not lost in those of the displacement: a bending shape over n beams is good to n^2 roundings,
-// where products with the assembled K lose n^4. Hence also a measure of what was lost elsewhere.
+// where products with the assembled K lose n^4. Hence also a measure of the loss elsewhere.
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,8 +33,8 @@ VecX strain_energy_of_each(const FeModel& model, const MatX& U, const MatX& Thet
 /// Relative error of a stiffness (w^2) above which the sixth digit of a frequency is lost.
 inline constexpr double sixth_digit = 2e-6;
 
-/// Throws InputError if a stiffness of the shapes differs more than that from their strain energy:
-/// then the model has more elements than the digits of a double carry. `names`: of the shapes.
+/// Throws InputError if a stiffness of the shapes differs by more than that from their strain
+/// energy: then the model has too many elements for double precision. `names`: of the shapes.
 void check_digits(const FeModel& model, const MatX& U, const MatX& Theta, const VecX& stiffness,
                   const std::vector<std::string>& names,
                   Integration integration = Integration::exact);

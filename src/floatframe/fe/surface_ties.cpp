@@ -89,7 +89,7 @@ FacePoint nearest_point(const FeModel& model, const Face& face, const Vec3& x) {
     at = next;
     if (step < 1e-14) break;
   }
-  // Along an edge the clamped steps zigzag: the sides by themselves.
+  // Along an edge the clamped steps zigzag: the sides are treated separately.
   const auto side = [&](double r0, double s0, double r1, double s1) {
     double low = 0.0, high = 1.0;
     for (int k = 0; k < 90; ++k) {
@@ -112,7 +112,7 @@ FacePoint nearest_point(const FeModel& model, const Face& face, const Vec3& x) {
 }
 
 /// Faces by the cells of a grid that their centres are in; a cell is as large as the reach of a
-/// face, so that what is near is in the 27 cells around.
+/// face, so that all near faces are in the 27 cells around.
 class FaceGrid {
  public:
   FaceGrid(const std::vector<Face>& faces, double distance) : faces_(faces) {

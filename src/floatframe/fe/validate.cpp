@@ -167,7 +167,7 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
   }
 }
 
-/// Nodes whose rotations mean something.
+/// Nodes with meaningful rotations.
 std::vector<char> nodes_with_rotations(const FeModel& model) {
   std::vector<char> with(model.positions.size(), 0);
   const auto mark = [&](int node) {

@@ -62,7 +62,7 @@ std::span<const Part> parts() {
 template <int nodes>
 constexpr int all_nodes = nodes == 8 ? 9 : nodes;
 
-/// Shares of the nodes in the middle.
+/// Weights of the nodes in the middle.
 constexpr double middle_share(int node) { return node < 4 ? -0.25 : 0.5; }
 
 template <int nodes>
@@ -105,7 +105,7 @@ std::string error(const ElementInput& given) {
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
     const double twice = (p[1] - p[0]).cross(p[2] - p[0]).dot(n);
-    // Thinner than 1e-9 of its size it is flat to the digits of its coordinates.
+    // Thinner than 1e-9 of its size it is flat to the precision of its coordinates.
     if (!(twice > 1e-9 * size * size)) {
       if (nodes > 4) return "is folded, or its nodes are in the wrong order";
       return nodes == 3 ? "is flat (its corners lie on a line)"
@@ -178,7 +178,7 @@ MatX motion_of_all(const ElementInput& in, const MatX& K) {
   return G * with_own_drilling<nodes>(in, G.transpose() * K * G);
 }
 
-/// Empty where the element moves as its nodes do.
+/// Empty if the element moves as its nodes do.
 template <int nodes>
 MatX following(const ElementInput& in) {
   if (!follows<nodes>(in)) return {};
