@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// Up to here direct factors hold the seventh digit; the sixth is lost near 350.
+/// Up to here direct factors give seven accurate digits; the sixth is lost near 350.
 constexpr std::size_t few_elements = 100;
 
 /// Elements in a row, from node to node.

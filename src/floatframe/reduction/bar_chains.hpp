@@ -19,7 +19,7 @@
 
 namespace floatframe {
 
-/// The same questions as FixedInterface answers, for a model of beam2 elements.
+/// The same interface as FixedInterface, for a model of beam2 elements.
 class BarChains {
  public:
   /// Null if direct factors are as good: few elements, or no rows of equal ones. K, M: 6 dofs per

@@ -15,7 +15,7 @@
 namespace floatframe {
 namespace {
 
-/// Above this only nodes with a name are kept.
+/// Above this limit only nodes with a name are kept.
 constexpr int many_nodes = 2000;
 /// Limit of the numbers of all nodes that are kept by default.
 constexpr Eigen::Index few_numbers = 1 << 19;
@@ -100,7 +100,7 @@ void add_twist_inside(const ElementInput& in, const BentBeam& beam, SecondOrder&
 }
 
 /// Nodal forces and moments of the loads rho e_j (rows j) and rho r_i e_j (rows 3 + 3 i + j), with
-/// displacements that are linear between the nodes; moments of what turns with them.
+/// displacements that are linear between the nodes; moments of masses rotating with them.
 MatX load_rows(const FeModel& model, const ReductionOptions& options) {
   MatX rows = MatX::Zero(12, 6 * model.nodes());
   const SparseRows M = assemble_scalar_mass(model);

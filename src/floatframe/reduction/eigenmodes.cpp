@@ -92,7 +92,7 @@ using Lanczos =
 /// One block step of inverse iteration from X and a Rayleigh-Ritz projection.
 Eigenpairs refined(const Solve& solve, double sigma, const SparseMatrix& M, const MatX& X,
                    int count) {
-  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the digits of the low modes.
+  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the accuracy of the low modes.
   const MatX MX = M * X;
   MatX Y = solve(MX);
   MatX Ar = Y.transpose() * MX;

@@ -14,8 +14,8 @@
 
 namespace floatframe {
 
-/// `solve` gives the normal modes of `inner` dofs. Throws InputError if `count` is more than the
-/// dofs or their mass allow.
+/// `solve` returns the normal modes of `inner` dofs. Throws InputError if `count` exceeds the
+/// number of dofs or massive directions.
 Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,
                        bool at_most = false);
 

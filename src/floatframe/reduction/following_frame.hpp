@@ -51,7 +51,7 @@ class FollowingFrame {
   /// held: rows that the body reference holds, six at least.
   FollowingFrame(const FeModel& model, const MatX& X, std::vector<int> held);
 
-  /// Frames of very many elements with loops are not: their direct factors have no digits.
+  /// False for frames of very many elements with loops: their factors have no accurate digits.
   bool known() const noexcept { return tree_ || fixed_; }
   enum class Strain { shortening, twist };
   /// Six rows per node, a column for each pair from `first` on.

@@ -61,7 +61,7 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
       }
     }
   }
-  // About the centre and with rotations over the size: digits do not depend on place and scale.
+  // About the centre and with rotations over the size: accuracy is independent of place and scale.
   MatX R = rigid_motions(model, system, centre);
   R.rightCols<3>() /= size;
   const MatX MR = system.M * R;

@@ -18,7 +18,7 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
 
 /// A bound of the lowest elastic eigenvalue [rad2/s2] from above: Rayleigh-Ritz with displacements
 /// that are quadratic in the coordinates. 0 if there is no such (no mass).
-/// `softest`: the displacements that it belongs to; empty if there are none.
+/// `softest`: the corresponding displacements; empty if there are none.
 double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* softest = nullptr);
 
 class FreeStructure {

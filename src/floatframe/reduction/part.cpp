@@ -1,4 +1,4 @@
-// From a finite-element part to a flexible body, stage by stage.
+// From a finite-element part to a flexible body, in stages.
 #include "floatframe/reduction/part.hpp"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ void normalise(const FeSystem& system, double size, ModeBasis& basis) {
   basis.rigid = (factor.cwiseInverse().asDiagonal() * basis.rigid).eval();
 }
 
-/// Very many beams in a row: are there digits left in the normal modes?
+/// Very many beams in a row: are the normal modes accurate?
 void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& basis,
                  Integration integration) {
   const Eigen::Index first = basis.first_normal, count = basis.frequencies.size();
@@ -85,7 +85,7 @@ void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& 
                names, integration);
 }
 
-/// The answers to unit loads that the stress stiffness needs; empty for given matrices.
+/// The responses to unit loads needed by the stress stiffness; empty for given matrices.
 MatX unit_response(const PlacedPart& part, const PointModel& points, const ModeBasis& basis,
                    const std::optional<FixedInterface>& fixed,
                    const std::optional<FreeStructure>& structure, const Eigenpairs& elastic) {

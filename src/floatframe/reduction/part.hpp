@@ -37,7 +37,7 @@ struct BodyReference {
   std::string node;
 };
 
-/// A place that can carry loads, sensors and outputs without being an interface.
+/// A point that can carry loads, sensors and outputs without being an interface.
 struct MarkerDescription {
   std::string name;
   NodeChoice choice;  ///< several nodes: the marker follows their mean motion (RBE3)

@@ -48,7 +48,7 @@ MatX given_damping(const FeMatrices& given, const FeSystem& system, const MatX& 
         fmt::format("the damping matrix gives energy to a deformation (smallest eigenvalue in the "
                     "modes {:.3g}, largest {:.3g}), expected none below zero",
                     own.values(0), top));
-  // Rounding must not give energy either.
+  // Rounding must not add energy either.
   D = own.vectors * own.values.cwiseMax(0.0).asDiagonal() * own.vectors.transpose();
   const MatX R_rows = at_rows(system, given.dofs, R);
   const MatX C_R = given.C * R_rows;

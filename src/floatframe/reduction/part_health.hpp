@@ -1,5 +1,5 @@
 #pragma once
-// The figures of the health report that come from the full model, and what is suspicious.
+// The figures of the health report from the full model, and its suspicious properties.
 #include "floatframe/reduction/mode_basis.hpp"
 
 namespace floatframe {

@@ -26,7 +26,7 @@ struct MarkerPlace {
   bool residual = false;
   // After assembly, 3 x n: u = translation q, theta = rotation q.
   SparseRows translation, rotation;
-  /// The shares of the displacements of nodes in both, 3 x 3 nodes.
+  /// The coefficients of the displacements of nodes in both, 3 x 3 nodes.
   SparseRows by_translations, turn_by_translations;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Eigen::Index body_cases = 12;
 
-/// Unit loads of all cases, with what the body reference carries.
+/// Unit loads of all cases, with the reactions of the body reference.
 MatX balanced_loads(const PlacedPart& part, const MatX& loads, const MatX& B) {
   const FeSystem& system = part.system;
   const std::size_t places = part.interfaces.size() + part.markers.size();

@@ -1,6 +1,6 @@
 #pragma once
-// Displacements of second order of the masses of a part that turn with its nodes, whether
-// stiffening is counted or not: of points on arms, 1/2 theta x (theta x arm), and the twist of
+// Displacements of second order of the masses of a part that rotate with its nodes, with or
+// without stiffening: of points on arms, 1/2 theta x (theta x arm), and the twist of
 // second order of beams that are bent in two planes (part_second_order.hpp).
 #include <memory>
 #include <optional>

@@ -9,14 +9,14 @@
 
 namespace floatframe {
 
-/// Half the diagonal of the box around the nodes that something uses [m].
+/// Half the diagonal of the box around the nodes in use [m].
 double part_size(const FeModel& model, const FeSystem& system);
 
 /// For each row of the system: 1 for translations, `size` for rotations.
 VecX row_lengths(const FeSystem& system, double size);
 
 /// Largest |K R| / |K|, R the rigid motions. Throws if it is above `largest_rigid_residual`: the
-/// part is held by something.
+/// part has a support.
 double check_rigid_motions(const FeModel& model, const FeSystem& system);
 inline constexpr double largest_rigid_residual = 1e-3;
 

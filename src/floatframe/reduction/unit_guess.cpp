@@ -56,7 +56,7 @@ std::string unit_guess(const FeModel& model, double mass) {
   const Numbers x = numbers_of(model, mass);
   if (usual(x)) return "";
   const std::string found = "the part has " + text(x) + ", which is unusual";
-  // Other units explain a material; the box about masses on springs has any density.
+  // A material can be explained by other units; the box about masses on springs has any density.
   if (!x.of_material) return found + "; check the units of the file";
   std::vector<std::string> read_as{"m-kg-s", "mm-t-s", "mm-kg-ms", "mm-kg-s"};
   if (!model.units.empty()) read_as = {model.units};
