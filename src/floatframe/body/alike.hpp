@@ -5,7 +5,7 @@
 
 namespace floatframe {
 
-/// The same nodes and surface with the same motions of every mode, to the bit. Mass and stiffness
+/// The same nodes and surface with the same motions of every mode, bit by bit. Mass and stiffness
 /// may differ.
 bool look_alike(const FlexibleBody& a, const FlexibleBody& b);
 

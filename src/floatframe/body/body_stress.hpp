@@ -20,7 +20,7 @@
 
 namespace floatframe {
 
-/// Load coefficients of the body itself: what `loads` has before those of its modes.
+/// Load coefficients of the body itself: columns of `loads` before those of its modes.
 inline constexpr int body_load_cases = 12;
 
 /// A stress point: at a node of the surface, of a layer of a shell or of an outer point of a

@@ -28,7 +28,7 @@ struct StressFields {
 
 class StressRecovery {
  public:
-  /// `surface`: nodes whose solids and shells are looked at; a place's `point` is an index there.
+  /// `surface`: nodes whose solids and shells are included; a place's `point` is an index there.
   StressRecovery(const FeModel& model, const std::vector<int>& surface,
                  ElementMass mass = ElementMass::section_inertia);
 
@@ -41,7 +41,7 @@ class StressRecovery {
   Recovered recover(const StressFields& fields) const;
 
  private:
-  /// A node of an element, and the places that it adds to.
+  /// A node of an element, and the places to which it contributes.
   struct Share {
     int local, place, other;  ///< other: of a shell the bottom, else -1
   };

@@ -38,7 +38,7 @@ struct BodyMotions {
   MatX M;         ///< (6 + nm) x (6 + nm)
 };
 
-/// M_ff without what rigid motions Z take of it: motions (Z a + P x) of least kinetic energy.
+/// M_ff without the part of rigid motions Z: motions (Z a + P x) of least kinetic energy.
 MatX mass_of(const MatX& M, const MatX& P, const MatX& Z) {
   MatX own = P.transpose() * M * P;
   if (Z.cols() == 0) return own;
@@ -129,7 +129,7 @@ ReferenceModes mounted_modes(const FlexibleBody& body, const BodyMotions& motion
     append(body.K, P.bottomRows(nm), mass_of(motions.M, P, Z), modes);
   }
   modes.held = modes.mu.size();
-  // Deformations by motions of the interfaces: what is orthogonal to these in K.
+  // Deformations by motions of the interfaces: the complement orthogonal to these in K.
   const VecX s = body.K.diagonal().cwiseSqrt().cwiseInverse();
   MatX W = MatX::Identity(6 + nm, 6 + nm).rightCols(nm);
   if (modes.held > 0) {

@@ -66,7 +66,7 @@ std::optional<std::string> damping_complaint(const ModalDamping& damping);
 /// fractions than modes, `mounted` without interfaces, K not positive definite.
 MatX damping_matrix(const FlexibleBody& body, const ModalDamping& damping);
 
-/// Modes of a body with what `reference` holds, in ascending order, y^T K y = 1.
+/// Modes of a body with the supports of `reference`, in ascending order, y^T K y = 1.
 struct ReferenceModes {
   MatX Y;   ///< nm x n
   VecX mu;  ///< 1/w^2 [s2/rad2]; 0: without mass
@@ -76,7 +76,7 @@ struct ReferenceModes {
 };
 ReferenceModes reference_modes(const FlexibleBody& body, DampingReference reference);
 
-/// A mode and the fraction of critical damping that D gives it, y^T D y/(2 w).
+/// A mode and its fraction of critical damping from D, y^T D y/(2 w).
 struct DampedMode {
   double frequency = 0.0;  ///< [Hz]
   double fraction = 0.0;

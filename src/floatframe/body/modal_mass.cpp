@@ -58,7 +58,7 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
       massive.push_back(k);
   if (massive.empty() || !(v.m > 0.0)) return 1.0;
 
-  // Lengths in units of the radius of gyration, so that translations and rotations compare.
+  // Lengths in units of the radius of gyration, so that translations and rotations are comparable.
   const double l = std::sqrt(std::max(v.inertia_about_origin().trace() / v.m, 1e-300));
   MatX M = mass_matrix_at_rest(v);
   M.middleRows<3>(3) /= l;

@@ -42,7 +42,7 @@ struct SecondOrder {
   }
 };
 
-/// Adds to S2i the second order 1/2 theta x (theta x r) of a rigid piece that turns with the modes
+/// Adds to S2i the second order 1/2 theta x (theta x r) of a rigid piece that rotates with modes
 /// `theta` (3 x nm) about its centre of mass. P = int r r^T dm.
 void add_turning(const Mat3& P, const Mat3X& theta, SecondOrder& out);
 

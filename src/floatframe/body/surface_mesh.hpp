@@ -18,7 +18,7 @@ struct SurfaceMesh {
   /// for a surface from another program.
   std::vector<int> nodes;
 
-  /// Which end of which bar a point belongs to.
+  /// The end of the bar that a point belongs to.
   struct BarEnd {
     int bar = 0;  ///< in BodyShape::bars
     int end = 0;  ///< 0: at `from`, 1: at `to`
