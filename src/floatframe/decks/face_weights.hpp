@@ -1,5 +1,5 @@
 #pragma once
-// Shares of a face's area that its nodes have where a force is spread over it: in proportion to the
+// Fractions of a face's area for its nodes when a force is spread over it: in proportion to the
 // diagonal of int N N^T dA, which is positive at the corners of quadratic faces too.
 #include <Eigen/Geometry>
 #include <span>

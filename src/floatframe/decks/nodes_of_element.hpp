@@ -1,5 +1,5 @@
 #pragma once
-// Nodes that elements of a model have.
+// Nodes used by the elements of a model.
 #include <span>
 #include <vector>
 

@@ -18,7 +18,7 @@
 
 namespace floatframe {
 
-/// A beam as the file has it.
+/// A beam as in the file.
 struct BeamOnNodes {
   std::array<int, 3> nodes{-1, -1, -1};  ///< of the file
   bool beside = false;                   ///< its axis is not at them
@@ -34,7 +34,7 @@ void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> be
 int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
                  int& largest);
 
-/// A rigid spider that has no nodes yet.
+/// A rigid spider without nodes so far.
 Spider& add_rigid_spider(FeModel& model, int reference, std::string name, const FeSource& at);
 
 /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.

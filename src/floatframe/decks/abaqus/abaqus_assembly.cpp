@@ -16,7 +16,7 @@ namespace {
 /// A name without an instance is looked up in all of them.
 constexpr std::size_t most_instances = 2000;
 
-/// References of a thing into another scope.
+/// Copies the references of an item into another scope.
 class ScopeChange {
  public:
   ScopeChange(AbaqusScope from, AbaqusScope to) : from_(from), to_(to) {}
@@ -59,7 +59,7 @@ AbaqusScope scope_of(const AbaqusThing& thing) { return thing.where.scope; }
 AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
 AbaqusScope scope_of(const AbaqusEquation& e) { return e.terms.front().where.scope; }
 
-/// Calls `use` with each list of things that belong to a scope and its place in AbaqusSizes.
+/// Calls `use` with each list of items that belong to a scope and its index in AbaqusSizes.
 template <typename Content, typename Use>
 void each_list(Content& c, Use use) {
   const auto all = [&](auto&... lists) {
@@ -155,7 +155,7 @@ void close_last(AbaqusContent& content, TextSource& source, const std::string& w
                block.keyword, shown(block.name), block.keyword, where);
 }
 
-/// Those inside of it that are still open have no end; an error if it has not begun.
+/// Open blocks inside it have no end; an error if it has not begun.
 void close_block(AbaqusCard& card) {
   std::vector<AbaqusOpenBlock>& open = card.content.open;
   const std::string begin = card.name.substr(3);  // "ENDPART"
@@ -194,7 +194,7 @@ void read_placement(AbaqusCard& card, AbaqusPlacement& place) {
                 .toRotationMatrix();
 }
 
-/// The part of an instance; throws where there can be no such instance.
+/// The part of an instance; throws where an instance is not allowed.
 AbaqusPart& part_of_instance(AbaqusCard& card, const std::string& name, const std::string& part) {
   AbaqusContent& content = card.content;
   const auto it = content.parts.find(part);

@@ -41,7 +41,7 @@ AbaqusNamed<T> find_abaqus_name(const AbaqusContent& c, const std::map<AbaqusCon
   return found;
 }
 
-/// Names of sets or surfaces, to choose from.
+/// Names of sets or surfaces, for suggestions.
 template <typename T>
 std::vector<std::string> abaqus_names_of(const AbaqusContent& c,
                                          const std::map<AbaqusContent::Key, T>& map) {
@@ -53,7 +53,7 @@ std::vector<std::string> abaqus_names_of(const AbaqusContent& c,
   return names;
 }
 
-/// The name of a set or surface in the model: with that of the instance where others have the same.
+/// The name of a set or surface in the model: with that of the instance if it is not unique.
 template <typename T>
 std::string abaqus_model_name(const AbaqusContent& c, const AbaqusContent::Key& key,
                               const std::map<AbaqusContent::Key, T>& map) {
@@ -80,7 +80,7 @@ class AbaqusResolver {
   int one(const AbaqusReference& reference, std::string_view what);
   /// All members of a set; `depth`: of sets that it is in.
   const std::vector<int>& members(const AbaqusContent::Key& key, int depth = 0);
-  /// Counts members that are named at a place; throws if there are too many in all.
+  /// Counts members of a reference; throws if there are too many in all.
   void spend(std::uint64_t count, const FeSource& at);
   /// Missing numbers of GENERATE: how many, and the location of the first range.
   long gaps() const noexcept { return gaps_; }
@@ -151,7 +151,7 @@ struct AbaqusBuild {
         nodes(c, s, AbaqusResolver::Of::nodes),
         elements(c, s, AbaqusResolver::Of::elements),
         clues(c.clues) {}
-  /// Index of the node k of an element; -1 and an error if it is not there.
+  /// Index of the node k of an element; -1 and an error if it is missing.
   int node_of(const AbaqusElement& element, int k);
   /// Nodes of elements of the deck, without duplicates.
   std::vector<int> nodes_of_elements(const std::vector<int>& list) const;
@@ -183,12 +183,12 @@ struct AbaqusProperties {
   bool directional = false;  ///< shells: not isotropic in the plane
 };
 
-/// Elements that have no section: masses, springs, ...
+/// Elements without a section: masses, springs, ...
 bool is_abaqus_point(AbaqusType::Family family) noexcept;
 /// For each element of the deck the index of the section whose set contains it; -1: none.
 std::vector<int> sections_of_elements(AbaqusBuild& build,
                                       const std::vector<AbaqusSection>& sections);
-/// Notes elements with a section that CalculiX does not take for them: a clue whose deck it is.
+/// Notes elements with a section that CalculiX does not allow for them: evidence of the program.
 void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of);
 /// For each section; its material and its shape are added to the model.
 std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build);
@@ -234,7 +234,7 @@ void build_abaqus_elements(AbaqusBuild& build);
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
 /// For a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;
-/// Mass and shear of the elements as the program of the deck has them.
+/// Mass and shear of the elements as in the program of the deck.
 void as_in_home_program(AbaqusBuild& build);
 void note_mass_of_unclear_dialect(AbaqusBuild& build);
 /// After all elements have their sections.

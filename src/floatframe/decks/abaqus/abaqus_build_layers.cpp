@@ -95,7 +95,7 @@ Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
   return out;
 }
 
-/// Which axis of an orientation is about the normal of a shell.
+/// The axis of an orientation that is about the normal of a shell.
 int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
   const DeckDialect dialect = build.dialect();
   if (o.axis == 0 && dialect == DeckDialect::abaqus)

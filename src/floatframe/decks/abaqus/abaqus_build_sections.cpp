@@ -82,7 +82,7 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
   return BeamSection::solid_round(section.round * (abaqus ? 2.0 : 1.0));
 }
 
-/// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
+/// Numbers of a section that only CalculiX reads, in a deck of Abaqus.
 void check_form(AbaqusBuild& build, const AbaqusSection& section) {
   const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
   if (section.calculix_form && clue && build.content.options.dialect != DeckDialect::calculix)
@@ -92,7 +92,7 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
                 section.shape, clue->what, build.place(clue->at));
 }
 
-/// Dimensions may be finite, and what follows from them not.
+/// Dimensions may be finite, but not the values computed from them.
 void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const BeamSection& s,
                         const Material& material) {
   const double mass = s.A * material.density;
@@ -131,7 +131,7 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
                 build.content.element_nodes[deck.first + deck.type->nodes]);
 }
 
-/// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
+/// *BEAM SECTION OFFSET in a deck of CalculiX, which ignores such a line.
 void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) {
   const DeckDialect given = build.content.options.dialect;
   if (!section.offset_at || given == DeckDialect::abaqus) return;

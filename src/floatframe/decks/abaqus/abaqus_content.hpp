@@ -72,7 +72,7 @@ struct AbaqusElement {
   FeSource at;
 };
 
-/// A number, a range of numbers or a name in a set or another place that names nodes or elements.
+/// A number, a range of numbers or a name in a set or another reference to nodes or elements.
 struct AbaqusReference {
   int first = 0, last = 0, step = 1;  ///< one number: first = last
   int name = -1;                      ///< index in AbaqusContent::names; -1: numbers
@@ -237,7 +237,7 @@ struct AbaqusTie : AbaqusThing {
   bool contact = false;
 };
 
-/// Turned directions of degrees of freedom.
+/// Rotated directions of degrees of freedom.
 struct AbaqusTransform : AbaqusThing {
   AbaqusScope scope = AbaqusScope::part;  ///< scope of its points
   bool cylindrical = false;
@@ -337,7 +337,7 @@ struct AbaqusContent {
   std::string material;  ///< the last *MATERIAL
 
   int intern(std::string name);
-  /// Index of a node of an element (k from 0); -1 if it is not there.
+  /// Index of a node of an element (k from 0); -1 if it is missing.
   int node_of(const AbaqusElement& element, std::size_t k) const {
     return nodes.find(element.scope, element_nodes[element.first + k]);
   }

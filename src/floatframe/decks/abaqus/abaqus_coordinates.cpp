@@ -167,7 +167,7 @@ void read_abaqus_orientation(AbaqusCard& card) {
     o.axis = axis.value_or(1);
     o.angle = card.real_or(1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
   }
-  // CalculiX has the origin in place of c: whose deck this is shows later.
+  // CalculiX has the origin in place of c: the program of the deck is determined later.
   AbaqusOrientation without_c = o;
   without_c.c.setZero();
   if (!card.wrong() && o.points_on_a_line() && without_c.points_on_a_line())

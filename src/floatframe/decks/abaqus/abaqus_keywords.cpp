@@ -4,7 +4,7 @@
 namespace floatframe {
 namespace {
 
-/// Words between blanks, and what to do in place of them.
+/// Words between blanks, and alternatives to them.
 constexpr std::pair<std::string_view, const char*> refused[] = {
     {"EMBEDDEDELEMENT SHELLTOSOLIDCOUPLING FASTENER FASTENERPROPERTY COHESIVESECTION GASKETSECTION "
      "BOND",

@@ -26,7 +26,7 @@ struct AbaqusKeyword {
   FeSource at;
 
   bool has(std::string_view parameter) const noexcept;
-  /// Value of a parameter; empty if it is not there.
+  /// Value of a parameter; empty if it is missing.
   std::string_view value(std::string_view parameter) const noexcept;
 };
 
@@ -69,11 +69,11 @@ struct DialectClues {
   bool by_axes = false;  ///< the only evidence of the program of the deck
 
   void add(DeckDialect of, std::string what, const FeSource& at);
-  /// Looks at a keyword, in a step or before it, and at its parameters.
+  /// Checks a keyword, in a step or before it, and its parameters.
   void look_at(const AbaqusKeyword& keyword);
-  /// Looks at a type of elements.
+  /// Checks a type of elements.
   void look_at_type(const std::string& type, const FeSource& at);
-  /// All of the deck has been looked at.
+  /// The whole deck has been checked.
   void settle();
 };
 

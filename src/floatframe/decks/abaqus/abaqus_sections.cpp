@@ -19,7 +19,7 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-/// A line that must be there; more of them mean a dependence on temperature.
+/// A required line; more of them mean a dependence on temperature.
 bool read_one_line(AbaqusCard& card) {
   if (!card.needs_line()) return false;
   std::string_view more;

@@ -13,7 +13,7 @@ constexpr const char* beam_parameters =
     "ELSET MATERIAL ORIENTATION SECTION OFFSET1 OFFSET2 TEMPERATURE POISSON DENSITY LUMPED ZERO";
 
 /// A keyword that is read, and the parameters it may have, between blanks; null: any, or the
-/// handler looks itself.
+/// handler checks them itself.
 struct AbaqusReader {
   const char* name;
   AbaqusHandler* read;

@@ -29,7 +29,7 @@ struct AnsysBuild {
   FeModel& model;
   std::vector<int> index = {};  ///< in the model, of each element of the deck; -1: none
 
-  /// Index of a node; an error and -1 if it is not there.
+  /// Index of a node; an error and -1 if it is missing.
   int node(int id, const FeSource& at, const std::string& who);
   /// The nodes of an element as indices, in the order of the deck, -1 for 0 and missing ones;
   /// false with an error.

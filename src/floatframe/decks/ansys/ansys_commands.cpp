@@ -1,5 +1,5 @@
 // The commands of a deck: those that are read, and those that change neither stiffness nor mass.
-// Any other stops the reading.
+// Any other command stops the reading.
 #include <algorithm>
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
@@ -91,7 +91,7 @@ constexpr AnsysCommand session_commands[] = {
     {"CSYSBLOCK", skip_with_block},
 };
 
-/// Loads, solutions, files, pictures: ignored without a word.
+/// Loads, solutions, files, pictures: ignored without a message.
 constexpr std::string_view ansys_silent =
     "/PREP7 /NOPR /GOPR /GO /TITLE /SOLU /SOL /POST1 /POST26 /BATCH /CONFIG /SHOW /OUTPUT /STITLE "
     "/NERR /GST /FILNAME /CLEAR /WB /VIEW /ESHAPE /COLOR /PBC /PNUM /REPLOT /NUMBER /AUX15 /DEVICE "

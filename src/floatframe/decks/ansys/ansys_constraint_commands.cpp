@@ -151,7 +151,7 @@ class AnsysMembers {
       : sorted_(std::move(number_and_index)) {
     std::sort(sorted_.begin(), sorted_.end());
   }
-  /// An end that is not there, 0 if both are; between them there may be gaps.
+  /// A missing end, 0 if both exist; there may be gaps between them.
   int append(int first, int last, std::vector<int>& out) const {
     auto it = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{first, -1});
     if (it == sorted_.end() || it->first != first) return first;

@@ -40,7 +40,7 @@ struct AnsysLibraryElement {
   int nodes = 0;  ///< at most, without those for orientation
 };
 
-/// Null if the element is none that is read.
+/// Null if the element is not supported.
 const AnsysLibraryElement* ansys_library_element(int number) noexcept;
 
 /// ET with its KEYOPTs.
@@ -123,7 +123,7 @@ struct AnsysEquation {
   FeSource at;
 };
 
-/// CP: a degree of freedom that all nodes share.
+/// CP: a degree of freedom shared by all nodes.
 struct AnsysCoupling {
   int axis = -1;
   std::vector<int> nodes;
@@ -186,12 +186,12 @@ int ansys_axis(std::string_view word) noexcept;
 /// Is field 1 the mark of the commands that CDWRITE writes, "R5.0" or "UNBL"?
 bool ansys_written(const AnsysFields& f);
 
-/// A command and what reads it.
+/// A command and its reader.
 struct AnsysCommand {
   const char* name;
   void (*read)(AnsysFields&, AnsysContent&);
 };
-// Each in its source: nodes and elements; types, constants and sections; materials; constraints.
+// In separate sources: nodes and elements; types, constants and sections; materials; constraints.
 std::span<const AnsysCommand> ansys_mesh_commands();
 std::span<const AnsysCommand> ansys_property_commands();
 std::span<const AnsysCommand> ansys_material_commands();

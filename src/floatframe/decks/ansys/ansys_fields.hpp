@@ -40,7 +40,7 @@ class AnsysFields {
   FeSource at() const noexcept { return at_; }
   TextSource& source() noexcept { return source_; }
 
-  /// Field 0 is the command; empty if it is not there.
+  /// Field 0 is the command; empty if it is missing.
   std::string_view text(std::size_t k) const noexcept;
   std::size_t size() const noexcept { return fields_.size(); }
   /// Like text, in upper case.

@@ -70,7 +70,7 @@ void add_elements(CalculixText& deck) {
   }
 }
 
-/// Kinds of elements, and what CalculiX does with them.
+/// Kinds of elements, and their treatment by CalculiX.
 void note_habits(CalculixText& deck) {
   static constexpr std::pair<bool (*)(const Element&), const char*> habits[] = {
       {[](const Element& e) { return is_pyramid(e.type); },

@@ -50,13 +50,13 @@ struct NastranScalarPoint {
   FeSource at;          ///< of its first reference
 };
 
-/// The scalar points that springs and equations use, by their numbers.
+/// The scalar points used by springs and equations, by their numbers.
 class NastranScalarPoints {
  public:
   void build(NastranBuild& build);
-  /// Null if the number is none that is in use.
+  /// Null if the number is not in use.
   const NastranScalarPoint* find(int id) const;
-  /// An SPC holds it: it is the ground.
+  /// Held by an SPC: it is the ground.
   bool held(int id) const { return held_.contains(id); }
 
  private:
@@ -75,7 +75,7 @@ struct NastranBuild {
   NastranScalarPoints scalars;
 
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
-  /// Index of a node; an error and -1 if it is not there.
+  /// Index of a node; an error and -1 if it is missing.
   int node(int id, const FeSource& at, const std::string& who);
   int node(int id, const NastranEntity& e) { return node(id, e.at, e.label()); }
   /// "CBAR 12: ..." at the location of the card.
@@ -142,7 +142,7 @@ void build_nastran_nodes(NastranBuild& build);
 Mat3 nastran_axes_at(const Orientation& f, const Vec3& p);
 /// CONM1 and CMASS of nodes: one per node.
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
-/// Masses of scalar points are errors, but of those that are held.
+/// Masses of scalar points are errors, except of those that are held.
 void check_nastran_scalar_masses(NastranBuild& build);
 void build_nastran_springs(NastranBuild& build);
 /// GJ/L of rods; after what gives rotations to nodes.

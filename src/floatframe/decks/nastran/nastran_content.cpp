@@ -20,7 +20,7 @@ const std::unordered_map<std::string_view, ReadCard>& card_readers() {
   return readers;
 }
 
-/// Cards that the case control selects.
+/// Cards selected by the case control.
 const WordList& selected_cards() {
   static const WordList cards("DMIG DMIAX NSM*");
   return cards;

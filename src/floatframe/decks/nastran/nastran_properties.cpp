@@ -22,7 +22,7 @@ void read_psolid(NastranFields& f, NastranProperty& p) {
 }
 
 void read_pshell(NastranFields& f, NastranProperty& p) {
-  // A material 0 is blank: so pre-processors punch what is missing.
+  // A material 0 is blank: pre-processors write it for a missing one.
   const auto blank = [&](std::size_t i) { return f.blank(i) || parse_integer(f.text(i)) == 0; };
   if (blank(1) && !blank(3))
     return f.error(ErrorCode::unsupported,

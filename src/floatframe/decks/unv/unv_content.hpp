@@ -67,7 +67,7 @@ struct UnvContent {
   std::set<int> passed_over;                             ///< datasets
 };
 
-/// Throws InputError at the first error of form: what follows it cannot be understood.
+/// Throws InputError at the first error of form: the rest cannot be interpreted.
 UnvContent read_unv_content(TextSource& in);
 
 /// The line that begins and ends datasets.
