@@ -136,7 +136,7 @@ void names_as_utf8(Map& map) {
   map = std::move(named);
 }
 
-/// Names of a file in Latin-1 become what JSON, pages and terminals show.
+/// Converts Latin-1 names of a file for JSON, pages and terminals.
 void names_as_utf8(FeModel& model) {
   names_as_utf8(model.node_sets);
   names_as_utf8(model.element_sets);

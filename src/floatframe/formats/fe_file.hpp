@@ -15,7 +15,7 @@
 
 namespace floatframe {
 
-/// Whose deck a `.inp` file is, where the two programs read the same words differently.
+/// Program of a `.inp` deck, where the two programs interpret the same keywords differently.
 enum class DeckDialect {
   by_content,  ///< by features of only one of them; an error if that is ambiguous and matters
   abaqus,
@@ -54,7 +54,7 @@ enum class GroundedSprings {
 struct FeReadOptions {
   /// Formats without material (Gmsh): the material of all elements, in the units of the file.
   std::optional<Material> material;
-  /// For materials whose density the file does not give, by their names, in the units of the file;
+  /// For materials without density in the file, by their names, in the units of the file;
   /// by an empty name: of all others.
   std::map<std::string, double> densities;
   /// Formats without sections (Gmsh, UNV): of surface elements, which are shells then, by the names
@@ -74,7 +74,7 @@ struct FeReadOptions {
   /// For `tied`, in the units of the file; 0: 2.5 % of the size of the faces.
   double contact_distance = 0.0;
   GroundedSprings grounded_springs = GroundedSprings::refuse;
-  /// At which materials that depend on it are taken, in the units of the file.
+  /// Temperature for materials that depend on it, in the units of the file.
   std::optional<double> temperature;
 };
 

@@ -34,7 +34,7 @@ class SurfaceThickness {
   /// For an element with these corners in these groups.
   Choice choose(std::span<const int> corners, const std::vector<std::string>& groups);
 
-  /// A sentence for each thickness that no surface element has got.
+  /// A sentence for each thickness that is not used by any surface element.
   std::vector<std::string> not_found(const std::vector<std::string>& groups) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// The archive (of `zip_archive`) with its seal. It stays an archive like any other.
+/// The archive (of `zip_archive`) with its seal. It remains a normal archive.
 std::string sealed_archive(std::string archive);
 
 /// True if the bytes are those that were sealed.

@@ -48,7 +48,7 @@ std::vector<int> surface_points_that_follow(const ReducedPart& part, const Modal
 /// Largest component by which a point of the surface leaves the rigid motion of a marker.
 double distance_from_rigid(const ReducedPart& part, const ModalNode& node, int point);
 
-/// Does a file begin as an archive does?
+/// Does a file begin with the signature of an archive?
 bool is_body_file(const std::filesystem::path& file);
 
 }  // namespace floatframe

@@ -56,7 +56,7 @@ struct GmshMesh {
   std::vector<std::string> passed_over;       ///< sections that are not used
 };
 
-/// Throws InputError at the first error: what follows it cannot be understood.
+/// Throws InputError at the first error: the rest cannot be interpreted.
 GmshMesh parse_gmsh_mesh(GmshStream& in);
 
 }  // namespace floatframe

@@ -1,6 +1,6 @@
 #pragma once
 // Numbers and lines of a .msh file in order, ASCII or binary of either byte order, with their
-// place. A count in the file is believed only if the bytes left can hold so many entries.
+// location. A count in the file is accepted only if the remaining bytes can hold so many entries.
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -24,7 +24,7 @@ Path plain_name(const Path& file) {
   return same_word(file.extension().string(), ".gz") ? Path(file).replace_extension() : file;
 }
 
-/// The file given in the options, or the first candidate that is there, also with .gz. Empty paths
+/// The file given in the options, or the first existing candidate, also with .gz. Empty paths
 /// are no candidates. If there is none: an error "`what` missing: ... give the `option` file".
 Path companion(const Path& file, const Path& given, std::vector<Path> candidates,
                std::string_view what, std::string_view option, ErrorList& errors) {

@@ -63,7 +63,7 @@ void keep_nodes(FeModel& model) {
   model.shells.clear();
 }
 
-/// Leaves nodes out: indices of the others move up; sets without nodes go.
+/// Removes nodes: indices of the others move up; sets without nodes are removed.
 void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof>& dofs) {
   std::vector<int> index(gone.size(), -1);
   int kept = 0;

@@ -63,7 +63,7 @@ class DmigFile {
                        [&](const auto& m) { return m.first[0] == letter; });
   }
   const std::string& name() const { return name_; }
-  /// Matrices that `matrix` has not given.
+  /// Matrices that `matrix` has not returned.
   std::vector<std::string> others() const {
     std::vector<std::string> names;
     std::set_difference(names_.begin(), names_.end(), used_.begin(), used_.end(),

@@ -213,7 +213,7 @@ class BodyOfSid {
       note(c_.J.line, "{}", text);
   }
 
-  /// Stiffness and damping must not give energy.
+  /// Stiffness and damping must not add energy.
   void check_energy() {
     for (const auto& [block, matrix, what] :
          {std::tuple{&c_.Ke, &out_.body.K, "stiffness"}, {&c_.De, &out_.body.D, "damping"}}) {
