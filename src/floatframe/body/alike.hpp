@@ -1,11 +1,11 @@
 #pragma once
-// Bodies that look and bend alike, so that pictures and files need one of them: the four wheels of
-// a car, links of a chain.
+// Bodies of equal appearance and deformation, which pictures and files need once: the four wheels
+// of a car, links of a chain.
 #include "floatframe/body/flexible_body.hpp"
 
 namespace floatframe {
 
-/// The same nodes and surface with the same motions of every mode, to the bit. Mass and stiffness
+/// The same nodes and surface with the same motions of every mode, bit by bit. Mass and stiffness
 /// may differ.
 bool look_alike(const FlexibleBody& a, const FlexibleBody& b);
 

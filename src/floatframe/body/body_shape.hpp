@@ -1,6 +1,6 @@
 #pragma once
-// What a body looks like, for pictures and for what is measured in them; nothing that moves depends
-// on it. Body frame, SI units.
+// Appearance of a body, for pictures and for measurements in them; without influence on the
+// motion. Body frame, SI units.
 #include <array>
 #include <string>
 #include <vector>
@@ -10,8 +10,8 @@
 namespace floatframe {
 
 struct BodyShape {
-  // Of a part: its outer surface. A point moves by X y, X its three rows of `modes`. Of a file that
-  // another program drew: a surface that does not bend.
+  // For a part: its outer surface. A point moves by X y, X its three rows of `modes`. For a file of
+  // another program: a surface that does not deform.
   Mat3X positions;                            ///< 3 x n [m]
   MatX modes;                                 ///< 3n x nm [m per unit of amplitude]; or empty
   std::vector<std::array<int, 3>> triangles;  ///< indices of points, outward normals

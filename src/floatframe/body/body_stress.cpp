@@ -8,7 +8,7 @@ namespace floatframe {
 namespace {
 
 /// Of xx yy zz xy yz zx, and of N Vy Vz T My Mz, when coordinates change sign: the third local axis
-/// of a section turns over in a mirror.
+/// of a section is reversed in a mirror.
 Vec6 stress_signs(const Vec3& s) {
   return (Vec6() << 1.0, 1.0, 1.0, s(0) * s(1), s(1) * s(2), s(2) * s(0)).finished();
 }

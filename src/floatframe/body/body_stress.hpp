@@ -1,7 +1,7 @@
 #pragma once
-// What a body knows of its stress. Linear in the modal amplitudes y and in what its own inertia and
-// its weight do beyond the modes (mode acceleration: the static answer to a load, of which the
-// modes carry only a part),
+// Stress data of a body. Linear in the modal amplitudes y and in the effect of its own inertia and
+// weight beyond the modes (mode acceleration: the static response to a load, of which the
+// modes represent only a part),
 //   stress = modes y + loads c
 // with the load coefficients c of an instant, the density of force that acts on the undeformed
 // body and on its modes as they move:
@@ -9,7 +9,7 @@
 //   c[3 + 3i + j] = -A_ji,  A = skew(alpha) + skew(w)^2: force -rho A_ji r_i along axis j
 //   c[12 + k]     = -d2 y_k / dt2
 // all in body axes: a_B acceleration of the origin of the body frame, w and alpha its angular
-// velocity and acceleration, g gravity. Left out: Coriolis forces of the modes, 2 w x X dy/dt, and
+// velocity and acceleration, g gravity. Neglected: Coriolis forces of the modes, 2 w x X dy/dt, and
 // the deformation of the lever arms. Source: Dietz, Vibration and Fatigue Analysis of Vehicle
 // Systems using Component Modes (1999); Craig, Structural Dynamics (1981), mode acceleration.
 // Body frame, SI units.
@@ -20,11 +20,11 @@
 
 namespace floatframe {
 
-/// Load coefficients of the body itself: what `loads` has before those of its modes.
+/// Load coefficients of the body itself: columns of `loads` before those of its modes.
 inline constexpr int body_load_cases = 12;
 
-/// Where stress is known: at a node of the surface, of a layer of a shell or of an outer point of a
-/// beam's section. A node between two materials or between sections has a place of each.
+/// A stress point: at a node of the surface, of a layer of a shell or of an outer point of a
+/// beam's section. A node between two materials or between sections has a point for each.
 struct StressPlace {
   enum class Layer {
     solid,
@@ -37,7 +37,7 @@ struct StressPlace {
   int node = -1;   ///< of the finite-element file, of bars of `FlexibleBody::nodes`; from 0
   int number = 0;  ///< the node's in the finite-element file; 0: bars, whose nodes have none
   int group = 0;   ///< of BodyStress::groups
-  /// Not to be trusted: held by a rigid spider, an edge of one, or a support (peak of the mesh).
+  /// Unreliable: held by a rigid spider, an edge of one, or a support (peak of the mesh).
   bool doubtful = false;
   Vec3 p = Vec3::Zero();  ///< [m]
 };
@@ -56,28 +56,28 @@ struct BeamSectionPlace {
 /// Elements of one material, and of one section, within which stress is averaged at a node.
 struct StressGroup {
   std::string name;                   ///< of the material, if it has one
-  double young = 0.0, poisson = 0.0;  ///< 0: not isotropic, strain is not known
+  double young = 0.0, poisson = 0.0;  ///< 0: not isotropic, strain is unknown
 };
 
 struct BodyStress {
   std::vector<StressGroup> groups;
   std::vector<StressPlace> places;
   MatX modes;  ///< 6 places x nm: xx yy zz xy yz zx [Pa per amplitude]
-  MatX loads;  ///< 6 places x (12 + nm) [Pa per coefficient]; empty: not known
+  MatX loads;  ///< 6 places x (12 + nm) [Pa per coefficient]; empty: unknown
 
   std::vector<BeamSectionPlace> sections;
   MatX section_modes;  ///< 6 sections x nm
   MatX section_loads;  ///< 6 sections x (12 + nm); empty as `loads`
 
-  /// Of each section its first place; its others follow. Empty without beams.
+  /// First place of each section; its others follow. Empty without beams.
   std::vector<int> first_place;
 };
 
 struct FlexibleBody;
 
-/// Of the mirrored body: s holds the signs of the coordinates.
+/// For the mirrored body: s holds the signs of the coordinates.
 BodyStress mirrored(const BodyStress& stress, const Vec3& s);
-/// Of the body with the modes `keep` of `body`: the static answers of the others join the loads.
+/// For the body with the modes `keep` of `body`: the static responses of the others join the loads.
 BodyStress with_kept_modes(const BodyStress& stress, const FlexibleBody& body,
                            const std::vector<int>& keep);
 

@@ -11,7 +11,7 @@ namespace floatframe {
 namespace {
 
 constexpr double rounding = 1e-6;          // of numbers written with seven digits
-constexpr double cancelled = 1e-11;        // what is left of P_u when the centre lies far away
+constexpr double cancelled = 1e-11;        // remainder of P_u with a distant centre
 constexpr double least_stiffness = 1e-13;  // K scaled to a unit diagonal
 
 double largest(const MatX& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0.0; }
@@ -39,7 +39,7 @@ class Check {
     modal_mass();
     stiffness();
     damping();
-    // The whole only if its parts are right: one cause, one sentence.
+    // The whole only if its parts are valid: one cause, one sentence.
     if (errors_.empty()) together();
     return errors_;
   }
@@ -135,7 +135,7 @@ class Check {
     }
   }
 
-  /// A share of the modal mass.
+  /// A part of the modal mass.
   void positive(const std::string& name, const MatX& share) {
     for (Eigen::Index k = 0; k < nm_; ++k) {
       if (!(share(k, k) < -rounding * std::abs(M_ff_(k, k)))) continue;
@@ -205,14 +205,14 @@ class Check {
     }
     VecX diagonal = G.diagonal();
     if (source_ == InvariantSource::integrals) {
-      // Of a direction in which a mode does not move rounding is left, beside products with the
-      // other modes that are as small but not as small as a unit diagonal asks for.
+      // In a direction in which a mode does not move round-off remains, next to products with the
+      // other modes that are as small but too large for a unit diagonal.
       for (Eigen::Index k = 0; k < 3 * nm_; ++k) {
         const Eigen::Index mode = k % nm_;
         const double all = diagonal(mode) + diagonal(nm_ + mode) + diagonal(2 * nm_ + mode);
         if (G(k, k) <= cancelled * all) diagonal(k) = 0.0;
       }
-    } else {  // what is left of J about the axis of a bar
+    } else {  // remainder of J about the axis of a bar
       for (Eigen::Index k = 3; k < 6; ++k)
         if (diagonal(k) <= cancelled * diagonal.segment<3>(3).sum()) diagonal(k) = 0.0;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Pairs of modes. A round part bends alike in all directions across its axis: its bending modes
+// Pairs of modes. A round part bends equally in all directions across its axis: its bending modes
 // come in pairs of equal frequency, and in larger groups where it has spans of equal length. A
 // number of modes that cuts a group leaves modes that are any combinations of it, and so a part
 // that bends more easily in one direction than in another.
@@ -10,8 +10,8 @@
 
 namespace floatframe {
 
-/// Frequencies closer than this part belong to one shape and its turned one: meshes are not quite
-/// round.
+/// Frequencies closer than this fraction belong to one shape and its rotated copy: meshes are not
+/// exactly round.
 inline constexpr double equal_frequencies = 2e-3;
 
 inline bool equal_frequency(double a, double b) noexcept {
@@ -24,8 +24,8 @@ struct CutPair {
   double frequency = 0.0;    ///< of the last [Hz]
 };
 
-/// Of modes with these frequencies, ascending, with so many left out that are as high as the last.
-/// None: no group is cut.
+/// For modes with these frequencies, ascending, and the number omitted that are as high as the
+/// last. None: no group is cut.
 std::optional<CutPair> cut_pair(const VecX& frequencies, int equal_left_out);
 inline std::optional<CutPair> cut_pair(const FlexibleBody& body) {
   return cut_pair(body.fixed_interface_frequencies, body.equal_left_out);

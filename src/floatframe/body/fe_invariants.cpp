@@ -55,7 +55,7 @@ class Gram {
   MatX sum_;
 };
 
-/// Adds a rigid particle with second moments P (about its centre) that turns with theta = R y: each
+/// Adds a rigid particle with second moments P (about its centre) that rotates by theta = R y: each
 /// principal direction e acts as a point with position e and shapes theta x e relative to the
 /// centre.
 template <class Rotations>

@@ -15,7 +15,7 @@
 namespace floatframe {
 
 /// X: mode shapes, 3 or 6 rows per node (rotations are ignored), one column per mode; zero columns:
-/// rigid body. Rotary inertia of point masses cannot be represented and is left out.
+/// rigid body. Rotary inertia of point masses cannot be represented and is neglected.
 InertiaInvariants invariants_isoparametric(const FeModel& model, const MatX& X);
 
 /// X: mode shapes, 6 rows per node (3 if there are no beams).

@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// Shells that turn by more at a node are an edge, where a mean would say nothing.
+/// Shells with a larger angle at a node form an edge, where a mean would be meaningless.
 const double least_cosine = std::cos(20.0 * std::numbers::pi / 180.0);
 
 Vec3 shell_normal(const ElementInput& in, int nodes) {
@@ -196,7 +196,7 @@ void StressRecovery::recover_surface(int e, const StressFields& fields, MatX& su
   MatX B, q;
   element_displacements(element, kernel, fields.displacements, q);
   const auto add = [&](int place, const Eigen::Matrix<double, 6, Eigen::Dynamic>& S) {
-    // Fields as rows, so that what belongs to a place lies together.
+    // Fields as rows, so that the data of a place are contiguous.
     sum.middleCols<6>(6 * static_cast<Eigen::Index>(place)).noalias() +=
         (q.transpose() * S.transpose()) / elements_at_[place];
   };

@@ -2,11 +2,11 @@
 // Stress of a finite-element model from displacement fields: solids and shells at the nodes of the
 // surface, beams at the outer points of both ends of every element.
 //
-// Solids: strains where they are best, carried to the nodes (ElementKernel::nodal_strains). Shells:
-// both sides at the corners (layer_stresses). Both are averaged over the elements at a node that
-// are of one material (of plies, the ply at the node; shells: of one section too, and whose
-// normals differ by less than 20 degrees; at a node the normals tell the sides, whatever way round
-// its elements are numbered).
+// Solids: strains at the optimal points, extrapolated to the nodes (ElementKernel::nodal_strains).
+// Shells: both sides at the corners (layer_stresses). Both are averaged over the elements at a node
+// that are of one material (of plies, the ply at the node; shells: of one section too, and whose
+// normals differ by less than 20 degrees; at a node the normals identify the sides, for any
+// orientation of its elements).
 // Beams: section forces of the ends, f_e = K_e u_e - M_e a_e with a_e the field that loads the
 // element inside: exact for the loads of fe/body_loads.hpp, not those of the middle of the element.
 // Body frame, SI units. Load time.
@@ -28,7 +28,7 @@ struct StressFields {
 
 class StressRecovery {
  public:
-  /// `surface`: nodes whose solids and shells are looked at; a place's `point` is an index there.
+  /// `surface`: nodes whose solids and shells are included; a place's `point` is an index there.
   StressRecovery(const FeModel& model, const std::vector<int>& surface,
                  ElementMass mass = ElementMass::section_inertia);
 
@@ -41,7 +41,7 @@ class StressRecovery {
   Recovered recover(const StressFields& fields) const;
 
  private:
-  /// A node of an element, and the places that it adds to.
+  /// A node of an element, and the places to which it contributes.
   struct Share {
     int local, place, other;  ///< other: of a shell the bottom, else -1
   };

@@ -1,5 +1,5 @@
 #pragma once
-// A body as the multibody side sees it: invariants, modal stiffness and damping, and the modal rows
+// A body for multibody simulation: invariants, modal stiffness and damping, and the modal rows
 // of its nodes. Deformation of node k: p_BP = p + X y, R = exp(skew(X_theta y)). A rigid body is a
 // body with zero modes. Everything is in the body frame B, SI units. Immutable once built and
 // shared between bodies and threads.
@@ -21,7 +21,7 @@ struct ModalNode {
                   ///< elements
 };
 
-/// How the finite-element mass enters the inertia terms.
+/// Treatment of the finite-element mass in the inertia terms.
 enum class MassModel {
   isoparametric,  ///< three rows per node, scalar mass of linear elements; projection and
                   ///< preprocessing
@@ -42,8 +42,8 @@ struct ProjectionData {
   /// Bars only, else empty: (3 nm) n x nm, rows nm (3 k + j) and on are h_j of node k
   /// (SecondOrder).
   MatX h;
-  /// Points that turn about another one, isoparametric only: with theta = rotation y, the rotation
-  /// of what both are fixed to, the point has a displacement of second order 1/2 theta x (theta x
+  /// Points that rotate about another one, isoparametric only: with theta = rotation y that of the
+  /// node both are fixed to, the point has a displacement of second order 1/2 theta x (theta x
   /// arm) (SecondOrder, `FlexibleBody::turning`). Ascending by point.
   struct TurningPoint {
     int point = -1;
@@ -61,7 +61,7 @@ struct ProjectionData {
 struct BodyShape;
 struct BodyStress;
 
-/// Where a body is mounted: bit 0..5 of `mask` = ux..rz of a node, along the axes of the body.
+/// Mounting of a body: bit 0..5 of `mask` = ux..rz of a node, along the axes of the body.
 struct InterfaceDofs {
   int node = -1;  ///< in FlexibleBody::nodes
   unsigned mask = 63u;
@@ -74,25 +74,25 @@ struct FlexibleBody {
   std::vector<ModalNode> nodes;  ///< FE nodes, in the order of the FE model; empty for a rigid body
   std::shared_ptr<const ProjectionData> projection;  ///< null: only preprocessing is possible
   MassModel mass_model = MassModel::isoparametric;
-  /// Displacements of second order of what is fixed to nodes that turn - sections, thicknesses,
+  /// Displacements of second order of masses fixed to nodes that rotate - sections, thicknesses,
   /// discs - and the twist of second order of beams, on the masses: always part of the inertia
-  /// terms. No nodes; null: no mass turns.
+  /// terms. No nodes; null: no rotating mass.
   std::shared_ptr<const SecondOrder> turning = nullptr;
-  /// The others, for geometric stiffening: foreshortening, and what loads do on all of them. Does
-  /// not hold what `turning` holds. null: not known.
+  /// The others, for geometric stiffening: foreshortening, and the effect of loads on all of them.
+  /// Without those in `turning`. null: unknown.
   std::shared_ptr<const SecondOrder> second_order = nullptr;
 
-  // What the user may want to know about the reduction.
+  // Information about the reduction for the user.
   VecX fixed_interface_frequencies;  ///< [Hz], of the dynamic modes kept
-  /// Dynamic modes left out that have the frequency of the last one kept; 0: none, or not known.
+  /// Dynamic modes omitted that have the frequency of the last one kept; 0: none, or unknown.
   int equal_left_out = 0;
   std::vector<std::string> mode_names;
 
-  /// What it looks like; null: not known.
+  /// Its appearance; null: unknown.
   std::shared_ptr<const BodyShape> shape = nullptr;
-  /// Its stress; null: not known.
+  /// Its stress; null: unknown.
   std::shared_ptr<const BodyStress> stress = nullptr;
-  /// What the modes of the mounted body hold; empty: not known, or none.
+  /// Supports in the modes of the mounted body; empty: unknown, or none.
   std::vector<InterfaceDofs> interfaces;
 
   int modes() const noexcept { return invariants.modes(); }

@@ -1,7 +1,7 @@
 #pragma once
 // The mirror image of a flexible body: body coordinates p -> P p with P = diag(+-1). Translations
-// of modes turn as vectors, rotations as axial vectors (det(P) P); stiffness, damping and
-// frequencies stay. Exact: only signs change.
+// of modes transform as vectors, rotations as axial vectors (det(P) P); stiffness, damping and
+// frequencies are unchanged. Exact: only signs change.
 #include "floatframe/body/flexible_body.hpp"
 
 namespace floatframe {

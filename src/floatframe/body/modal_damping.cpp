@@ -19,12 +19,12 @@ namespace {
 constexpr NumberRule damping_fraction{"a fraction of critical damping from 0 to 1", "", 0.0, 1.0};
 constexpr const char* damping_reference_words[] = {"frame", "free", "mounted"};
 
-/// Below this share of the largest 1/w^2 a mode is taken as massless: rounding.
+/// Below this fraction of the largest 1/w^2 a mode is taken as massless: rounding.
 constexpr double massless_share = 1e-14;
 /// Rank of the conditions of interfaces, all of them displacements of about the same size.
 constexpr double interface_rank = 1e-9;
 
-/// Motions z = (q_r, y) with turns of the frame as displacements of a length, and M(0) of them.
+/// Motions z = (q_r, y) with rotations of the frame as displacements of a length, and their M(0).
 struct BodyMotions {
   explicit BodyMotions(const FlexibleBody& body)
       : length(std::sqrt(
@@ -38,7 +38,7 @@ struct BodyMotions {
   MatX M;         ///< (6 + nm) x (6 + nm)
 };
 
-/// M_ff without what rigid motions Z take of it: motions (Z a + P x) of least kinetic energy.
+/// M_ff without the part of rigid motions Z: motions (Z a + P x) of least kinetic energy.
 MatX mass_of(const MatX& M, const MatX& P, const MatX& Z) {
   MatX own = P.transpose() * M * P;
   if (Z.cols() == 0) return own;
@@ -69,7 +69,7 @@ void append(const MatX& K, const MatX& Y, const MatX& M, ReferenceModes& modes) 
   }
 }
 
-/// Rows B of B z = 0, turns as displacements.
+/// Rows B of B z = 0, rotations as displacements.
 MatX interface_rows(const FlexibleBody& body, double length) {
   const Eigen::Index nm = body.modes();
   MatX B(0, 6 + nm);
@@ -120,7 +120,7 @@ ReferenceModes mounted_modes(const FlexibleBody& body, const BodyMotions& motion
     N = rows.Q.rightCols(6 + nm - rows.rank).eval();
   }
   if (N.cols() > 0) {
-    // What is left may hold rigid motions: turns about a single interface without turns.
+    // The remainder may include rigid motions: rotations about an interface without rotations.
     const MatX Ny = N.bottomRows(nm);
     const PivotedQr elastic = pivoted_qr(Ny.transpose(), interface_rank);
     const MatX P = size.asDiagonal() * (N * elastic.Q.leftCols(elastic.rank));
@@ -129,7 +129,7 @@ ReferenceModes mounted_modes(const FlexibleBody& body, const BodyMotions& motion
     append(body.K, P.bottomRows(nm), mass_of(motions.M, P, Z), modes);
   }
   modes.held = modes.mu.size();
-  // Deformations by motions of the interfaces: what is orthogonal to these in K.
+  // Deformations by motions of the interfaces: the complement orthogonal to these in K.
   const VecX s = body.K.diagonal().cwiseSqrt().cwiseInverse();
   MatX W = MatX::Identity(6 + nm, 6 + nm).rightCols(nm);
   if (modes.held > 0) {

@@ -9,7 +9,7 @@
 namespace floatframe {
 namespace {
 
-/// A mode is taken as massless below this share of the largest modal mass, unless its frequency is
+/// A mode is taken as massless below this part of the largest modal mass, unless its frequency is
 /// of a magnitude with that of the others: rounding, squared.
 constexpr double no_mass = 1e-14;
 
@@ -46,7 +46,7 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
   const MatX M_ff = modal_mass(v);
   const double top = nm > 0 ? M_ff.diagonal().maxCoeff() : 0.0;
   std::vector<Eigen::Index> massive;
-  // A mode without mass has a frequency of its own that is beyond all others.
+  // A massless mode has a separate frequency beyond all others.
   double lowest = 0.0;
   if (K.rows() == nm)
     for (Eigen::Index k = 0; k < nm; ++k)
@@ -58,7 +58,7 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
       massive.push_back(k);
   if (massive.empty() || !(v.m > 0.0)) return 1.0;
 
-  // Lengths in units of the radius of gyration, so that translations and rotations compare.
+  // Lengths in units of the radius of gyration, so that translations and rotations are comparable.
   const double l = std::sqrt(std::max(v.inertia_about_origin().trace() / v.m, 1e-300));
   MatX M = mass_matrix_at_rest(v);
   M.middleRows<3>(3) /= l;

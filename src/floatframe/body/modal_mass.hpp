@@ -1,10 +1,10 @@
 #pragma once
-// Whether the modes of a body have inertia of their own. The nodes of a coarse mesh can move in few
-// ways; modes that are as many as these, together with the rigid motions, hold combinations that
-// move no mass: the mass matrix
+// Do the modes of a body have independent inertia? The nodes of a coarse mesh have few degrees of
+// freedom; modes that are as many as these, together with the rigid motions, have massless
+// combinations: the mass matrix
 //   M = [M_rr G^T; G M_ff]     of the free rigid motions and the modes
-// is singular though every mode alone is valid. Such a model has no answer or any, so it is
-// refused.
+// is singular though every mode alone is valid. The equations of such a model have no unique
+// solution: it is rejected.
 #include "floatframe/body/inertia_invariants.hpp"
 
 namespace floatframe {
@@ -21,9 +21,9 @@ MatX mass_matrix_at_rest(const InertiaInvariants& invariants);
 
 /// Smallest eigenvalue of D^-1/2 (M_ff - G M_rr^+ G^T) D^-1/2, D the diagonal of M_ff, over the
 /// modes that have mass; 1 if there are none. Valid bodies have more than 1e-6, singular ones
-/// rounding errors. `free`: the rigid motions the body is free to make, columns (v; w) at the body
-/// origin in body axes; those without inertia (a bar about its axis) are left out. `K`: modal
-/// stiffness, which distinguishes a mode of little mass (a rotation of a small body in rad, beside
+/// round-off. `free`: the rigid motions that the body can perform, columns (v; w) at the body
+/// origin in body axes; those without inertia (a bar about its axis) are omitted. `K`: modal
+/// stiffness, which distinguishes a mode of little mass (a rotation of a small body in rad, next to
 /// displacements in m) from one without; may be empty.
 double relative_modal_mass(const InertiaInvariants& invariants, const Mat6X& free,
                            const MatX& K = MatX());

@@ -1,13 +1,13 @@
 #pragma once
-// Displacements of second order in the modal amplitudes: what stiffens a body that spins or carries
-// load. A bar that bends draws its end in; a body of any shape does the like:
+// Displacements of second order in the modal amplitudes: the cause of stiffening by spin or load.
+// A bar that bends pulls its end inwards; so does a body of any shape:
 //   u(x) = X y + 1/2 sum_j e_j (y^T h_j(x) y),   h_j symmetric, body axes
 // with the field u2 = 1/2 sum_j e_j y^T h_j y that relaxes the strains of second order of the
 // deformation X y,
 //   u2 = argmin of the strain energy of eps2(X y) + eps1(u2),  eps2 = 1/2 grad u^T grad u,
-// u2 = 0 where the body reference holds the body. What it leaves of the strain is orthogonal to all
+// u2 = 0 where the body reference holds the body. The remaining strain is orthogonal to all
 // compatible ones, so the strain energy stays 1/2 y^T K y to fourth order: stress that modes carry
-// is not counted a second time. A load f works on u2 what its stress does on eps2,
+// is not counted twice. The work of a load f on u2 is that of its stress on eps2,
 //   f . u2 = -int sigma(f) : eps2(X y) = -1/2 y^T K_sigma(f) y,
 // with the stress stiffness K_sigma of the linear static solution under f. Straight bars: theory,
 // section 8; there h_1 = -H, the foreshortening.
@@ -42,13 +42,13 @@ struct SecondOrder {
   }
 };
 
-/// Adds to S2i the second order 1/2 theta x (theta x r) of a rigid piece that turns with the modes
+/// Adds to S2i the second order 1/2 theta x (theta x r) of a rigid piece that rotates with modes
 /// `theta` (3 x nm) about its centre of mass. P = int r r^T dm.
 void add_turning(const Mat3& P, const Mat3X& theta, SecondOrder& out);
 
 /// The same in the modes X C. C: nm x new modes.
 SecondOrder combined(const SecondOrder& second_order, const MatX& C);
-/// Of the mirrored body: s holds the signs of the coordinates.
+/// For the mirrored body: s holds the signs of the coordinates.
 SecondOrder mirrored(const SecondOrder& second_order, const Vec3& s);
 
 }  // namespace floatframe

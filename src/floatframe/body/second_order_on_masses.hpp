@@ -1,5 +1,5 @@
 #pragma once
-// What of the second order enters the inertia terms of a body.
+// The part of the second order that enters the inertia terms of a body.
 #include <memory>
 
 #include "floatframe/body/flexible_body.hpp"

@@ -7,7 +7,7 @@
 namespace floatframe {
 namespace {
 
-/// Motions of points per unit of strain energy, in combinations of modes that are not seen yet.
+/// Motions of points per unit of strain energy, in combinations of modes not yet observed.
 class Hidden {
  public:
   Hidden(const FlexibleBody& body, const MatX& modes) : left_(modes), scale_(modes.cols()) {
@@ -40,7 +40,7 @@ class Hidden {
     }
     return point;
   }
-  /// Takes out the combination of modes that moves a point in one direction.
+  /// Removes the combination of modes that moves a point in one direction.
   void see(VecX direction) {
     for (const VecX& q : seen_) direction -= q.dot(direction) * q;
     const double length = direction.norm();

@@ -1,7 +1,7 @@
 #pragma once
 // A flexible body with fewer modes: amplitudes not kept are held at zero. Columns of the mode
-// shapes go, and with them rows and columns of the integrals, of stiffness and of damping; nothing
-// is computed anew, so the body behaves as if it had been reduced with the modes kept.
+// shapes are removed, and rows and columns of the integrals, of stiffness and of damping; nothing
+// is recomputed, so the body behaves as if it had been reduced with the modes kept.
 #include <vector>
 
 #include "floatframe/body/flexible_body.hpp"

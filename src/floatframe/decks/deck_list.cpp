@@ -1,4 +1,4 @@
-// What the component offers: a reader or a writer is one entry here.
+// Readers and writers of the component: one entry each.
 #include "floatframe/decks/abaqus/read_abaqus.hpp"
 #include "floatframe/decks/ansys/read_ansys.hpp"
 #include "floatframe/decks/calculix/calculix_text.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Shares of a face's area that its nodes have where a force is spread over it: in proportion to the
+// Fractions of a face's area for its nodes when a force is spread over it: in proportion to the
 // diagonal of int N N^T dA, which is positive at the corners of quadratic faces too.
 #include <Eigen/Geometry>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace floatframe {
 
-/// Of the nodes of a triangle or quadrilateral, corners first, mid-side nodes after them or none;
+/// Weights of the nodes of a triangle or quadrilateral, corners first, then mid-side nodes if any;
 /// their sum is the area. Quadrilaterals as parallelograms of the same diagonals.
 inline std::vector<double> face_weights(std::span<const Vec3> p, std::size_t nodes) {
   const bool triangle = p.size() == 3;

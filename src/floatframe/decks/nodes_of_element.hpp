@@ -1,5 +1,5 @@
 #pragma once
-// Nodes that elements of a model have.
+// Nodes used by the elements of a model.
 #include <span>
 #include <vector>
 
@@ -12,7 +12,7 @@ inline std::span<const int> nodes_of_element(const Element& e) {
   return {e.nodes.data(), static_cast<std::size_t>(element_nodes(e.type))};
 }
 
-/// Of each node: 1 if an element of a kind has it.
+/// For each node: 1 if an element of a kind has it.
 template <class Condition>
 std::vector<char> nodes_of_elements(const FeModel& model, Condition is_of_kind) {
   std::vector<char> out(model.positions.size(), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of a file that are finite, but so large that what is made of them is not.
+// Numbers of a file that are finite, but so large that results computed from them overflow.
 #include <string>
 
 #include "floatframe/fe/fe_model.hpp"

@@ -8,17 +8,17 @@ namespace floatframe {
 
 struct TemperatureRow {
   double temperature = 0.0;
-  std::vector<double> values;  ///< as many in each row
+  std::vector<double> values;  ///< equally many in each row
 };
 
 struct AtTemperature {
   std::vector<double> values;
   bool chosen = false;  ///< they depend on the temperature
-  std::string error;    ///< empty if the values are known
+  std::string error;    ///< empty if the values are valid
 };
 
-/// The values at a temperature: linear between the rows, those of the ends beyond them, as Abaqus,
-/// CalculiX and ANSYS have it. Rows whose values are the same need no temperature. At least one
+/// The values at a temperature: linear between the rows, constant beyond the ends, as in Abaqus,
+/// CalculiX and ANSYS. Rows with equal values need no temperature. At least one
 /// row; the temperatures must ascend.
 AtTemperature at_temperature(const std::vector<TemperatureRow>& rows, std::optional<double> T);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Words of a text that stays; '*' stands for any end.
+// Words of a static text; '*' matches any end.
 #include <algorithm>
 #include <string_view>
 #include <unordered_set>

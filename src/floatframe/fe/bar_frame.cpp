@@ -60,7 +60,7 @@ class FrameBuilder {
     return model_.nodes() - 1;
   }
 
-  /// The node at a point, made when a bar first ends there.
+  /// The node at a point, created when a bar first ends there.
   int end_node(const Bar& bar, const std::string& name) {
     const auto known = node_of_point_.find(name);
     if (known != node_of_point_.end()) return known->second;
@@ -74,7 +74,7 @@ class FrameBuilder {
     return node;
   }
 
-  /// The node that a bar starts at; -1 after an error.
+  /// The start node of a bar; -1 after an error.
   int first_node(const Bar& bar, const std::string& label) {
     if (bar.from_bar.empty()) return end_node(bar, bar.from);
     const auto other = nodes_of_bar_.find(bar.from_bar);
@@ -84,7 +84,7 @@ class FrameBuilder {
       return -1;
     }
     const int elements = static_cast<int>(other->second.size()) - 1;
-    if (elements <= 0) return -1;  // that bar has an error of its own
+    if (elements <= 0) return -1;  // this bar has its own error
     const int k = node_at(bar.from_fraction, elements);
     if (k >= 0) return other->second[k];
     add(ErrorCode::not_found,

@@ -1,8 +1,8 @@
 #pragma once
 // A frame of straight bars, each divided into equal 2-node beams: the convenient way to make a beam
 // model. Bars that share an end point share its node; a bar may also start at an inner node of an
-// earlier bar. Nodes are numbered along the bars in their order; end points give their names to
-// nodes.
+// earlier bar. Nodes are numbered along the bars in their order; nodes are named after end
+// points.
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +19,7 @@ struct Bar {
   double from_fraction = 0.0;  ///< ... at this fraction of its length counted from its start
   int elements = 1;
   BeamSection section;
-  Vec3 reference = Vec3::UnitZ();  ///< local y lies in the plane of the bar and this vector
+  Vec3 reference = Vec3::UnitZ();  ///< local y is in the plane of the bar and this vector
 };
 
 struct BarFrame {

@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// Along the axis of a beam at node k of `p`; of three nodes that of the quadratic shapes.
+/// Tangent of a beam at node k of `p`; with three nodes that of the quadratic shapes.
 inline Vec3 beam_tangent(const std::array<Vec3, 3>& p, int nodes, int k) {
   if (nodes == 2) return p[1] - p[0];
   if (k == 0) return -1.5 * p[0] + 2.0 * p[1] - 0.5 * p[2];
@@ -15,7 +15,7 @@ inline Vec3 beam_tangent(const std::array<Vec3, 3>& p, int nodes, int k) {
   return 0.5 * (p[2] - p[0]);
 }
 
-/// Is the direction parallel to the axis, to 1e-6, as beams refuse it? Not of axes without length.
+/// Is the direction parallel to the axis, within the limit 1e-6 of beams? Not if a length is zero.
 inline bool is_along_axis(const Vec3& tangent, const Vec3& direction) {
   const double size = tangent.stableNorm() * direction.stableNorm();
   return std::isfinite(size) && size > 0.0 && tangent.cross(direction).stableNorm() < 1e-6 * size;

@@ -7,7 +7,7 @@
 namespace floatframe {
 namespace {
 
-/// Displacement and rotation of the fields at p, 3 x 12 each. `axis`: of a beam, else zero.
+/// Displacement and rotation of the fields at p, 3 x 12 each. `axis`: that of a beam, else zero.
 void fields_at(const Vec3& p, const Vec3& axis, Mat3X& u, Mat3X& theta) {
   u = Mat3X::Zero(3, linear_load_cases);
   theta = Mat3X::Zero(3, linear_load_cases);

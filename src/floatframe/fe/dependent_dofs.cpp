@@ -18,8 +18,8 @@ using Terms = DependentDofs::Terms;
 
 std::vector<int> dofs_of_nodes(const FeModel& model);
 
-/// Resolves one dependence after the other; what it is made of is expressed at once in the dofs
-/// that are independent so far.
+/// Resolves one dependence after the other; its terms are expressed immediately in the dofs that
+/// are independent so far.
 class Resolver {
  public:
   Resolver(const FeModel& model, const DofTable& table, ErrorList& errors)
@@ -35,7 +35,7 @@ class Resolver {
     return static_cast<int>(owners_.size()) - 1;
   }
 
-  /// Terms in dofs that are independent now. What was resolved earlier may hold dofs that have
+  /// Terms in dofs that are independent now. Terms resolved earlier may contain dofs that have
   /// become dependent since.
   Terms reduce(const Terms& terms) const {
     std::map<int, double> sum;
@@ -73,8 +73,8 @@ class Resolver {
   }
 
   /// sum of terms = 0, solved for `first` if it is still free (and, unless `for_first`, its factor
-  /// not small), else for the dof with the largest factor. Nothing is left to solve if other
-  /// equations say the same.
+  /// not small), else for the dof with the largest factor. Redundant equations leave nothing to
+  /// solve.
   void add_equation(int owner, int first, bool for_first, const Terms& terms) {
     double scale = 0.0;
     for (const auto& [dof, factor] : terms) scale = std::max(scale, std::abs(factor));
@@ -98,7 +98,7 @@ class Resolver {
     owner_[dof] = owner;
   }
 
-  /// Dofs that the matrices of another program leave out.
+  /// Dofs that the matrices of another program do not contain.
   void fix_missing(const std::vector<Dof>& present) {
     std::vector<char> there(out_.dependent.size(), 0);
     const auto place = [&](const Dof& d) { return table_.begin[d.node] + d.axis; };
@@ -114,7 +114,7 @@ class Resolver {
     }
   }
 
-  /// Directions of carried nodes that no equation names: nothing moves there.
+  /// Directions of carried nodes that no equation contains: they are fixed.
   void fix_idle() {
     const std::vector<int> count = dofs_of_nodes(model_);
     std::vector<char> named(out_.dependent.size(), 0);
@@ -137,7 +137,7 @@ class Resolver {
   const SourceMark& mark() const { return mark_; }
 
  private:
-  /// Once for a node, not for each of its dofs.
+  /// Once per node, not for each of its dofs.
   void refuse(ErrorCode code, int owner, int node, int axis, const std::string& what) {
     if (refused_ != node || refused_owner_ != owner)
       errors_.add(
@@ -201,7 +201,7 @@ Mat6 mean_sums(const FeModel& model, const DofTable& table, const Spider& s, dou
   return normal;
 }
 
-/// Displacements of the nodes of a mean spider that depend on nothing yet.
+/// Displacements of the nodes of a mean spider that are not dependent yet.
 std::vector<Dof> free_dofs(const DofTable& table, const Spider& s, const Resolver& resolver) {
   std::vector<Dof> out;
   for (const int node : s.nodes)
@@ -239,7 +239,7 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   if (line && spread.vectors.col(0).head<3>().norm() > 1e-6)
     return refuse(ErrorCode::singular,
                   "its reference is off the line of its nodes, about which it turns freely");
-  // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without the turn about it.
+  // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without rotation about it.
   const int m = line ? 5 : 6;
   const MatX chosen = line ? MatX(spread.vectors.rightCols(5)) : MatX(MatX::Identity(6, 6));
   const Mat6 inverse =
@@ -329,14 +329,14 @@ std::vector<int> dofs_without_springs(const FeModel& model) {
 
 namespace {
 
-/// Degrees of freedom of each node, behind a leading 0, without those that only equations give.
+/// Degrees of freedom of each node, after a leading 0, without those that only equations give.
 std::vector<int> dofs_of_nodes(const FeModel& model) {
   std::vector<int> count = dofs_without_springs(model);
   if (!model.springs.empty()) add_spring_dofs(model, count);
   return count;
 }
 
-/// Equations carry nodes that nothing else uses (points that decks hold and drive) with the others.
+/// Equations also carry nodes without other elements (reference points of decks).
 void add_carried(const FeModel& model, std::vector<int>& count) {
   for (bool more = true; more;) {
     more = false;

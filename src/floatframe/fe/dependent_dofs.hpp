@@ -9,19 +9,19 @@
 
 namespace floatframe {
 
-/// All dofs of a model before any is eliminated: node after node, 0, 3 or 6 per node. Nodes that
-/// nothing but equations with other nodes uses have 3.
+/// All dofs of a model before any is eliminated: node after node, 0, 3 or 6 per node. Nodes used
+/// only by equations with other nodes have 3.
 struct DofTable {
   std::vector<int> begin;  ///< nodes + 1
   int size() const noexcept { return begin.back(); }
   int count(int node) const noexcept { return begin[node + 1] - begin[node]; }
-  /// -1: there is no such dof.
+  /// -1 if the dof does not exist.
   int index(int node, int axis) const noexcept {
     return axis < count(node) ? begin[node] + axis : -1;
   }
 };
 DofTable dof_table(const FeModel& model);
-/// Their number of each node, behind a leading 0, without what springs and equations need.
+/// Their number for each node, after a leading 0, without those needed by springs and equations.
 std::vector<int> dofs_without_springs(const FeModel& model);
 
 struct DependentDofs {
@@ -31,8 +31,8 @@ struct DependentDofs {
   bool any = false;
 };
 
-/// Dofs that given matrices leave out are zero. Throws InputError with every error: a dof that
-/// depends twice or on itself, dofs that do not exist, mean spiders whose nodes lie on a line.
+/// Dofs that given matrices omit are zero. Throws InputError with every error: a dof that depends
+/// twice or on itself, dofs that do not exist, mean spiders whose nodes are collinear.
 DependentDofs resolve_dependences(const FeModel& model, const DofTable& table);
 
 }  // namespace floatframe

@@ -9,7 +9,7 @@
 namespace floatframe {
 namespace {
 
-/// Of xx, yy, xy among the six, and the others.
+/// Indices of xx, yy, xy among the six, and the others.
 constexpr int in_plane[3] = {0, 1, 3}, across[3] = {2, 4, 5};
 
 Mat3 plane_of(const Mat6& D) {
@@ -185,7 +185,7 @@ std::string elasticity_error(const Mat6& D, bool plane,
     for (int j = 0; j < n; ++j)
       scaled(i, j) =
           D(order[i], order[j]) / std::sqrt(D(order[i], order[i]) * D(order[j], order[j]));
-  // Pivots of elimination: the first that is not positive names what it depends on.
+  // Pivots of the elimination: the first that is not positive identifies the constant.
   for (int k = 0; k < n; ++k) {
     if (!(scaled(k, k) > 1e-12))
       return fmt::format(

@@ -2,7 +2,7 @@
 // Elasticity matrices, sigma = D epsilon with (xx, yy, zz, xy, yz, zx) and engineering shear. In
 // axes R (columns: the axes of the material) sigma_body = T sigma, epsilon = T^T epsilon_body, so
 //   D_body = T D T^T,   T(ij, ab) = R_ia R_jb (+ R_ib R_ja of a shear)
-// Of engineering constants the compliance is
+// From engineering constants the compliance is
 //   S_11 = 1/E_1, S_12 = -nu_12/E_1, ..., S_44 = 1/G_12;   nu_ij = -epsilon_j/epsilon_i under
 //   stress along i, so nu_ji = nu_ij E_j/E_i
 // Plane stress leaves the rows and columns xx, yy, xy of the compliance, inverted.
@@ -21,7 +21,7 @@ Mat6 turned_elasticity(const Mat6& D, const Mat3& R);
 
 /// (xx, yy, xy) of plane stress in the axes of the material.
 Mat3 plane_stress(const Material& material);
-/// The same in axes from which those of the material are turned by an angle about the normal.
+/// The same in axes relative to which those of the material are rotated about the normal.
 Mat3 turned_plane(const Mat3& Q, double angle);
 
 struct EngineeringConstants {
@@ -30,24 +30,24 @@ struct EngineeringConstants {
   double G12 = 0.0, G13 = 0.0, G23 = 0.0;
 };
 Mat6 elasticity_of(const EngineeringConstants& c);
-/// What is wrong with the constants ("NU12 is 3, expected ..."); empty if they make a positive
-/// definite matrix. Of a lamina only those of its plane count, and shear across it may be 0.
+/// Error in the constants ("NU12 is 3, expected ..."); empty if they give a positive definite
+/// matrix. For a lamina only the in-plane ones count, and transverse shear may be 0.
 std::string engineering_error(const EngineeringConstants& c, bool lamina);
 
-/// Of the plane of a layer: E1, E2, nu12, G12, and the shear moduli G13 and G23 across it.
+/// In the plane of a layer: E1, E2, nu12, G12, and the transverse shear moduli G13 and G23.
 Mat6 lamina_elasticity(const EngineeringConstants& c);
-/// Of a layer: its plane Q (xx, yy, xy) and the shear moduli across it.
+/// For a layer: plane-stress matrix Q (xx, yy, xy) and the transverse shear moduli.
 Mat6 layer_elasticity(const Mat3& Q, double G13, double G23);
 
-/// What keeps a matrix from being positive definite, with the name of the constant at (i, j); empty
-/// if nothing does. `plane`: of xx, yy, xy only.
+/// Reason why a matrix is not positive definite, with the name of the constant at (i, j); empty if
+/// it is. `plane`: of xx, yy, xy only.
 std::string elasticity_error(const Mat6& D, bool plane,
                              const std::function<std::string(int i, int j)>& name);
 
 /// "D(xx, yz)"
 std::string elasticity_name(int i, int j);
 
-/// A material with a matrix; Young's modulus and Poisson's ratio to be shown follow.
+/// A material with a matrix; Young's modulus and Poisson's ratio for display follow from it.
 Material anisotropic_material(const Mat6& D, bool plane, double density);
 
 }  // namespace floatframe

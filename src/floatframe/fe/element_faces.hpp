@@ -1,5 +1,5 @@
 #pragma once
-// Faces and nodes of an element of a type, as its kernel says (element_kernel.hpp).
+// Faces and nodes of an element type, from its kernel (element_kernel.hpp).
 #include <span>
 
 #include "floatframe/fe/element_list.hpp"

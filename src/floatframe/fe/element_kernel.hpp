@@ -1,5 +1,5 @@
 #pragma once
-// What an element type must supply. A new type is one file fe/elements/<name>.cpp with its kernel
+// Interface of an element type. A new type is one file fe/elements/<name>.cpp with its kernel
 // and one entry in element_list.hpp; assembly, surfaces, checks of shapes, invariants and the
 // generic tests run over the list.
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace floatframe {
 
-/// One element's data, gathered.
+/// The data of one element, gathered.
 struct ElementInput {
   std::array<Vec3, 20> p;  ///< node positions
   Material material;
@@ -24,14 +24,14 @@ struct ElementInput {
   Integration integration = Integration::exact;
   MassForm mass_form = MassForm::consistent;
   std::optional<Orientation> orientation = {};  ///< solids: axes of the material; none: the body's
-  std::optional<ShellLayers> layers = {};       ///< shells that are not of one isotropic material
+  std::optional<ShellLayers> layers = {};       ///< shells other than of one isotropic material
   std::vector<LayupPly> plies = {};             ///< solids that have them
-  unsigned own_drilling = 0;  ///< shells: bit k: at node k its turn about its normal is its own
+  unsigned own_drilling = 0;  ///< shells, bit k: at node k independent rotation about the normal
   const Orientation* axes() const noexcept { return orientation ? &*orientation : nullptr; }
 };
 
-/// Where the stress of a load works on strains of second order, 1/2 grad u^T grad u: its share of
-/// the stress stiffness is sum_i (grad u_i)^T stress (grad u_i) (fe/stress_stiffness.hpp).
+/// A point where the stress of a load acts on second-order strains, 1/2 grad u^T grad u; its part
+/// of the stress stiffness is sum_i (grad u_i)^T stress (grad u_i) (fe/stress_stiffness.hpp).
 struct StressedPoint {
   /// 6 x dofs: stress (xx, yy, zz, xy, yz, zx) in body axes from the displacements, times the
   /// volume of the point [N m]; of a shell the membrane stress, of a beam its axial stress.
@@ -44,7 +44,7 @@ struct StressedPoint {
 /// A section of an element that moves as a rigid body, for masses that differ between directions:
 /// the element is the sum of its stations.
 struct MassStation {
-  VecX shares;  ///< of the nodes: its place is sum shares(k) p_k
+  VecX shares;  ///< weights of the nodes: its position is sum shares(k) p_k
   double mass = 0.0;
   /// Second moments of mass about its centre along the columns of `axes` (body axes) [kg m2].
   Mat3 axes = Mat3::Identity();
@@ -58,7 +58,7 @@ struct NodalPly {
   Mat6 D = Mat6::Zero();  ///< elasticity there, in body axes [Pa]
 };
 
-/// Which section an element has: a beam's (rods too), a shell's (panels and membranes too), or
+/// Kind of section of an element: a beam's (rods too), a shell's (panels and membranes too), or
 /// none.
 enum class ElementFamily { beam, shell, solid, rod, panel, membrane };
 
@@ -66,7 +66,7 @@ struct ElementKernel {
   ElementFamily family;
   int nodes;
   int dofs_per_node;  ///< 6: ux uy uz rx ry rz; 3: ux uy uz
-  /// What is wrong with the geometry or section, as the end of a sentence; empty if nothing is.
+  /// Error in the geometry or section, as the end of a sentence; empty if there is none.
   std::string (*error)(const ElementInput&);
   /// Stiffness in body axes.
   void (*stiffness)(const ElementInput&, MatX&);
@@ -78,7 +78,7 @@ struct ElementKernel {
   /// the same in all directions.
   void (*mass_stations)(const ElementInput&, std::vector<MassStation>&) = nullptr;
   /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows per node, from the
-  /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
+  /// displacements of the nodes: evaluated at the optimal points and extrapolated to the nodes.
   /// Null for beams, shells and membranes.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
   void (*stressed_points)(const ElementInput&, std::vector<StressedPoint>&) = nullptr;
@@ -86,7 +86,7 @@ struct ElementKernel {
   /// node: on the side of the normal (top), then on the other (bottom), from the displacements of
   /// the nodes.
   void (*layer_stresses)(const ElementInput&, MatX&) = nullptr;
-  /// Solids that may have plies; null: it may have none.
+  /// For solids that may have plies; else null.
   NodalPly (*nodal_ply)(const ElementInput&, int node) = nullptr;
   ElementShape shape = {};
 };
@@ -101,11 +101,11 @@ inline bool is_panel(ElementType type) noexcept { return family_of(type) == Elem
 inline bool is_membrane(ElementType type) noexcept {
   return family_of(type) == ElementFamily::membrane;
 }
-/// In FeModel::shells is its section.
+/// The section is in FeModel::shells.
 inline bool has_shell_section(ElementType type) noexcept {
   return is_shell(type) || is_panel(type) || is_membrane(type);
 }
-/// Of a shell or membrane.
+/// For a shell or membrane.
 ShellLayers layers_of(const ElementInput& in);
 
 ElementInput gather(const FeModel& model, const Element& element,

@@ -1,4 +1,4 @@
-// The list of elements at work.
+// Access to the list of elements.
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 

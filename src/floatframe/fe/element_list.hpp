@@ -1,6 +1,6 @@
 #pragma once
 // All finite elements. One entry is the enumerator of ElementType, the word of messages and the
-// name of the ElementKernel `<name>_kernel` in a source file of fe/elements. Everything else runs
+// name of the ElementKernel `<name>_kernel` in a source file of fe/elements. Other code iterates
 // over this list.
 //
 // Node order of the solids is that of Abaqus and VTK: corners first, then the mid-side nodes.

@@ -1,5 +1,5 @@
 #pragma once
-// The shape of an element as its kernel says it: faces, and the edges at each corner, by local node
+// The shape of an element, as in its kernel: faces, and the edges at each corner, by local node
 // numbers. Faces are numbered from 0 in the order of Abaqus (S1, S2, ...). Seen from outside the
 // corners run anticlockwise; then come the mid-side nodes, the first between the first two corners.
 #include <array>

@@ -1,10 +1,10 @@
 #pragma once
 // A finite-element model of one flexible body: nodes, materials, sections, elements, point masses,
 // sets, spiders; or nodes and matrices from another program. Plain data in the body frame. SI
-// units, except in what a reader of a file returns: that is in the units of the file until `to_si`.
-// In models made of bars every node has six degrees of freedom (ux uy uz rx ry rz) if there is any
-// beam or shell, else three; reductions of parts give each node what it needs. `validate` names
-// every error.
+// units, except in the result of a file reader: it has the units of the file until `to_si`.
+// In models of bars every node has six degrees of freedom (ux uy uz rx ry rz) if there is any
+// beam or shell, else three; reductions of parts give each node those that it needs. `validate`
+// reports every error.
 #include <Eigen/SparseCore>
 #include <array>
 #include <map>
@@ -22,15 +22,15 @@ namespace floatframe {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Where an entity stands in the files of a model: index in FeModel::files, line from 1.
+/// Location of an entity in the files of a model: index in FeModel::files, line from 1.
 struct FeSource {
   int file = -1;
   int line = 0;
 };
 
-/// Linear elastic: isotropic, or with an elasticity matrix in axes of its own.
+/// Linear elastic: isotropic, or with an elasticity matrix in material axes.
 struct Material {
-  double young = 0.0;    ///< E [Pa]; of one with a matrix: along its axis 1, to be shown
+  double young = 0.0;    ///< E [Pa]; with a matrix: along its axis 1, for display
   double poisson = 0.0;  ///< [-], between -1 and 0.5; with a matrix: nu_12, to be shown
   double density = 0.0;  ///< [kg/m3]
   /// Stress from strain (xx, yy, zz, xy, yz, zx; engineering shear) in the axes of the material
@@ -53,8 +53,8 @@ struct Orientation {
   Mat3 at(const Vec3& p) const;
 };
 
-/// A material whose density the file does not give: it is 0 in the model, and `validate` asks for
-/// one.
+/// A material without density in the file: it is 0 in the model, and `validate` requires that the
+/// user gives one.
 struct MissingDensity {
   FeSource source;
   double factor = 1.0;  ///< of all masses of the file (Nastran WTMASS)
@@ -68,7 +68,7 @@ struct BeamSection {
   double Iz = 0.0;  ///< bending in the local xy plane [m4]
   double J = 0.0;   ///< torsion constant [m4]
 
-  /// Its shape, which decides where its stress is looked at; unknown if only constants are given.
+  /// Its shape, which defines its stress points; unknown if only constants are given.
   enum class Outline { unknown, round, rectangle };
   Outline outline = Outline::unknown;
   double width = 0.0, height = 0.0;  ///< along local y and z [m]; round: the diameter
@@ -77,7 +77,7 @@ struct BeamSection {
   /// Shear areas of a 2-node beam: the shear forces are Vy = G shear_y gamma_xy, Vz = G shear_z
   /// gamma_xz. 0: no shear deformation (Euler-Bernoulli).
   double shear_y = 0.0, shear_z = 0.0;  ///< [m2]
-  /// Above 0: the element of linear shapes and one point with a shear stiffness softened by
+  /// Above 0: the element of linear shapes and one point with a shear stiffness reduced by
   /// 1 + slenderness L^2 A/(12 I), as Abaqus has it (0.25), in place of the exact one.
   double slenderness = 0.0;
   bool has_shear() const noexcept { return shear_y > 0.0 || shear_z > 0.0; }
@@ -91,17 +91,17 @@ struct BeamSection {
 
 struct Element {
   ElementType type = ElementType::beam2;
-  std::array<int, 20> nodes{};  ///< only the first ones are used, as the type needs
+  std::array<int, 20> nodes{};  ///< only the first ones are used, depending on the type
   int material = 0;
   int section = 0;  ///< beams, rods: in FeModel::sections; shells: in FeModel::shells
   MassForm mass_form = MassForm::consistent;
-  Vec3 reference = Vec3::UnitZ();  ///< beams: local y lies in the plane of the axis and this vector
+  Vec3 reference = Vec3::UnitZ();  ///< beams: local y is in the plane of the axis and this vector
   /// In FeModel::orientations; -1: solids have the body's axes, shells the first axis of their
-  /// material along the side 1-2. Of an orientation a shell takes the first axis, projected.
+  /// material along the side 1-2. A shell uses the first axis of an orientation, projected.
   int orientation = -1;
-  double angle = 0.0;  ///< shells: turns that axis about the normal [rad]
+  double angle = 0.0;  ///< shells: rotates that axis about the normal [rad]
   int layup = -1;      ///< solids: their plies, in FeModel::layups; -1: one material
-  /// Shells: bit k: at its node k its turn about its normal is its own, not that of the node.
+  /// Shells, bit k: the rotation about the normal at node k is independent of that of the node.
   unsigned own_drilling = 0;
   std::string name;  ///< for messages; empty: by its number
   int id = 0;        ///< the number in the user's file; 0: none
@@ -120,11 +120,11 @@ struct ShellSection {
   double thickness = 0.0;  ///< [m], of all plies
   /// Transverse shear force over a width = G shear gamma, 5/6 of the thickness of a homogeneous
   /// shell; 0: no shear deformation (thin). Of plies G is their mean.
-  /// Of a shear panel: the thickness that carries shear, 0: all.
+  /// For a shear panel: the thickness that carries shear, 0: all.
   double shear = 0.0;                ///< [m]
   double offset = 0.0;               ///< of its middle from the nodes, along the normal [m]
-  double mass = 0.0;                 ///< besides that of the materials, in the middle [kg/m2]
-  std::vector<ShellPly> plies = {};  ///< from the bottom; empty: one of the element's material
+  double mass = 0.0;                 ///< in addition to the materials, at the middle [kg/m2]
+  std::vector<ShellPly> plies = {};  ///< from the bottom; empty: one, of the element's material
   bool smeared = false;              ///< plies in no order: no coupling, D = A t^2/12
   /// Without plies: the material of bending (-1: the element's), bending stiffness over that of the
   /// thickness, and Q_c of the coupling of bending and membrane [Pa] (Nastran: MID2, 12I/T^3,
@@ -170,18 +170,18 @@ struct Spider {
   int reference = -1;           ///< node index
   std::vector<int> nodes;       ///< node indices
   std::vector<double> weights;  ///< mean: one per node; empty: all 1
-  /// Bit 0..5 = ux..rz. Rigid: dofs of the nodes that follow (nodes without rotations: bits 3..5
-  /// mean nothing). Mean: of nodes on a line, without the rotations that have a part about it: that
-  /// part is none of the spider's (`free_turns`).
+  /// Bit 0..5 = ux..rz. Rigid: dofs of the nodes that follow (bits 3..5 are ignored for nodes
+  /// without rotations). Mean: of collinear nodes, without the rotations with a component about
+  /// their line: the spider does not determine it (`free_turns`).
   unsigned mask = 63u;
-  /// CalculiX: node whose displacements 1..3 stand for the rotations of the reference in decks and
-  /// exported matrices; else -1. It has no degree of freedom of its own.
+  /// CalculiX: node whose displacements 1..3 represent the rotations of the reference in decks and
+  /// exported matrices; else -1. It has no degrees of freedom in the model.
   int rotation_node = -1;
   FeSource source;
 };
 
 /// Linear equation sum_k factor_k u(node_k, axis_k) = 0; the first term's dof depends on the
-/// others, unless it depends on another equation already: then one of the others does.
+/// others, unless it already depends on another equation: then another term's dof is dependent.
 struct LinearEquation {
   struct Term {
     int node = -1, axis = 0;
@@ -189,12 +189,12 @@ struct LinearEquation {
   };
   std::vector<Term> terms;
   FeSource source;
-  /// Solved for its first term however small its factor: a rotation that follows displacements,
+  /// Solved for its first term even if its factor is small: a rotation that follows displacements,
   /// whose factors are of another unit.
   bool for_first = false;
 };
 
-/// A support in the user's file. Not applied: a hint where the part is held.
+/// A support in the user's file. Not applied: a hint for the interfaces of the part.
 struct Support {
   int node = -1;
   unsigned mask = 0;  ///< bit 0..5 = ux..rz
@@ -211,12 +211,12 @@ struct Dof {
   int node = -1, axis = 0;
 };
 
-/// Stiffness and mass made by another program, in place of elements.
+/// Stiffness and mass from another program, in place of elements.
 struct FeMatrices {
   SparseMatrix K, M;      ///< symmetric, both halves stored
   std::vector<Dof> dofs;  ///< of each row
   SparseMatrix C = {};    ///< viscous damping; 0 x 0: none given
-  /// Nodes, ascending, that are no points: their row rx is the amplitude of a mode, at rest in a
+  /// Nodes, ascending, that are not points: their row rx is the amplitude of a mode, at rest in a
   /// rigid motion.
   std::vector<int> scalars = {};
   bool is_scalar(int node) const;
@@ -235,12 +235,12 @@ struct FeModel {
   std::vector<PointMass> masses;
   std::vector<Spring> springs;
 
-  // What imported models have besides. Sets keep the order of the file; names as in the file
+  // Additional data of imported models. Sets keep the order of the file; names as in the file
   // (Abaqus: upper case).
   std::vector<int> node_ids;           ///< the user's numbers; empty: index + 1
   std::vector<FeSource> node_sources;  ///< same length as positions, or empty
-  /// Of the nodes those that no line of the file gives, but its reader made: ends of bars beside
-  /// their nodes or with hinges, places of masses, middles of edges. Ascending.
+  /// Nodes that are not defined in the file but generated by its reader: ends of bars offset from
+  /// their nodes or with hinges, locations of masses, middles of edges. Ascending.
   std::vector<int> generated_nodes;
   std::vector<std::string> material_names;
   std::map<int, MissingDensity> without_density;  ///< by the index of the material
@@ -251,10 +251,10 @@ struct FeModel {
   std::vector<LinearEquation> equations;
   std::vector<Support> supports;
   std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
-  std::map<int, Mat3> axes_of_rows;    ///< of nodes whose rows in matrices have others: u = R u_row
-  std::string units;                   ///< that its numbers were in, by `to_si`; empty: not known
+  std::map<int, Mat3> axes_of_rows;    ///< nodes whose matrix rows have other axes: u = R u_row
+  std::string units;                   ///< units before `to_si`; empty: unknown
   std::vector<std::string> files;      ///< paths as the user would write them
-  std::vector<std::string> notes;      ///< one sentence each, with file:line: what was ignored
+  std::vector<std::string> notes;      ///< one sentence each, with file:line: ignored items
 
   int nodes() const noexcept { return static_cast<int>(positions.size()); }
   int places() const noexcept;  ///< nodes that are points
@@ -273,8 +273,8 @@ struct FeModel {
 };
 
 /// Throws InputError with the errors, at most 20 of a kind: indices out of range, non-physical
-/// materials, sections and masses, degenerate or inverted elements, spiders, equations and matrices
-/// that do not make sense.
+/// materials, sections and masses, degenerate or inverted elements, spiders, equations
+/// and matrices that are inconsistent.
 void validate(const FeModel& model);
 
 /// Stiffness, (dofs_per_node n)^2.

@@ -50,7 +50,7 @@ SparseRows rows_of_nodes(const SparseRows& T, const DofTable& table, int axis) {
   return out;
 }
 
-/// Independent and dependent dofs apart: u_f = q, u_d = T_d q.
+/// Separates independent and dependent dofs: u_f = q, u_d = T_d q.
 struct Split {
   std::vector<int> free, slave;  ///< place of each dof among its kind, else -1
   int free_count = 0, slave_count = 0;

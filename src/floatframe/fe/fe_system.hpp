@@ -1,13 +1,13 @@
 #pragma once
 // Equations of a finite-element model with spiders and linear equations eliminated: u = T q, K =
 // T^T K_e T, M = T^T M_e T. A node has three degrees of freedom, six if it belongs to a beam or
-// shell, is the reference of a spider or carries a rotary inertia, none if nothing uses it.
-// Dependent dofs have no row of their own. Models given by matrices keep those matrices' dofs.
+// T^T K_e T, M = T^T M_e T. A node has three degrees of freedom, six if it belongs to a beam or
+// Dependent dofs have no row. Models given by matrices keep those matrices' dofs.
 //   rigid spider  u_i = u_r + theta_r x (x_i - x_r)
 //   mean spider   u_r, theta_r = weighted least squares of the u_i: six dofs of the nodes (chosen
 //                 by pivoting) depend on q_r and the other dofs of the nodes
-// Load time: allocates and throws InputError (a node that depends twice, an RBE3 whose nodes lie on
-// a line, ...).
+// Load time: allocates and throws InputError (a node that depends twice, an RBE3 with collinear
+// nodes, ...).
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
@@ -48,8 +48,8 @@ struct PointArm {
 /// its static moments and its inertia exactly. Elements whose mass differs between directions
 /// (Hermite beams) are sums of stations (ElementKernel::mass_stations): each adds its centre and a
 /// point on an arm for each of its second moments. So kinetic energy is that of the system.
-/// Matrices of another program may differ between directions too; M_s is made of the mean of the
-/// three there, and `anisotropy` says how far off that is.
+/// Matrices of another program may differ between directions too; M_s is the mean of the
+/// three there, and `anisotropy` is the resulting deviation.
 struct PointModel {
   Mat3X p;                  ///< 3 x N positions
   SparseRows M_s;           ///< N x N
@@ -60,12 +60,12 @@ struct PointModel {
   // Displacements of second order.
   SparseRows rotations;        ///< 3r x n
   std::vector<PointArm> arms;  ///< ascending; a point that is fixed to several has several
-  /// Of points that belong to solids, rods or membranes as well and are bent by these: a share of
+  /// For points that also belong to solids, rods or membranes and are bent by these: a part of
   /// geometric stiffening.
   std::vector<PointArm> strained_arms;
   std::vector<PointArm> followers;  ///< of nodes that are fixed to other nodes (rigid_leaders)
 };
-/// Below it is the rounding of numbers in files.
+/// Smaller values are rounding of numbers in files.
 inline constexpr double least_anisotropy = 1e-9;
 
 PointModel point_model(const FeModel& model, const FeSystem& system,

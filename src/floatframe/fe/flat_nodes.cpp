@@ -8,7 +8,7 @@
 namespace floatframe {
 namespace {
 
-/// Directions that an element resists at its nodes, as a projection.
+/// Directions of the stiffness of an element at its nodes, as a projection.
 Mat3 resisted(const ElementInput& in, const ElementKernel& kernel) {
   if (kernel.family == ElementFamily::rod) {
     const Vec3 axis = (in.p[1] - in.p[0]).normalized();
@@ -47,7 +47,7 @@ std::string flat_nodes(const FeModel& model) {
   }
   for (const LinearEquation& equation : model.equations)
     for (const LinearEquation::Term& term : equation.terms) hold(term.node);
-  // Planes that differ by less than 1e-4 are one: Nastran's AUTOSPC takes 1e-8 of the stiffness.
+  // Planes closer than 1e-4 are treated as equal: Nastran's AUTOSPC takes 1e-8 of the stiffness.
   constexpr double least = 1e-8;
   int count = 0, first = -1;
   for (int k = 0; k < model.nodes(); ++k) {

@@ -5,8 +5,8 @@
 
 namespace floatframe {
 
-/// Nodes that only membranes, panels and rods hold, all of these in one plane or line: nothing
-/// resists motions across it. A sentence that names the first; empty if there is none.
+/// Nodes connected only to membranes, panels and rods that are all in one plane or line: motion
+/// across it has no stiffness. A sentence with the first of them; empty if there is none.
 std::string flat_nodes(const FeModel& model);
 
 }  // namespace floatframe

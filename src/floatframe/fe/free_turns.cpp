@@ -17,14 +17,14 @@
 namespace floatframe {
 namespace {
 
-/// Squares of widths: what is narrower than 1e-5 of its length is a line.
+/// Squares of widths: a cloud narrower than 1e-5 of its length is a line.
 constexpr double line_width = 1e-10;
 
-/// Nodes that turn together.
+/// Nodes that rotate together.
 struct TurningGroup {
   std::vector<int> nodes;
   std::vector<int> points;  ///< whose places matter: something moves them, or they move something
-  bool held = false;        ///< something may resist its turn
+  bool held = false;        ///< its rotation may have stiffness
   bool bars = false;
   std::string label;
   FeSource source;
@@ -106,7 +106,7 @@ class TurningGroups {
         if (node == s.reference || (turns(node) && all_turns(s))) continue;
         g.points.push_back(node);
         if (!turns(node)) continue;
-        add_point(node);  // a reference of its own, carried by this one
+        add_point(node);  // a separate reference, carried by this one
         if ((s.mask & 56u) != 0u) hold(node), g.held = true;
       }
     }
@@ -169,8 +169,8 @@ void ascending_once(std::vector<int>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-/// A node of the elements that holds the group, and those around it that show how they turn: none
-/// that a spider ties, whose motion may come from another such turn.
+/// A node of the elements that holds the group, and those around it that define its rotation: none
+/// that is tied by a spider, whose motion may come from another such rotation.
 bool find_holder(const FeModel& model, const std::vector<std::vector<int>>& elements,
                  const std::vector<char>& tied, const TurningGroup& group, FreeTurn& turn) {
   const auto carried = [&](int k) {
@@ -195,7 +195,7 @@ bool find_holder(const FeModel& model, const std::vector<std::vector<int>>& elem
   return false;
 }
 
-/// The node whose rotation is not that of another one: no rigid spider moves it.
+/// The node with an independent rotation: no rigid spider moves it.
 int leading_node(const FeModel& model, const std::vector<char>& follows,
                  const std::vector<int>& group) {
   for (const int k : group)
@@ -203,7 +203,7 @@ int leading_node(const FeModel& model, const std::vector<char>& follows,
   return -1;
 }
 
-/// Whose translation or rotation a rigid spider decides.
+/// Nodes whose translation or rotation is prescribed by a rigid spider.
 std::vector<char> followers(const FeModel& model) {
   std::vector<char> out(model.positions.size(), 0);
   for (const Spider& s : model.spiders)
@@ -232,7 +232,7 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
     if (size(1) > line_width * size(2)) continue;
     FreeTurn turn;
     turn.group = group.nodes;
-    // Of everything that turns, to tell a point from a line.
+    // Of all nodes that rotate, to distinguish a point from a line.
     for (const int k : group.nodes)
       turn.length =
           std::max(turn.length, (model.positions[k] - model.positions[group.points[0]]).norm());

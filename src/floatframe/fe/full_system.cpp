@@ -12,20 +12,20 @@ namespace floatframe {
 namespace {
 
 /// Assembly of large symmetric matrices from blocks of nodes: the pattern (which nodes share an
-/// element) is made once, element matrices are added in place.
+/// element) is built once, element matrices are added in place.
 class BlockAssembly {
  public:
   /// `blocks`: nodes that share stiffness without an element.
   BlockAssembly(const FeModel& model, const DofTable& table,
                 std::span<const SpringBlock> blocks = {});
 
-  /// Element matrix with d dofs per node, as the kernels make it.
+  /// Element matrix with d dofs per node, as returned by the kernels.
   void add(const int* nodes, int count, int d, const MatX& matrix);
   /// Scalar mass of an element, times the identity of the translations.
   void add_scalar(const int* nodes, int count, const MatX& scalar);
   /// Single entry.
   void add(Dof row, Dof column, double value);
-  /// Entries that are exactly zero are left out. Ends the assembly.
+  /// Entries that are exactly zero are omitted. Ends the assembly.
   SparseMatrix finish();
 
  private:
@@ -37,7 +37,7 @@ class BlockAssembly {
   SparseMatrix matrix_;
 };
 
-/// Elements, then blocks: what has nodes in common.
+/// Elements, then blocks: groups of coupled nodes.
 class NodeGroups {
  public:
   NodeGroups(const FeModel& model, std::span<const SpringBlock> blocks) : model_(model) {

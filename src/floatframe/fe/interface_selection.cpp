@@ -159,7 +159,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   for (int k = 0; k < model.nodes(); ++k) {
     if (used[k] == 0) continue;
     const double d = distance(c, axis, node_position(model, k));
-    if (d < (1.0 - 1e-9) * least) least = d, best = k;  // of equal ones the first
+    if (d < (1.0 - 1e-9) * least) least = d, best = k;  // first of equal ones
     if (d <= tolerance) nodes.push_back(k);
   }
   if (best < 0)
@@ -175,7 +175,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
 }
 
 /// Smallest width of the cloud of nodes against its largest but one: on a line if tiny.
-/// The direction of the line if the nodes lie on one.
+/// The direction of the line if the nodes are collinear.
 std::optional<Vec3> line_of(const FeModel& model, const std::vector<int>& nodes) {
   Vec3 centre = Vec3::Zero();
   for (const int node : nodes) centre += node_position(model, node);
@@ -243,7 +243,7 @@ void name_node(FeModel& model, int node, const std::string& name) {
   model.node_names[node] = name;
 }
 
-/// What a node without rotations belongs to; bars without a torsion constant are rods and springs.
+/// Elements of a node without rotations; bars without a torsion constant are rods and springs.
 const char* elements_without_rotations(const FeModel& model, int node) {
   bool rods = false, solids = false, membranes = false;
   for (const Element& e : model.elements) {
@@ -259,7 +259,7 @@ const char* elements_without_rotations(const FeModel& model, int node) {
   return rods ? "rods (bars whose I1, I2 or J is 0 are rods)" : "no element that turns";
 }
 
-/// A node that has six dofs of its own, or one alone.
+/// A node that has six dofs, or a single node.
 std::optional<int> existing_reference(const FeModel& model, const InterfaceDescription& d,
                                       const DofTable& table, const std::vector<int>& nodes) {
   std::vector<int> sorted = nodes;

@@ -1,5 +1,5 @@
 #pragma once
-// Places on a part where it is held, driven or watched: chosen nodes, tied to one reference point.
+// Interfaces of a part, to hold, drive or observe it: chosen nodes, tied to one reference point.
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace floatframe {
 
-/// Which nodes. Exactly one of the ways is used. Lengths in SI.
+/// Selection of nodes. Exactly one of the criteria is used. Lengths in SI.
 struct NodeChoice {
   enum class By {
     set,       ///< node set, physical group or element set (its nodes); or surface
@@ -37,18 +37,18 @@ struct InterfaceDescription {
   unsigned mask = 63u;  ///< the dofs of the interface, bit 0..5 = ux..rz
 };
 
-/// Nodes of a choice in a valid model, in ascending order (sets: their own order); those that a
-/// reader made (`FeModel::generated_nodes`) have a number, but no place. Throws InputError if there
-/// are none, naming what was looked for and what there is (sets with did-you-mean; the distance of
-/// the nearest node).
+/// Nodes of a choice in a valid model, in ascending order (sets: their own order); nodes generated
+/// by a reader (`FeModel::generated_nodes`) have a number, but no position. Throws InputError if
+/// there are none, with the selection and what is available (sets with did-you-mean; the distance
+/// of the nearest node).
 std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice);
 
 /// Adds a reference node and a spider to the model and returns the index of the reference node,
-/// whose name is the interface's. A choice of one node that has rotations (of a beam, or the
+/// named after the interface. A choice of one node that has rotations (of a beam, or the
 /// reference of a spider in the deck) is itself the reference; so is the reference of a deck's
-/// spider over the same nodes, of whatever kind. One node of a solid: itself, with three dofs
-/// (`mask` must say so: at most bits 0..2). Throws InputError: fewer than three nodes, nodes on a
-/// line, a node that belongs to another spider.
+/// spider over the same nodes, of any kind. One node of a solid: itself, with three dofs (`mask`
+/// must agree: at most bits 0..2). Throws InputError: fewer than three nodes, collinear nodes, a
+/// node that belongs to another spider.
 int add_interface(FeModel& model, const InterfaceDescription& interface);
 
 }  // namespace floatframe

@@ -1,8 +1,8 @@
 #pragma once
-// What the isoparametric solid elements share. Displacement u = sum_a N_a(xi) u_a, geometry with
+// Common parts of isoparametric solid elements. Displacement u = sum_a N_a(xi) u_a, geometry with
 // the same functions; H = int g g^T dV of the stacked gradients g_a = dN_a/dx gives
 //   K_ab = lambda H_ab + mu (H_ab^T + tr(H_ab) I),   M_ab = int rho N_a N_b dV I;
-// of a material that is not isotropic K = int B^T D B dV, with its axes at each point. Of an
+// for anisotropic materials K = int B^T D B dV, with the material axes at each point. For an
 // element of plies (fe/layup.hpp) all are sums of integrals over the plies.
 #include <array>
 #include <string>
@@ -28,7 +28,7 @@ struct SampledRule {
 };
 SampledRule sample(int nodes, ShapeFunctions functions, const QuadratureRule& rule);
 
-/// Where strains are taken, and how they are carried to the nodes: a least-squares fit of a few
+/// Sampling points of the strains and extrapolation to the nodes: a least-squares fit of a few
 /// smooth functions.
 struct StressRule {
   QuadratureRule points;

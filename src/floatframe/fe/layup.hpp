@@ -37,7 +37,7 @@ Mat6 ply_elasticity(const LayupPly& ply, const Mat3& J, const Orientation* orien
 /// Index of the ply at t; between two plies the lower one.
 int ply_at(const std::vector<LayupPly>& plies, double t);
 
-/// What is wrong with a layup; empty if nothing is.
+/// Error in a layup; empty if there is none.
 std::string layup_error(const Layup& layup, const std::vector<Material>& materials);
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// Errors of a model, of which one mistake may make thousands.
+// Errors of a model, where one mistake may cause thousands.
 #include <fmt/format.h>
 
 #include <map>

@@ -57,7 +57,7 @@ void mass_matrix(const ElementKernel& kernel, const ElementInput& in, bool secti
   for (int a = 0; a < kernel.nodes; ++a) out.block<3, 3>(d * a, d * a).diagonal().setConstant(m(a));
   if (d == 3 || !section_inertia) return;
   if (kernel.family == ElementFamily::shell && in.mass_form == MassForm::lumped) {
-    // Rotary inertia, and of shells beside their nodes the static moment.
+    // Rotary inertia, and for shells offset from their nodes the static moment.
     MatX M, M_s;
     kernel.mass(in, true, M);
     kernel.scalar_mass(in, M_s);

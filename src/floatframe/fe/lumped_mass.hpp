@@ -1,10 +1,10 @@
 #pragma once
-// Mass of an element as Element::mass_form says. Lumped, with the scalar mass M_s = int N N^T dm:
+// Mass of an element by Element::mass_form. Lumped, with the scalar mass M_s = int N N^T dm:
 //   m_a = sum_b M_s(a, b)                        elements without nodes on their edges
 //   m_a = M_s(a, a) sum(M_s) / trace(M_s)        with them (Hinton, Rock, Zienkiewicz 1976), where
 //                                                sums of rows may be negative
-// and the rotary inertia of a node m_a times that of a unit of mass: of a beam T diag(Iy + Iz, Iy,
-// Iz) T^T / A, of a shell that of its thickness. Mass and centre of mass are exact for elements
+// and the rotary inertia of a node m_a times that of a unit mass: for a beam T diag(Iy + Iz, Iy,
+// Iz) T^T / A, for a shell that of its thickness. Mass and centre of mass are exact for elements
 // whose rows are summed, the total for all; moments of inertia are those of the masses at the
 // nodes, larger than those of the body by a part that falls with the square of the elements' size
 // (a bar as one element: m L^2/4 about its middle in place of m L^2/12).

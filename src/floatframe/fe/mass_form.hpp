@@ -2,11 +2,11 @@
 
 namespace floatframe {
 
-/// How the mass of an element is spread.
+/// Distribution of the mass of an element.
 enum class MassForm {
   consistent,  ///< int rho N N^T dV of its shape functions
   lumped,      ///< at its nodes, with the rotary inertia of sections and thicknesses
-  /// At its nodes as masses without rotary inertia, but of beams that about their own axis.
+  /// At its nodes as masses without rotary inertia, except about the axis of beams.
   lumped_without_rotation
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What in a finite-element model is suspicious but not wrong, and its volume: for health reports.
+// Suspicious properties of a finite-element model, and its volume: for health reports.
 // The model must be valid (`validate`).
 #include <string>
 #include <vector>
@@ -15,18 +15,18 @@ double corner_quality(const FeModel& model, const Element& element);
 /// Longest over shortest edge (straight); 1 for beams.
 double aspect_ratio(const FeModel& model, const Element& element);
 
-/// Badly shaped elements, worst first with their numbers: corner quality below 0.01, aspect ratio
-/// above 20. At most one sentence of each kind, naming five elements.
+/// Badly shaped elements with their numbers, worst first: corner quality below 0.01, aspect ratio
+/// above 20. At most one sentence of each kind, listing five elements.
 std::vector<std::string> shape_warnings(const FeModel& model);
 
 /// Nodes that no element, point mass, spider, equation or matrix uses, ascending.
 std::vector<int> unreferenced_nodes(const FeModel& model);
 
-/// Everything suspicious, one sentence each: shapes, materials in use without density, nodes that
-/// nothing uses, elements on the same nodes.
+/// All suspicious properties, one sentence each: shapes, materials in use without density, unused
+/// nodes, elements on the same nodes.
 std::vector<std::string> model_warnings(const FeModel& model);
 
-/// Of the elements [m3]: beams A L, shells area times thickness.
+/// Of all elements [m3]: beams A L, shells area times thickness.
 double volume(const FeModel& model);
 /// Volume times density and point masses [kg].
 double volume_times_density(const FeModel& model);

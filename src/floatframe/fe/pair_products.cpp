@@ -5,13 +5,13 @@
 namespace floatframe {
 namespace {
 
-/// Points whose products are gathered for one dense product.
+/// Points whose products are collected for one dense product.
 constexpr Eigen::Index batch = 48;
 
 /// Six columns (xx, yy, zz, xy, yz, zx) of all pairs.
 void products(const MatX& g, Eigen::Ref<MatX> P) {
   constexpr int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-  const MatX rows = g.transpose();  // a mode's neighbours lie next to each other
+  const MatX rows = g.transpose();  // entries of one mode are contiguous
   const Eigen::Index fields = g.rows() / 3;
   for (int c = 0; c < 6; ++c) {
     const int j = at[c][0], k = at[c][1];

@@ -1,6 +1,6 @@
 #pragma once
-// Sections of beams made of rectangles ("plates") with sides along y and z, which touch and do not
-// overlap: I, L, T, channels, boxes, hats.
+// Sections of beams composed of rectangles ("plates") with sides along y and z, which touch and do
+// not overlap: I, L, T, channels, boxes, hats.
 #include <Eigen/Core>
 #include <span>
 
@@ -11,7 +11,7 @@ struct SectionPlate {
   double height = 0.0, width = 0.0;  ///< along y, along z [m]
 };
 
-/// Sums over the plates, exact but for J:
+/// Sums over the plates, exact except for J:
 ///   A = sum b h,  Iz = sum (b h^3/12 + b h y^2),  Iy = sum (h b^3/12 + b h z^2),
 ///   Iyz = sum b h y z with y, z of the plates' centres from the centroid
 struct PlateSums {

@@ -53,7 +53,7 @@ struct PointMasses {
     P = 0.5 * rotary.trace() * Mat3::Identity() - rotary.transpose();
   }
 
-  /// What of the block is not represented, as a mass: rotations times h.
+  /// The part of the block that is not represented, as a mass: rotations times h.
   double deviation(const Mat6& M, double h) const {
     Mat6 D = Mat6::Zero();  // M_rr is exact
     D.topLeftCorner<3, 3>() = M.topLeftCorner<3, 3>() - mu * Mat3::Identity();
@@ -63,8 +63,8 @@ struct PointMasses {
   }
 };
 
-/// Length of the arms that carry rotary inertia: about the size of the part, so that no digits are
-/// lost whatever that is; a power of two, so that a part about 1 m large has arms of 1 m.
+/// Length of the arms that carry rotary inertia: about the size of the part, which preserves
+/// accuracy at any size; a power of two, so that a part about 1 m large has arms of 1 m.
 double arm_length(const FeModel& model) {
   Eigen::AlignedBox3d box;
   for (const Element& e : model.elements)
@@ -75,8 +75,8 @@ double arm_length(const FeModel& model) {
   return size > 0.0 ? std::exp2(std::round(std::log2(size))) : 1.0;
 }
 
-/// Where the three points on the arms of each node begin, behind those of the nodes: only nodes
-/// whose rotation carries mass have them; -1 without.
+/// Index of the first of the three points on the arms of each node, after those of the nodes: only
+/// nodes with rotary mass have them; -1 otherwise.
 std::vector<int> arm_points(const DofTable& table, const SparseMatrix& M, int nodes, int& points) {
   std::vector<int> extra(nodes, -1);
   points = nodes;
@@ -94,7 +94,7 @@ std::vector<int> arm_points(const DofTable& table, const SparseMatrix& M, int no
   return extra;
 }
 
-/// Scalar masses between the points of nodes a and b, that of the nodes themselves last.
+/// Scalar masses between the points of nodes a and b, last that of the nodes themselves.
 void add_masses(const PointMasses& m, int a, int b, int ea, int eb, Triplets& masses) {
   double rest = m.mu;
   for (int l = 0; l < 3 && eb >= 0; ++l) {
@@ -123,7 +123,7 @@ void add_rows(const SparseRows& from, int node, const Mat3& factor, int row, Tri
           to.emplace_back(row + i, static_cast<int>(it.col()), factor(i, j) * it.value());
 }
 
-/// What turns, and what is fixed to it.
+/// Rotating nodes, and those fixed to them.
 class Turning {
  public:
   Turning(const FeModel& model, const FeSystem& system, PointModel& out)
@@ -139,7 +139,7 @@ class Turning {
     }
   }
 
-  /// Of a node; -1: it has none.
+  /// Index for a node; -1: none.
   int rotation_of(int node) {
     while (leaders_[node] >= 0 && turn_alike(system_, node, leaders_[node])) node = leaders_[node];
     int& rotation = rotation_[node];
@@ -162,7 +162,7 @@ class Turning {
   void add(int point, int rotation, const Vec3& arm) {
     if (rotation >= 0) add_to(out_.arms, point, rotation, arm);
   }
-  /// What a point has of the node that it moves with, which may be fixed to others.
+  /// Motion of a point from the node that it moves with, which may be fixed to others.
   void add_fixed(int point, int node, double share) {
     std::vector<PointArm>& to = strained_[node] != 0 ? out_.strained_arms : out_.arms;
     each_leader(node,
@@ -190,7 +190,7 @@ class Turning {
     }
   }
 
-  /// Points come one after the other.
+  /// Points are visited in order.
   static void add_to(std::vector<PointArm>& arms, int point, int rotation, const Vec3& arm) {
     for (auto it = arms.rbegin(); it != arms.rend() && it->point == point; ++it)
       if (it->rotation == rotation) {

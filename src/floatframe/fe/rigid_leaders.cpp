@@ -77,7 +77,7 @@ std::vector<int> rigid_leaders(const FeModel& model, const FeSystem& system) {
   std::vector<int> leaders(model.positions.size(), -1);
   if (model.spiders.empty() && model.equations.empty()) return leaders;
   const std::vector<std::vector<int>> followers = candidates(model, system);
-  // From those that depend on nothing outwards.
+  // From the independent ones outwards.
   std::vector<int> next;
   for (int k = 0; k < model.nodes(); ++k)
     if (!followers[k].empty() && !is_dependent(system, k)) next.push_back(k);

@@ -1,10 +1,10 @@
 #pragma once
-// Nodes that are fixed rigidly to another node: by rigid spiders, or by equations as readers write
-// them for rigid elements and for ends of bars beside their nodes. To first order
+// Nodes that are fixed rigidly to another node: by rigid spiders, or by the equations that readers
+// generate for rigid elements and for ends of bars offset from their nodes. To first order
 //   u_k = u_r + theta_r x (x_k - x_r)
-// and to second order node k has beside the displacement of its leader r
+// and to second order node k has in addition to the displacement of its leader r
 //   1/2 theta_r x (theta_r x (x_k - x_r)).
-// Nodes that follow in some directions only, or several nodes at once (RBE3), are not fixed.
+// Nodes that follow only in some directions, or several nodes at once (RBE3), are not fixed.
 #include "floatframe/fe/fe_system.hpp"
 
 namespace floatframe {

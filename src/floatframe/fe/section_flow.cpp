@@ -12,9 +12,9 @@ namespace floatframe {
 namespace {
 
 constexpr double thinnest = 1e-4;   ///< wall, of the size of the section
-constexpr double same_edge = 1e-5;  ///< edges nearer than this are one
+constexpr double same_edge = 1e-5;  ///< closer edges are merged
 
-/// Edges of all plates along one axis, those that are nearly at one place once.
+/// Edges of all plates along one axis, without duplicates within `same_edge`.
 std::vector<double> plate_edges(std::span<const SectionPlate> plates, bool along_y) {
   std::vector<double> all;
   for (const SectionPlate& p : plates) {
@@ -118,7 +118,7 @@ class SectionGrid {
         loads.row(row) += load.row(a);
         for (int b = 0; b < 9; ++b) {
           const int column = numbers_[place(i, j, b)];
-          // Node 0 is held: w and f are known but for a constant.
+          // Node 0 is held: w and f are determined up to a constant.
           if (row > 0 && column > 0) entries.emplace_back(row - 1, column - 1, K(a, b));
         }
       }
@@ -141,7 +141,7 @@ class SectionGrid {
   }
 
  private:
-  /// int (w,y - z)^2 + (w,z + y)^2: of thin walls Iy + Iz - int |grad w|^2 would leave nothing but
+  /// int (w,y - z)^2 + (w,z + y)^2: for thin walls Iy + Iz - int |grad w|^2 would be only
   /// rounding.
   double torsion(const VecX& warping, const PlateSums& s) const {
     constexpr double gauss = 0.7745966692414834;  // sqrt(3/5)

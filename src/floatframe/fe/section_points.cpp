@@ -37,7 +37,7 @@ std::vector<SectionPoint> round_points(const BeamSection& s) {
   return out;
 }
 
-/// Of a rectangle 2 a along y and 2 b along z at the middles of its sides, per G theta': -tau_xy at
+/// In a rectangle 2 a along y and 2 b along z at the middles of its sides, per G theta': -tau_xy at
 /// z = b and tau_xz at y = a.
 struct Torsion {
   double at_b = 0.0, at_a = 0.0;
@@ -58,7 +58,7 @@ std::vector<SectionPoint> rectangle_points(const BeamSection& s) {
   const double a = 0.5 * s.width, b = 0.5 * s.height;
   const Torsion torsion(a, b);
   std::vector<SectionPoint> out;
-  // Corners and middles in turn, from +y on towards +z.
+  // Corners and middles in order, from +y on towards +z.
   constexpr int at[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
   for (const auto& [i, j] : at) {
     SectionPoint p = bent(s, i * a, j * b);

@@ -24,7 +24,7 @@ Eigen::Matrix2d across_plane(const Material& m) {
   return out;
 }
 
-/// In axes from which those of `H` are turned by an angle.
+/// In axes relative to which those of `H` are rotated by an angle.
 Eigen::Matrix2d turned_shear(const Eigen::Matrix2d& H, double angle) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(angle).toRotationMatrix();
   return R * H * R.transpose();
@@ -45,7 +45,7 @@ Eigen::Matrix2d mean_shear(const ShellSection& section, const Material& material
   return out;
 }
 
-/// Of one material through the thickness, with those of bending and coupling.
+/// One material through the thickness, with separate ones for bending and coupling.
 void homogeneous(const ShellSection& section, const Material& material,
                  const std::vector<Material>& materials, ShellLayers& out) {
   const double t = section.thickness;

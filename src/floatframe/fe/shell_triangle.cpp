@@ -4,11 +4,11 @@
 // and beta_0 = max((1 - 4 nu^2)/2, 0.01), the values of that paper; 0.01 keeps the drilling
 // stiffness positive as nu nears 1/2. Plate: discrete Kirchhoff triangle of Batoz, Bathe and Ho
 // (1980); with transverse shear the discrete Kirchhoff-Mindlin triangle of Katili (1993), which
-// becomes the former as the thickness falls: the rotation along side k exceeds the linear one by
+// converges to the former as the thickness falls: the rotation along side k exceeds the linear by
 // 4 xi (1 - xi) D_k, with the length l and phi_k = 12 D/(G s l^2), D = E h^3/(12 (1 - nu^2)),
 //   D_k = -(3/2 (w_j - w_i)/l + 3/4 (beta_i + beta_j))/(1 + phi_k),  gamma_k = -2/3 phi_k D_k
 // constant shear strains gamma_k of the sides, at a corner those of its two sides, linear between.
-// Of a section with A, B, D (fe/shell_layers.hpp) E h is A, the plate has D, in phi_k that of the
+// For a section with A, B, D (fe/shell_layers.hpp) E h is A, the plate has D, in phi_k that of the
 // side's direction, and the mean membrane strain e = L^T u/S (S: area, h = 1) and the mean
 // curvature k are coupled, e^T B k S. The middle of the thickness moves with the nodes,
 // u + theta x z_0 n. Mass: linear displacements, rotary inertia of the thickness, none about the
@@ -46,8 +46,8 @@ Plane flatten(const std::array<Vec3, 3>& p, const Mat3& R) {
   return t;
 }
 
-/// Forces of the corners (u, v, rz) from constant membrane forces over length. Each side has a pair
-/// of moments at its ends, by which neighbours balance; one with an end of own drilling has none.
+/// Forces of the corners (u, v, rz) from constant membrane forces per length. Each side has a pair
+/// of end moments that balance neighbours; a side with an end of independent drilling has none.
 Eigen::Matrix<double, 9, 3> lumping(const Plane& t, unsigned own_drilling) {
   constexpr double alpha = 1.5;
   const auto own = [&](int corner) { return ((own_drilling >> corner) & 1u) != 0; };
@@ -71,7 +71,7 @@ Eigen::Matrix<double, 9, 3> lumping(const Plane& t, unsigned own_drilling) {
   return 0.5 * L;
 }
 
-/// The higher-order membrane strains, which the drilling rotations turn on: at corner i 3/2 Te Q_i
+/// The higher-order membrane strains, driven by the drilling rotations: at corner i 3/2 Te Q_i
 /// T of (u, v, rz), xx, yy and xy in the axes of the triangle; its energy counts beta_0 times. The
 /// mean of the two divisions of a rectangle then holds the stress of plane bending exactly.
 struct HigherStrains {
@@ -160,7 +160,7 @@ Mat39 curvatures(const Plane& t, double xi, double eta) {
   return B;
 }
 
-/// The sides of a plate with transverse shear; side k lies between corners k + 1 and k + 2.
+/// The sides of a plate with transverse shear; side k is between corners k + 1 and k + 2.
 struct ShearSides {
   std::array<Vec2, 3> along;  ///< unit vectors
   Vec3 phi;
@@ -180,7 +180,7 @@ struct ShearSides {
     }
   }
 
-  /// What the curvatures of a plate without shear have too much.
+  /// Excess of the curvatures of a plate without shear.
   Mat39 relieved(const Plane& t, double xi, double eta) const {
     const double L1 = 1.0 - xi - eta;
     const Vec2 side[3] = {Vec2(4.0 * eta, 4.0 * xi), Vec2(-4.0 * eta, 4.0 * (L1 - eta)),
@@ -363,7 +363,7 @@ Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const ShellLayers& secti
   const double line = triangle_area(p) / 12.0, z = section.offset;
   const double moment = section.moment + z * section.mass;  // about the nodes
   double inertia = section.inertia + 2.0 * z * section.moment + z * z * section.mass;
-  // Without the inertia of the section what is left of it is a layer of all mass at its centre.
+  // Without the section inertia the remainder is a layer of all mass at its centre.
   if (!section_inertia) inertia = section.mass > 0.0 ? moment * moment / section.mass : 0.0;
   const Mat3 turning = inertia * (Mat3::Identity() - n * n.transpose());
   const Mat3 arm = -moment * skew(n);

@@ -1,5 +1,5 @@
 #pragma once
-// Pieces shared by the solid elements: strain-displacement matrix, gradients of displacements.
+// Common parts of the solid elements: strain-displacement matrix, gradients of displacements.
 #include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe::solid {

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes of solids, shells and membranes that several kernels share.
+// Shapes of solids, shells and membranes used by several kernels.
 #include <numbers>
 
 #include "floatframe/fe/element_shape.hpp"
@@ -52,7 +52,7 @@ inline constexpr double wedge_regular_corner = 0.5 * std::numbers::sqrt3;
 inline constexpr ElementShape wedge6{wedge6_faces, wedge_neighbours, wedge_regular_corner};
 inline constexpr ElementShape wedge15{wedge15_faces, wedge_neighbours, wedge_regular_corner};
 
-// Pyramids; of the four edges at the apex three are looked at.
+// Pyramids; of the four edges at the apex three are checked.
 inline constexpr std::array<Edge, 8> pyramid_edges{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
 inline constexpr std::array<Corners, 5> pyramid_corners{

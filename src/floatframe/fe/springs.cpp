@@ -13,10 +13,10 @@
 namespace floatframe {
 namespace {
 
-/// Dofs that a set of condensed ones may tie together: their stiffness is full.
+/// Dofs that a group of condensed ones may couple: their stiffness is full.
 constexpr std::size_t most_tied = 1200;
 
-/// Of each node: whether springs alone use it, and the axes of dofs that springs alone hold.
+/// For each node: whether only springs use it, and the axes of dofs held only by springs.
 struct SpringOnlyNodes {
   std::vector<char> alone;
   std::vector<unsigned> mask;
@@ -116,7 +116,7 @@ class CondensedSprings {
   }
 
   /// K_CC - K_CL K_LL^+ K_LC; the first `inner` are L. Scaled by the diagonal, so that lengths and
-  /// angles compare.
+  /// angles are comparable.
   static MatX without(const MatX& K, Eigen::Index inner) {
     const Eigen::Index outer = K.rows() - inner;
     MatX out = K.bottomRightCorner(outer, outer);
@@ -130,7 +130,7 @@ class CondensedSprings {
     for (Eigen::Index i = 0; i < inner; ++i)
       if (e.values(i) > 1e-12 * e.values(inner - 1))
         out -= B.row(i).transpose() * B.row(i) / e.values(i);
-    // What is left of springs that end in the air is rounding.
+    // The remainder of springs with a free end is round-off.
     const double size = K.bottomRightCorner(outer, outer).cwiseAbs().maxCoeff();
     return out.unaryExpr([&](double x) { return std::abs(x) > 1e-13 * size ? x : 0.0; });
   }
@@ -195,7 +195,7 @@ SpringSystem spring_system(const FeModel& model, const DofTable& table) {
     groups.try_emplace(joins.root(s.nodes[end]), model, loose).first->second.add(s);
   }
   for (auto& [root, group] : groups) group.finish(out);
-  // Directions that no spring has are not held either.
+  // Directions without a spring are not held either.
   out.condensed.clear();
   std::vector<char> on_spring(model.positions.size(), 0);
   for (const Spring& s : model.springs)

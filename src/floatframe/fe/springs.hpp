@@ -2,12 +2,12 @@
 // Springs of a finite-element model in its stiffness. A spring of stiffness k adds k d d^T to the
 // dofs d . q of its nodes.
 //
-// Nodes that only springs hold have no mass: they follow without inertia and may have directions
-// without stiffness, as the rotations do that springs alone give to the nodes of solids. Such dofs
+// Nodes held only by springs have no mass: they follow without inertia and may have directions
+// without stiffness, such as the rotations that only springs add to the nodes of solids. Such dofs
 // L are condensed: with all springs that touch them and C the other dofs of these,
 //   K = K_CC - K_CL K_LL^+ K_LC
-// K_LL^+ the pseudo-inverse: what no spring resists has no force. So a spring that ends in the air
-// does nothing. A node with a name (an interface) is kept.
+// K_LL^+ the pseudo-inverse: directions without stiffness have no force. So a spring with a free
+// end has no effect. A node with a name (an interface) is kept.
 #include <string>
 #include <vector>
 
@@ -36,11 +36,11 @@ struct SpringSystem {
 /// Throws InputError if condensed dofs tie too many others.
 SpringSystem spring_system(const FeModel& model, const DofTable& table);
 
-/// Dofs that springs need beside the others of the nodes (dofs_without_springs): three of each
-/// node, and rotations of those that have nothing else.
+/// Dofs that springs need in addition to those of the nodes (dofs_without_springs): three of each
+/// node, and rotations of nodes that have no other element.
 void add_spring_dofs(const FeModel& model, std::vector<int>& count);
 
-/// What is wrong with the springs of a model.
+/// Errors in the springs of a model.
 struct SpringError {
   ErrorCode code;
   const char* kind = "";
@@ -49,10 +49,10 @@ struct SpringError {
 };
 std::vector<SpringError> spring_errors(const FeModel& model);
 
-/// Nodes that only springs hold, ascending: they do not feel the mass of the part.
+/// Nodes held only by springs, ascending: the mass of the part does not act on them.
 std::vector<int> nodes_on_springs(const FeModel& model);
 
-/// Leaves out the springs to the ground and returns how many these are.
+/// Removes the springs to the ground and returns their number.
 int remove_grounded_springs(FeModel& model);
 
 /// Energy of the springs in shapes (3 rows per node each): U^T K U.

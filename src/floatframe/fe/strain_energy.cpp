@@ -14,7 +14,7 @@ namespace {
 
 constexpr int many_beams = 1000;
 
-/// Calls `use(q, Ke q)` with the deformations of each element, one column a shape.
+/// Calls `use(q, Ke q)` with the deformations of each element, one column per shape.
 template <class Use>
 void each_element(const FeModel& model, const MatX& U, const MatX& Theta, Integration integration,
                   Use&& use) {

@@ -10,7 +10,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-/// A face of a solid; the ascending corners tell whether two elements share it.
+/// A face of a solid; its sorted corners identify a face shared by two elements.
 struct Candidate {
   std::array<int, 4> key;
   int element, face;

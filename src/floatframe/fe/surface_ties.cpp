@@ -49,7 +49,7 @@ void clamp_to(const Face& face, double& r, double& s) {
     s = std::clamp(s, -1.0, 1.0);
     return;
   }
-  // The nearest point of the triangle of area coordinates, whose sides are one long.
+  // The nearest point of the triangle in area coordinates, with sides of length one.
   if (r + s > 1.0) {
     const double more = (r + s - 1.0) / 2.0;
     r -= more;
@@ -89,7 +89,7 @@ FacePoint nearest_point(const FeModel& model, const Face& face, const Vec3& x) {
     at = next;
     if (step < 1e-14) break;
   }
-  // Along an edge the clamped steps zigzag: the sides by themselves.
+  // Along an edge the clamped steps zigzag: the sides are treated separately.
   const auto side = [&](double r0, double s0, double r1, double s1) {
     double low = 0.0, high = 1.0;
     for (int k = 0; k < 90; ++k) {
@@ -112,7 +112,7 @@ FacePoint nearest_point(const FeModel& model, const Face& face, const Vec3& x) {
 }
 
 /// Faces by the cells of a grid that their centres are in; a cell is as large as the reach of a
-/// face, so that what is near is in the 27 cells around.
+/// face, so that all near faces are in the 27 cells around.
 class FaceGrid {
  public:
   FaceGrid(const std::vector<Face>& faces, double distance) : faces_(faces) {
@@ -165,7 +165,7 @@ std::vector<Face> gather_faces(const FeModel& model, const std::vector<ElementFa
   return faces;
 }
 
-/// u of the node as the head of this file says: an equation for each direction.
+/// u of the node by the formula in the header: an equation for each direction.
 void add_equations(FeModel& model, int node, const Face& face, const FacePoint& at, bool rotations,
                    const FeSource& source) {
   const FaceShape f = shape_at(face, at.r, at.s);
@@ -187,7 +187,7 @@ void add_equations(FeModel& model, int node, const Face& face, const FacePoint& 
     for (int i = 0; i < face.count; ++i) {
       const Vec3 grad = f.r[i] * gr + f.s[i] * gs;
       for (int k = 0; k < 3; ++k) {
-        // A node beside the face takes its motion from the plane that continues it.
+        // A node outside the face moves with the plane that continues it.
         const double factor =
             (axis == k ? f.N[i] + grad.dot(gap) : 0.0) - g * grad(axis) * normal(k);
         if (std::abs(factor) > 1e-14) equation.terms.push_back({face.nodes[i], k, -factor});

@@ -3,7 +3,7 @@
 // its normal n, moves as the surface does there:
 //   u = sum_i N_i(p) u_i + g dn,   dn = -sum_i grad N_i(p) (n . u_i)
 // with the shape functions N of the face and their gradients along it, so that the motion of a
-// rigid face moves the node rigidly whatever its distance. Beside the face N goes on linearly.
+// rigid face moves the node rigidly at any distance. Outside the face N continues linearly.
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
@@ -32,8 +32,8 @@ struct TiedNodes {
   double moved = 0.0;         ///< largest displacement of a node by `adjust`
 };
 
-/// Adds equations for displacements (and moves nodes). Nodes of the faces themselves are passed
-/// over, and so are nodes that `taken` marks, one entry per node; what is tied gets marked.
+/// Adds equations for displacements (and moves nodes). Nodes of the faces themselves are skipped,
+/// and so are nodes marked in `taken`, one entry per node; tied nodes are marked.
 TiedNodes add_surface_tie(FeModel& model, const SurfaceTie& tie, std::vector<char>& taken);
 
 }  // namespace floatframe

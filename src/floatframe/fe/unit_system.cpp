@@ -23,7 +23,7 @@ constexpr std::array lengths{Unit{"m", 1.0},   Unit{"mm", 1e-3}, Unit{"cm", 1e-2
 constexpr std::array masses{
     Unit{"kg", 1.0},   Unit{"g", 1e-3},    Unit{"mg", 1e-6},   Unit{"t", 1e3},
     Unit{"lb", pound}, Unit{"lbm", pound}, Unit{"slug", slug}, Unit{"slinch", pound_force / inch}};
-// A force in place of the mass: the mass that it gives one length per time squared.
+// A unit of force instead of mass: the mass that it accelerates by one length per time squared.
 constexpr std::array forces{Unit{"n", 1.0},    Unit{"kn", 1e3},          Unit{"mn", 1e6},
                             Unit{"dan", 10.0}, Unit{"lbf", pound_force}, Unit{"kgf", 9.80665}};
 constexpr std::array times{Unit{"s", 1.0}, Unit{"ms", 1e-3}, Unit{"us", 1e-6}};

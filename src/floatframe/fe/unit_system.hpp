@@ -1,5 +1,5 @@
 #pragma once
-// Unit systems of finite-element files. Nothing in most files states them, so the user does.
+// Unit systems of finite-element files. Most files do not state them, so the user does.
 #include <optional>
 #include <string>
 #include <vector>

@@ -83,7 +83,7 @@ void check_layers(const FeModel& model, LimitedErrors& errors) {
   check(model.layups, layup_error, "layups of solids", "layup");
 }
 
-/// What does not go with the material of an element; empty if all does.
+/// Errors in the combination of an element with its material; empty if there is none.
 std::string material_misfit(const FeModel& model, const Element& element) {
   if (!in_range(element.orientation + 1, model.orientations.size() + 1))
     return fmt::format(": there is no orientation {}", element.orientation);
@@ -104,7 +104,7 @@ std::string material_misfit(const FeModel& model, const Element& element) {
   return {};
 }
 
-/// What follows looks up kernels by the type.
+/// The code below looks up kernels by the type.
 void check_types(const FeModel& model, LimitedErrors& errors) {
   for (int e = 0; e < static_cast<int>(model.elements.size()); ++e)
     if (index_of(model.elements[e].type) >= std::size(element_types))
@@ -167,7 +167,7 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
   }
 }
 
-/// Nodes whose rotations mean something.
+/// Nodes with meaningful rotations.
 std::vector<char> nodes_with_rotations(const FeModel& model) {
   std::vector<char> with(model.positions.size(), 0);
   const auto mark = [&](int node) {

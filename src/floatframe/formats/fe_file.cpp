@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t most_notes = 500;
 
-/// Of this folder. A reader is one file and one entry here, those of decks in deck_list.cpp.
+/// Formats of this folder. A reader is one file and one entry here; decks are in deck_list.cpp.
 const FeFormat own_formats[] = {
     {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh, true},
     {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
@@ -83,7 +83,7 @@ const FeFormat& by_name(const std::filesystem::path& file, const std::string& na
 }
 
 /// The format whose ending and content fit; else the only one whose content fits; else the only
-/// one whose ending fits, whose reader then says what is wrong.
+/// one whose ending fits, whose reader then reports the errors.
 const FeFormat& recognised(const std::filesystem::path& file) {
   const std::string beginning = read_beginning(file, std::size_t{1} << 16);
   if (beginning.empty() && read_whole_file(file).empty())  // or a damaged gzip file: that throws
@@ -136,7 +136,7 @@ void names_as_utf8(Map& map) {
   map = std::move(named);
 }
 
-/// Names of a file in Latin-1 become what JSON, pages and terminals show.
+/// Converts Latin-1 names of a file for JSON, pages and terminals.
 void names_as_utf8(FeModel& model) {
   names_as_utf8(model.node_sets);
   names_as_utf8(model.element_sets);
@@ -150,7 +150,7 @@ void names_as_utf8(FeModel& model) {
     if (!element.name.empty()) element.name = utf8_text(element.name);
 }
 
-/// Gives materials without a density what the options say.
+/// Sets the density of materials without one from the options.
 void fill_densities(const std::filesystem::path& file, const FeReadOptions& options,
                     FeModel& model) {
   std::vector<std::string> missing;
@@ -210,7 +210,7 @@ void add_up(const LinearEquation& e, std::vector<LinearEquation::Term>& terms) {
   std::erase_if(terms, [&](const auto& t) { return std::abs(t.factor) <= 1e-12 * scale; });
 }
 
-/// Equations of one line for a set of nodes have one note.
+/// Equations of one line for a set of nodes share one note.
 void note_empty(FeModel& model, const std::map<std::pair<int, int>, long>& empty) {
   for (const auto& [place, count] : empty) {
     const SourceMark mark = model.mark({place.first, place.second});
@@ -221,8 +221,8 @@ void note_empty(FeModel& model, const std::map<std::pair<int, int>, long>& empty
   }
 }
 
-/// Equations whose terms cancel (0 = 0) go, with a note. Throws InputError for those that hold one
-/// degree of freedom of the part to the ground.
+/// Removes equations whose terms cancel (0 = 0), with a note. Throws InputError for those that fix
+/// one degree of freedom of the part to the ground.
 void look_at_equations(FeModel& model) {
   if (model.equations.empty() || model.matrices) return;
   const std::vector<int> dofs = dofs_without_springs(model);

@@ -1,8 +1,8 @@
 #pragma once
-// Finite-element files of other programs. All readers give the same FeModel, in the units of the
+// Finite-element files of other programs. All readers return the same FeModel, in the units of the
 // file. A new format is one file with a reader and one entry in the list of fe_file.cpp or
-// deck_list.cpp. Files may be compressed with gzip (.gz). Errors throw InputError with file:line,
-// all that can be found at once.
+// deck_list.cpp. Files may be compressed with gzip (.gz). Errors throw InputError with file:line;
+// as many as possible are reported at once.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,46 +15,46 @@
 
 namespace floatframe {
 
-/// Whose deck a `.inp` file is, where the two programs read the same words differently.
+/// Program of a `.inp` deck, where the two programs interpret the same keywords differently.
 enum class DeckDialect {
-  by_content,  ///< by what only one of them has; an error where that is not clear and matters
+  by_content,  ///< by features of only one of them; an error if that is ambiguous and matters
   abaqus,
   calculix
 };
 
 /// Shear deformation of 2-node beams.
 enum class BeamShear {
-  by_format,  ///< as the file and its program have it
+  by_format,  ///< as in the file and its program
   none        ///< Euler-Bernoulli
 };
 
 /// Transverse shear of shells.
 enum class ShellShear {
-  by_format,  ///< as the file and its program have it
+  by_format,  ///< as in the file and its program
   none,       ///< thin
   all         ///< 5/6 of the thickness
 };
 
-/// Mass of the elements: as the program of the file has it, or one form for all.
+/// Mass of the elements: as in the program of the file, or one form for all.
 enum class MassChoice { by_format, consistent, lumped };
 
-/// What becomes of contact pairs, which are not linear.
+/// Treatment of contact pairs, which are nonlinear.
 enum class DeckContact {
   refuse,  ///< an error
   ignore,  ///< their surfaces are free
   tied     ///< joined where they are within a distance
 };
 
-/// What becomes of springs to the ground, to which a part that floats cannot be tied.
+/// Treatment of springs to the ground, to which a floating part cannot be tied.
 enum class GroundedSprings {
   refuse,  ///< an error of the part
-  ignore   ///< left out
+  ignore   ///< ignored
 };
 
 struct FeReadOptions {
   /// Formats without material (Gmsh): the material of all elements, in the units of the file.
   std::optional<Material> material;
-  /// For materials whose density the file does not give, by their names, in the units of the file;
+  /// For materials without density in the file, by their names, in the units of the file;
   /// by an empty name: of all others.
   std::map<std::string, double> densities;
   /// Formats without sections (Gmsh, UNV): of surface elements, which are shells then, by the names
@@ -63,22 +63,22 @@ struct FeReadOptions {
   std::map<std::string, double> thicknesses;
   /// Matrices without coordinates: a deck (any format) or "node,x,y,z" CSV with the nodes.
   std::filesystem::path nodes;
-  /// Matrix formats: the mass matrix, the dof map and the matrix of viscous damping, if they cannot
-  /// be found beside the stiffness. Damping need not be there.
+  /// Matrix formats: the mass matrix, the dof map and the matrix of viscous damping, if they are
+  /// not next to the stiffness. Damping is optional.
   std::filesystem::path mass, dofs, damping_matrix;
   DeckDialect dialect = DeckDialect::by_content;
   BeamShear beam_shear = BeamShear::by_format;
   ShellShear shell_shear = ShellShear::by_format;
   MassChoice mass_form = MassChoice::by_format;
   DeckContact contact = DeckContact::refuse;
-  /// Of `tied`, in the units of the file; 0: 2.5 % of the size of the faces.
+  /// For `tied`, in the units of the file; 0: 2.5 % of the size of the faces.
   double contact_distance = 0.0;
   GroundedSprings grounded_springs = GroundedSprings::refuse;
-  /// At which materials that depend on it are taken, in the units of the file.
+  /// Temperature for materials that depend on it, in the units of the file.
   std::optional<double> temperature;
 };
 
-/// The matrix of viscous damping that lies beside a stiffness by its name; empty: none.
+/// The matrix of viscous damping next to a stiffness, by its name; empty: none.
 std::filesystem::path damping_beside(const std::filesystem::path& stiffness);
 
 /// On the command line and in model files: "abaqus", "calculix".
@@ -93,7 +93,7 @@ struct FeFormat {
   FeModel (*read)(const std::filesystem::path& file, const FeReadOptions& options);
   /// Surfaces are shells only by FeReadOptions::thicknesses.
   bool without_sections = false;
-  /// Of a deck beside matrices: nodes, sets, spiders and supports alone; null: that has none.
+  /// For a deck in addition to matrices: only nodes, sets, spiders and supports; null: unsupported.
   FeModel (*read_nodes)(const std::filesystem::path& file) = nullptr;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // Surface elements of meshes without sections (Gmsh, UNV). Without a thickness they are skins,
-// which only make sets; those to which the user gives one, all or by the names of their groups,
-// are shells. Faces of solids stay skins unless their group is named.
+// which only define sets; those to which the user gives one, all or by the names of their groups,
+// are shells. Faces of solids stay skins unless their group is given.
 #include <array>
 #include <map>
 #include <set>
@@ -19,9 +19,9 @@ class SurfaceThickness {
   explicit SurfaceThickness(const std::map<std::string, double>& given);
 
   bool any() const noexcept { return !sections_.empty(); }
-  /// One for each thickness.
+  /// One per thickness.
   const std::vector<ShellSection>& sections() const noexcept { return sections_; }
-  /// Of all that are in no named group; -1: not given.
+  /// For all that are in no named group; -1: not given.
   int others() const noexcept { return others_; }
 
   /// To be called for all solids before the surfaces.
@@ -29,12 +29,12 @@ class SurfaceThickness {
 
   struct Choice {
     int section = -1;   ///< -1: a skin
-    std::string error;  ///< its groups say two thicknesses
+    std::string error;  ///< if its groups give two thicknesses
   };
-  /// Of an element with these corners in these groups.
+  /// For an element with these corners in these groups.
   Choice choose(std::span<const int> corners, const std::vector<std::string>& groups);
 
-  /// A sentence for each thickness that no surface element has got.
+  /// A sentence for each thickness that is not used by any surface element.
   std::vector<std::string> not_found(const std::vector<std::string>& groups) const;
 
  private:

@@ -34,7 +34,7 @@ Shape clamped_pinned(double beta, double s) {
 }  // namespace
 
 double clamped_pinned_root(int n) {
-  // f = sin(b) - cos(b) tanh(b); the root lies just below (n + 1/4) pi.
+  // f = sin(b) - cos(b) tanh(b); the root is just below (n + 1/4) pi.
   double b = (n + 0.25) * std::acos(-1.0);
   for (int i = 0; i < 20; ++i) {
     const double t = std::tanh(b);

@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// Up to here direct factors hold the seventh digit; the sixth is lost near 350.
+/// Up to here direct factors give seven accurate digits; the sixth is lost near 350.
 constexpr std::size_t few_elements = 100;
 
 /// Elements in a row, from node to node.
@@ -29,7 +29,7 @@ bool continues(const FeModel& model, const Element& a, const Element& b) {
          (dx - dy).norm() <= 1e-6 * dx.norm();
 }
 
-/// Rows of equal elements in a line; a node of the `special` ends one.
+/// Rows of equal elements in a line; a node of the `special` ones ends a row.
 std::vector<Chain> chains_of(const FeModel& model, std::vector<char> special) {
   std::vector<int> uses(model.positions.size(), 0);
   for (const Element& e : model.elements)
@@ -200,8 +200,8 @@ Eigenmodes BarChains::normal_modes(int count) const {
 
 int BarChains::count_below(double frequency) const {
   const double omega = omega_of(frequency);
-  // Sylvester's law needs factors of K - w^2 M, which have no digits here: modes until one is
-  // above.
+  // Sylvester's law needs factors of K - w^2 M, which have no accurate digits here: modes are
+  // computed until one is above.
   for (int count = 16;; count *= 2) {
     count = std::min(count, inner());
     const Eigenmodes modes = lowest(count);

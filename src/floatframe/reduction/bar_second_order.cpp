@@ -15,9 +15,9 @@
 namespace floatframe {
 namespace {
 
-/// Above this only nodes with a name are kept.
+/// Above this limit only nodes with a name are kept.
 constexpr int many_nodes = 2000;
-/// Numbers of all nodes that are kept without being asked for.
+/// Limit of the numbers of all nodes that are kept by default.
 constexpr Eigen::Index few_numbers = 1 << 19;
 /// Numbers of one group of pairs of modes.
 constexpr Eigen::Index group_numbers = 1 << 23;
@@ -34,7 +34,7 @@ bool sections_turn(const ReductionOptions& options) {
   return options.mass_model == MassModel::hermite && options.section_inertia;
 }
 
-/// What turns with nodes: sections and point masses; null: nothing.
+/// Masses that rotate with nodes: sections and point masses; null: none.
 std::shared_ptr<SecondOrder> turning_of(const FeModel& model, const MatX& X,
                                         const ReductionOptions& options) {
   const bool masses = options.mass_model == MassModel::hermite &&
@@ -57,7 +57,7 @@ std::shared_ptr<SecondOrder> turning_of(const FeModel& model, const MatX& X,
   return out;
 }
 
-/// What the foreshortening inside of the elements adds to what is linear between the nodes:
+/// Contribution of the foreshortening inside the elements to the part linear between the nodes:
 ///   h(x) = linear - e_1 (int_0^x f dx - x/L gamma),  f = v'^T v' + w'^T w'
 ///   int h dm = linear - e_1 rho A int (L/2 - x) f dx
 ///   int x h dm = linear - e_1 rho A int (L^2/6 - x^2/2) f dx
@@ -81,7 +81,7 @@ void add_shortening_inside(const ElementInput& in, const BentBeam& beam, SecondO
 }
 
 /// And the twist: int (int_0^x g dx - x/L tau) dx = int (L/2 - x) g dx, g = v'^T w'' - w'^T v'',
-/// which turns the sections about the axis.
+/// which rotates the sections about the axis.
 void add_twist_inside(const ElementInput& in, const BentBeam& beam, SecondOrder& out) {
   static const LineRule rule = gauss_jacobi(5, 0);
   const Eigen::Index nm = beam.q.cols();
@@ -100,7 +100,7 @@ void add_twist_inside(const ElementInput& in, const BentBeam& beam, SecondOrder&
 }
 
 /// Nodal forces and moments of the loads rho e_j (rows j) and rho r_i e_j (rows 3 + 3 i + j), with
-/// displacements that are linear between the nodes; moments of what turns with them.
+/// displacements that are linear between the nodes; moments of masses rotating with them.
 MatX load_rows(const FeModel& model, const ReductionOptions& options) {
   MatX rows = MatX::Zero(12, 6 * model.nodes());
   const SparseRows M = assemble_scalar_mass(model);
@@ -145,7 +145,7 @@ bool keeps_all(const FeModel& model, Eigen::Index nm, bool all_nodes) {
   return model.nodes() <= many_nodes && (all_nodes || 6 * nm * nm * model.nodes() <= few_numbers);
 }
 
-/// Of each mode what each element is bent to, of each two modes what nodes follow by.
+/// Memory: per mode the deformation of each element, per two modes the displacements of nodes.
 void require_memory(const FeModel& model, Eigen::Index nm, bool all_nodes, bool projection) {
   constexpr double of_mode = 360.0;  // numbers of an element
   const double of_pairs = (keeps_all(model, nm, all_nodes) ? 6.0 : 0.0) + (projection ? 3.0 : 0.0);

@@ -9,7 +9,7 @@
 namespace floatframe {
 namespace {
 
-/// Above this the places of a body would be more than the rest of it.
+/// Above this limit the stress places of a body would be larger than the rest of it.
 constexpr std::size_t many_bars = 2000;
 
 NodalShapes shapes_of(const MatX& X, int nodes) {
@@ -84,7 +84,7 @@ std::shared_ptr<const BodyStress> bar_stress(const FeModel& model, const MatX& X
     out->loads = std::move(found.places);
     out->section_loads = std::move(found.sections);
   } catch (const InputError&) {
-    // The direct factors have no digits: the modes went another way (bar_chains.hpp).
+    // The direct factors have no accurate digits: the modes use another method (bar_chains.hpp).
   }
   return out;
 }

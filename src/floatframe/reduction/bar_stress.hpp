@@ -1,10 +1,10 @@
 #pragma once
 // Stress of a frame of bars (body/body_stress.hpp). The static answer to a load of the frame held
-// by its body reference, less what the modes have of it,
+// by its body reference, minus the part represented by the modes,
 //   r = w - X K_y^-1 X^T f,   w = K^-1 f at all degrees of freedom but the held ones
 // adds its section forces to those of the modes: as in reduction/part_stress.hpp. Forces at
-// interfaces are answered by the constraint modes exactly. Loads are those of the mass model: of
-// isoparametric masses nodes alone are loaded.
+// interfaces are represented exactly by the constraint modes. Loads are those of the mass model:
+// isoparametric masses load the nodes only.
 #include <memory>
 #include <vector>
 
@@ -14,8 +14,8 @@
 
 namespace floatframe {
 
-/// X: modes, six rows per node; `held`: the rows that the body reference holds, ascending; empty:
-/// not known, and without loads. Null for models that have elements other than beams, and for
+/// X: modes, six rows per node; `held`: the rows held by the body reference, ascending; empty:
+/// unknown, and without loads. Null for models that have elements other than beams, and for
 /// frames of very many elements.
 std::shared_ptr<const BodyStress> bar_stress(const FeModel& model, const MatX& X, const MatX& K_y,
                                              const std::vector<int>& held,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double no_mass = 1e-13;  ///< of the largest eigenvalue
 
-/// A in the directions C, symmetric but for rounding.
+/// A in the directions C, symmetric except for round-off.
 MatX in_directions(const MatX& A, const MatX& C) {
   const MatX a = C.transpose() * A * C;
   return 0.5 * (a + a.transpose());
@@ -45,7 +45,7 @@ PointModel volume_points(FeModel model, Integration integration) {
   return point_model(model, assemble(model, integration), integration);
 }
 
-/// Uniform density without point masses: the volume weighs as the mass does.
+/// Uniform density without point masses: volume and mass weights are equal.
 bool uniform(const FeModel& model) {
   if (!model.masses.empty() || model.matrices || model.materials.empty()) return false;
   if (std::any_of(model.shells.begin(), model.shells.end(),

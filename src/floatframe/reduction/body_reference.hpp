@@ -1,11 +1,11 @@
 #pragma once
-// What the body frame follows, and the modes that are left. With a raw basis X that spans the rigid
-// motions, six conditions B on its amplitudes take out six directions:
+// Motion of the body frame, and the remaining modes. With a raw basis X that spans the rigid
+// motions, six conditions B on its amplitudes remove six directions:
 //   mean axis   int X dm = 0,  int r_u x X dm = 0
 //   Buckens     int X dV = 0,  int r_u x X dV = 0
 //   node        translation and rotation of the node are zero
 // In the null space C of B the modes are those of (C^T K C, C^T M_ff C): M_ff = I and K diagonal,
-// so that the basis is as well conditioned as can be.
+// which is the best possible conditioning of the basis.
 #include "floatframe/body/inertia_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/types.hpp"
@@ -22,11 +22,11 @@ struct ElasticModes {
   /// Strain energy of the first mode against the sum of its parts without their signs,
   /// c^T K c / |c|^T |K| |c|: rounding if the mode is a mechanism.
   double stiffness = 1.0;
-  int without_mass = 0;  ///< combinations that move no mass, which are left out
+  int without_mass = 0;  ///< massless combinations, which are omitted
 };
 
-/// K: raw stiffness; the raw shapes must be of one size, rotations counted times the size of the
-/// body, or a small mass is taken for none. Throws InputError if the conditions are not independent
+/// K: raw stiffness; the raw shapes must be of equal size, rotations counted times the size of the
+/// body, or a small mass is taken as zero. Throws InputError if the conditions are not independent
 /// on the rigid motions, or if a combination of modes has neither mass nor stiffness.
 ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B);
 inline constexpr double least_stiffness = 1e-10;

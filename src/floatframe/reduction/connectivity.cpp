@@ -55,8 +55,8 @@ Pieces pieces_of(const FeModel& model) {
   return pieces;
 }
 
-/// The element that a reader made this node for (an end of a bar beside its node, or with a hinge);
-/// -1 if the file has the node.
+/// The element for which a reader generated this node (an end of a bar offset from its node, or
+/// with a hinge); -1 if the node is in the file.
 int element_of_made(const FeModel& model, int node) {
   if (!std::binary_search(model.generated_nodes.begin(), model.generated_nodes.end(), node))
     return -1;
@@ -79,7 +79,7 @@ std::string made_text(const FeModel& model, int node) {
   return e < 0 ? "" : fmt::format(" (made for {})", element_with_place(model, e));
 }
 
-/// Of a node of the file also the first bar with a hinge or an offset there.
+/// For a node of the file also the first bar with a hinge or an offset there.
 std::string bar_text(const FeModel& model, int node) {
   std::string text = made_text(model, node);
   std::vector<int> tied;

@@ -1,7 +1,7 @@
 #pragma once
-// Does a finite-element part hang together? Nodes are tied by elements, spiders, linear equations
+// Is a finite-element part connected? Nodes are tied by elements, spiders, linear equations
 // and entries of given matrices. Pieces that only touch (a hinge) count as tied; the factorisation
-// of the stiffness finds those.
+// of the stiffness detects those.
 #include <string>
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace floatframe {
 
-/// Throws InputError that names the nodes of the smaller pieces if there are several; of one piece
-/// the nodes that nothing holds across flat sheets (fe/flat_nodes.hpp).
+/// Throws InputError with the nodes of the smaller pieces if there are several; for one piece with
+/// the nodes without support across flat sheets (fe/flat_nodes.hpp).
 void check_connected(const FeModel& model);
 
 /// "node 12, node 13, node 17 and 4 more".

@@ -19,7 +19,7 @@ namespace {
 
 enum class Role : char { inner, clamped, interface, inactive };
 
-/// A direction without what is round-off.
+/// A direction without its round-off.
 std::string direction_text(const Vec3& v) {
   return vector_text(v.unaryExpr([](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; }), 3);
 }
@@ -36,7 +36,7 @@ int node_of(const FeModel& model, const NodeDofs& selection, const char* what, E
   return node;
 }
 
-/// Throws if the clamped dofs leave a rigid motion, and says which.
+/// Throws if the clamped dofs leave a rigid motion, with a description of it.
 void check_reference(const FeModel& model, const std::vector<Role>& roles, int d) {
   Vec3 centre = Vec3::Zero();
   int count = 0;
@@ -112,7 +112,7 @@ ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
   const int found = static_cast<int>(normal.omega.size());
   const int whole =
       found > 0 ? count_with_group(fixed, found, hertz(normal.omega[found - 1])) : found;
-  // A frequency limit keeps pairs whole, a number is obeyed.
+  // A frequency limit keeps pairs whole, a given number is exact.
   if (!number && whole > found) normal = fixed.normal_modes(whole);
   ModeSet set = craig_bampton_set(fixed, normal, std::move(names));
   if (number) set.equal_left_out = whole - found;
@@ -148,7 +148,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   const int total = d * model.nodes();
   const SparseMatrix K = assemble_stiffness(model);
   std::vector<Role> roles(total, Role::inner);
-  // Rotations of nodes that belong to solid elements only have no stiffness: they take no part.
+  // Rotations of nodes that belong to solid elements only have no stiffness: they are excluded.
   const VecX diagonal = K.diagonal();
   for (int i = 0; i < total; ++i) {
     if (d == 6 && i % 6 >= 3 && diagonal(i) == 0.0) roles[i] = Role::inactive;

@@ -39,7 +39,7 @@ Eigenpairs finish(const VecX& mu, const MatX& shapes, double sigma, int count) {
 
 using Solve = std::function<MatX(const MatX&)>;
 
-/// y = a A^-1 x, without its part along known modes. Scaled so that the largest eigenvalue of
+/// y = a A^-1 x, without its component along known modes. Scaled so that the largest eigenvalue of
 /// A^-1 M is about one: Spectra compares with fixed bounds.
 class ShiftInvert {
  public:
@@ -92,7 +92,7 @@ using Lanczos =
 /// One block step of inverse iteration from X and a Rayleigh-Ritz projection.
 Eigenpairs refined(const Solve& solve, double sigma, const SparseMatrix& M, const MatX& X,
                    int count) {
-  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the digits of the low modes.
+  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the accuracy of the low modes.
   const MatX MX = M * X;
   MatX Y = solve(MX);
   MatX Ar = Y.transpose() * MX;
@@ -106,8 +106,8 @@ Eigenpairs refined(const Solve& solve, double sigma, const SparseMatrix& M, cons
   return finish(mu, Y, sigma, count);
 }
 
-/// A Krylov space has one vector of each eigenvalue; those of symmetric parts that are equal to
-/// others come in by rounding alone, or do not. The mode with the largest mu of what is left beside
+/// A Krylov space has one vector per eigenvalue; further modes of equal frequency in symmetric
+/// parts appear only by round-off, or not at all. The mode with the largest mu in the complement of
 /// the modes found, if it belongs among them; else no column.
 MatX missed(ShiftInvert& inverse, MassProduct& mass, const SparseMatrix& M, double sigma,
             const Eigenpairs& found, VecX x) {
@@ -165,7 +165,7 @@ Eigenpairs iterated(const Solve& solve, double sigma, const SparseMatrix& M, int
   return modes;
 }
 
-/// The same; what Spectra throws has words that say nothing to a user.
+/// The same, with exceptions of Spectra replaced by messages for the user.
 Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int count) {
   try {
     return iterated(solve, sigma, M, count);

@@ -4,8 +4,8 @@
 //   M x = mu A x,   w^2 = sigma + 1/mu.
 // Small problems are solved densely in this form; large ones by implicitly restarted Lanczos
 // iteration on A^-1 M (Spectra), then one block step of inverse iteration with a Rayleigh-Ritz
-// projection, which cleans the shapes of massless parts and separates multiple modes. The start is
-// fixed: the same modes every time.
+// projection, which cleans the shapes of massless parts and separates multiple modes. The initial
+// vector is fixed: results are reproducible.
 #include <functional>
 
 #include "floatframe/core/diagnostics.hpp"
@@ -22,14 +22,14 @@ struct Eigenmodes {
 };
 
 /// The iteration for the modes of a large problem fails: equal parts have equal frequencies, and
-/// directions without mass leave no vector to tell their modes apart.
+/// massless directions leave no vector to distinguish their modes.
 class EigenIterationError : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// -1 if the largest component of x is negative, else 1. Of components that are largest but for
-/// rounding the first decides, so that rounding decides no sign.
+/// -1 if the largest component of x is negative, else 1. Among components that are equal up to
+/// rounding the first decides, so that no sign depends on rounding.
 double sign_of_largest(const VecX& x);
 
 /// The `count` lowest modes, K > 0; fewer if M has a smaller rank.
@@ -47,7 +47,7 @@ struct Eigenpairs {
   MatX shapes;  ///< as in Eigenmodes
 };
 
-/// The `count` lowest ones; A = K - sigma M with sigma below all of them, and its factors.
+/// The `count` lowest modes; A = K - sigma M with sigma below all of them, and its factors.
 Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors, double sigma,
                              const SparseMatrix& M, int count);
 

@@ -1,6 +1,6 @@
 #pragma once
-// A structure held at its interface dofs: the part of the Craig-Bampton method that works on
-// matrices. With the dofs split into boundary b, inner i and others that are zero in every mode,
+// A structure held at its interface dofs: the matrix part of the Craig-Bampton
+// method. With the dofs split into boundary b, inner i and others that are zero in every mode,
 //   constraint modes            X_i = -K_ii^-1 K_ib        one for each boundary dof
 //   fixed-interface modes       K_ii x = w^2 M_ii x        x^T M_ii x = 1
 //   Guyan stiffness             K_bb - K_bi K_ii^-1 K_ib
@@ -14,8 +14,8 @@
 
 namespace floatframe {
 
-/// `solve` gives the normal modes of `inner` dofs. Throws InputError if `count` is more than the
-/// dofs or their mass allow.
+/// `solve` returns the normal modes of `inner` dofs. Throws InputError if `count` exceeds the
+/// number of dofs or massive directions.
 Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,
                        bool at_most = false);
 
@@ -42,8 +42,8 @@ class FixedInterface {
   /// Response of the inner dofs to forces (size x k; those on other rows do not count).
   MatX inner_response(const MatX& forces) const;
 
-  /// Shapes with all rows. Throws if there are more asked for than the inner mass allows.
-  /// `at_most`: fewer if there are no more.
+  /// Shapes with all rows. Throws if more are requested than the inner mass allows.
+  /// `at_most`: fewer are returned instead.
   Eigenmodes normal_modes(int count, bool at_most = false) const;
   /// Number of fixed-interface modes below a frequency [Hz].
   int count_below(double frequency) const;

@@ -94,7 +94,7 @@ FollowingFrame::FollowingFrame(const FeModel& model, const MatX& X, std::vector<
   }
 }
 
-/// From the first node to all others; no tree: the frame has loops or pieces.
+/// From the first node to all others; if it is not a tree, the frame has loops or pieces.
 void FollowingFrame::find_tree() {
   const std::size_t nodes = model_.positions.size();
   if (model_.elements.size() + 1 != nodes) return;

@@ -1,17 +1,17 @@
 #pragma once
-// How a frame of 2-node beams follows the strains of second order of its modes. A beam that bends
+// How a frame of 2-node beams follows the second-order strains of its modes. A beam that bends
 // and twists,
-//   theta = (phi, -w', v') in its own axes,  sections turned by exp(theta),
+//   theta = (phi, -w', v') in local axes,  sections rotated by exp(theta),
 // keeps its length and its twist per length: its ends come nearer by 1/2 y^T gamma y and turn
 // against each other about its axis by 1/2 y^T tau y,
 //   gamma = int v'^T v' + w'^T w' + Ip/A phi'^T phi' dx,   Ip/A: its outer fibres are helices
-//   tau   = int v'^T w'' - w'^T v'' dx (its symmetric part): (theta x theta')_1, what bending in
-//           two planes makes of the twist of the tangent
+//   tau   = int v'^T w'' - w'^T v'' dx (its symmetric part): (theta x theta')_1, the effect of
+//           bending in two planes to the twist of the tangent
 // and the frame follows, held by its body reference, with the least strain energy:
 //   K h = -sum_e L_e^T (EA/L) gamma_e + sum_e T_e^T (GJ/L) tau_e,   L_e: stretch, T_e: twist
 // Frames without loops that are held by six conditions follow without strain: from node to node h
-// changes by -gamma along the element, the rotation by tau about it. Of a straight bar clamped at
-// its start this is theory, section 8: h_1(k) = -sum over the elements up to k of gamma.
+// changes by -gamma along the element, the rotation by tau about it. For a straight bar clamped at
+// its start see theory, section 8: h_1(k) = -sum over the elements up to k of gamma.
 //
 // Pairs of modes a >= b are the columns, row by row of the lower half, in groups that fit into
 // memory.
@@ -25,7 +25,7 @@
 
 namespace floatframe {
 
-/// Slopes and twist of a beam in its own axes.
+/// Slopes and twist of a beam in local axes.
 struct BentBeam {
   double L = 0.0;
   Mat3 T;
@@ -51,7 +51,7 @@ class FollowingFrame {
   /// held: rows that the body reference holds, six at least.
   FollowingFrame(const FeModel& model, const MatX& X, std::vector<int> held);
 
-  /// Frames of very many elements with loops are not: their direct factors have no digits.
+  /// False for frames of very many elements with loops: their factors have no accurate digits.
   bool known() const noexcept { return tree_ || fixed_; }
   enum class Strain { shortening, twist };
   /// Six rows per node, a column for each pair from `first` on.

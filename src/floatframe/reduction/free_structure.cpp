@@ -25,7 +25,7 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
 
 namespace {
 
-/// Smallest eigenvalue of one degree of freedom alone; 0 if none has mass and stiffness.
+/// Smallest eigenvalue of a single degree of freedom; 0 if none has mass and stiffness.
 double softest_row(const FeSystem& system) {
   const VecX k = system.K.diagonal(), m = system.M.diagonal();
   double least = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
       }
     }
   }
-  // About the centre and with rotations over the size: digits do not depend on place and scale.
+  // About the centre and with rotations over the size: accuracy is independent of place and scale.
   MatX R = rigid_motions(model, system, centre);
   R.rightCols<3>() /= size;
   const MatX MR = system.M * R;
@@ -82,7 +82,7 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
   const VecX shape = U * (Q * modes.vectors.col(0));
   if (softest != nullptr) *softest = shape;
   if (!no_elements) return std::max(modes.values(0), 0.0);
-  // Bodies at one place on springs: such shapes do not move them apart.
+  // Coincident bodies on springs: such shapes do not separate them.
   const double energy = shape.dot(system.K * shape);
   const double rounding =
       shape.cwiseAbs().dot(SparseMatrix(system.K.cwiseAbs()) * shape.cwiseAbs());
@@ -124,7 +124,7 @@ MatX FreeStructure::relieved_response(const MatX& forces, const Eigenpairs& elas
   const auto balance = [&](MatX& f) { f -= MR_ * rigid.solve(R_.transpose() * f); };
   MatX f = forces;
   balance(f);
-  // The share of the known modes is x x^T f / w^2; the rest by A u = f + sigma M (...), repeated.
+  // The part of the known modes is x x^T f / w^2; the rest by A u = f + sigma M (...), repeated.
   MatX modal(f.rows(), f.cols());
   const MatX& X = elastic.shapes;
   const MatX MX = M_ * X;

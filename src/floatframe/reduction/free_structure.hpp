@@ -1,9 +1,9 @@
 #pragma once
-// A structure that nothing holds. Its stiffness is singular, so A = K - sigma M with a negative
+// A free structure. Its stiffness is singular, so A = K - sigma M with a negative
 // shift is factored instead; M may be singular as well.
 //   free modes        K x = w^2 M x; the first six are rigid motions
 //   inertia relief    K u = f - M R (R^T M R)^-1 R^T f,   R^T M u = 0: elastic displacements of the
-//                     body that flies under the forces f
+//                     free body under the forces f
 // Load time: allocates and throws InputError.
 #include <functional>
 #include <string>
@@ -18,7 +18,7 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
 
 /// A bound of the lowest elastic eigenvalue [rad2/s2] from above: Rayleigh-Ritz with displacements
 /// that are quadratic in the coordinates. 0 if there is no such (no mass).
-/// `softest`: the displacements that it belongs to; empty if there are none.
+/// `softest`: the corresponding displacements; empty if there are none.
 double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* softest = nullptr);
 
 class FreeStructure {

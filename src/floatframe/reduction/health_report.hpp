@@ -1,5 +1,5 @@
 #pragma once
-// What an engineer wants to know before trusting a reduced body. Plain data, SI units.
+// Data for judging the quality of a reduced body. Plain data, SI units.
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,10 +58,10 @@ struct HealthReport {
   std::vector<FrequencyPair> free_frequencies;  ///< elastic, full against reduced
   OwnDamping damping;  ///< fractions of critical damping of the reduced body's own modes
   std::vector<InterfaceHealth> interfaces;
-  std::string static_support;  ///< how the static check was held
+  std::string static_support;  ///< support used in the static check
   std::string solver;
   std::vector<std::pair<std::string, double>> seconds;  ///< of each stage
-  std::vector<std::string> notes;                       ///< what was ignored in the file
+  std::vector<std::string> notes;                       ///< ignored items of the file
   std::vector<std::string> warnings;                    ///< one sentence each: anything suspicious
 };
 

@@ -19,7 +19,7 @@ SparseMatrix masses_of_direction(const FeSystem& system, int axis, Eigen::Index 
   return out;
 }
 
-/// Displacements of the nodes along an axis; zero where a node has no degree of freedom of its own.
+/// Displacements of the nodes along an axis; zero where a node has no degree of freedom.
 MatX along(const FeSystem& system, const MatX& X, int axis, Eigen::Index nodes) {
   MatX out = MatX::Zero(nodes, X.cols());
   for (int i = 0; i < system.size(); ++i)

@@ -32,7 +32,7 @@ MatX forces_of(const std::vector<MarkerPlace>& markers, int n, std::vector<std::
 }
 
 /// Independent directions of attachment modes: X with X^T K X = I among them. `full`: the energies
-/// 1/2 f u before the share of other modes was taken out.
+/// 1/2 f u before the component of other modes was removed.
 MatX independent(const MatX& X, const MatX& energy, const VecX& full,
                  std::vector<std::string>& names) {
   std::vector<Eigen::Index> kept;
@@ -157,7 +157,7 @@ ModeBasis craig_bampton_basis(const PlacedPart& part, std::optional<FixedInterfa
     const VecX full = (F.transpose() * Y).diagonal();
     const VecX weight = normal.omega.cwiseAbs2().cwiseInverse();
     Y -= normal.shapes * weight.asDiagonal() * (normal.shapes.transpose() * F);
-    // (F - M x x^T F)^T Y = F^T Y: what is left is orthogonal to the normal modes.
+    // (F - M x x^T F)^T Y = F^T Y: the remainder is orthogonal to the normal modes.
     const MatX added = independent(Y, F.transpose() * Y, full, names);
     append_modes(basis, added, MatX::Identity(added.cols(), added.cols()), names);
   }
@@ -177,7 +177,7 @@ ModeBasis free_basis(const PlacedPart& part, std::optional<FreeStructure>& struc
       structure.emplace(system.K, system.M, R, 0.01 * estimate, options.solver,
                         [&](int row) { return row_label(model, system, row); });
     } catch (const InputError&) {
-      // Of very few elements a mechanism moves as simply as the shapes of the estimate do.
+      // With very few elements a mechanism moves as simply as the shapes of the estimate.
       if (softest.size() > 0) check_stiffness_of(model, system, softest);
       throw;
     }

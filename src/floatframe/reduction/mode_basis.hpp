@@ -1,11 +1,11 @@
 #pragma once
-// The raw basis of a part before its rigid motions are taken out: every displacement of the
-// structure that the reduced body shall know, and its six rigid motions exactly.
+// The raw basis of a part before its rigid motions are removed: all displacements of the
+// structure that the reduced body represents, and its six rigid motions exactly.
 //   Craig-Bampton   [constraint modes, fixed-interface modes, attachment modes]
 //   free-free       [rigid motions, free modes, attachment modes]
 //   Craig-Chang     [rigid motions, free modes, residual-flexibility modes of all interface dofs]
-// Attachment modes are the static response to unit forces at markers, without the share that the
-// normal modes have in it; dependent ones are left out.
+// Attachment modes are the static response to unit forces at markers, without the component of the
+// normal modes; dependent ones are omitted.
 #include <optional>
 
 #include "floatframe/reduction/fixed_interface.hpp"
@@ -22,7 +22,7 @@ struct ModeBasis : ModeSet {
   std::string solver;
 };
 
-/// What the report says of it: solver, normal modes, notes.
+/// Entries for the report: solver, normal modes, notes.
 void report_basis(const ModeBasis& basis, HealthReport& health);
 
 /// Errors of the options that need no model: contradictions, negative numbers.

@@ -31,15 +31,15 @@ MatX about_centre(const MatX& R, const SparseMatrix& M) {
   return C;
 }
 
-/// One mode more than asked for, if there is one: whether it is the partner of the last shows then.
+/// One mode more than requested, if available: it shows whether it is the partner of the last.
 Eigenmodes modes_and_next(const FixedInterface& fixed, int count, bool at_most) {
   if (count == 0 || count >= fixed.inner()) return fixed.normal_modes(count, at_most);
   Eigenmodes modes = fixed.normal_modes(count + 1, true);
   return modes.omega.size() < count && !at_most ? fixed.normal_modes(count) : modes;
 }
 
-/// How many of these modes are kept; `with_group()` says how many are needed for a whole group
-/// of equal frequency. `given`: the number of them is.
+/// Number of these modes that are kept; `with_group()` returns the number needed for a whole group
+/// of equal frequency. `given`: their number is given.
 template <class WithGroup>
 int whole_groups(const VecX& omega, int kept, bool given, const WithGroup& with_group,
                  int& equal_left_out) {
@@ -69,7 +69,7 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const PlacedPart& par
   const MatX C = about_centre(part.R, system.M);
   const MatX MC = system.M * C;
   const Vec6 total = (C.transpose() * MC).diagonal();
-  // What the inner dofs can reach.
+  // Limit given by the inner dofs.
   MatX inner = C;
   for (const int row : boundary) inner.row(row).setZero();
   const Vec6 reachable = (inner.transpose() * (system.M * inner)).diagonal();
@@ -140,8 +140,8 @@ Eigenpairs select_free_modes(const FreeStructure& structure, const PlacedPart& p
                                  "of the free part only {} remain besides its six rigid motions",
                                  count, system.size(), most));
   }
-  // One at least is looked at: a mechanism is refused however few are kept.
-  // One more than kept shows a pair that is cut.
+  // At least one is computed: a mechanism is rejected for any number of modes.
+  // One more than kept reveals a pair that is cut.
   const int looked_at = count > 0 ? std::min(count + 1, most) : std::min(most, 1);
   const Eigenpairs all = structure.modes(looked_at + 6);
   if (all.shapes.cols() > 6) check_stiffness_of(part.model, system, all.shapes.col(6));

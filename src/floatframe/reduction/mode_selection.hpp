@@ -1,10 +1,10 @@
 #pragma once
-// How many normal modes a part keeps: by number, by frequency, by effective mass; the first limit
-// that is met ends the list. Pairs of modes of equal frequency stay whole (one mode more) but where
-// a number is given that cuts one: then a note says so.
+// Number of normal modes of a part: by number, by frequency, by effective mass; the first limit
+// reached ends the list. Pairs of modes of equal frequency stay whole (one mode more) unless
+// a given number cuts one: then there is a note.
 //   effective mass of a fixed-interface mode in direction r:  (x^T M R_r)^2 / (R_r^T M R_r)
-// R: rigid motions about the centre of mass. The sum over all modes is the share of the mass that
-// does not sit on the interfaces, R_i^T M_ii R_i; a limit means a fraction of that.
+// R: rigid motions about the centre of mass. The sum over all modes is the part of the mass that
+// is not on the interfaces, R_i^T M_ii R_i; a limit is a fraction of that.
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"
 #include "floatframe/reduction/part_places.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Modes by whatever method, and the body that is made of them: the road that bars and parts share.
+// Modes by any method, and the body built from them: the common path of bars and parts.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace floatframe {
 
-/// Mode shapes and what is known about them, before the body is made.
+/// Mode shapes and their properties, before the body is built.
 struct ModeSet {
   MatX X;            ///< rows of the structure x nm
   MatX K;            ///< nm x nm
@@ -20,8 +20,8 @@ struct ModeSet {
   int equal_left_out = 0;  ///< as of FlexibleBody
 };
 
-/// Of a structure held at its interfaces (FixedInterface, BarChains): the number of normal modes
-/// that a largest number and a frequency limit [Hz] (0: none) leave.
+/// For a structure held at its interfaces (FixedInterface, BarChains): the number of normal modes
+/// within a largest number and a frequency limit [Hz] (0: none).
 template <class Fixed>
 int normal_mode_count(const Fixed& fixed, std::optional<int> number, double max_frequency) {
   if (!(max_frequency > 0.0)) return number.value_or(fixed.inner());
@@ -29,7 +29,7 @@ int normal_mode_count(const Fixed& fixed, std::optional<int> number, double max_
   return number ? std::min(below, *number) : below;
 }
 
-/// How many modes have the frequency [Hz] of the last of `kept` or less: more than kept where a
+/// Number of modes with at most the frequency [Hz] of the last of `kept`: more than kept if a
 /// group of equal frequency is cut (body/cut_pair.hpp).
 template <class Fixed>
 int count_with_group(const Fixed& fixed, int kept, double last) {
@@ -56,7 +56,7 @@ ModeSet craig_bampton_set(const Fixed& fixed, const Eigenmodes& normal,
   return set;
 }
 
-/// The body of modes: everything but its nodes, its damping and the data of the projection method.
+/// The body from modes: everything except its nodes, its damping and the data of the projection
 FlexibleBody body_of_modes(ModeSet modes, InertiaInvariants invariants);
 
 }  // namespace floatframe

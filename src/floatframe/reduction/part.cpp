@@ -1,4 +1,4 @@
-// From a finite-element part to a flexible body, stage by stage.
+// From a finite-element part to a flexible body, in stages.
 #include "floatframe/reduction/part.hpp"
 
 #include <fmt/format.h>
@@ -50,15 +50,15 @@ class Stages {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Columns get the sign that makes their largest component positive.
+/// Columns are given the sign that makes their largest component positive.
 void fix_signs(const MatX& X, MatX& C) {
   for (Eigen::Index a = 0; a < C.cols(); ++a) {
     C.col(a) *= sign_of_largest(X * C.col(a));
   }
 }
 
-/// Every shape of the basis gets a largest displacement of 1, rotations counted times the size of
-/// the part: what has mass, and what has none, then shows whatever the units and the size.
+/// Every shape of the basis is scaled to a largest displacement of 1, rotations counted times the
+/// size of the part: then masses are distinguished from zero in any units and at any size.
 void normalise(const FeSystem& system, double size, ModeBasis& basis) {
   const VecX lengths = row_lengths(system, size);
   VecX factor(basis.X.cols());
@@ -71,7 +71,7 @@ void normalise(const FeSystem& system, double size, ModeBasis& basis) {
   basis.rigid = (factor.cwiseInverse().asDiagonal() * basis.rigid).eval();
 }
 
-/// Very many beams in a row: are there digits left in the normal modes?
+/// Very many beams in a row: are the normal modes accurate?
 void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& basis,
                  Integration integration) {
   const Eigen::Index first = basis.first_normal, count = basis.frequencies.size();
@@ -85,7 +85,7 @@ void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& 
                names, integration);
 }
 
-/// The answers to unit loads that the stress stiffness needs; empty for given matrices.
+/// The responses to unit loads needed by the stress stiffness; empty for given matrices.
 MatX unit_response(const PlacedPart& part, const PointModel& points, const ModeBasis& basis,
                    const std::optional<FixedInterface>& fixed,
                    const std::optional<FreeStructure>& structure, const Eigenpairs& elastic) {
@@ -118,7 +118,7 @@ void add_surface(const FeModel& model, const FeSystem& system, const MatX& X, Re
   }
 }
 
-/// What is written must be what can be read.
+/// Written data must be readable.
 void check_body(const FlexibleBody& body, bool rotary) {
   ErrorList errors;
   for (const InvariantError& f :
@@ -149,7 +149,7 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
                                  worst, hold_text(model, health.rigid_residual)));
 }
 
-/// What the model weighs, and whether its stiffness lets it move freely.
+/// Mass of the model, and whether its stiffness allows rigid motions.
 void check_model(const PlacedPart& part, HealthReport& health) {
   const FeModel& model = part.model;
   const FeSystem& system = part.system;
@@ -187,7 +187,7 @@ void add_second_order(const PlacedPart& part, const PointModel& points, const Ma
   if (part.options.keep_projection) body.projection = projection_of(points, X, second_order.twist);
 }
 
-/// In the mean-axis frame: those of the body that nothing holds.
+/// In the mean-axis frame: those of the free body.
 ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
                                 const ModeBasis& basis, const InertiaInvariants& raw) {
   ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
@@ -196,7 +196,7 @@ ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
   return free;
 }
 
-/// In the frame that is asked for.
+/// In the requested frame.
 ElasticModes body_modes(const PlacedPart& part, const ModeBasis& basis,
                         const InertiaInvariants& raw, HealthReport& health) {
   ElasticModes modes = elastic_modes(basis.K, raw, reference_conditions(part, basis, raw));
@@ -214,8 +214,8 @@ ElasticModes body_modes(const PlacedPart& part, const ModeBasis& basis,
   return modes;
 }
 
-/// Modes of the free part, of the model itself beside those of the body if asked for. `structure`:
-/// if its factors are there already. One mode at least shows what holds the part.
+/// Modes of the free part: of the model in addition to those of the body on request. `structure`:
+/// if its factors exist already. At least one mode is computed, to detect supports of the part.
 void check_free_modes(const PlacedPart& part, const VecX& reduced, Eigen::Index fixed_modes,
                       std::optional<FreeStructure>& structure, HealthReport& health) {
   const auto& [model, system, R, interfaces, markers, options] = part;

@@ -2,7 +2,7 @@
 // From a finite-element part of any size to a flexible body, with a report on its health. The part
 // is in SI units and in its own coordinates, which become the body frame.
 //
-// Load time: allocates and throws InputError that names the node, element, dof or interface.
+// Load time: allocates and throws InputError with the node, element, dof or interface.
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ enum class ModeMethod {
   craig_chang     ///< free normal modes + residual-flexibility modes of all interfaces
 };
 
-/// What the body frame follows; decides which rigid-body content is removed from the modes.
+/// Definition of the body frame; decides which rigid-body content is removed from the modes.
 struct BodyReference {
   enum class Kind {
     mean_axis,  ///< Tisserand: int X dm = 0, int r_u x X dm = 0
@@ -37,12 +37,12 @@ struct BodyReference {
   std::string node;
 };
 
-/// A place that can carry loads, sensors and outputs without being an interface.
+/// A point that can carry loads, sensors and outputs without being an interface.
 struct MarkerDescription {
   std::string name;
   NodeChoice choice;  ///< several nodes: the marker follows their mean motion (RBE3)
   std::optional<Vec3> at;
-  bool residual = false;  ///< loads act here: attachment (residual) modes, one a translation
+  bool residual = false;  ///< loads act here: attachment (residual) modes, one per translation
 };
 
 /// Normal modes if the options set no limit at all.
@@ -60,7 +60,7 @@ struct PartOptions {
   double effective_mass = 0.0;
   BodyReference reference;
   Integration integration = Integration::exact;
-  ModalDamping damping;  ///< beside that of a given damping matrix
+  ModalDamping damping;  ///< in addition to that of a given damping matrix
   /// Free modes of the full model for the report (a second factorisation).
   bool check_free_modes = true;
   bool stresses = true;          ///< FlexibleBody::stress

@@ -14,7 +14,7 @@ namespace {
 
 /// Rounding of a given matrix, of its largest entry in the modes.
 constexpr double given_rounding = 1e-9;
-/// Resistance to rigid motions that is said, of that to the modes.
+/// Resistance to rigid motions that is reported, relative to the modes.
 constexpr double rigid_damping = 1e-6;
 
 /// Displacements at the rows of the given matrices.
@@ -31,7 +31,7 @@ MatX at_rows(const FeSystem& system, const std::vector<Dof>& dofs, const MatX& Q
 MatX given_damping(const FeMatrices& given, const FeSystem& system, const MatX& R, const MatX& X,
                    const FlexibleBody& body, HealthReport& health) {
   const MatX M = mass_matrix_at_rest(body.invariants);
-  Vec6 size = Vec6::Ones();  // of turns: lengths
+  Vec6 size = Vec6::Ones();  // of rotations: lengths
   size.tail<3>().setConstant(
       std::sqrt(body.invariants.m / body.invariants.inertia_about_origin().trace()));
   const LeastNorm rigid(size.asDiagonal() * M.topLeftCorner<6, 6>() * size.asDiagonal());
@@ -48,7 +48,7 @@ MatX given_damping(const FeMatrices& given, const FeSystem& system, const MatX& 
         fmt::format("the damping matrix gives energy to a deformation (smallest eigenvalue in the "
                     "modes {:.3g}, largest {:.3g}), expected none below zero",
                     own.values(0), top));
-  // Rounding must not give energy either.
+  // Rounding must not add energy either.
   D = own.vectors * own.values.cwiseMax(0.0).asDiagonal() * own.vectors.transpose();
   const MatX R_rows = at_rows(system, given.dofs, R);
   const MatX C_R = given.C * R_rows;

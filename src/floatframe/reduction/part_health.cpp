@@ -32,10 +32,10 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   if (!(properties.mass > 0.0))
     throw InputError(ErrorCode::singular,
                      "the part has no mass: every density is zero, and there is no point mass");
-  double rounding = 0.0;  // what is left of springs within a rigid body
+  double rounding = 0.0;  // remainder of springs within a rigid body
   if (model.elements.empty())
     for (const Spring& s : model.springs) rounding = std::max(rounding, 1e-12 * s.stiffness);
-  // `check_rigid_motions` refuses what is not finite.
+  // `check_rigid_motions` rejects values that are not finite.
   const VecX diagonal = system.K.diagonal();
   if ((diagonal.array() <= rounding).all())
     throw InputError(
@@ -45,7 +45,7 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
 
 void require_inertia(const FeModel& model, const FeSystem& system, const PartOptions& options,
                      const MassProperties& properties) {
-  // In the frame of an interface what holds it is enough.
+  // In the frame of an interface its supports are enough.
   if (options.method == ModeMethod::craig_bampton &&
       options.reference.kind == BodyReference::Kind::node)
     return;
@@ -68,7 +68,7 @@ void require_inertia(const FeModel& model, const FeSystem& system, const PartOpt
 
 namespace {
 
-/// Frequencies that no part of a machine has.
+/// Frequencies that do not occur in machine parts.
 constexpr double lowest_usual = 0.01, highest_usual = 2e6;
 
 void warn_of_interfaces(HealthReport& health) {
@@ -96,7 +96,7 @@ void warn_of_interfaces(HealthReport& health) {
 }
 
 void warn_of_modes(HealthReport& health) {
-  // The modes above the range of interest are never exact: only those that the normal modes cover.
+  // The modes above the range of interest are never exact: only those covered by the normal modes.
   double range = 0.0;
   for (const ModeHealth& m : health.normal_modes)
     if (m.kept) range = std::max(range, m.frequency);

@@ -1,5 +1,5 @@
 #pragma once
-// The figures of the health report that come from the full model, and what is suspicious.
+// The figures of the health report from the full model, and its suspicious properties.
 #include "floatframe/reduction/mode_basis.hpp"
 
 namespace floatframe {
@@ -8,19 +8,19 @@ namespace floatframe {
 MassProperties mass_properties(const SparseMatrix& M, const MatX& R);
 MassProperties mass_properties(const InertiaInvariants& invariants);
 
-/// Throws InputError that says what a part lacks that cannot vibrate.
+/// Throws InputError with the missing property of a part that cannot vibrate.
 void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
                                  const MassProperties& properties);
-/// Throws InputError for masses on a line or at one point, which turn without inertia: frames of
-/// mean axes and free modes cannot tell that from an elastic motion.
+/// Throws InputError for collinear masses or a single point mass, which rotate without inertia:
+/// frames of mean axes and free modes cannot distinguish that from an elastic motion.
 void require_inertia(const FeModel& model, const FeSystem& system, const PartOptions& options,
                      const MassProperties& properties);
 
-/// One sentence for everything that looks wrong, from the figures gathered so far.
+/// One sentence for each suspicious figure of those collected so far.
 void add_warnings(const FeModel& model, const PointModel& points, HealthReport& health);
 
-/// "the file may be in mm-t-s and not in m-kg-s: then ..."; empty if the numbers are usual or no
-/// unit system makes them so.
+/// "the file may be in mm-t-s and not in m-kg-s: then ..."; empty if the numbers are usual, or
+/// unusual in all unit systems.
 std::string unit_guess(const FeModel& model, double mass);
 
 }  // namespace floatframe

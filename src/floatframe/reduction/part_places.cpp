@@ -25,7 +25,7 @@ Vec3 centre_of(const FeModel& model, const std::vector<int>& nodes) {
 }
 
 /// Largest over smallest singular value of the rigid motions of the nodes, lengths in units of
-/// their radius of gyration about their centre; on a line without the turn about it.
+/// their radius of gyration about their centre; on a line without rotation about it.
 double condition_of(const FeModel& model, const std::vector<int>& nodes, bool on_line) {
   const Vec3 c = centre_of(model, nodes);
   double size = 0.0;
@@ -86,7 +86,7 @@ void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
   }
   errors.throw_if_any();
   tie_free_turns(model, turns);
-  tie_free_turns(model, line_turns(model), false);  // nothing of the user's model turns there
+  tie_free_turns(model, line_turns(model), false);  // nothing of the user's model rotates there
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
       continue;
     }
     try {
-      // Of the model as the user made it: the new reference nodes belong to no set.
+      // Of the user's model: the new reference nodes belong to no set.
       const std::vector<int> nodes = choose_nodes(model, d.choice);
       InterfacePlace place;
       place.name = d.name;
@@ -185,7 +185,7 @@ void find_rows(const FeModel& model, const FeSystem& system,
       if (stiffness(row) == 0.0 && mass(row) == 0.0)
         loose += std::string(loose.empty() ? "" : ", ") + node_dof_names[axis];
     }
-    // As an inner node would be refused: the reference of a coupling of some directions only.
+    // Rejected like an inner node: the reference of a coupling of some directions only.
     if (!loose.empty())
       errors.add(ErrorCode::singular, {},
                  fmt::format("interface '{}': {} can move without resistance in {}: nothing of the "

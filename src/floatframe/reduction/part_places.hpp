@@ -26,11 +26,11 @@ struct MarkerPlace {
   bool residual = false;
   // After assembly, 3 x n: u = translation q, theta = rotation q.
   SparseRows translation, rotation;
-  /// The shares of the displacements of nodes in both, 3 x 3 nodes.
+  /// The coefficients of the displacements of nodes in both, 3 x 3 nodes.
   SparseRows by_translations, turn_by_translations;
 };
 
-/// A part with its places and its equations, which everything that is asked of it stands on.
+/// A part with its interfaces, markers and equations, the basis of all further computations.
 struct PlacedPart {
   const FeModel& model;
   const FeSystem& system;
@@ -40,9 +40,9 @@ struct PlacedPart {
   const PartOptions& options;
 };
 
-/// Adds the interfaces to the model and ties the turns that nothing resists (`free_turns`). Throws
-/// InputError with the errors of all of them, and if one of them or of the residual markers is to
-/// hold such a turn.
+/// Adds the interfaces to the model and ties the rotations without stiffness (`free_turns`). Throws
+/// InputError with the errors of all of them, and if an interface or residual marker would
+/// hold such a rotation.
 std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options,
                                              const std::vector<MarkerPlace>& markers = {});
 /// Throws InputError with the errors of all markers.
@@ -51,7 +51,7 @@ std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& 
 /// Completes the interfaces. Throws InputError if a dof does not exist or is given twice.
 void find_rows(const FeModel& model, const FeSystem& system,
                std::vector<InterfacePlace>& interfaces);
-/// Completes the markers: the mean motion of their nodes, rotations by least squares; of a single
+/// Completes the markers: the mean motion of their nodes, rotations by least squares; for a single
 /// node its own rotation if it has one, else none.
 void find_motions(const FeModel& model, const FeSystem& system, std::vector<MarkerPlace>& markers);
 

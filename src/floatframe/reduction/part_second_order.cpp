@@ -16,7 +16,7 @@ namespace {
 
 constexpr Eigen::Index body_cases = 12;
 
-/// Unit loads of all cases, with what the body reference carries.
+/// Unit loads of all cases, with the reactions of the body reference.
 MatX balanced_loads(const PlacedPart& part, const MatX& loads, const MatX& B) {
   const FeSystem& system = part.system;
   const std::size_t places = part.interfaces.size() + part.markers.size();
@@ -98,7 +98,7 @@ MatX free_response(const PlacedPart& part, const MatX& loads, const MatX& B,
 namespace {
 
 /// Forces of elements and springs on the nodes that are fixed to others, less the forces of the
-/// cases there: three rows a node, one column a case.
+/// cases there: three rows per node, one column per case.
 class ForcesOnFollowers {
  public:
   ForcesOnFollowers(const FeModel& model, const std::vector<PointArm>& followers)

@@ -1,23 +1,23 @@
 #pragma once
 // Displacements of second order (body/second_order.hpp) of a part: the stress stiffness of unit
 // loads in its modes. Unit loads f are
-//   rho e_j, rho r_ui e_j    as the inertia integrals weigh (PointModel): for S2 and S2i
+//   rho e_j, rho r_ui e_j    with the weights of the inertia integrals (PointModel): for S2 and S2i
 //   force e_j, moment e_j    at every interface and marker: for h and theta
-// The body reference B u = 0 carries what a load has of resultants (of mean axes: the inertia
+// The body reference B u = 0 carries the resultants of a load (for mean axes: the inertia
 // forces of a free body),
 //   f_eq = f - B^T (B R)^-T R^T f,   K w = f_eq
 // and the stress of w does not depend on its rigid motion. A structure held at its interfaces
-// answers with its factors of the inner dofs and its Guyan stiffness,
+// responds with its factors of the inner dofs and its Guyan stiffness,
 //   w = X_c u_b + (0, K_ii^-1 f_i),   (X_c^T K X_c) u_b = X_c^T f_eq
 // a free one by inertia relief.
 //
-// Nodes i that are fixed rigidly to another node r (rigid_leaders) have displacements of second
-// order of their own, c_i = 1/2 theta_r x (theta_r x (x_i - x_r)). With the forces F_i of the
+// Nodes i that are fixed rigidly to another node r (rigid_leaders) have additional displacements of
+// second order, c_i = 1/2 theta_r x (theta_r x (x_i - x_r)). With the forces F_i of the
 // elements on them under the load,
 //   f . u2 = -int sigma : eps2 - sum (F_i - f_i) . c_i
 // where the body reference holds u2 without the c_i.
-// Of masses that turn with a node f_i . c_i is part of `turning` (part_turning.hpp), as is the
-// share of torques on the twist of beams; here is what is left.
+// For masses that rotate with a node f_i . c_i is part of `turning` (part_turning.hpp), as is the
+// part of torques on the twist of beams; here is the remainder.
 #include <memory>
 #include <optional>
 
@@ -43,7 +43,7 @@ struct PartSecondOrder {
   std::shared_ptr<const SecondOrder> stiffening;  ///< nodes: interfaces, then markers
   std::optional<SecondOrder> twist;               ///< of beams, on the masses
 };
-/// Of the modes X (n x nm).
+/// For the modes X (n x nm).
 PartSecondOrder part_second_order(const PlacedPart& part, const PointModel& points, const MatX& X,
                                   const MatX& response);
 

@@ -10,9 +10,9 @@ namespace {
 
 static_assert(body_load_cases == linear_load_cases);
 
-/// Nodes that a rigid spider or a single interface node holds, and what shares an element with
-/// them: the stress there is that of a hold that the real part does not have. Of mean spiders the
-/// nodes alone.
+/// Nodes held by a rigid spider or a single interface node, and nodes that share an element with
+/// them: the stress there is that of a support that the real part does not have. For mean spiders
+/// only the nodes.
 std::vector<char> doubtful_nodes(const FeModel& model) {
   std::vector<char> held(model.positions.size(), 0), out(model.positions.size(), 0);
   for (const Spider& s : model.spiders) {

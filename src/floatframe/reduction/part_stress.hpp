@@ -1,13 +1,13 @@
 #pragma once
-// Stress of a reduced part (body/body_stress.hpp): of its modes, and what its own loads add.
+// Stress of a reduced part (body/body_stress.hpp): that of its modes, and that of its own loads.
 //
 // A load f acts on the part with the forces of its interfaces, and all of them balance: K u = f.
-// The modes give the static answer X K_y^-1 X^T f. What is left,
+// The modes give the static response X K_y^-1 X^T f. The remainder,
 //   r = w - X K_y^-1 X^T K w,   w = (0, K_ii^-1 f_i)
-// does not move the interfaces and adds its stress (mode acceleration): constraint modes answer
+// does not move the interfaces and adds its stress (mode acceleration): constraint modes represent
 // forces at interfaces exactly, so that r of w, of the part held there, is that of every static
-// answer. Modes of the free part know interfaces by their residual flexibility (Craig-Chang); w is
-// then the answer with inertia relief. Without residual modes the stress near interfaces is that
+// response. Modes of the free part represent interfaces by residual flexibility (Craig-Chang); w is
+// then the response with inertia relief. Without residual modes the stress near interfaces is that
 // of the modes.
 //
 // Loads: rho e_j, rho r_i e_j (fe/body_loads.hpp) and the mass times each mode.

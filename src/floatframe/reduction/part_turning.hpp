@@ -1,6 +1,6 @@
 #pragma once
-// Displacements of second order of the masses of a part that turn with its nodes, whether
-// stiffening is counted or not: of points on arms, 1/2 theta x (theta x arm), and the twist of
+// Displacements of second order of the masses of a part that rotate with its nodes, with or
+// without stiffening: of points on arms, 1/2 theta x (theta x arm), and the twist of
 // second order of beams that are bent in two planes (part_second_order.hpp).
 #include <memory>
 #include <optional>
@@ -21,7 +21,7 @@ void add_integrals(const SecondOrder& from, SecondOrder& to);
 /// S2 and S2i of the arms, weighed by the masses of the points, of the modes X (n x nm).
 SecondOrder turning_of(const PointModel& points, std::span<const PointArm> arms, const MatX& X);
 
-/// Null: nothing turns.
+/// Null: no rotating masses.
 std::shared_ptr<const SecondOrder> part_turning(const PointModel& points, const MatX& X,
                                                 const std::optional<SecondOrder>& twist);
 

@@ -27,7 +27,7 @@ InertiaInvariants compute_invariants(const FeModel& model, const MatX& X,
 void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeSet& set) {
   const MatX M = modal_mass(compute_invariants(model, set.X, options));
   if (M.rows() == 0) return;
-  // Each mode of unit mass: displacements and rotations are not of one size.
+  // Each mode has unit mass: displacements and rotations differ in size.
   const VecX s =
       M.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
   const VecX masses = symmetric_eigenvalues(s.asDiagonal() * M * s.asDiagonal());
@@ -87,7 +87,7 @@ std::shared_ptr<ProjectionData> projection_data(const FeModel& model, const MatX
   return data;
 }
 
-/// Where the frame is mounted: what its body frame follows, and where static modes are.
+/// Supports of the frame: nodes that define its body frame, and those with static modes.
 std::vector<InterfaceDofs> interfaces_of(const FeModel& model, const ReductionOptions& options) {
   std::map<int, unsigned> masks;
   for (const auto* list : {&options.clamped, &options.interfaces})
@@ -135,7 +135,7 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
 
   InertiaInvariants invariants = compute_invariants(model, set.X, options);
   if (options.analytic && !options.basis && !options.orthonormalise) {
-    // Of the dynamic shapes, each by itself.
+    // For the dynamic shapes, each separately.
     const Eigen::Index dynamic = set.K.rows() - 2;
     const VecX m = modal_mass(invariants).diagonal().tail(dynamic);
     set.frequencies =

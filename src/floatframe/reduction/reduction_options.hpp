@@ -1,5 +1,5 @@
 #pragma once
-// How a frame of bars is reduced: what a description of the frame holds and what `reduce` takes.
+// Options for reducing a frame of bars: those of a description of the frame and those of `reduce`.
 #include <optional>
 #include <string>
 #include <vector>

@@ -100,7 +100,7 @@ std::string hold_text(const FeModel& model, double residual) {
   const Spring* holding = nullptr;
   double largest = 0.0;
   for (const Spring& s : model.springs) {
-    if (s.nodes[1] < 0) continue;  // refused before
+    if (s.nodes[1] < 0) continue;  // rejected before
     // Its elongation in rotations about its first node: moments of its directions.
     const Vec3 r = model.positions[s.nodes[1]] - model.positions[s.nodes[0]];
     const Vec3 d = s.directions[1].head<3>();

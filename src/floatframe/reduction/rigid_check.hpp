@@ -1,26 +1,26 @@
 #pragma once
-// What a free part must have: six rigid motions that cause no force, and no seventh motion without
+// Conditions on a free part: six rigid motions without force, and no seventh motion without
 // stiffness. All measures are relative to the part: rotations count times its size, so that a model
 // in other units or of another scale gives the same numbers.
 //
-// Load time: throws InputError that names the nodes.
+// Load time: throws InputError with the nodes.
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
 
-/// Half the diagonal of the box around the nodes that something uses [m].
+/// Half the diagonal of the box around the nodes in use [m].
 double part_size(const FeModel& model, const FeSystem& system);
 
-/// Of each row of the system: 1 for translations, `size` for rotations.
+/// For each row of the system: 1 for translations, `size` for rotations.
 VecX row_lengths(const FeSystem& system, double size);
 
 /// Largest |K R| / |K|, R the rigid motions. Throws if it is above `largest_rigid_residual`: the
-/// part is held by something.
+/// part has a support.
 double check_rigid_motions(const FeModel& model, const FeSystem& system);
 inline constexpr double largest_rigid_residual = 1e-3;
 
-/// What makes a rigid motion stiff although it is no more than that `residual`: a soft spring that
+/// Cause of the stiffness of a rigid motion, in spite of its small `residual`: a soft spring that
 /// does not act along the line of its nodes, else a support or the digits of the stiffness.
 std::string hold_text(const FeModel& model, double residual);
 

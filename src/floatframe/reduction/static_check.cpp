@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-/// Displacements of interface `loaded` under unit loads on its own dofs, interface `held` fixed, by
+/// Displacements of interface `loaded` under unit loads on its dofs, interface `held` fixed, by
 /// the full model from the stiffness of all boundary rows.
 MatX by_stiffness(const MatX& K, const InterfacePlace& loaded, const InterfacePlace& held) {
   std::vector<Eigen::Index> free;

@@ -6,12 +6,12 @@
 
 namespace floatframe {
 
-/// What the full model does at all boundary rows: Guyan stiffness, or displacements under unit
+/// Response of the full model at all boundary rows: Guyan stiffness, or displacements under unit
 /// forces with inertia relief.
 struct Statics {
   MatX stiffness, flexibility;
 };
-/// `structure`: if nothing holds it.
+/// `structure`: given if the part is free.
 Statics statics_of(const ModeBasis& basis, const std::optional<FreeStructure>& structure,
                    const Eigenpairs& elastic, const std::vector<InterfacePlace>& interfaces, int n);
 

@@ -1,4 +1,4 @@
-// Nothing in most files states the units. Numbers that no material has tell of a wrong choice.
+// Most files do not state the units. Numbers that no material has indicate a wrong choice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace floatframe {
 namespace {
 
-/// What the check looks at; zero: not known.
+/// Quantities used by the check; zero: unknown.
 struct Numbers {
-  double density = 0.0;  ///< of the first material, or mass by the volume of the box [kg/m3]
+  double density = 0.0;  ///< of the first material, or mass per volume of the box [kg/m3]
   double young = 0.0;    ///< [Pa]
   double size = 0.0;     ///< diagonal of the box [m]
   bool of_material = false;
@@ -56,7 +56,7 @@ std::string unit_guess(const FeModel& model, double mass) {
   const Numbers x = numbers_of(model, mass);
   if (usual(x)) return "";
   const std::string found = "the part has " + text(x) + ", which is unusual";
-  // Other units explain a material; the box about masses on springs has any density.
+  // A material can be explained by other units; the box about masses on springs has any density.
   if (!x.of_material) return found + "; check the units of the file";
   std::vector<std::string> read_as{"m-kg-s", "mm-t-s", "mm-kg-ms", "mm-kg-s"};
   if (!model.units.empty()) read_as = {model.units};

@@ -1,7 +1,7 @@
 // Parts and instances of an Abaqus deck. Each instance has the numbers and names of its part, the
-// assembly has its own; from there things of an instance are INSTANCE.NAME and INSTANCE.12. What
-// stands in the scope of a part stands once more in that of a further instance, and of a part
-// without instances not at all.
+// assembly has separate ones; it refers to an instance by INSTANCE.NAME and INSTANCE.12. The
+// content of the scope of a part is copied for each further instance, and omitted for a part
+// without instances.
 #include <algorithm>
 #include <numbers>
 #include <set>
@@ -13,10 +13,10 @@
 namespace floatframe {
 namespace {
 
-/// A name without an instance is looked for in all of them.
+/// A name without an instance is looked up in all of them.
 constexpr std::size_t most_instances = 2000;
 
-/// References of a thing into another scope.
+/// Copies the references of an item into another scope.
 class ScopeChange {
  public:
   ScopeChange(AbaqusScope from, AbaqusScope to) : from_(from), to_(to) {}
@@ -59,7 +59,7 @@ AbaqusScope scope_of(const AbaqusThing& thing) { return thing.where.scope; }
 AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
 AbaqusScope scope_of(const AbaqusEquation& e) { return e.terms.front().where.scope; }
 
-/// Calls `use` with each list of things that belong to a scope and its place in AbaqusSizes.
+/// Calls `use` with each list of items that belong to a scope and its index in AbaqusSizes.
 template <typename Content, typename Use>
 void each_list(Content& c, Use use) {
   const auto all = [&](auto&... lists) {
@@ -87,7 +87,7 @@ void copy_numbered(AbaqusNumbered<T>& all, std::size_t begin, std::size_t end, A
   }
 }
 
-/// The names of a scope once more in another one; the keys begin with it.
+/// Copies the names of a scope into another one; the keys begin with it.
 template <typename Map>
 void copy_names(Map& map, AbaqusScope from, AbaqusScope to, TextSource& source) {
   const ScopeChange change(from, to);
@@ -108,7 +108,7 @@ AbaqusSizes abaqus_sizes(const AbaqusContent& c) {
   return sizes;
 }
 
-/// What a part has once more, for an instance of it. Throws if instances make too much.
+/// Copies the content of a part for an instance of it. Throws if instances need too much memory.
 void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
                       TextSource& source) {
   const ScopeChange change(part.scope, to);
@@ -155,7 +155,7 @@ void close_last(AbaqusContent& content, TextSource& source, const std::string& w
                block.keyword, shown(block.name), block.keyword, where);
 }
 
-/// Those inside of it that are still open have no end; an error if it has not begun.
+/// Open blocks inside it have no end; an error if it has not begun.
 void close_block(AbaqusCard& card) {
   std::vector<AbaqusOpenBlock>& open = card.content.open;
   const std::string begin = card.name.substr(3);  // "ENDPART"
@@ -194,7 +194,7 @@ void read_placement(AbaqusCard& card, AbaqusPlacement& place) {
                 .toRotationMatrix();
 }
 
-/// The part of an instance; throws where there can be no such instance.
+/// The part of an instance; throws where an instance is not allowed.
 AbaqusPart& part_of_instance(AbaqusCard& card, const std::string& name, const std::string& part) {
   AbaqusContent& content = card.content;
   const auto it = content.parts.find(part);

@@ -1,5 +1,5 @@
-// *BEAM SECTION, and *BEAM GENERAL SECTION as CalculiX has it (with a material) and as Abaqus has
-// it (with E and G in its lines; also SECTION=GENERAL of given constants). Both programs agree on
+// *BEAM SECTION, and *BEAM GENERAL SECTION of CalculiX (with a material) and of Abaqus (with E and
+// G in its lines; also SECTION=GENERAL with given constants). Both programs agree on
 // RECT, PIPE (radius, wall) and BOX. CIRC has a radius in Abaqus and one or two diameters in
 // CalculiX (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC
 // for elements of three nodes only, PIPE and BOX for B32R.
@@ -60,9 +60,9 @@ void set_box(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
   s.J = bredt_torsion(a, b, t[1], t[3], t[0], t[2]);
 }
 
-/// l, h, b1, b2, t1, t2, t3: the node lies l above the lower edge, direction 2 points up; the lower
-/// flange is b1 wide and t1 thick, the upper one b2 and t2, the web t3. A flange without size makes
-/// it a T.
+/// l, h, b1, b2, t1, t2, t3: the node is l above the lower edge, direction 2 points up; the lower
+/// flange is b1 wide and t1 thick, the upper one b2 and t2, the web t3. A flange of zero size gives
+/// a T.
 void set_i(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
   const double l = d[0], h = d[1], b1 = d[2], b2 = d[3], t1 = d[4], t2 = d[5], t3 = d[6];
   const auto flange = [&](double b, double t, const char* which) {
@@ -92,7 +92,7 @@ void set_i(AbaqusCard& card, const Numbers& d, AbaqusSection& section) {
 
 struct AbaqusShape {
   const char* name;
-  std::size_t numbers, calculix;  ///< how many: in both programs, in CalculiX alone (0: none)
+  std::size_t numbers, calculix;  ///< how many: in both programs, in CalculiX only (0: none)
   void (*set)(AbaqusCard& card, const Numbers& d, AbaqusSection& section);
   std::array<const char*, 7> what;
   unsigned any = 0;  ///< bit k: number k need not be positive
@@ -116,7 +116,7 @@ constexpr AbaqusShape beam_shapes[] = {
       "thickness of the web of the I"},
      61u}};
 
-/// Of SECTION=...; null if it is not read.
+/// Shape of SECTION=...; null if it is not supported.
 const AbaqusShape* find_beam_shape(std::string_view name) {
   const auto it = std::find_if(std::begin(beam_shapes), std::end(beam_shapes), [&](const auto& s) {
     const std::string_view known = s.name;
@@ -125,7 +125,7 @@ const AbaqusShape* find_beam_shape(std::string_view name) {
   return it == std::end(beam_shapes) ? nullptr : it;
 }
 
-/// What to say of a shape that is not read.
+/// Message for a shape that is not supported.
 std::string unread_shape(const std::string& name) {
   if (name == "T") return "expected SECTION=I with b1 = t1 = 0 or b2 = t2 = 0";
   const bool other = name == "L" || name.starts_with("TRAP") || name == "HEX" ||
@@ -152,8 +152,8 @@ Eigen::Vector2d offsets_of(AbaqusCard& card) {
   return out;
 }
 
-/// The numbers of the section; false and an error if there are not as many as the shape has, or one
-/// is not positive that must be.
+/// The numbers of the section; false and an error if their number does not match the shape, or one
+/// that must be positive is not.
 bool read_numbers(AbaqusCard& card, const AbaqusShape& shape, std::vector<double>& numbers) {
   card.next();
   while (!card.fields.empty() && card.fields.back().empty()) card.fields.pop_back();
@@ -197,7 +197,7 @@ bool read_constants(AbaqusCard& card, BeamSection& beam) {
   return !card.misread();
 }
 
-/// Of the line at a place, which need not be the last one.
+/// For the line at a location, which need not be the last one.
 void read_direction(AbaqusCard& card, const FeSource& line, AbaqusSection& section) {
   section.n1.setZero();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -268,7 +268,7 @@ void read_general_section(AbaqusCard& card, AbaqusSection& section) {
   card.content.sections.push_back(section);
 }
 
-/// What the dimensions of a section show of the program, and what is said of its shape.
+/// Evidence of the program from the dimensions of a section, and messages about its shape.
 void look_at_dimensions(AbaqusCard& card, const AbaqusShape& shape, std::size_t dimensions) {
   if (dimensions != shape.numbers)
     card.content.clues.add(DeckDialect::calculix,
@@ -332,7 +332,7 @@ void read_abaqus_beam_section(AbaqusCard& card) {
   content.sections.push_back(section);
 }
 
-/// x1, x2 of a line behind a beam section: *BEAM SECTION OFFSET of one with a shape, *CENTROID and
+/// x1, x2 of a line after a beam section: *BEAM SECTION OFFSET of one with a shape, *CENTROID and
 /// *SHEAR CENTER of given constants.
 void read_abaqus_place_in_section(AbaqusCard& card) {
   const bool constants = card.name != "BEAMSECTIONOFFSET";

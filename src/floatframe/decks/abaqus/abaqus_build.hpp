@@ -13,7 +13,7 @@
 
 namespace floatframe {
 
-/// What a name means, seen from a scope: there, in the assembly, in the only instance that has it.
+/// Meaning of a name in a scope: defined there, in the assembly, or in the only instance with it.
 template <typename T>
 struct AbaqusNamed {
   const std::pair<const AbaqusContent::Key, T>* entry = nullptr;
@@ -41,7 +41,7 @@ AbaqusNamed<T> find_abaqus_name(const AbaqusContent& c, const std::map<AbaqusCon
   return found;
 }
 
-/// Names of sets or surfaces, to choose from.
+/// Names of sets or surfaces, for suggestions.
 template <typename T>
 std::vector<std::string> abaqus_names_of(const AbaqusContent& c,
                                          const std::map<AbaqusContent::Key, T>& map) {
@@ -53,7 +53,7 @@ std::vector<std::string> abaqus_names_of(const AbaqusContent& c,
   return names;
 }
 
-/// The name of a set or surface in the model: with that of the instance where others have the same.
+/// The name of a set or surface in the model: with that of the instance if it is not unique.
 template <typename T>
 std::string abaqus_model_name(const AbaqusContent& c, const AbaqusContent::Key& key,
                               const std::map<AbaqusContent::Key, T>& map) {
@@ -66,23 +66,23 @@ std::string abaqus_model_name(const AbaqusContent& c, const AbaqusContent::Key& 
   return twice ? instance->second.name + "." + name : name;
 }
 
-/// Resolves references to nodes or to elements; what is not there is an error, once. Sets of sets
-/// can name the same nodes again and again in a few bytes: the members that are named in all are
+/// Resolves references to nodes or to elements; a missing one is an error, reported once. Sets of
+/// sets can name the same nodes again and again in a few bytes: the total number of members is
 /// limited in proportion to the deck.
 class AbaqusResolver {
  public:
   enum class Of { nodes, elements };
   AbaqusResolver(const AbaqusContent& content, TextSource& source, Of of);
 
-  /// Indices in the order of the deck, each once.
+  /// Indices in the order of the deck, without duplicates.
   std::vector<int> resolve(const AbaqusReference& reference);
-  /// The one node of a reference; -1 and an error that begins with `what` if it is not one.
+  /// The single node of a reference; -1 and an error that begins with `what` if it is not one node.
   int one(const AbaqusReference& reference, std::string_view what);
   /// All members of a set; `depth`: of sets that it is in.
   const std::vector<int>& members(const AbaqusContent::Key& key, int depth = 0);
-  /// Counts members that are named at a place; throws if there are too many in all.
+  /// Counts members of a reference; throws if there are too many in all.
   void spend(std::uint64_t count, const FeSource& at);
-  /// Numbers of GENERATE that are not there: how many, and where the first range stands.
+  /// Missing numbers of GENERATE: how many, and the location of the first range.
   long gaps() const noexcept { return gaps_; }
   const FeSource& first_gap() const noexcept { return first_gap_; }
 
@@ -106,8 +106,8 @@ class AbaqusResolver {
   std::string_view word_;                // "node", "element"
   std::vector<std::int64_t> ascending_;  // labels
   std::map<AbaqusContent::Key, Members> members_;
-  std::vector<int> list_of_;  // of each node or element: the last list that got it
-  int list_ = 0;              // number of the list that is being made
+  std::vector<int> list_of_;  // of each node or element: the last list that contains it
+  int list_ = 0;              // number of the list that is being built
   std::uint64_t most_work_ = 0, work_ = 0;
   long gaps_ = 0;
   FeSource first_gap_;
@@ -116,8 +116,8 @@ class AbaqusResolver {
 /// "element 7 (C3D4)"
 std::string abaqus_label(const AbaqusElement& element);
 
-/// A further entry of a list for a key, like the one at `from` but for a change; its index, which
-/// `copies` keeps.
+/// A further entry of a list for a key, a changed copy of the one at `from`; its index, which is
+/// kept in `copies`.
 template <class T, class Key, class Change>
 int changed_copy(std::vector<T>& list, int from, std::map<Key, int>& copies, const Key& key,
                  Change change) {
@@ -129,20 +129,20 @@ int changed_copy(std::vector<T>& list, int from, std::map<Key, int>& copies, con
   return it->second;
 }
 
-/// What both halves of the building use.
+/// Data used by both halves of the building.
 struct AbaqusBuild {
   const AbaqusContent& content;
   TextSource& source;
   AbaqusResolver nodes, elements;
-  std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if it has none
+  std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if none
   FeModel model;
-  RigidArms arms;      ///< of beams beside their nodes
-  DialectClues clues;  ///< of the deck, and of what its sections are used for
-  /// In FeModel::orientations, of names and what uses them; in FeModel::shells, of sections whose
-  /// plies have orientations of their own.
+  RigidArms arms;      ///< of beams offset from their nodes
+  DialectClues clues;  ///< from the deck, and from the use of its sections
+  /// In FeModel::orientations, by name and use; in FeModel::shells, for sections whose
+  /// plies have separate orientations.
   std::map<std::string, int> orientation_index;
   std::map<std::vector<long>, int> turned_sections;
-  /// Of sections: elements along their direction 1, the first in words.
+  /// For sections: elements along their direction 1, the first in words.
   std::map<const AbaqusSection*, std::pair<std::string, long>> along_direction;
 
   AbaqusBuild(const AbaqusContent& c, TextSource& s)
@@ -151,15 +151,15 @@ struct AbaqusBuild {
         nodes(c, s, AbaqusResolver::Of::nodes),
         elements(c, s, AbaqusResolver::Of::elements),
         clues(c.clues) {}
-  /// Index of the node k of an element; -1 and an error if it is not there.
+  /// Index of the node k of an element; -1 and an error if it is missing.
   int node_of(const AbaqusElement& element, int k);
-  /// Nodes of elements of the deck, each once.
+  /// Nodes of elements of the deck, without duplicates.
   std::vector<int> nodes_of_elements(const std::vector<int>& list) const;
   template <class... Values>
   void note(const FeSource& at, fmt::format_string<Values...> text, Values&&... values) {
     model.notes.push_back(place(at) + ": " + fmt::format(text, std::forward<Values>(values)...));
   }
-  /// An error of a section or an element, which stands before the text.
+  /// An error of a section or an element, whose name is put before the text.
   template <class... Values>
   void error(const AbaqusSection& section, ErrorCode code, fmt::format_string<Values...> text,
              Values&&... values) {
@@ -173,26 +173,26 @@ struct AbaqusBuild {
   }
   /// "deck.inp:12"
   std::string place(const FeSource& at) const { return abaqus_place(source, at); }
-  /// Whose deck it is: as the user says, else as the clues show; by_content: nothing shows it.
+  /// Program of the deck: from the user, else from the clues; by_content: undetermined.
   DeckDialect dialect() const;
 };
 
-/// What the elements of a section have in the model.
+/// Elements of a section in the model.
 struct AbaqusProperties {
   Element like;              ///< material, section, reference and orientation
   bool directional = false;  ///< shells: not isotropic in the plane
 };
 
-/// Elements that have no section: masses, springs, ...
+/// Elements without a section: masses, springs, ...
 bool is_abaqus_point(AbaqusType::Family family) noexcept;
-/// Of each element of the deck the index of the section whose set names it; -1: none.
+/// For each element of the deck the index of the section whose set contains it; -1: none.
 std::vector<int> sections_of_elements(AbaqusBuild& build,
                                       const std::vector<AbaqusSection>& sections);
-/// Notes elements with a section that CalculiX does not take for them: a clue whose deck it is.
+/// Notes elements with a section that CalculiX does not allow for them: evidence of the program.
 void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of);
-/// Of each section; its material and its shape get into the model.
+/// For each section; its material and its shape are added to the model.
 std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build);
-/// Index of an orientation in the model, which gets it; -1 and an error if there is none.
+/// Index of an orientation in the model, where it is added; -1 and an error if there is none.
 int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section);
 /// `material`: index of one by its name.
 ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& section,
@@ -203,8 +203,8 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e);
-/// Direction 1 of a beam towards the further node of its element, if it has one; its ends at the
-/// centroid of its section, as nodes of their own.
+/// Direction 1 of a beam towards the additional node of its element, if any; its ends at the
+/// centroid of its section, as separate nodes.
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
                       Element& e);
 /// An error for each section with elements along its direction 1.
@@ -214,7 +214,7 @@ void report_abaqus_directions(AbaqusBuild& build);
 class AbaqusNodalThickness {
  public:
   explicit AbaqusNodalThickness(AbaqusBuild& build);
-  /// The element gets a section of its thickness.
+  /// Gives the element a section of its thickness.
   void apply(const AbaqusSection& section, Element& e);
   void notes();
 
@@ -232,21 +232,21 @@ void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
-/// Of a 2-node beam: its shear area over the area of the section.
+/// For a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;
-/// Mass and shear of the elements as the program of the deck has them.
+/// Mass and shear of the elements as in the program of the deck.
 void as_in_home_program(AbaqusBuild& build);
 void note_mass_of_unclear_dialect(AbaqusBuild& build);
-/// Once all elements have their sections.
+/// After all elements have their sections.
 void build_abaqus_nonstructural_mass(AbaqusBuild& build);
 void build_abaqus_springs(AbaqusBuild& build);
 void build_abaqus_ties(AbaqusBuild& build);
-/// Of the nodes that *TRANSFORM turns: columns are the axes of their degrees of freedom.
+/// For nodes rotated by *TRANSFORM: columns are the axes of their degrees of freedom.
 std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build);
 /// The surface of a name and its name in the model; null and an error if there is none.
 const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
                                          std::string& shown_name);
-/// Of a surface of nodes.
+/// For a surface of nodes.
 std::vector<int> abaqus_surface_nodes(AbaqusBuild& build, const AbaqusSurface& surface);
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
 

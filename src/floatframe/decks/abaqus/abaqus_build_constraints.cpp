@@ -7,7 +7,7 @@
 namespace floatframe {
 namespace {
 
-/// Collects nodes, each once, with the sum of their weights.
+/// Collects nodes without duplicates, with the sum of their weights.
 class NodeList {
  public:
   void exclude(int node) { place_[node] = -1; }
@@ -135,7 +135,7 @@ Dof meant_dof(const Rotations& rotations, int node, int axis) {
   return it == rotations.end() ? Dof{node, axis} : Dof{it->second, axis % 3 + 3};
 }
 
-/// A term in body axes: of a turned node one of each axis.
+/// A term in body axes: for a node with rotated axes one per axis.
 void add_term(LinearEquation& equation, const Dof& dof, double factor,
               const std::map<int, Mat3>& axes) {
   const auto it = axes.find(dof.node);
@@ -178,7 +178,7 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const Rotatio
   }
 }
 
-/// A node that follows in some directions only follows in its own ones.
+/// A node that follows in some directions only follows in its own axes.
 void check_turned_spiders(AbaqusBuild& build, const std::map<int, Mat3>& axes) {
   if (axes.empty()) return;
   for (const Spider& s : build.model.spiders) {
@@ -241,7 +241,7 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   for (const Spider& s : build.model.spiders)
     if (s.rotation_node >= 0) rotations.emplace(s.rotation_node, s.reference);
   const std::map<int, Mat3> axes = abaqus_node_axes(build);
-  // A *MPC is several equations: one error is enough.
+  // A *MPC gives several equations: one error is enough.
   FeSource wrong;
   for (const AbaqusEquation& equation : c.equations) {
     if (equation.at.file == wrong.file && equation.at.line == wrong.line) continue;

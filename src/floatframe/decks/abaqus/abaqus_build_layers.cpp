@@ -1,6 +1,6 @@
 // Orientations and layers of the sections of an Abaqus deck.
 //
-// Solids have the axes of their orientation at each point. Of shells axis 1 is projected on the
+// Solids have the axes of their orientation at each point. For shells axis 1 is projected on the
 // element: Abaqus takes the axis that follows the one about which the additional rotation turns
 // (1, 2, 3, 1), after that rotation; without an orientation global x, or global z where x is within
 // 0.1 degrees of the normal. CalculiX has the axes in space; with the third along the normal that
@@ -21,8 +21,8 @@ namespace {
 using Family = AbaqusType::Family;
 using Kind = AbaqusOrientation::Kind;
 
-/// Whether something, as "SYSTEM=Z RECTANGULAR", is meant as in CalculiX, which "ignores it"; it is
-/// "ignored" then. A note where it is not sure that the user knows.
+/// Is `what`, such as "SYSTEM=Z RECTANGULAR", treated as in CalculiX, which `does` ("ignores it";
+/// `done`: "ignored")? With a note if the user may not expect it.
 bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
                     const std::string& what, const char* does, const char* done) {
   const DialectClues& clues = build.clues;
@@ -43,8 +43,8 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
   return calculix;
 }
 
-/// In the program of the deck. CalculiX ignores the Z of a system, a point c, and a turn whose
-/// axis is blank.
+/// As in the program of the deck. CalculiX ignores the Z of a system, a point c, and a rotation
+/// whose axis is blank.
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                                      const std::string& name, bool shell) {
   if (o.kind == Kind::z_rectangular &&
@@ -56,7 +56,7 @@ AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                      fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
                      "ignores it", "ignored"))
     o.c.setZero();
-  // Of shells the axis alone says which one is about the normal.
+  // For shells the axis alone determines the one about the normal.
   if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
       is_of_calculix(
           build, o, name,
@@ -95,7 +95,7 @@ Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
   return out;
 }
 
-/// Which axis of an orientation is about the normal of a shell.
+/// The axis of an orientation that is about the normal of a shell.
 int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
   const DeckDialect dialect = build.dialect();
   if (o.axis == 0 && dialect == DeckDialect::abaqus)

@@ -12,7 +12,7 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-/// How many elements of a type there are, and where the first stands.
+/// Number of elements of a type, and location of the first.
 struct Count {
   long number = 0;
   FeSource at;
@@ -21,8 +21,8 @@ struct Count {
   }
 };
 
-/// The numbers of nodes or elements in the model: new ones where another instance or the assembly
-/// has theirs. Numbers of one scope are different, so only several scopes can share one.
+/// The numbers of nodes or elements in the model: new ones if another instance or the assembly
+/// uses them. Numbers of one scope are different, so only several scopes can share one.
 class Renumbered {
  public:
   template <class T>
@@ -30,7 +30,7 @@ class Renumbered {
       : b_(build), what_(what) {
     for (const T& thing : all) free_ = std::max<std::int64_t>(free_, thing.id);
   }
-  /// Nothing if there is no free one.
+  /// Null if there is no free one.
   std::optional<int> number(AbaqusScope scope, int old, const FeSource& at) {
     if (b_.content.parts.empty() || taken_.insert(old).second) return old;
     if (++free_ > std::numeric_limits<int>::max()) return std::nullopt;
@@ -188,7 +188,7 @@ void no_section(AbaqusBuild& build, const AbaqusElement& element) {
                                         : "BEAM");
 }
 
-/// Nothing if one of its nodes is not there.
+/// Null if one of its nodes is missing.
 std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
                                   const AbaqusProperties& p) {
   Element result = p.like;

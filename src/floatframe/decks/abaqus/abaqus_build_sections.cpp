@@ -1,11 +1,11 @@
-// Sections and materials of an Abaqus deck: which elements have which, and what they are in the
-// model. Round sections depend on whose deck it is.
+// Sections and materials of an Abaqus deck: their assignment to elements, and their form in the
+// model. Round sections depend on the program of the deck.
 //
 // Beams whose centroid is not at their nodes. The arm is given in directions 1 and 2 of the
 // section: n_1 is the direction of the section across the tangent t of the axis at the node, n_2 =
-// t x n_1. CalculiX has OFFSET1 and OFFSET2 in thicknesses along these: the centroid lies at
+// t x n_1. CalculiX has OFFSET1 and OFFSET2 in thicknesses along these: the centroid is at
 //   -OFFSET1 t_1 n_1 - OFFSET2 t_2 n_2
-// of the node, as its expanded elements show.
+// from the node, as its expanded elements show.
 #include <cmath>
 
 #include "floatframe/core/plural.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-/// Index of the section's material in the model, which gets it if it is not there yet.
+/// Index of the section's material in the model, where it is added if necessary.
 int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::string& name,
                 std::unordered_map<std::string, int>& index) {
   const AbaqusContent& c = build.content;
@@ -82,7 +82,7 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
   return BeamSection::solid_round(section.round * (abaqus ? 2.0 : 1.0));
 }
 
-/// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
+/// Numbers of a section that only CalculiX reads, in a deck of Abaqus.
 void check_form(AbaqusBuild& build, const AbaqusSection& section) {
   const std::optional<DialectClues::Clue>& clue = build.clues.abaqus;
   if (section.calculix_form && clue && build.content.options.dialect != DeckDialect::calculix)
@@ -92,7 +92,7 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
                 section.shape, clue->what, build.place(clue->at));
 }
 
-/// Dimensions may be finite, and what follows from them not.
+/// Dimensions may be finite, but not the values computed from them.
 void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const BeamSection& s,
                         const Material& material) {
   const double mass = s.A * material.density;
@@ -103,7 +103,7 @@ void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const 
               s.A, s.Iy, s.Iz, s.J, mass);
 }
 
-/// Axes that no *ORIENTATION gives are global ones; whether an instance turns them is not said.
+/// Axes without an *ORIENTATION are global ones; whether an instance rotates them is undefined.
 void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p) {
   const AbaqusContent& c = build.content;
@@ -131,7 +131,7 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
                 build.content.element_nodes[deck.first + deck.type->nodes]);
 }
 
-/// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
+/// *BEAM SECTION OFFSET in a deck of CalculiX, which ignores such a line.
 void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) {
   const DeckDialect given = build.content.options.dialect;
   if (!section.offset_at || given == DeckDialect::abaqus) return;
@@ -164,7 +164,7 @@ void check_calculix_offset(AbaqusBuild& build, const AbaqusSection& section) {
                 clue->what, build.place(clue->at));
 }
 
-/// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre beside the
+/// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre away from the
 /// centroid.
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) {
   const bool constants = section.shape == "GENERAL";
@@ -203,7 +203,7 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
     bool reported = false, noted = false;
     for (const int e : build.elements.resolve(section.where)) {
       const AbaqusElement& element = c.elements[e];
-      // Sets of parts hold masses beside the elements of a section.
+      // Sets of parts contain masses in addition to the elements of a section.
       const Family family = element.type->family;
       const bool fits =
           family == section.family || (family == Family::rod && section.family == Family::solid);
@@ -310,12 +310,12 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
     if (++count == 1) first = abaqus_label(deck);
     return;
   }
-  // One that is not finite is an error already.
+  // One that is not finite has an error already.
   if (section.arm.isZero(0.0) || !std::isfinite(section.arm.squaredNorm())) return;
   for (int k = 0; k < nodes; ++k) {
     const Vec3 t = beam_tangent(p, nodes, k).stableNormalized();
     const Vec3 n2 = t.cross(e.reference.stableNormalized()).normalized();
-    // Without length or direction it is refused by `validate`, as one at its nodes.
+    // With zero length or direction it is rejected by `validate`, like a beam at its nodes.
     if (!t.allFinite() || !n2.allFinite() || n2.isZero(0.0)) return;
     arms[k] = section.arm(0) * n2.cross(t) + section.arm(1) * n2;
     for (double& x : arms[k])

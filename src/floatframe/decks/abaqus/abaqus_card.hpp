@@ -1,9 +1,9 @@
 #pragma once
 // A keyword line with its data lines, as its handler reads them into the content of the deck. Data
-// lines that a handler leaves are skipped.
+// lines that a handler does not read are skipped.
 //
-// Handlers of keywords of Abaqus and CalculiX decks, and what they share. `abaqus_readers` in
-// read_abaqus.cpp says which keyword has which.
+// Handlers of keywords of Abaqus and CalculiX decks, and their common functions. The table
+// `abaqus_readers` in read_abaqus.cpp assigns them to keywords.
 #include <fmt/format.h>
 
 #include <utility>
@@ -24,17 +24,17 @@ class AbaqusCard : public AbaqusKeyword {
 
   /// An error for each parameter that is not among some, between blanks.
   void allow_only(std::string_view known);
-  /// The value of a parameter ("REF NODE") that must be there; an error and empty if it is not.
+  /// The value of a required parameter ("REF NODE"); an error and empty if it is missing.
   std::string_view required(std::string_view parameter);
   /// The value of a parameter as a name: upper case without blanks.
   std::string word(std::string_view parameter) const { return abaqus_name(value(parameter)); }
-  /// Is a parameter missing, or has it one of some values, between blanks? Else an error:
+  /// Is a parameter missing, or equal to one of some values (separated by blanks)? Else an error:
   /// "has the type {}, expected ISOTROPIC".
   bool is_one_of(std::string_view parameter, std::string_view values,
                  fmt::format_string<std::string> text, ErrorCode code = ErrorCode::wrong_value);
-  /// The set that a parameter names, which is there from now on; null without the parameter.
+  /// The set named by a parameter, created if necessary; null without the parameter.
   AbaqusSet* set(std::map<AbaqusContent::Key, AbaqusSet>& sets, std::string_view parameter);
-  /// The number, set or surface that a parameter names.
+  /// The number, set or surface named by a parameter.
   AbaqusReference reference_of(std::string_view parameter) const {
     return content.reference(value(parameter), at);
   }
@@ -50,9 +50,9 @@ class AbaqusCard : public AbaqusKeyword {
   bool next();
   /// The same; an error if there is none.
   bool needs_line();
-  /// A field of the line; empty if it is not there.
+  /// A field of the line; empty if it is missing.
   std::string_view field(std::size_t k) const { return k < fields.size() ? fields[k] : ""; }
-  /// The node, element or set that a field names.
+  /// The node, element or set named by a field.
   AbaqusReference reference(std::size_t k) const { return content.reference(field(k), here()); }
   /// A real field; an error that begins with `what` if it is none.
   double real(std::size_t k, std::string_view what);
@@ -60,7 +60,7 @@ class AbaqusCard : public AbaqusKeyword {
   double real_or(std::size_t k, double otherwise, std::string_view what) {
     return field(k).empty() ? otherwise : real(k, what);
   }
-  /// One error if it is no positive number.
+  /// One error if it is not a positive number.
   double positive(std::size_t k, std::string_view what);
   /// Three fields from k on, 0 where they are empty or missing.
   Vec3 vector(std::size_t k, std::string_view what);
@@ -71,14 +71,14 @@ class AbaqusCard : public AbaqusKeyword {
   /// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from k on, as a
   /// mask; 0 and an error if they are none.
   unsigned dofs(std::size_t k, std::string_view what);
-  /// An error if the line has more than `count` fields, or another one follows it.
+  /// An error if the line has more than `count` fields, or another line follows.
   void no_more(std::size_t count);
 
-  /// Is there an error in what was read since the keyword or the last line?
+  /// Is there an error in the input since the keyword or the last line?
   bool misread() const noexcept { return source.errors() != errors_before_line_; }
-  /// Errors up to here count no more for `wrong`.
+  /// Errors so far no longer count for `wrong`.
   void start() noexcept { errors_before_ = source.errors(); }
-  /// Is there an error since the parameters were looked at, or the last `start`?
+  /// Is there an error since the parameters were checked, or the last `start`?
   bool wrong() const noexcept { return source.errors() != errors_before_; }
   FeSource here() const noexcept { return source.here(); }
   /// "deck.inp:12"
@@ -98,7 +98,7 @@ class AbaqusCard : public AbaqusKeyword {
   void error_in_line(ErrorCode code, fmt::format_string<Values...> text, Values&&... values) {
     source.error(code, here(), fmt::format(text, std::forward<Values>(values)...));
   }
-  /// A note with the place of the keyword.
+  /// A note with the location of the keyword.
   template <class... Values>
   void note(fmt::format_string<Values...> text, Values&&... values) {
     content.note(source.mark(at), fmt::format(text, std::forward<Values>(values)...));
@@ -108,7 +108,7 @@ class AbaqusCard : public AbaqusKeyword {
   std::size_t errors_before_line_ = source.errors(), errors_before_ = source.errors();
 };
 
-/// Adds a node or an element; false and an error if its number is there already.
+/// Adds a node or an element; false and an error if its number exists already.
 template <class T>
 bool add_to_abaqus(AbaqusCard& card, AbaqusNumbered<T>& all, const T& thing,
                    std::string_view word) {
@@ -129,16 +129,16 @@ AbaqusHandler read_abaqus_generated_elements, read_abaqus_copied_elements;
 AbaqusHandler read_abaqus_part, read_abaqus_assembly, read_abaqus_instance, read_abaqus_end;
 /// An error for each part, assembly and instance that has not ended; `where`: "before *STEP".
 void close_abaqus_blocks(AbaqusContent& content, TextSource& source, const std::string& where);
-/// At the end of the deck: parts without an instance go.
+/// At the end of the deck: removes parts without an instance.
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source);
 AbaqusHandler read_abaqus_material, read_abaqus_elastic, read_abaqus_density;
 AbaqusHandler read_abaqus_initial_conditions;
-/// At the end of the deck: constants that wait for a temperature.
+/// At the end of the deck: constants whose temperature was unknown so far.
 void finish_abaqus_constants(AbaqusLines& lines, AbaqusContent& content);
 AbaqusHandler read_abaqus_solid_section, read_abaqus_shell_section, read_abaqus_membrane_section;
 AbaqusHandler read_abaqus_nodal_thickness, read_abaqus_surface_section;
 AbaqusHandler read_abaqus_mass, read_abaqus_rotary_inertia;
-/// What all sections have; false if the section cannot be used.
+/// The common part of all sections; false if the section cannot be used.
 bool begin_abaqus_section(AbaqusCard& card, AbaqusType::Family family, AbaqusSection& section);
 AbaqusHandler read_abaqus_nonstructural_mass;
 AbaqusHandler read_abaqus_beam_section, read_abaqus_place_in_section;

@@ -1,6 +1,6 @@
 // Rigid bodies, couplings, equations and supports of Abaqus decks; and multi-point constraints that
 // are linear in small displacements: BEAM (a rigid bar between two nodes), PIN (equal
-// displacements) and TIE of nodes at one place. The first node or set of *MPC depends on the second
+// displacements) and TIE of coincident nodes. The first node or set of *MPC depends on the second
 // one. Source: Abaqus Keywords Guide.
 #include <algorithm>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr int most_terms = 100000;
 constexpr unsigned all_directions = 63u, all_translations = 7u;
 
-/// COUPLING=STRUCTURAL: the mean is one of rotations too, where nodes have them.
+/// COUPLING=STRUCTURAL: the mean includes rotations, where nodes have them.
 void check_rotations_of_nodes(AbaqusCard& kind) {
   if (kind.is_one_of("COUPLING", "CONTINUUM STRUCTURAL",
                      "has COUPLING={}, expected CONTINUUM or STRUCTURAL") &&
@@ -42,7 +42,7 @@ void read_kind_of_coupling(AbaqusCard& kind, AbaqusSpider& spider) {
         "*DISTRIBUTING names some degrees of freedom; the reference follows its nodes in all six");
 }
 
-/// The terms of an equation, `count` in all; false where nothing behind them can be read.
+/// The terms of an equation, `count` in all; false if the rest cannot be read.
 bool read_terms(AbaqusCard& card, std::size_t count, AbaqusEquation& equation) {
   while (equation.terms.size() < count) {
     if (!card.next()) {
@@ -72,7 +72,7 @@ bool read_terms(AbaqusCard& card, std::size_t count, AbaqusEquation& equation) {
 
 void add_mpc_bar(AbaqusContent& content, const AbaqusReference& node,
                  const AbaqusReference& reference) {
-  // Bars that end at one node are one spider.
+  // Bars that end at the same node are one spider.
   for (AbaqusSpider& s : content.spiders) {
     const bool same = s.where.name == reference.name && s.where.first == reference.first &&
                       s.where.scope == reference.scope;
@@ -85,7 +85,7 @@ void add_mpc_bar(AbaqusContent& content, const AbaqusReference& node,
   content.spiders.push_back(std::move(spider));
 }
 
-/// Two nodes that stand before the line and are at one place.
+/// Two coincident nodes that are defined before the line.
 bool are_at_one_place(const AbaqusContent& content, const AbaqusReference& first,
                       const AbaqusReference& second) {
   std::vector<Vec3> places;
@@ -122,7 +122,7 @@ void read_mpc_line(AbaqusCard& card) {
   }
 }
 
-/// The spider of a keyword with REF NODE; nothing without that.
+/// Reads the spider of a keyword with REF NODE, if it has one.
 void add_spider(AbaqusCard& card, AbaqusSpider& spider) {
   if (card.value("REFNODE").empty()) return;
   spider.where = card.reference_of("REFNODE");

@@ -15,7 +15,7 @@
 namespace floatframe {
 namespace {
 
-/// Columns are the turned axes; nothing if they are not determined.
+/// Columns are the rotated axes; null if they are not determined.
 std::optional<Mat3> axes_at(const AbaqusTransform& t, const Vec3& p) {
   Mat3 R;
   if (t.cylindrical) {
@@ -71,7 +71,7 @@ void read_abaqus_system(AbaqusCard& card) {
   if (plane) {
     in_plane = card.vector(0, what) - system.origin;
   } else {
-    // The third axis stays, the first is seen along it.
+    // The third axis is kept, the first is projected along it.
     x.z() = 0.0;
     in_plane = Vec3::UnitZ().cross(x);
   }
@@ -167,7 +167,7 @@ void read_abaqus_orientation(AbaqusCard& card) {
     o.axis = axis.value_or(1);
     o.angle = card.real_or(1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
   }
-  // CalculiX has the origin in place of c: whose deck this is shows later.
+  // CalculiX has the origin in place of c: the program of the deck is determined later.
   AbaqusOrientation without_c = o;
   without_c.c.setZero();
   if (!card.wrong() && o.points_on_a_line() && without_c.points_on_a_line())

@@ -1,7 +1,7 @@
 // How Abaqus treats the elements of its decks: first-order elements have lumped mass in its
-// frequencies (B31, S3, S4, C3D4, C3D6, C3D8 and their kin), all others consistent mass, as all
-// have in CalculiX; B31 shears, B33 does not; S4R5, S8R5 and STRI are for thin shells. Shear
-// factors of B31 by the section: those that Abaqus documents.
+// frequencies (B31, S3, S4, C3D4, C3D6, C3D8 and their variants), all others consistent mass, as
+// all in CalculiX; B31 has shear, B33 does not; S4R5, S8R5 and STRI are for thin shells. Shear
+// factors of B31 by the section: as documented by Abaqus.
 #include <algorithm>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
@@ -12,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-/// What only one of the two programs has: keywords, or a parameter of some keywords (empty: of any)
+/// Features of only one of the two programs: keywords, or a parameter of some keywords (empty: any)
 /// with one of some values (empty: any). Words between blanks.
 struct DialectWords {
   std::string_view keywords, parameter = {}, values = {};
@@ -52,7 +52,7 @@ constexpr std::string_view types_of_abaqus_alone =
     "C3D4H C3D10H C3D10I C3D10M C3D8H C3D20H C3D20RH STRI3 STRI65 S3R S4R5 S8R5 B31H B33 B32H "
     "RB3D2 R3D3 ROTARYI R3D4";
 
-/// What of a keyword is in a list, for messages; empty: nothing.
+/// The entries of a list that match a keyword, for messages; empty: none.
 std::string found_in(std::span<const DialectWords> list, const AbaqusKeyword& keyword) {
   if (has_word(list.front().keywords, keyword.name)) return keyword.shown;
   for (const auto& p : keyword.parameters) {
@@ -72,7 +72,7 @@ std::string found_in(std::span<const DialectWords> list, const AbaqusKeyword& ke
 /// The default of its slenderness compensation.
 constexpr double slenderness_of_abaqus = 0.25;
 
-/// B31, and the shells that are not for thin ones only.
+/// B31, and the shells that are not only for thin ones.
 bool shears(const AbaqusType& type) noexcept {
   const std::string_view name = type.name;
   if (type.family == AbaqusType::Family::shell)

@@ -2,9 +2,9 @@
 // The lines of an Abaqus or CalculiX deck: keyword lines with parameters, data lines, comments,
 // continuation lines and *INCLUDE. Keywords, parameters and names do not depend on case or blanks.
 //
-// Abaqus and CalculiX read the same keywords, but not always as the same thing: the number of a
-// round beam section is its radius in Abaqus and its diameter in CalculiX. What only one of the two
-// programs knows shows whose deck it is.
+// Abaqus and CalculiX have the same keywords, but not always the same meaning: the number of a
+// round beam section is its radius in Abaqus and its diameter in CalculiX. Features of only one of
+// the two programs identify the program of the deck.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,7 +26,7 @@ struct AbaqusKeyword {
   FeSource at;
 
   bool has(std::string_view parameter) const noexcept;
-  /// Value of a parameter; empty if it is not there.
+  /// Value of a parameter; empty if it is missing.
   std::string_view value(std::string_view parameter) const noexcept;
 };
 
@@ -39,7 +39,7 @@ class AbaqusLines {
 
   /// The next keyword line; data lines before it are skipped. False at the end of the deck.
   bool next_keyword(AbaqusKeyword& keyword);
-  /// The next data line of the present keyword, trimmed; false if there are no more.
+  /// The next data line of the present keyword, trimmed; false at the end.
   bool next_data(std::string_view& line);
   TextSource& source() noexcept { return source_; }
 
@@ -50,9 +50,9 @@ class AbaqusLines {
   TextSource& source_;
 };
 
-// Keywords that are not read, in upper case without blanks. Those that are in neither list may
+// Keywords that are not read, in upper case without blanks. Those in neither list may
 // change stiffness, mass or constraints.
-/// What to do in place of a keyword that is refused; null if it is not known.
+/// Alternative to a keyword that is rejected; null if it is unknown.
 const char* advice_for_abaqus(const std::string& name);
 /// Does it change neither stiffness nor mass nor constraints of a linear part?
 bool is_harmless_in_abaqus(const std::string& name);
@@ -64,16 +64,16 @@ struct DialectClues {
     FeSource at;
   };
   std::optional<Clue> abaqus, calculix;
-  /// SYSTEM=Z RECTANGULAR is of Abaqus too, but CalculiX takes it without a word as RECTANGULAR.
+  /// SYSTEM=Z RECTANGULAR is of Abaqus too, but CalculiX reads it as RECTANGULAR without a message.
   std::optional<Clue> axes;
-  bool by_axes = false;  ///< nothing else shows whose deck it is
+  bool by_axes = false;  ///< the only evidence of the program of the deck
 
   void add(DeckDialect of, std::string what, const FeSource& at);
-  /// Looks at a keyword, in a step or before it, and at its parameters.
+  /// Checks a keyword, in a step or before it, and its parameters.
   void look_at(const AbaqusKeyword& keyword);
-  /// Looks at a type of elements.
+  /// Checks a type of elements.
   void look_at_type(const std::string& type, const FeSource& at);
-  /// All of the deck has been looked at.
+  /// The whole deck has been checked.
   void settle();
 };
 

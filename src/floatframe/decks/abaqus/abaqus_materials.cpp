@@ -4,10 +4,10 @@
 //   ORTHOTROPIC            D1111 D1122 D2222 D1133 D2233 D3333 D1212 D1313 D2323
 //   ANISOTROPIC            the upper triangle by columns, in the order 11 22 33 12 13 23
 //   LAMINA                 E1 E2 nu12 G12 G13 G23 of plane stress
-// Eight numbers a line, and after the last one the temperature.
-// Constants that depend on the temperature are taken at the one that the user says, else at the
+// Eight numbers per line, and after the last one the temperature.
+// Constants that depend on the temperature are taken at the user's temperature, else at the
 // initial temperature of the deck (*INITIAL CONDITIONS, TYPE=TEMPERATURE) if all nodes of its
-// elements have the same one. That may stand behind the materials, so their tables wait.
+// elements have the same one. It may follow the materials, so their tables are kept until then.
 #include <algorithm>
 
 #include "floatframe/decks/abaqus/abaqus_build.hpp"
@@ -39,8 +39,8 @@ bool has_dependencies(AbaqusCard& card) {
   return any;
 }
 
-/// For the last *MATERIAL: of a table the values at the temperature that the user says, with a
-/// note. Without one they wait for the initial temperature of the deck.
+/// For the last *MATERIAL: the values of a table at the user's temperature, with a
+/// note. Without one they are kept until the initial temperature of the deck is known.
 void take_constants(AbaqusCard& card, std::vector<TemperatureRow> rows,
                     AbaqusPendingConstants::Use use) {
   AbaqusContent& content = card.content;
@@ -54,7 +54,7 @@ void take_constants(AbaqusCard& card, std::vector<TemperatureRow> rows,
   const AtTemperature found = at_temperature(rows, content.options.temperature);
   AbaqusPendingConstants p{card, content.material, std::move(rows), use};
   if (found.error.empty()) return use_at_temperature(card, p, found);
-  // Given once, whatever becomes of them.
+  // Defined once, even if invalid.
   if (density) {
     material.density = 0.0;
   } else {
@@ -104,7 +104,7 @@ const ElasticType* elastic_type(const AbaqusCard& card) {
   return it == std::end(elastic_types) ? nullptr : it;
 }
 
-/// The constants of one temperature; false if there are no more lines.
+/// The constants of one temperature; false after the last line.
 bool next_constants(AbaqusCard& card, std::size_t count, TemperatureRow& row) {
   std::vector<double>& out = row.values;
   while (out.size() < count) {
@@ -158,7 +158,7 @@ bool read_anisotropic(AbaqusCard& card) {
   return true;
 }
 
-/// *ELASTIC and *DENSITY belong to the last *MATERIAL; what they say is read in any case.
+/// *ELASTIC and *DENSITY belong to the last *MATERIAL; their data are read in any case.
 void needs_material(AbaqusCard& card) {
   if (!card.content.materials.contains(card.content.material))
     card.error(ErrorCode::missing, "belongs to no *MATERIAL");
@@ -199,7 +199,7 @@ void use_density(AbaqusCard& card, AbaqusMaterial& material, const std::vector<d
     card.error(ErrorCode::out_of_range, "is {:g}, expected no negative density", values[0]);
 }
 
-/// Why the deck says no temperature; empty: it says `content.options.temperature`.
+/// Why the deck defines no temperature; empty: it sets `content.options.temperature`.
 std::string initial_temperature(AbaqusContent& content, TextSource& source) {
   const std::vector<AbaqusNodalValue>& all = content.initial_temperatures;
   const AbaqusNodalValue& first = all.front();
@@ -244,7 +244,7 @@ void read_abaqus_material(AbaqusCard& card) {
   }
   card.error(ErrorCode::duplicate, "names the material {} a second time ({})", shown(name),
              card.place(it->second.at));
-  // What follows belongs to a material that nothing names.
+  // The following data belong to a material without a name.
   content.material = fmt::format("{} (line {})", name, card.at.line);
   content.materials.emplace(content.material, AbaqusMaterial{});
 }

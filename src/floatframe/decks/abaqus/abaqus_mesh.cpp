@@ -85,7 +85,7 @@ const AbaqusOrientation* AbaqusContent::orientation(AbaqusScope seen_from,
 
 namespace {
 
-/// How many lines have more fields than are read, and where the first stands.
+/// Number of lines with more fields than are read, and location of the first.
 struct FurtherFields {
   long count = 0;
   FeSource first;
@@ -95,8 +95,8 @@ struct FurtherFields {
   }
 };
 
-/// Fields of an element: id, nodes. A line that ends with a comma, or that has fifteen nodes and
-/// more, goes on in the next one. False at the end of the data.
+/// Fields of an element: id, nodes. A line that ends with a comma, or that has at least fifteen
+/// nodes, is continued on the next one. False at the end of the data.
 bool read_abaqus_element(AbaqusCard& card, std::size_t count, FeSource& at) {
   std::vector<std::string_view>& fields = card.fields;
   std::string_view line;
@@ -114,7 +114,7 @@ bool read_abaqus_element(AbaqusCard& card, std::size_t count, FeSource& at) {
   }
 }
 
-/// The range of a line of GENERATE; nothing and an error if it is none.
+/// The range of a line of GENERATE; null and an error if it is none.
 std::optional<AbaqusReference> generated_range(AbaqusCard& card, AbaqusScope scope) {
   if (card.fields.size() < 2 || card.fields.size() > 3) {
     card.error_in_line(ErrorCode::wrong_count,
@@ -133,14 +133,14 @@ std::optional<AbaqusReference> generated_range(AbaqusCard& card, AbaqusScope sco
   return std::nullopt;
 }
 
-/// Whether a field may be a name: "1.5", "-3" and "0" are none.
+/// Can a field be a name? "1.5", "-3" and "0" cannot.
 bool may_be_name(std::string_view field) {
   const char first = upper_case(field.substr(0, 1)).front();
   return first == '"' || first == '_' || (first >= 'A' && first <= 'Z') ||
          !parse_real(field).has_value();
 }
 
-/// Of the parameter INSTANCE; an error if it does not exist.
+/// Scope of the parameter INSTANCE; an error if it does not exist.
 AbaqusScope scope_of_set(AbaqusCard& card) {
   const AbaqusContent& content = card.content;
   if (card.value("INSTANCE").empty()) return content.scope;
@@ -171,7 +171,7 @@ Vec3 coordinates_of(AbaqusCard& card, int id, bool cylindrical) {
   return system ? Vec3(system->axes * p + system->origin) : p;
 }
 
-/// The element of the fields, with its nodes; nothing and an error if they are not those of one.
+/// The element of the fields, with its nodes; null and an error if they do not define one.
 std::optional<AbaqusElement> element_of_fields(AbaqusCard& card, const AbaqusType& type,
                                                const FeSource& at, FurtherFields& further) {
   AbaqusContent& content = card.content;
@@ -211,7 +211,7 @@ std::optional<AbaqusElement> element_of_fields(AbaqusCard& card, const AbaqusTyp
   return element;
 }
 
-/// From 0; -1 if it is none.
+/// From 0; -1 if invalid.
 int face_of(std::string_view word) {
   if (same_word(word, "SPOS")) return 0;
   if (same_word(word, "SNEG")) return 1;
@@ -231,7 +231,7 @@ AbaqusSurface* begin_surface(AbaqusCard& card, bool of_nodes) {
     return nullptr;
   }
   if (again) {
-    // CalculiX adds to the first one, or keeps nodes and faces of one name beside each other.
+    // CalculiX adds to the first one, or keeps nodes and faces with the same name separately.
     const bool both = surface.of_nodes != of_nodes;
     card.note("*SURFACE has {} again ({}): {}", shown(name), card.place(surface.at),
               both ? "of nodes and of faces those of faces count"
@@ -263,7 +263,7 @@ void read_abaqus_nodes(AbaqusCard& card) {
       card.error_in_line(ErrorCode::not_a_number, "node number: {}", not_an_integer(card.field(0)));
       continue;
     }
-    // Direction cosines of shells and beams in Abaqus; CalculiX looks at nothing there.
+    // Direction cosines of shells and beams in Abaqus; ignored by CalculiX.
     if (card.fields.size() > 4) further.cut(card.fields, 4, at);
     const AbaqusNode node{*id, content.scope, coordinates_of(card, *id, cylindrical), at};
     if (add_to_abaqus(card, content.nodes, node, "node") && set != nullptr)

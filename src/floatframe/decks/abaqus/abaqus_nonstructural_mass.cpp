@@ -1,7 +1,7 @@
-// *NONSTRUCTURAL MASS: mass smeared over elements, of paint, cables or what a model leaves out. Of
-// a total mass each element has its share in proportion to its own mass (which scales densities) or
+// *NONSTRUCTURAL MASS: mass smeared over elements, for paint, cables or omitted details. A total
+// mass is distributed over the elements in proportion to their mass (which scales densities) or
 // to its volume (which adds the same density to all). Solids, beams and rods get it as density,
-// shells and membranes as mass over area in their middle.
+// shells and membranes as mass per area at their middle.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ class SmearedMass {
     if (list.empty())
       return error(ErrorCode::missing, raw, "names {}, which has no elements with stiffness",
                    b_.content.text(raw.where, "element"));
-    double sum = 0.0;  // of what a total mass is shared by
+    double sum = 0.0;  // sum of the weights of a total mass
     if (raw.units == Units::total)
       for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
     if (raw.units == Units::total && !(sum > 0.0))
@@ -64,7 +64,7 @@ class SmearedMass {
             b_.content.text(raw.where, "element"));
   }
 
-  /// Elements of one section get the same, so few new materials and sections are needed.
+  /// Elements of one section get the same value, so few new materials and sections are needed.
   void finish() {
     if (b_.source.errors() > 0) return;
     for (std::size_t k = 0; k < more_.size(); ++k)
@@ -75,7 +75,7 @@ class SmearedMass {
   struct Size {
     bool known = false;
     double mass = 0.0, volume = 0.0;  ///< by itself
-    /// Of sheets mass over area and thickness; else density and 1.
+    /// For sheets mass per area and thickness; else density and 1.
     double density = 0.0, measure = 1.0;
   };
 
@@ -92,7 +92,7 @@ class SmearedMass {
         b_.content.elements[static_cast<std::size_t>(it - b_.element_index.begin())]);
   }
 
-  /// Indices in the model; an error if one cannot have such a mass.
+  /// Indices in the model; an error for an element that cannot have such a mass.
   std::vector<int> elements_of(const AbaqusNonstructuralMass& raw) {
     std::vector<int> list;
     for (const int e : b_.elements.resolve(raw.where)) {
@@ -167,7 +167,7 @@ class SmearedMass {
   AbaqusBuild& b_;
   FeModel& m_;
   std::vector<Size> size_;
-  std::vector<double> more_;  ///< of each element: density, of sheets mass over area
+  std::vector<double> more_;  ///< of each element: density, for sheets mass per area
   std::map<std::pair<int, double>, int> sections_, materials_;
 };
 

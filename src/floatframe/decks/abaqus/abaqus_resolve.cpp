@@ -112,7 +112,7 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
   const auto itself = [&](const AbaqusReference& item) {
     return item.name == key.second && item.scope == key.first;
   };
-  // The sets in it come first: then one mark a member is enough for all lists.
+  // Nested sets come first: then one mark per member is enough for all lists.
   for (const AbaqusReference& item : set.items) {
     const AbaqusContent::Key* const inner =
         item.name < 0 || itself(item) ? nullptr : find_set(item);

@@ -1,9 +1,9 @@
 // Sections and masses of Abaqus decks.
 // *SHELL SECTION: one material, or layers from the bottom to the top (the side of the normal).
-// *SHELL GENERAL SECTION of Abaqus with a material or layers means the same in a linear part.
-// *MEMBRANE SECTION: one material; membranes have no rotations, so none that is beside its nodes.
-// *NODAL THICKNESS: of the shells and membranes whose section has the parameter NODAL THICKNESS, as
-// in Abaqus and CalculiX; the thickness of their sections does not count then. Each has the mean of
+// *SHELL GENERAL SECTION of Abaqus with a material or layers is equivalent in a linear part.
+// *MEMBRANE SECTION: one material; membranes have no rotations, so no offset from their nodes.
+// *NODAL THICKNESS: for the shells and membranes whose section has the parameter NODAL THICKNESS,
+// as in Abaqus and CalculiX; it replaces the thickness of their sections. Each has the mean of
 // its corners.
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-/// A line that must be there; more of them mean a dependence on temperature.
+/// A required line; more of them mean a dependence on temperature.
 bool read_one_line(AbaqusCard& card) {
   if (!card.needs_line()) return false;
   std::string_view more;
@@ -74,7 +74,7 @@ void read_sheet(AbaqusCard& card, AbaqusSection& section) {
   const bool shell = section.family == Family::shell;
   const bool composite = shell && card.has("COMPOSITE");
   if (section.nodal_thickness) {
-    section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
+    section.thickness = 1.0;  // replaced by *NODAL THICKNESS
   } else if (!card.next()) {
     card.error(ErrorCode::missing, composite ? "has no plies" : "has no thickness");
     if (shell) return;
@@ -108,7 +108,7 @@ bool begin_abaqus_section(AbaqusCard& card, Family family, AbaqusSection& sectio
 void read_abaqus_solid_section(AbaqusCard& card) {
   AbaqusSection section;
   if (!begin_abaqus_section(card, Family::solid, section)) return;
-  // Of rods the area; of other elements the line means nothing.
+  // For rods the area; for other elements the line has no meaning.
   if (card.next()) section.thickness = parse_real(card.field(0)).value_or(0.0);
   card.content.sections.push_back(section);
 }
@@ -202,7 +202,7 @@ AbaqusNodalThickness::AbaqusNodalThickness(AbaqusBuild& build) : b_(build) {
   const AbaqusContent& c = build.content;
   if (c.thicknesses.empty()) return;
   at_node_.assign(c.nodes.size(), 0.0);
-  // Given twice, the later one counts.
+  // The later of two definitions counts.
   for (const AbaqusNodalValue& t : c.thicknesses)
     for (const int node : build.nodes.resolve(t.where)) at_node_[node] = t.value;
 }
@@ -238,7 +238,7 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
   const bool first = given_.insert(e.section).second;
   const auto [it, fresh] =
       sections_.try_emplace({e.section, mean}, static_cast<int>(shells.size()));
-  if (fresh && first) it->second = e.section;  // it has no thickness of its own
+  if (fresh && first) it->second = e.section;  // it has no separate thickness
   if (fresh && !first) shells.push_back(shells[e.section]);
   if (fresh) {
     ShellSection& shell = shells[it->second];

@@ -1,4 +1,4 @@
-// Surfaces joined by *TIE, and contact pairs, which are joined or left free as the options say
+// Surfaces joined by *TIE, and contact pairs, which are joined or left free by the options
 // (fe/surface_ties.hpp).
 #include <unordered_set>
 
@@ -27,7 +27,7 @@ void read_pairs(AbaqusCard& card, AbaqusTie tie) {
     card.error(ErrorCode::missing, "has no line with the names of two surfaces, slave and master");
 }
 
-/// Is contact ignored, as the options say? A note then.
+/// Do the options ignore contact? With a note then.
 bool is_ignored(AbaqusCard& card, const char* what) {
   if (card.content.options.contact != DeckContact::ignore) return false;
   card.note("{} is ignored, as the options say: {}", card.shown, what);
@@ -128,7 +128,7 @@ void read_abaqus_gap(AbaqusCard& card) {
              "gap that is closed may be a SPRINGA");
 }
 
-/// The mesh is one piece there; its preload belongs to a step.
+/// The mesh is connected there; its preload belongs to a step.
 void read_abaqus_pre_tension(AbaqusCard& card) {
   card.note("{} is ignored: the bolt is whole and without its preload", card.shown);
   if (card.has("SURFACE") && !card.content.only_nodes)
@@ -138,7 +138,7 @@ void read_abaqus_pre_tension(AbaqusCard& card) {
 void build_abaqus_ties(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   if (c.ties.empty()) return;
-  // Who follows a spider or an equation already stays with it.
+  // Nodes that already follow a spider or an equation keep it.
   std::vector<char> taken(build.model.positions.size(), 0);
   for (const Spider& s : build.model.spiders)
     if (s.kind == Spider::Kind::rigid)

@@ -13,12 +13,12 @@ constexpr const char* beam_parameters =
     "ELSET MATERIAL ORIENTATION SECTION OFFSET1 OFFSET2 TEMPERATURE POISSON DENSITY LUMPED ZERO";
 
 /// A keyword that is read, and the parameters it may have, between blanks; null: any, or the
-/// handler looks itself.
+/// handler checks them itself.
 struct AbaqusReader {
   const char* name;
   AbaqusHandler* read;
   const char* parameters = nullptr;
-  bool may_be_in_step = false;  ///< it does not say that the part is another one from there on
+  bool may_be_in_step = false;  ///< in a step it does not change the part
 };
 
 void skip(AbaqusCard& /*card*/) {}
@@ -79,7 +79,7 @@ constexpr AbaqusReader abaqus_readers[] = {
     {"TRANSFORM", read_abaqus_transform, "NSET TYPE", true},
 };
 
-/// A keyword that is one or two letters away from one that is read.
+/// A keyword at a distance of one or two letters from one that is read.
 std::string nearly(const std::string& name) {
   if (name.size() > 40) return {};
   for (const AbaqusReader& r : abaqus_readers) {
@@ -101,8 +101,8 @@ const AbaqusReader* reader_of(const std::string& name) {
   return it == map.end() ? nullptr : it->second;
 }
 
-/// Does a keyword of a step say that the part is another one from there on? Loads, procedures and
-/// output requests do not. Elements that go change the part; contact pairs and equations that go do
+/// Does a keyword of a step change the part from there on? Loads, procedures and output requests
+/// do not. Removed elements change the part; removed contact pairs and equations do
 /// not.
 bool changes_part(const AbaqusKeyword& keyword) {
   if (keyword.name == "MODELCHANGE")
@@ -114,7 +114,7 @@ bool changes_part(const AbaqusKeyword& keyword) {
          !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
 }
 
-/// The keywords of a deck in turn.
+/// The keywords of a deck in order.
 class DeckReader {
  public:
   DeckReader(AbaqusLines& lines, AbaqusContent& content) : lines_(lines), content_(content) {}
@@ -164,7 +164,7 @@ class DeckReader {
     }
   }
 
-  /// Each keyword once: there may be millions of them.
+  /// Each keyword only once: there may be millions of them.
   void error(ErrorCode code, AbaqusCard& card, const std::string& text) {
     if (errors_.insert(card.name).second) card.error(code, text);
   }

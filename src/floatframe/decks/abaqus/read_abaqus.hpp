@@ -1,8 +1,8 @@
 #pragma once
 // Abaqus and CalculiX decks (.inp): nodes, elements, sets, surfaces, isotropic materials, sections,
 // masses, rigid bodies, couplings, equations, supports; flat or with one part and one instance.
-// docs/fe-files.md lists the keywords. A keyword that would change stiffness or mass and is not
-// read is an error; others are listed in the notes.
+// docs/fe-files.md lists the keywords. An unread keyword that would change stiffness or mass is an
+// error; others are listed in the notes.
 #include <string_view>
 
 #include "floatframe/formats/fe_file.hpp"

@@ -23,9 +23,9 @@ struct PlateShape {
   const char* name;
   std::size_t dimensions;
   BeamPlates (*plates)(const ShapeRow&);
-  bool origin = false;           ///< it is known where the origin is: at 0, 0 of the plates
+  bool origin = false;           ///< the origin is known: at 0, 0 of the plates
   bool sides = true;             ///< and to which side the shape points
-  const char* remark = nullptr;  ///< what is taken for granted
+  const char* remark = nullptr;  ///< assumptions
 };
 
 const PlateShape plate_shapes[] = {
@@ -43,7 +43,7 @@ const PlateShape plate_shapes[] = {
                plate(d[2], d[0] - d[3], 0, d[4]), plate(d[2], d[0] - d[3], d[1] - d[5], d[1])};
      },
      true},
-    // As I, the web at the left.
+    // Like I, with the web at the left.
     {"CHAN", 6,
      [](const ShapeRow& d) -> BeamPlates {
        return {plate(0, d[5], 0, d[2]), plate(d[5], d[0], 0, d[3]),
@@ -60,7 +60,7 @@ const PlateShape plate_shapes[] = {
        return {plate(-d[0] / 2, d[0] / 2, 0, d[2]), plate(-d[3] / 2, d[3] / 2, d[2], d[1])};
      },
      false, false},
-    // As I, the lower flange to the right, the upper one to the left of the web.
+    // Like I, with the lower flange to the right, the upper one to the left of the web.
     {"Z", 6,
      [](const ShapeRow& d) -> BeamPlates {
        return {plate(0, d[5], 0, d[2]), plate(d[5], d[0], 0, d[3]),
@@ -247,7 +247,7 @@ class BeamShape {
       note("its shear centre is taken at its centroid");
   }
 
-  /// Iy, Iz of the principal axes and the turn, from moments about y and z.
+  /// Iy, Iz of the principal axes and their angle, from moments about y and z.
   void set_principal(double Iyy, double Izz, double Iyz) {
     beam_.section.Iy = Iyy;
     beam_.section.Iz = Izz;
@@ -277,7 +277,7 @@ class BeamShape {
       return fail(ErrorCode::unsupported,
                   "SECOFFSET,{} is not read, expected CENT, SHRC, ORIGIN or USER", where);
     }
-    // Not what a centroid by rounding off the node would give.
+    // Not the rounding error of a centroid off the node.
     const double least = 1e-9 * std::sqrt(beam_.section.A);
     const auto arm = [&](double x) { return std::abs(x) < least ? 0.0 : x; };
     beam_.arm_y = arm(center_(0) - node(0));

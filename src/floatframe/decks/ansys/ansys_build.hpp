@@ -18,8 +18,8 @@ namespace floatframe {
 struct AnsysBeam {
   BeamSection section;
   double turn = 0.0;                ///< of y towards z [rad]
-  double mass = 0.0;                ///< besides that of the material [mass/length]
-  double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the turn
+  double mass = 0.0;                ///< in addition to the material [mass/length]
+  double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the rotation
 };
 
 struct AnsysBuild {
@@ -29,40 +29,40 @@ struct AnsysBuild {
   FeModel& model;
   std::vector<int> index = {};  ///< in the model, of each element of the deck; -1: none
 
-  /// Index of a node; an error and -1 if it is not there.
+  /// Index of a node; an error and -1 if it is missing.
   int node(int id, const FeSource& at, const std::string& who);
   /// The nodes of an element as indices, in the order of the deck, -1 for 0 and missing ones;
   /// false with an error.
   bool nodes_of(const AnsysElement& e, std::vector<int>& nodes);
   /// "element 12 (SOLID185)"
   std::string label(const AnsysElement& e) const;
-  /// The type of an element; null with an error, once a type.
+  /// The type of an element; null with an error, once per type.
   const AnsysType* type(const AnsysElement& e);
-  /// What is known of it without an error; nulls where something is not.
+  /// The definition so far without an error; null where undefined.
   std::pair<const AnsysType*, const AnsysLibraryElement*> known(const AnsysElement& e) const;
   /// Null if they are not in the file, `needed_real` with an error.
   const AnsysReal* real(const AnsysElement& e) const;
   const AnsysReal* needed_real(const AnsysElement& e);
-  /// The section of an element if it is one of a kind (SHEL, BEAM, ...), else null.
+  /// The section of an element if it is of a kind (SHEL, BEAM, ...), else null.
   const AnsysSection* section(const AnsysElement& e, const char* kind) const;
-  /// Index of a material by its number, with a mass besides its own over the volume.
+  /// Index of a material by its number, with additional mass per volume.
   int material(int id, const AnsysElement& e, double more_density = 0.0);
-  /// That of a layer, 0: of the element; nothing and an error if the number is none of a material.
+  /// Material of a layer, 0: of the element; null and an error if there is no such material.
   std::optional<int> layer_material(double number, const AnsysElement& e, const FeSource& at);
-  /// Axes of a coordinate system; none of the global rectangular one. An error if it is not read.
+  /// Axes of a coordinate system; none for the global rectangular one. An error if it is not read.
   std::optional<Orientation> system(int id, const FeSource& at, const std::string& who);
   /// Index in FeModel::orientations; -1: body axes.
   int orientation(int id, const FeSource& at, const std::string& who);
   /// Axes of the nodal system of a node; columns in body axes.
   Mat3 nodal_axes(int node) const;
-  /// Errors are false, for functions that say so of what they build.
+  /// Errors give false, for functions that return whether they built the item.
   template <class... Args>
   bool error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
              Args&&... args) {
     source.error(code, e.at, "{}: {}", label(e), fmt::format(text, std::forward<Args>(args)...));
     return false;
   }
-  /// An error that elements of the same type share: `report_shared` says it with the first of them.
+  /// An error common to elements of one type: `report_shared` reports it with the first of them.
   template <class... Args>
   bool shared_error(ErrorCode code, const AnsysElement& e, fmt::format_string<Args...> text,
                     Args&&... args) {
@@ -72,7 +72,7 @@ struct AnsysBuild {
     return false;
   }
   void report_shared();
-  /// An error of what many elements have; equal ones are one.
+  /// An error of a property of many elements; equal ones are reported once.
   template <class... Args>
   bool error_once(ErrorCode code, const FeSource& at, fmt::format_string<Args...> text,
                   Args&&... args) {
@@ -96,7 +96,7 @@ struct AnsysBuild {
   std::map<std::pair<int, int>, int> layups = {};  ///< by section and material; -1: with an error
   std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
   int solved_sections = 0;                             ///< shapes whose torsion has been computed
-  RigidArms arms = {};                                 ///< of beams beside their nodes
+  RigidArms arms = {};                                 ///< of beams offset from their nodes
   std::vector<char> rotates = {};                      ///< for masses: `nodes_with_rotations`
   int largest_node = 0;                                ///< of `add_own_node`
   std::vector<int> said = {};                          ///< types with an error
@@ -121,13 +121,13 @@ bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysTyp
 /// BEAM and PIPE sections; none with an error.
 std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSection& section,
                                             const AnsysElement& e);
-/// Empty if all of a beam are finite numbers, else what they are.
+/// Empty if all values of a beam are finite, else the invalid ones.
 std::string ansys_beam_misfit(const AnsysBeam& beam);
 /// COMBIN14, MATRIX27, MPC184, CERIG, then MASS21.
 void build_ansys_springs(AnsysBuild& build);
 void build_ansys_rigid(AnsysBuild& build);
 void build_ansys_masses(AnsysBuild& build);
-/// A point mass of an element; inertia of a node without rotations is left out, with a note.
+/// A point mass of an element; inertia of a node without rotations is ignored, with a note.
 bool add_ansys_mass(AnsysBuild& build, const AnsysElement& e, PointMass mass);
 /// MATRIX27
 bool build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,

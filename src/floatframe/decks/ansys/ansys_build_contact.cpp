@@ -1,6 +1,6 @@
-// Contact pairs: TARGE170 and CONTA17x of the same real constants. Those that are always bonded are
-// ties (fe/surface_ties.hpp); those of a pilot node by multipoint constraints (remote points) are
-// spiders; all others are not linear, and the options say what becomes of them.
+// Contact pairs: TARGE170 and CONTA17x with the same real constants. Those that are always bonded
+// are ties (fe/surface_ties.hpp); those of a pilot node by multipoint constraints (remote points)
+// are spiders; all others are nonlinear and treated according to the options.
 #include <algorithm>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
@@ -52,7 +52,7 @@ class ContactBuilder {
     taken_.assign(b_.model.positions.size(), 0);
     for (const Spider& s : b_.model.spiders)
       for (const int node : s.nodes) taken_[node] = 1;
-    // Remote points first: what they hold cannot be tied as well.
+    // Remote points first: their nodes cannot be tied as well.
     for (const auto& [id, pair] : pairs_)
       if (pilot(pair) >= 0) remote_point(id, pair);
     for (const auto& [id, pair] : pairs_)
@@ -84,7 +84,7 @@ class ContactBuilder {
   /// Contact by multipoint constraints (KEYOPT(2) = 2) with a pilot node. KEYOPT(4): CONTA173 and
   /// 174 spread forces with 1 and are rigid with 2, CONTA175 is rigid with 0 and spreads with 1.
   void remote_point(int id, const ContactPair& p) {
-    if (p.contact == nullptr) return;  // a node of its own: nothing to hold
+    if (p.contact == nullptr) return;  // a separate node: nothing to hold
     const std::string who = fmt::format("the remote point of real constants {}", id);
     const int behaviour = p.contact->keyopt[4], number = p.contact->number;
     const bool surface = number == 173 || number == 174;
@@ -154,7 +154,7 @@ class ContactBuilder {
   }
 
   void one(int id, const ContactPair& p) {
-    if (p.contacts.empty()) return;  // a target that nothing touches
+    if (p.contacts.empty()) return;  // a target without contact elements
     const bool always = bonded(p);
     if (!always && b_.options.contact == DeckContact::refuse)
       return b_.source.error(

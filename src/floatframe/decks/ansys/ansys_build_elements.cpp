@@ -51,8 +51,8 @@ std::optional<AnsysBeam> beam_section_of(AnsysBuild& b, const AnsysElement& e,
   return ansys_beam_section(b, *s, e);
 }
 
-/// Local y: of the node for the orientation, which is towards z; without one parallel to the global
-/// xy plane, of an element along z the global y.
+/// Local y: from the orientation node, which is towards z; without one parallel to the global
+/// xy plane, for an element along z the global y.
 Vec3 local_y(const Vec3& along, const Vec3* towards_z) {
   const Vec3 x = along.normalized();
   if (towards_z != nullptr) return towards_z->cross(x);
@@ -206,7 +206,7 @@ class AnsysElementBuilder {
     return true;
   }
 
-  /// An edge without its mid-side node is straight: a node of its own there moves as the mean of
+  /// An edge without its mid-side node is straight: a generated node there moves as the mean of
   /// the ends.
   void middles(const AnsysElement& e, const AnsysShape& shape, Element& element) {
     const std::span<const shape::Edge> edges = edges_of(shape.type);

@@ -2,7 +2,7 @@
 // pivot k and column c of it,
 //   K = c c^T/k + rest,
 // so a spring of stiffness k along c/k is a part of it, and the rest has one pivot less. The
-// displacements come first: what is left then is of rotations alone.
+// displacements come first: the remainder involves rotations only.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ class AnsysMatrix {
             ErrorCode::wrong_count, real->at,
             "real constants {}: constant {} is {:g}, expected 78 of a symmetric matrix", e_.real,
             k + 1, real->values[k]);
-    // What is left of the matrix is made of products of its constants.
+    // The remainder of the matrix consists of products of its constants.
     for (std::size_t k = 0; k < real->values.size(); ++k)
       if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
         return b_.error_once(ErrorCode::not_finite, real->at,
@@ -74,7 +74,7 @@ class AnsysMatrix {
     }
   }
 
-  /// Of each node the mass of a rigid point, m I and J; a part may have no other mass.
+  /// For each node the mass of a rigid point, m I and J; a part may have no other mass.
   bool masses() {
     std::array<PointMass, 2> points;
     Mat12 rest = K_;

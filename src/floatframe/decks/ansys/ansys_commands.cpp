@@ -1,5 +1,5 @@
 // The commands of a deck: those that are read, and those that change neither stiffness nor mass.
-// Any other stops the reading.
+// Any other command stops the reading.
 #include <algorithm>
 
 #include "floatframe/decks/ansys/ansys_content.hpp"
@@ -20,10 +20,10 @@ void set_nodal_system(AnsysFields& f, AnsysContent& c) {
 
 void set_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), f.number(2)); }
 
-/// Its value is not known: an error where it is used.
+/// Its value is unknown: an error where it is used.
 void get_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), {}); }
 
-/// Of CDWRITE: *IF,_CDRDOFF,EQ,1,THEN / *ELSE / *ENDIF around NUMOFF; its *ELSE is read.
+/// In CDWRITE: *IF,_CDRDOFF,EQ,1,THEN / *ELSE / *ENDIF around NUMOFF; its *ELSE is read.
 void begin_branch(AnsysFields& f, AnsysContent& c) {
   if (f.word(1) != "_CDRDOFF")
     f.stop(ErrorCode::unsupported,
@@ -45,8 +45,8 @@ void skip_with_block(AnsysFields& f, AnsysContent& c) {
   f.skip_block();
 }
 
-/// The shape of the targets that follow: those of nodes are told by their nodes, a pilot by having
-/// one.
+/// The shape of the targets that follow: those of nodes are identified by their nodes, a pilot by
+/// a single one.
 void check_target_shape(AnsysFields& f, AnsysContent&) {
   constexpr std::array of_nodes = {"LINE", "PARA", "TRIA", "TRI6", "QUAD", "QUA8", "PILO", "POIN"};
   const std::string shape = f.word(1);
@@ -67,7 +67,7 @@ void note_units(AnsysFields& f, AnsysContent& c) {
 
 void end_of_file(AnsysFields&, AnsysContent& c) { c.ended = true; }
 
-/// Those that stand by themselves.
+/// Commands that are complete by themselves.
 constexpr AnsysCommand session_commands[] = {
     {"CSYS", set_nodal_system},
     {"TYPE", set_number<&AnsysElement::type>},
@@ -91,7 +91,7 @@ constexpr AnsysCommand session_commands[] = {
     {"CSYSBLOCK", skip_with_block},
 };
 
-/// Loads, solutions, files, pictures: ignored without a word.
+/// Loads, solutions, files, pictures: ignored without a message.
 constexpr std::string_view ansys_silent =
     "/PREP7 /NOPR /GOPR /GO /TITLE /SOLU /SOL /POST1 /POST26 /BATCH /CONFIG /SHOW /OUTPUT /STITLE "
     "/NERR /GST /FILNAME /CLEAR /WB /VIEW /ESHAPE /COLOR /PBC /PNUM /REPLOT /NUMBER /AUX15 /DEVICE "
@@ -107,7 +107,7 @@ constexpr std::string_view ansys_silent =
     "/INQUIRE /XML /STATUS /HEADER /PAGE /FORMAT *ABSET *ABCHECK *ABFINI KEYW TBLIST MPLIST ETLIST "
     "NLIST ELIST CM *CFOPEN *CFCLOS *DEL SLIST";
 
-/// What to do instead, of commands (words between blanks) that are met in decks of a session.
+/// Alternatives to commands (words between blanks) that occur in decks of a session.
 constexpr std::pair<std::string_view, const char*> ansys_refused[] = {
     {"*DO", "loops are not read: write the model with CDWRITE"},
     {"PSMESH", "take the cut and its tension out of the model"},
@@ -128,7 +128,7 @@ constexpr std::pair<std::string_view, const char*> ansys_refused[] = {
     {"RMODIF", "changed real constants are not read: write the model with CDWRITE"},
 };
 
-/// Silent ones that need not be told.
+/// Ignored commands that need no note.
 constexpr std::string_view ansys_untold =
     "FINISH NUMOFF DOF CSCIR CMGRP CMSEL ALLSEL EXTOPT SHPP CHECK SAVE GRP *DIM _BUTTON _RETURN";
 

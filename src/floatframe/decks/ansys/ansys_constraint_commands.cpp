@@ -1,5 +1,5 @@
 // Constraint equations, coupled degrees of freedom, rigid regions, supports: their commands, and
-// what they are in the model; components.
+// their form in the model; components.
 #include <algorithm>
 
 #include "floatframe/decks/ansys/ansys_build.hpp"
@@ -24,7 +24,7 @@ void append_terms(AnsysFields& f, AnsysEquation& e) {
     e.terms.push_back({f.label(k, "the node"), axis_of(f, k + 1), f.real(k + 2, "the factor")});
 }
 
-/// A number, or NEXT: the one above all others; HIGH: the highest.
+/// A number, or NEXT: one above all others; HIGH: the highest.
 template <typename Map>
 int number_in(AnsysFields& f, std::size_t k, const Map& map) {
   const int highest = map.empty() ? 0 : map.rbegin()->first;
@@ -33,7 +33,7 @@ int number_in(AnsysFields& f, std::size_t k, const Map& map) {
   return f.label(k, "the number of the set");
 }
 
-/// What a constraint of a whole selection would need.
+/// Requirement of a constraint on a whole selection.
 void refuse_selection(AnsysFields& f, std::size_t k) {
   const std::string word = f.word(k);
   if (f.number(k) || word.empty()) return;
@@ -151,7 +151,7 @@ class AnsysMembers {
       : sorted_(std::move(number_and_index)) {
     std::sort(sorted_.begin(), sorted_.end());
   }
-  /// An end that is not there, 0 if both are; between them there may be gaps.
+  /// A missing end, 0 if both exist; there may be gaps between them.
   int append(int first, int last, std::vector<int>& out) const {
     auto it = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{first, -1});
     if (it == sorted_.end() || it->first != first) return first;
@@ -167,7 +167,7 @@ class AnsysMembers {
   std::vector<std::pair<int, int>> sorted_;
 };
 
-/// Of a range or alone; `missing`: the one that is not there.
+/// In a range or single; `missing`: the number that is missing.
 void refuse_member(AnsysBuild& b, const AnsysComponent& component, int first, int last,
                    int missing) {
   const char* const what = component.elements ? "element" : "node";
@@ -230,7 +230,7 @@ void build_ansys_supports(AnsysBuild& b) {
     unsigned mask = 0;
     for (int axis = 0; axis < 6; ++axis) {
       if (term.axis >= 0 && term.axis != axis) continue;
-      // A turned direction is a hint only where it lies along an axis of the body.
+      // A rotated direction is a hint only if it is along an axis of the body.
       const Vec3 direction = b.nodal_axes(node).col(axis % 3);
       for (int k = 0; k < 3; ++k)
         if (std::abs(direction(k)) > 1.0 - 1e-9 || term.axis < 0)

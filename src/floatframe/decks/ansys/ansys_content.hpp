@@ -1,7 +1,7 @@
 #pragma once
-// What the commands of an ANSYS deck say, by kind and with the user's numbers, before it is a
-// model; elements of ANSYS by their number, and the solids and shells that their repeated nodes
-// make of them.
+// Content of the commands of an ANSYS deck, by kind and with the user's numbers, before it is a
+// model; elements of ANSYS by their number, and the solids and shells that result from repeated
+// nodes.
 #include <array>
 #include <map>
 #include <optional>
@@ -40,7 +40,7 @@ struct AnsysLibraryElement {
   int nodes = 0;  ///< at most, without those for orientation
 };
 
-/// Null if the element is none that is read.
+/// Null if the element is not supported.
 const AnsysLibraryElement* ansys_library_element(int number) noexcept;
 
 /// ET with its KEYOPTs.
@@ -57,9 +57,9 @@ struct AnsysShape {
   int count = 0;
 };
 
-/// The shape of an element with the given nodes (0: none). Mid-side nodes that are not there have
-/// 0 at their place; an element without any is of first order. None if the nodes repeat in a way
-/// that makes no element.
+/// The shape of an element with the given nodes (0: none). Missing mid-side nodes have 0 at their
+/// place; an element without any is of first order. None if the repeated nodes do not define an
+/// element.
 std::optional<AnsysShape> ansys_shape(const AnsysLibraryElement& element, const AnsysType& type,
                                       std::span<const int> nodes);
 
@@ -106,7 +106,7 @@ struct AnsysSection {
   FeSource at;
 };
 
-/// 0 where nothing is given.
+/// 0 if undefined.
 inline double ansys_value(const std::vector<double>& row, std::size_t k) noexcept {
   return k < row.size() ? row[k] : 0.0;
 }
@@ -123,7 +123,7 @@ struct AnsysEquation {
   FeSource at;
 };
 
-/// CP: a degree of freedom that all nodes share.
+/// CP: a degree of freedom shared by all nodes.
 struct AnsysCoupling {
   int axis = -1;
   std::vector<int> nodes;
@@ -186,12 +186,12 @@ int ansys_axis(std::string_view word) noexcept;
 /// Is field 1 the mark of the commands that CDWRITE writes, "R5.0" or "UNBL"?
 bool ansys_written(const AnsysFields& f);
 
-/// A command and what reads it.
+/// A command and its reader.
 struct AnsysCommand {
   const char* name;
   void (*read)(AnsysFields&, AnsysContent&);
 };
-// Each in its source: nodes and elements; types, constants and sections; materials; constraints.
+// In separate sources: nodes and elements; types, constants and sections; materials; constraints.
 std::span<const AnsysCommand> ansys_mesh_commands();
 std::span<const AnsysCommand> ansys_property_commands();
 std::span<const AnsysCommand> ansys_material_commands();

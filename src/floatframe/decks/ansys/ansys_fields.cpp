@@ -26,7 +26,7 @@ std::optional<int> leading_number(std::string_view& text) {
   return value;
 }
 
-/// Nothing if the text is no format of whole numbers, reals and texts with their widths.
+/// Null if the text is not a format of integers, reals and texts with their widths.
 std::optional<FortranColumns> parse_fortran_columns(std::string_view text) {
   text = trimmed(text);
   if (text.size() < 2 || text.front() != '(' || text.back() != ')') return std::nullopt;
@@ -43,7 +43,7 @@ std::optional<FortranColumns> parse_fortran_columns(std::string_view text) {
     if (item.empty() || count.value_or(1) < 1 || count.value_or(1) > widest) return std::nullopt;
     const char kind = lower_case(item.substr(0, 1))[0];
     item.remove_prefix(1);
-    const auto width = leading_number(item);  // what follows it are decimals
+    const auto width = leading_number(item);  // followed by decimals
     if (std::string_view("iadefg").find(kind) == std::string_view::npos || !width || *width < 1 ||
         *width > widest || result.columns.size() > static_cast<std::size_t>(widest))
       return std::nullopt;

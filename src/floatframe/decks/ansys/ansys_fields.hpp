@@ -18,14 +18,14 @@ namespace floatframe {
 struct FortranColumns {
   std::vector<std::pair<char, int>> columns;  ///< kind in lower case, width
   std::size_t integers() const noexcept;      ///< columns 'i' at the beginning
-  /// The cells of a line, trimmed; those that the line does not reach are not there. What is left
-  /// of the line behind the last column.
+  /// The cells of a line, trimmed; those beyond its end are missing. The rest of the line after the
+  /// last column.
   std::string_view split(std::string_view line, std::vector<std::string_view>& cells) const;
 };
 
 /// One command after the other. Comments (behind `!`), empty lines and `/COM` are ignored; `$`
-/// divides commands of one line. Errors of form stop the reading: what follows them cannot be
-/// understood.
+/// separates commands in one line. Errors of form stop the reading, since the rest cannot be
+/// interpreted.
 class AnsysFields {
  public:
   explicit AnsysFields(TextSource& source) : source_(source) {}
@@ -34,13 +34,13 @@ class AnsysFields {
   bool next();
   /// In upper case: "NBLOCK", "/PREP7", "*SET".
   const std::string& command() const noexcept { return command_; }
-  /// As MAPDL finds commands: by the first four characters of those without `/` and `*`.
+  /// As MAPDL identifies commands: by the first four characters of those without `/` and `*`.
   bool is(std::string_view name) const noexcept;
   const std::string& line() const noexcept { return line_; }
   FeSource at() const noexcept { return at_; }
   TextSource& source() noexcept { return source_; }
 
-  /// Field 0 is the command; empty if it is not there.
+  /// Field 0 is the command; empty if it is missing.
   std::string_view text(std::size_t k) const noexcept;
   std::size_t size() const noexcept { return fields_.size(); }
   /// Like text, in upper case.
@@ -51,7 +51,7 @@ class AnsysFields {
   int integer(std::size_t k, const char* what, int missing = 0);
   /// A whole number of at least 1.
   int label(std::size_t k, const char* what);
-  /// All fields from one on.
+  /// All fields from an index on.
   std::vector<double> reals(std::size_t first, const char* what);
   /// Three of them.
   Vec3 three(std::size_t first, const char* what);
@@ -63,7 +63,7 @@ class AnsysFields {
   /// The format line of a block.
   FortranColumns columns();
   /// The next line of a block in its columns, of which the last ones may be missing; false at a
-  /// line that begins with -1 or with a letter, which comes again as a command.
+  /// line that begins with -1 or with a letter, which is then read as a command.
   bool row(const FortranColumns& format);
   /// The next line of a block, fields between commas or blanks; false at a command.
   bool loose_row();

@@ -27,7 +27,7 @@ std::vector<std::vector<double>> layers_of(const AnsysSection& section) {
   return rows;
 }
 
-/// Is axis 1 far enough from the normal of a face with these corners? `normal`: what it is called.
+/// Is axis 1 far enough from the normal of a face with these corners? `normal`: its name.
 bool axis_in_face(AnsysBuild& b, const AnsysElement& e, const Element& element,
                   const std::vector<Vec3>& corners, const char* normal) {
   Vec3 middle = Vec3::Zero();
@@ -116,7 +116,7 @@ class AnsysShell {
     const AnsysReal* real = b_.real(e_);
     s.thickness = real == nullptr ? 0.0 : real->value(0);
     if (!(s.thickness > 0.0)) {
-      s.thickness = 1.0;  // the error is known
+      s.thickness = 1.0;  // the error is reported already
       if (thin_ || type_.number == 93)
         b_.shared_error(ErrorCode::missing, e_, "its real constants {} give no thickness", e_.real);
       else
@@ -234,7 +234,7 @@ std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
   return plies;
 }
 
-/// Index in FeModel::layups, once for each section and material of elements; -1 with an error.
+/// Index in FeModel::layups, one per section and material of elements; -1 with an error.
 int layup_of(AnsysBuild& b, const AnsysElement& e) {
   const auto [it, fresh] = b.layups.try_emplace({e.section, e.material}, -1);
   if (!fresh) return it->second;
@@ -281,7 +281,7 @@ bool build_ansys_layers(AnsysBuild& b, const AnsysElement& e, const AnsysType& t
   const bool uniform = std::all_of(plies.begin(), plies.end(), [&](const ShellPly& ply) {
     return ply.material == plies.front().material;
   });
-  // Layers of SOLID185 have enhanced strains, whatever its KEYOPT(2).
+  // Layers of SOLID185 have enhanced strains for any KEYOPT(2).
   const bool brick = element.type == ElementType::hex8 || element.type == ElementType::hex8r;
   if (brick && type.number == 185) element.type = ElementType::hex8i;
   if (uniform && !b.model.materials[element.material].elasticity) return true;

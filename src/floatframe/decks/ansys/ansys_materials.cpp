@@ -23,7 +23,7 @@ AnsysMaterial& open_ansys_material(AnsysFields& f, AnsysContent& c, int id) {
   return m;
 }
 
-/// Tables of TB that change nothing of the linear part, and those that stand beside elastic
+/// Tables of TB that do not change the linear part, and those in addition to elastic
 /// constants: the part is linear with these.
 constexpr std::string_view harmless_tables =
     "UVID PARA FCON FLIM CTE THER SPEC FRIC PELE CGCR FATI ACP";
@@ -83,7 +83,7 @@ class AnsysElastic {
     return x;
   }
 
-  /// MP and TB may both give constants: which of them counts is not said in the file.
+  /// MP and TB may both give constants: the file does not determine which of them counts.
   void refuse_two() {
     const auto compare = [&](const char* by_mp, const char* by_tb) {
       const auto mp = at(m_.values, by_mp), tb = at(m_.tables, by_tb);
@@ -276,7 +276,7 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
     return;
   }
   c.table_temperature = 0.0;
-  if (c.table == "ELAS" || c.table == "DENS") {  // in place of what was there
+  if (c.table == "ELAS" || c.table == "DENS") {  // replaces previous values
     AnsysMaterial& m = open_ansys_material(f, c, c.table_material);
     for (const std::string_view label : {"EX", "PRXY", "DENS"})
       if ((c.table == "DENS") == (label == "DENS")) m.tables.erase(std::string(label));

@@ -28,7 +28,7 @@ int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSou
   return it->second;
 }
 
-/// A block that says another number of nodes or elements than follow.
+/// A block whose stated number of nodes or elements differs from its lines.
 void note_count(AnsysFields& f, AnsysContent& c, double said, std::size_t found, const char* what) {
   if (said > 0.0 && said != static_cast<double>(found))
     f.source().note(
@@ -169,7 +169,7 @@ void read_ansys_element_more(AnsysFields& f, AnsysContent& c) {
 
 /// EBLOCK,19,SOLID: material, type, real, section, system, three more, number of nodes, one more,
 /// number of the element, nodes. Without SOLID: number, section, real, material, system, nodes, of
-/// the type that TYPE set.
+/// the type set by TYPE.
 void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
   const bool solid = f.word(2) == "SOLID";
   const FortranColumns format = f.columns();

@@ -30,7 +30,7 @@ constexpr AnsysLibraryElement ansys_library[] = {
     {288, "PIPE288", F::beam2, 2},    {289, "PIPE289", F::beam3, 3},
 };
 
-/// One of the shapes that a brick or a shell takes by repeating nodes: places of the corners, then
+/// A degenerate shape of a brick or shell with repeated nodes: positions of the corners, then
 /// those of the nodes on the edges.
 struct Folded {
   T linear, quadratic;

@@ -10,7 +10,7 @@
 namespace floatframe {
 namespace {
 
-/// CalculiX tells the line of the stiffness from that of the directions by its point.
+/// CalculiX distinguishes the line of the stiffness from that of the directions by its point.
 std::string with_point(std::string number) {
   if (number.find('.') == std::string::npos)
     number.insert(std::min(number.find('e'), number.size()), ".");
@@ -18,7 +18,7 @@ std::string with_point(std::string number) {
 }
 
 /// A spring of any directions between further nodes: the first direction of each is its end's
-/// share of the elongation, the others follow the spring's node, so that nothing is loose.
+/// part of the elongation, the others follow the spring's node, so that none is unconstrained.
 class Springs {
  public:
   Springs(CalculixText& deck, CalculixEquations& equations)
@@ -46,7 +46,7 @@ class Springs {
   }
 
   /// Springs without their massless ends (spring_system): K = sum lambda v v^T. Each term is a
-  /// spring between two further nodes, whose first directions are the shares in v . q of one node
+  /// spring between two further nodes, whose first directions are the parts of v . q of one node
   /// and of the others.
   void add_condensed(const SpringBlock& block, const FeSource& source) {
     const SymmetricEigen eigen = symmetric_eigen(block.K);

@@ -1,5 +1,5 @@
 // A deck of CalculiX: nodes, elements, sets and surfaces; a step of free vibration if all masses
-// are known. Sections and constraints are in sources of their own.
+// are known. Sections and constraints are in separate sources.
 // Source: CalculiX CrunchiX User's Manual 2.20, "Input deck format".
 #include <algorithm>
 #include <numeric>
@@ -21,7 +21,7 @@ std::string calculix_type(ElementType type) {
       {Type::hex8, "C3D8"},      {Type::hex8i, "C3D8I"},      {Type::hex8r, "C3D8R"},
       {Type::hex20, "C3D20"},    {Type::hex20r, "C3D20R"},    {Type::wedge6, "C3D6"},
       {Type::wedge15, "C3D15"},  {Type::pyramid5, "C3D8"},    {Type::pyramid13, "C3D20"},
-      {Type::shear4, "S4"}};  // the last is refused before
+      {Type::shear4, "S4"}};  // the last is rejected earlier
   return names.at(type);
 }
 
@@ -29,7 +29,7 @@ bool is_pyramid(ElementType type) {
   return type == ElementType::pyramid5 || type == ElementType::pyramid13;
 }
 
-/// Nodes as they are written: pyramids are bricks whose upper face is one node.
+/// Nodes as written: pyramids are bricks whose upper face is one node.
 std::vector<int> deck_nodes(const CalculixText& deck, const Element& e) {
   std::vector<int> order;
   if (e.type == ElementType::pyramid5) {
@@ -70,7 +70,7 @@ void add_elements(CalculixText& deck) {
   }
 }
 
-/// Kinds of elements, and what CalculiX does with them.
+/// Kinds of elements, and their treatment by CalculiX.
 void note_habits(CalculixText& deck) {
   static constexpr std::pair<bool (*)(const Element&), const char*> habits[] = {
       {[](const Element& e) { return is_pyramid(e.type); },
@@ -99,9 +99,9 @@ std::vector<char> nodes_of_beams(const FeModel& model) {
   return nodes_of_elements(model, [](const Element& e) { return is_beam(e.type); });
 }
 
-/// CalculiX 2.20 joins what it makes of rods with what it makes of beams in all directions only if
-/// the element with the smallest number at their node is a beam; else some come loose. Such rods
-/// get numbers above all others.
+/// CalculiX 2.20 joins the expansions of rods and beams in all directions only if
+/// the element with the smallest number at their node is a beam; else some become detached. Such
+/// rods get numbers above all others.
 void number_rods_after_beams(CalculixText& deck) {
   const std::vector<Element>& elements = deck.model.elements;
   const std::vector<char> bends = nodes_of_beams(deck.model);
@@ -125,7 +125,7 @@ void number_rods_after_beams(CalculixText& deck) {
         plural(renumbered, "rod is", "rods are"));
 }
 
-/// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
+/// CalculiX expands a shell node to nodes on its normal, about which they rotate freely.
 void note_beams_on_shells(CalculixText& deck) {
   const std::vector<char> beams = nodes_of_beams(deck.model);
   std::vector<char> both =
@@ -172,7 +172,7 @@ void add_sets(CalculixText& deck) {
     deck.note("{} of surfaces left out: they are not faces of solids", plural(skins, "face"));
 }
 
-/// What holds the part in its own deck is not in force here either: comments.
+/// Supports of the part in its own deck are not active here either: comments.
 void add_supports(CalculixText& deck) {
   if (deck.model.supports.empty()) return;
   deck.text += "** Supports of the model; without the stars they are in force:\n** *BOUNDARY\n";
@@ -236,7 +236,7 @@ WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options)
                      "the model has no elements, expected a mesh (matrices make no deck)");
   const std::optional<OffsetBeams> beside = offset_beams(model);
   const FeModel& given = beside ? beside->model : model;
-  FeModel tied;  // only if needed: what nothing resists is singular there too
+  FeModel tied;  // only if needed: directions without stiffness are singular there too
   std::vector<FreeTurn> turns = free_turns(given);
   const std::size_t bars = leave_out_beams(given, turns);
   if (!turns.empty()) {

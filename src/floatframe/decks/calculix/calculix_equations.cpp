@@ -1,8 +1,8 @@
-// Knots are nodes of beams whose rotations CalculiX keeps. It makes solids of beams. Beams that
-// meet at a node share what is made of it if they lie in one line; else it joins what is made of
-// each by a rigid knot, and rotations of the node in equations are those of the knot. In one line
-// are beams whose tangents and normals are within 20 degrees of those of the beam with the smallest
-// number, with its section and offsets (gen3dnor.f of CalculiX 2.20).
+// Knots are nodes of beams whose rotations CalculiX keeps. It expands beams to solids. Beams that
+// meet at a node share the expanded nodes if they are in one line; else CalculiX joins the nodes
+// of each by a rigid knot, and rotations of the node in equations are those of the knot. Beams are
+// in one line if their tangents and normals are within 20 degrees of those of the beam with the
+// smallest number and the same section and offsets (gen3dnor.f of CalculiX 2.20).
 #include <algorithm>
 #include <cmath>
 
@@ -42,7 +42,7 @@ BeamEnd beam_end(const CalculixText& deck, std::size_t element, int k) {
   return end;
 }
 
-/// Does CalculiX make other nodes of it than of `first`? Of round sections it may not tell pipes.
+/// Does CalculiX expand it to other nodes than `first`? Round sections may be pipes.
 bool is_apart(const BeamEnd& e, const BeamEnd& first) {
   const auto differ = [](const std::array<double, 2>& a, const std::array<double, 2>& b) {
     return std::abs(a[0] - b[0]) > 1e-9 || std::abs(a[1] - b[1]) > 1e-9;
@@ -53,7 +53,7 @@ bool is_apart(const BeamEnd& e, const BeamEnd& first) {
          e.rectangle != first.rectangle;
 }
 
-/// Numbers, in the deck, of the nodes with knots that nothing but beams has.
+/// Numbers, in the deck, of the nodes with knots that only beams have.
 std::set<int> knots_of(const CalculixText& deck) {
   const FeModel& model = deck.model;
   std::map<int, std::vector<BeamEnd>> ends;  // by nodes
@@ -101,7 +101,7 @@ std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
   return out;
 }
 
-/// Of what ties a node, for a message.
+/// Description of the constraint on a node, for a message.
 FeSource source_of_tie(const FeModel& model, int node) {
   for (const Spider& s : model.spiders)
     if (s.reference == node || std::find(s.nodes.begin(), s.nodes.end(), node) != s.nodes.end())
@@ -112,7 +112,7 @@ FeSource source_of_tie(const FeModel& model, int node) {
   return {};
 }
 
-/// Of each node without elements what shows its six motions, one column each: by row the factor.
+/// For each node without elements the dofs of its six motions, one column each: by row the factor.
 using NodeColumns = std::map<int, std::array<std::map<int, double>, 6>>;
 
 /// Masses, which have no inertia in a deck, and springs; `row` counts.
@@ -132,7 +132,7 @@ void add_masses_and_springs(const FeModel& model, const std::vector<char>& in_el
     }
 }
 
-/// Those of some sparse columns that are sums of the ones before them. Of a node of springs, whose
+/// Sparse columns that are sums of the previous ones. For a node of springs, whose
 /// displacements all exist in CalculiX, also empty ones.
 std::vector<std::size_t> repeated_columns(const std::array<std::map<int, double>, 6>& columns,
                                           bool sprung) {
@@ -179,7 +179,7 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
 }
 
 void CalculixEquations::add_dependences() {
-  // What nodes of elements can do has stiffness or mass.
+  // All motions of nodes of elements have stiffness or mass.
   const std::vector<char> in_elements =
       nodes_of_elements(deck_.model, [](const Element&) { return true; });
   std::vector<std::string> held;

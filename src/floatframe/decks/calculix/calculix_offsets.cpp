@@ -10,7 +10,7 @@ namespace {
 
 constexpr double same_arm = 1e-9;
 
-/// Ends of arms: nodes that follow one other node rigidly, in all directions.
+/// Ends of arms: nodes that follow exactly one other node rigidly, in all directions.
 class ArmEnds {
  public:
   explicit ArmEnds(const FeModel& model) : model_(model) {
@@ -38,7 +38,7 @@ class ArmEnds {
   void leave_out(int end) { node_of_.erase(end); }
 
  private:
-  /// u' = u + theta x d, theta' = theta: six equations; -1 if they say something else.
+  /// u' = u + theta x d, theta' = theta: six equations; -1 if they differ from these.
   int node_of(int end, const std::vector<const LinearEquation*>& list) const {
     if (list.size() != 6) return -1;
     int node = -1;
@@ -59,7 +59,7 @@ class ArmEnds {
     return (A - rigid).norm() <= same_arm * rigid.norm() ? node : -1;
   }
 
-  /// What something else than beams and the arm has must stay.
+  /// Nodes with anything other than beams and the arm must be kept.
   void leave_out_others() {
     std::map<int, int> spiders;
     for (const Spider& s : model_.spiders) {
@@ -85,7 +85,7 @@ class ArmEnds {
   std::map<int, int> node_of_;
 };
 
-/// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
+/// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms differ.
 std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
                                                      const ArmEnds& ends) {
   if (e.section < 0 || static_cast<std::size_t>(e.section) >= model.sections.size())
@@ -115,7 +115,7 @@ std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const
   return out;
 }
 
-/// What CalculiX would take for beams of one line, whose normals it averages.
+/// Beams that CalculiX would treat as one line, whose normals it averages.
 bool along_each_other(const FeModel& model, const Element& a, const Element& b) {
   const auto axis = [&](const Element& e) {
     const std::span<const int> nodes = nodes_of_element(e);
@@ -124,8 +124,8 @@ bool along_each_other(const FeModel& model, const Element& a, const Element& b) 
   return std::abs(axis(a).dot(axis(b))) > 0.9;
 }
 
-/// CalculiX has no arm: what else sits at a node acts on the beam beside it. So the nodes behind
-/// arms belong to beams alone, and beams in one line have one arm.
+/// CalculiX has no arm: other elements at a node would act on the offset beam. So the nodes at the
+/// ends of arms belong only to beams, and beams in one line have the same arm.
 class ArmNodes {
  public:
   explicit ArmNodes(const FeModel& model)
@@ -177,7 +177,7 @@ bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
   return false;
 }
 
-/// Leaves out ends of beams whose arms OFFSET1 and OFFSET2 do not say, and what hangs on these.
+/// Omits ends of beams whose arms differ from OFFSET1 and OFFSET2, and everything attached to them.
 void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
   const ArmNodes nodes(model);
   std::map<int, std::vector<int>> beams_at;

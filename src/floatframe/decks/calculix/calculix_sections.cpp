@@ -9,7 +9,7 @@
 namespace floatframe {
 namespace {
 
-/// Density besides that of the material (kg/m3 of the model) of a shell with further mass.
+/// Density added to that of the material (kg/m3 of the model) for a shell with further mass.
 double further_density(const ShellSection& s) {
   return s.thickness > 0.0 ? s.mass / s.thickness : 0.0;
 }
@@ -21,7 +21,7 @@ std::string offset_words(const std::array<double, 2>& offsets) {
   return out;
 }
 
-/// What elements of one section share.
+/// Common data of the elements of one section.
 struct SectionKey {
   ElementFamily family = ElementFamily::solid;
   int material = 0, section = 0, orientation = -1;
@@ -144,7 +144,7 @@ class SectionWriter {
     return key;
   }
 
-  /// In the deck once for each density.
+  /// Written once per density.
   std::string material_name(int m, double further) {
     const auto [it, fresh] = materials_.try_emplace({m, further});
     if (!fresh) return it->second;
@@ -155,7 +155,7 @@ class SectionWriter {
     const Material& given = material(m);
     deck_.add("*MATERIAL, NAME={}\n", name);
     if (given.elasticity) {
-      // Of the symmetric matrix the columns of the upper half, shear in the order 12, 13, 23.
+      // The columns of the upper half of the symmetric matrix, shear in the order 12, 13, 23.
       constexpr std::array<int, 6> order{0, 1, 2, 3, 5, 4};
       std::vector<std::string> terms;
       for (std::size_t j = 0; j < 6; ++j)

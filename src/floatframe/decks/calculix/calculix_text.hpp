@@ -1,19 +1,19 @@
 #pragma once
-// What the parts of a CalculiX deck share. Numbers have 13 digits: CalculiX reads 20 characters of
-// a field.
+// Common functions of the parts of a CalculiX deck. Numbers have 13 digits: CalculiX reads 20
+// characters of a field.
 //
-// Beams beside their nodes as CalculiX has them: OFFSET1 and OFFSET2 of *BEAM SECTION, in
+// Beams offset from their nodes in CalculiX: OFFSET1 and OFFSET2 of *BEAM SECTION, in
 // thicknesses along directions 1 and 2 of the section, the centroid at
 //   -OFFSET1 t_1 n_1 - OFFSET2 t_2 n_2
-// of the node. Beams at one node are joined rigidly there whatever their offsets, which equations
-// between their rotations cannot say (CalculixEquations).
+// from the node. Beams at one node are joined rigidly there for any offsets, which equations
+// between their rotations cannot express (CalculixEquations).
 //
-// Equations of a CalculiX deck: spiders and linear equations in degrees of freedom that depend on
-// none. Rotations of nodes without beams and shells are displacements of further nodes.
+// Equations of a CalculiX deck: spiders and linear equations in independent degrees of
+// freedom. Rotations of nodes without beams and shells are displacements of further nodes.
 //
-// CalculiX makes solids of beams and shells. Equations with rotations of their nodes are in force
-// only where it joins several of them by a rigid knot (`knots_of`), elsewhere it loses them
-// silently: refused.
+// CalculiX expands beams and shells to solids. Equations with rotations of their nodes are active
+// only where it joins several of them by a rigid knot (`knots_of`), elsewhere it ignores them
+// silently: rejected.
 #include <fmt/format.h>
 
 #include <array>
@@ -37,7 +37,7 @@ namespace floatframe {
 struct OffsetBeams {
   FeModel model;
   std::vector<std::array<double, 2>> offsets;  ///< of each element, in thicknesses
-  std::vector<char> left_out;                  ///< nodes at the ends of arms, of nothing now
+  std::vector<char> left_out;                  ///< nodes at the ends of arms, unused now
 };
 
 struct CalculixText {
@@ -54,7 +54,7 @@ struct CalculixText {
 
   int node(int index) const { return numbers.node[index]; }
   int element(std::size_t index) const { return numbers.element[index]; }
-  /// In capitals; of a set, surface or material of the model.
+  /// In capitals; for a set, surface or material of the model.
   std::string name_of(const std::string& given) {
     std::string name = written_name(given, true, names);
     renamed.add(given, name);
@@ -82,17 +82,17 @@ std::string calculix_vector(const Vec3& v);
 /// A line of *NODE.
 std::string calculix_node(int number, const Vec3& p);
 
-/// Numbers, 16 in a line; an element's lines end with a comma where it goes on.
+/// Numbers, 16 per line; an element's lines end with a comma if it is continued.
 void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bool goes_on);
 
-/// Materials, orientations and sections of all elements, in sets of their own.
+/// Materials, orientations and sections of all elements, in separate sets.
 void add_calculix_sections(CalculixText& deck);
 
 /// Spiders and equations (CalculixEquations), springs, point masses.
 void add_calculix_constraints(CalculixText& deck);
 
-/// None if no end of a beam with a rectangular or round section hangs on a rigid arm across it, one
-/// in both directions the same at all its nodes, and of nothing else.
+/// None unless the end of a beam with a rectangular or round section is on a rigid arm across it,
+/// the same in both directions at all its nodes, and is connected to nothing else.
 std::optional<OffsetBeams> offset_beams(const FeModel& model);
 
 /// The writer of `convert`.
@@ -104,9 +104,9 @@ class CalculixEquations {
 
   explicit CalculixEquations(CalculixText& deck);
 
-  /// Dependent degrees of freedom by independent ones. Of a node without elements, as the
-  /// reference of a coupling of some directions is, those are held that the others stand for: its
-  /// motions that move nothing have neither stiffness nor mass, and CalculiX finds wrong
+  /// Dependent degrees of freedom by independent ones. For a node without elements, such as the
+  /// reference of a coupling of some directions, the dofs represented by others are fixed: its
+  /// motions without effect have neither stiffness nor mass, and CalculiX finds wrong
   /// frequencies if there are any.
   void add_dependences();
   /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
@@ -126,11 +126,11 @@ class CalculixEquations {
 
  private:
   void refuse(int node, const FeSource& source);
-  /// How many there are, and the first.
+  /// Their number, and the first.
   void note_directions(fmt::format_string<std::string, const std::string&> text,
                        const std::vector<std::string>& names) const;
   void hold_idle_motions(const std::vector<char>& in_elements);
-  /// Of equations that rigid motions do not satisfy, which are no joints of a free part.
+  /// For equations that rigid motions do not satisfy, which are no joints of a free part.
   void note_not_rigid(const std::vector<char>& in_elements) const;
 
   CalculixText& deck_;

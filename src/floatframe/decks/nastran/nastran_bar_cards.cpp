@@ -1,13 +1,13 @@
-// Cards of bars, beams and rods, with what bars leave to BAROR and BEAMOR.
+// Cards of bars, beams and rods, with the defaults from BAROR and BEAMOR.
 //
-// Ends of bars. An offset end is a node of its own, tied rigidly: u' = u + theta x d, theta' =
-// theta. A pinned end is a node of its own too, tied only in the components that are not pinned, in
-// the axes of the element. What two pins of a bar release twice is released once, else nothing
-// would hold the end.
+// Ends of bars. An offset end is a separate node, tied rigidly: u' = u + theta x d, theta' =
+// theta. A pinned end is a separate node too, tied only in the components that are not pinned, in
+// the axes of the element. A direction released by both pins of a bar is released once, otherwise
+// the end would be free.
 //
-// Bars of which I1, I2 or J is 0. They have no stiffness there, so as beams they would leave
-// rotations of nodes without any, which Nastran takes out one by one (AUTOSPC). Here they are rods
-// with springs for what stiffness they have, since rotations that springs alone hold are condensed
+// Bars with I1, I2 or J equal to 0. They have no such stiffness, so as beams they would leave
+// rotations of nodes without any, which Nastran removes one by one (AUTOSPC). Here they are rods
+// with springs for their remaining stiffness, since rotations held only by springs are condensed
 // (fe/springs.hpp). In a plane with EI and L, phi = 12 EI/(G As L^2), the beam is
 //   12 EI/(L^3 (1 + phi)) of v_2 - v_1 - L/2 (r_1 + r_2)  and  EI/L of r_2 - r_1,
 // exactly; torsion comes with the rod (build_nastran_torsion).
@@ -74,7 +74,7 @@ void read_nastran_bar_default(NastranFields& f, NastranContent& c) {
     f.error(ErrorCode::duplicate, "it is in the file twice, first in line {}", it->second.at.line);
 }
 
-/// A CONROD is its own property, by a number that no card has.
+/// A CONROD has a separate property, with a number that no card has.
 void read_nastran_rod(NastranFields& f, NastranContent& c) {
   NastranElement e = line_element(f, ElementType::rod2);
   const bool own = f.name() == "CONROD";
@@ -97,7 +97,7 @@ void read_nastran_rod(NastranFields& f, NastranContent& c) {
   c.elements.push_back(std::move(e));
 }
 
-/// One of two equal releases that a bar has at both ends: 1, 4, and in each plane what is more than
+/// One of two equal releases at both ends of a bar: 1, 4, and in each plane those in excess of
 /// two of the deflections and slopes.
 void without_double_releases(unsigned& a, unsigned& b) {
   for (const unsigned component : {1u, 8u})
@@ -235,7 +235,7 @@ void NastranBars::finish() {
 
 void NastranBars::tie(const Tie& t, bool rotates) {
   FeModel& model = b_.model;
-  // Rotations of a node of nothing but pinned or offset bars come with a spider.
+  // Rotations of a node that has only pinned or offset bars come with a spider.
   const bool needs_rotations = (t.mask >> 3) != 0 || !t.arm.isZero(0.0);
   if (!rotates && needs_rotations) {
     const auto [it, fresh] = spiders_.try_emplace(t.node, static_cast<int>(model.spiders.size()));

@@ -175,7 +175,7 @@ Vec3 NastranBuild::place_of(int id, const NastranSystem& system) {
   if (it == grid_of_.end()) {
     source.error(ErrorCode::not_found, system.at,
                  "coordinate system {} has node {}, which is not in the file", system.id, id);
-    return Vec3(id, 0.1 * id * id, 1.0);  // somewhere; the error is known
+    return Vec3(id, 0.1 * id * id, 1.0);  // any position; the error is reported already
   }
   const NastranGrid& g = content.grids[it->second];
   return to_basic(frame(g.cp, g.at), g.x);
@@ -199,7 +199,7 @@ void build_nastran_nodes(NastranBuild& build) {
     model.positions.push_back(to_basic(build.frame(g.cp, g.at), g.x));
     model.node_ids.push_back(g.id);
     model.node_sources.push_back(g.at);
-    // Cylindrical and spherical systems turn with the place.
+    // Cylindrical and spherical systems rotate with the position.
     const Orientation* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
     build.turned.push_back(cd != nullptr &&
                            (cd->kind != SystemKind::rectangular || !cd->axes.isIdentity(1e-9)));
@@ -285,7 +285,7 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
     auto& sets = set.elements ? build.model.element_sets : build.model.node_sets;
     const std::string key =
         name == c.names.sets.end() ? fmt::format("SET {}", set.id) : name->second;
-    // Each member once, in the order of the file; several cards of one set add up.
+    // Members without duplicates, in the order of the file; several cards of one set are combined.
     std::vector<int>& known = sets[key];
     std::unordered_set<int>& there = members_of[{set.elements, key}];
     if (there.empty()) there.insert(known.begin(), known.end());

@@ -15,8 +15,8 @@
 
 namespace floatframe {
 
-/// Equations in directions that are not those of the basic axes. Those of one node are solved for
-/// as many of its basic directions, each of its own, so that every equation has a dependent degree
+/// Equations in directions other than the basic axes. Those of one node are solved for
+/// as many different basic directions of it, so that every equation has a dependent degree
 /// of freedom.
 class NastranEquations {
  public:
@@ -41,22 +41,22 @@ class NastranEquations {
 };
 
 struct NastranBuild;
-/// Where a scalar point is in the model.
+/// Location of a scalar point in the model.
 struct NastranScalarPoint {
   int node = -1;
-  int axis = 0;         ///< 0, or 3 if its springs turn
+  int axis = 0;         ///< 0, or 3 if its springs are torsional
   bool sprung = false;  ///< a spring ends there
-  int root = 0;         ///< up to one of the points that springs join
-  FeSource at;          ///< that names it first
+  int root = 0;         ///< link to another point joined by springs
+  FeSource at;          ///< of its first reference
 };
 
-/// The scalar points that springs and equations use, by their numbers.
+/// The scalar points used by springs and equations, by their numbers.
 class NastranScalarPoints {
  public:
   void build(NastranBuild& build);
-  /// Null if the number is none that is in use.
+  /// Null if the number is not in use.
   const NastranScalarPoint* find(int id) const;
-  /// An SPC holds it: it is the ground.
+  /// Held by an SPC: it is the ground.
   bool held(int id) const { return held_.contains(id); }
 
  private:
@@ -71,14 +71,14 @@ struct NastranBuild {
   std::unordered_map<int, int> node_of;  ///< index of a node number
   std::map<int, int> orientation_of;     ///< index in FeModel::orientations of a system
   std::vector<char> turned;              ///< nodes whose displacements are in a turned system
-  NastranEquations equations;            ///< what goes to the model at the end
+  NastranEquations equations;            ///< added to the model at the end
   NastranScalarPoints scalars;
 
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
-  /// Index of a node; an error and -1 if it is not there.
+  /// Index of a node; an error and -1 if it is missing.
   int node(int id, const FeSource& at, const std::string& who);
   int node(int id, const NastranEntity& e) { return node(id, e.at, e.label()); }
-  /// "CBAR 12: ..." where the card stands.
+  /// "CBAR 12: ..." at the location of the card.
   template <class... Values>
   void error(ErrorCode code, const NastranEntity& e, fmt::format_string<Values...> text,
              Values&&... values) {
@@ -92,7 +92,7 @@ struct NastranBuild {
     error(code, e, text, std::forward<Values>(values)...);
     return false;
   }
-  /// What an element has by a number; null with an error if it is not there.
+  /// Item referenced by an element by number; null with an error if it is missing.
   template <class Property>
   const Property* property(const std::map<int, Property>& all, int id, const char* card,
                            const NastranEntity& element) {
@@ -102,7 +102,7 @@ struct NastranBuild {
     return nullptr;
   }
   /// The system in basic coordinates, x = origin + axes x_local; an error (once a system) and basic
-  /// axes if it is not there.
+  /// axes if it is missing.
   const Orientation& frame(int id, const FeSource& at);
   void note(const FeSource& at, const std::string& text);
   /// "3 CTRIA6 elements ..." at the first of them, if there is any.
@@ -115,10 +115,10 @@ struct NastranBuild {
   /// In basic axes, from a node on; `turned`: the vector is in its system. False with an error.
   bool direction(const NastranDirection& given, int from, bool turned, const NastranEntity& e,
                  Vec3& out);
-  /// A new node with a number of its own.
+  /// A new node with a free number.
   int add_node(const Vec3& p, const FeSource& at, const std::string& who);
   std::vector<char> rotates;  ///< nodes that have rotations; empty until constraints are built
-  /// A node that nothing else uses gets rotations by a spider with a node of its own.
+  /// Gives rotations to an otherwise unused node by a spider with a separate node.
   void give_rotations(int node, const NastranEntity& e);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
   /// there are too many in all.
@@ -129,26 +129,26 @@ struct NastranBuild {
   std::uint64_t spent_ = 0;
   Orientation make_frame(int id, const FeSource& at);
   Orientation through(const std::array<Vec3, 3>& points, const NastranSystem& system);
-  /// Where a node of a system is, before it is in the model.
+  /// Position of a node of a system, before it is in the model.
   Vec3 place_of(int id, const NastranSystem& system);
   std::unordered_map<int, int> grid_of_;
   std::map<int, Orientation> frames_;
-  std::set<int> open_;  // systems being made, to find circles
+  std::set<int> open_;  // systems being built, to detect cycles
 };
 
 void build_nastran_nodes(NastranBuild& build);
 /// Directions of a system at a place: cylinder radial, around, along; sphere radial, along the
 /// meridian (theta), around (phi). On the axis the angle around is zero.
 Mat3 nastran_axes_at(const Orientation& f, const Vec3& p);
-/// CONM1 and CMASS of nodes: of each node one.
+/// CONM1 and CMASS of nodes: one per node.
 std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
-/// Masses of scalar points are errors, but of those that are held.
+/// Masses of scalar points are errors, except of those that are held.
 void check_nastran_scalar_masses(NastranBuild& build);
 void build_nastran_springs(NastranBuild& build);
 /// GJ/L of rods; after what gives rotations to nodes.
 void build_nastran_torsion(NastranBuild& build);
-/// Equations with scalar points. Each is solved for one of them; what is left without any is an
-/// equation of nodes.
+/// Equations with scalar points. Each is solved for one of them; those without any become
+/// equations of nodes.
 void build_nastran_scalar_equations(NastranBuild& build,
                                     const std::vector<const NastranEquation*>& equations);
 /// Lumped or consistent.
@@ -167,15 +167,15 @@ void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element
 class NastranMaterials {
  public:
   explicit NastranMaterials(NastranBuild& build) : b_(build), c_(build.content) {}
-  /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
+  /// Index of a material; one with nonstructural mass (per volume) is a separate material.
   int index(const NastranProperty& p, double nonstructural) {
     return index(p, nonstructural, p.material, true);
   }
   int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
   /// The same as another without density.
   int massless(int material);
-  /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
-  /// E and NU are, and nothing else of a bar depends on it.
+  /// G of a material over that from its E and NU: bars twist and shear with the G of the card, for
+  /// any E and NU, and no other property of a bar depends on it.
   double own_shear(int id);
 
  private:
@@ -186,7 +186,7 @@ class NastranMaterials {
   std::map<int, int> massless_;
   std::set<int> checked_, unfit_for_bars_;
   std::set<std::tuple<int, int, int>> checked_properties_;  // file, line and material
-  // Properties by line, whose nonstructural mass is said, and is too negative.
+  // Properties by line with an invalid negative nonstructural mass that was reported.
   std::set<std::pair<int, int>> noted_, negative_;
 };
 /// A piece of a tapered beam.
@@ -196,7 +196,7 @@ struct NastranPiece {
   double turn = 0.0;
   double nonstructural = 0.0;
 };
-/// Of the tapered properties of a file, as many as the file may have.
+/// For the tapered properties of a file, up to the limit of a file.
 std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build);
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
 bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
@@ -223,7 +223,7 @@ class NastranBars {
     int fresh = -1, node = -1;
     Vec3 arm = Vec3::Zero();
     Mat3 axes = Mat3::Identity();
-    unsigned mask = 63u;  ///< what is tied, in the axes
+    unsigned mask = 63u;  ///< tied components, in the axes
     FeSource at;
   };
   void tie(const Tie& t, bool rotates);
@@ -246,8 +246,8 @@ int add_nastran_term(NastranBuild& build, const NastranEquation& e,
                      const NastranEquation::Term& term, LinearEquation& equation);
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);
-/// The set that the case control selects, or those that an ADD card of its number joins; an error
-/// if it selects two, or if one that is joined is not `there`. `what`: MPC, SPC.
+/// The set selected by the case control, or those joined by an ADD card of its number; an error
+/// if it selects two, or if a joined one is not `there`. `what`: MPC, SPC.
 std::set<int> selected_nastran_sets(NastranBuild& build,
                                     const std::vector<std::pair<int, FeSource>>& selected,
                                     const std::map<int, std::vector<int>>& added,

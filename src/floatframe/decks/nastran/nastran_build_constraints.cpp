@@ -6,7 +6,7 @@ namespace {
 
 constexpr unsigned all_six = 63u, translations = 7u;
 
-/// Directions of a node with a turned system matter unless all three of a kind are meant.
+/// Directions of a node with a rotated system matter unless all three of a kind are used.
 bool any_axes(unsigned mask) {
   const unsigned low = mask & 7u, high = mask >> 3;
   return (low == 0u || low == 7u) && (high == 0u || high == 7u);
@@ -40,7 +40,7 @@ class ConstraintBuilder {
     int reference = -1, node = -1;
   };
 
-  /// By equations, once it is known which nodes have rotations: by an element, a spring, a mass.
+  /// By equations, after the nodes with rotations are known: by an element, a spring, a mass.
   void follow_turned() {
     if (followers_.empty()) return;
     const DofTable dofs = dof_table(b_.model);
@@ -54,9 +54,9 @@ class ConstraintBuilder {
     }
   }
 
-  /// An RBE3 whose reference follows in all directions the displacements of its nodes, each once.
-  /// Rotations of nodes that have none do not count. Others give their reference rotations here and
-  /// are equations later.
+  /// An RBE3 whose reference follows in all directions the displacements of its nodes, once each.
+  /// Rotations of nodes without rotations do not count. Others give their reference rotations here
+  /// and become equations later.
   bool is_plain_mean(const NastranSpider& s) {
     std::set<int> seen;
     bool plain = s.mask == all_six;
@@ -203,7 +203,7 @@ class ConstraintBuilder {
   std::vector<Follower> followers_;
 };
 
-/// Basic directions that lie in what is held in turned axes.
+/// Basic directions within the span of the directions held in rotated axes.
 unsigned held_in_basic(const Mat3& axes, unsigned mask) {
   unsigned basic = 0;
   for (int c = 0; c < 6; ++c) {

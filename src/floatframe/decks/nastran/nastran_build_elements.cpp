@@ -5,7 +5,7 @@
 namespace floatframe {
 namespace {
 
-/// Of a mass over length or area; a size that is not positive is an error of its own.
+/// Of a mass per length or area; a size that is not positive has a separate error.
 double density_of(double mass, double size) { return size > 0.0 ? mass / size : 0.0; }
 
 class ElementBuilder {
@@ -204,7 +204,7 @@ class ElementBuilder {
     return it->second;
   }
 
-  /// What is wrong with a section of bars, and what is approximated.
+  /// Errors in a section of bars, and its approximations.
   void judge_section(const NastranProperty& p) {
     const std::pair<const char*, double> values[] = {
         {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
@@ -254,7 +254,7 @@ class ElementBuilder {
       section.shear = t * materials_.own_shear(p.material);
     } else {
       section = nastran_shell_section(b_, e, p, [&](int id) {
-        // Of plies the mass counts, of a PSHELL that of its first material.
+        // For plies the mass counts, for a PSHELL that of its first material.
         return materials_.index(p, 0.0, id, !p.plies.empty());
       });
       if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
@@ -264,8 +264,8 @@ class ElementBuilder {
     return it->second;
   }
 
-  /// Of a panel: F1 along the edges 12 and 34, F2 along the others; without mass. Up to 1.01 a
-  /// factor is a share of the panel, above a width in thicknesses.
+  /// For a panel: F1 along the edges 12 and 34, F2 along the others; without mass. Up to 1.01 a
+  /// factor is a fraction of the panel, above a width in thicknesses.
   void edge_rods(const NastranProperty& p, const Element& panel) {
     const auto at = [&](int k) { return b_.model.positions[panel.nodes[k % 4]]; };
     const double area = 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();

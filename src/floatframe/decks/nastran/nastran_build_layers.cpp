@@ -98,7 +98,7 @@ void note_nastran_shells(NastranBuild& build) {
     std::string_view card;
     ElementType type;
     const char* text;
-    bool bends = false;  // said of shells only
+    bool bends = false;  // only for shells
     NastranCount count = {};
   };
   Kind kinds[] = {

@@ -1,7 +1,7 @@
-// Rigid elements whose independent components are of several nodes. With q the rigid motion about a
+// Rigid elements whose independent components are at several nodes. With q the rigid motion about a
 // point c and r = x - c, a component along the axis e of a node is
 //   e.u = e.q_u + (r x e).q_theta,   e.theta = e.q_theta.
-// The six independent components give q = N^-1 u_n, each other one is an equation b q - u_m = 0.
+// The six independent components give q = N^-1 u_n, each other one gives an equation b q - u_m = 0.
 //
 // RBE3 in general: its reference r moves as the rigid motion q that fits weighted components of
 // nodes best,
@@ -200,7 +200,7 @@ class MeanBuilder {
     return columns_.try_emplace(key, VecX::Zero(rows_)).first->second;
   }
 
-  /// What depends on something else.
+  /// Components that depend on others.
   void taken() {
     for (const Spider& s : b_.model.spiders) {
       if (s.kind != Spider::Kind::rigid) continue;

@@ -25,8 +25,8 @@ void read_nastran_rbe2(NastranFields& f, NastranContent& c) {
   c.spiders.push_back(std::move(s));
 }
 
-/// UM of RBE3 says which components depend: the equations are the same whichever do, so it is only
-/// looked at.
+/// UM of RBE3 selects the dependent components: the equations are equivalent, so it is only
+/// checked.
 void dependent_components(NastranFields& f, std::size_t i, int expected) {
   int count = 0;
   for (; i < f.size() && !same_word(f.text(i), "ALPHA"); i += 2) {
@@ -69,7 +69,7 @@ void read_nastran_rbe3(NastranFields& f, NastranContent& c) {
   c.spiders.push_back(std::move(s));
 }
 
-/// Of a rigid element, whose independent components must be six.
+/// For a rigid element, whose independent components must be six.
 void check_independent(NastranFields& f, const NastranRigid& r) {
   int count = 0;
   for (const NastranRigid::Part& p : r.independent) count += std::popcount(p.mask);

@@ -20,7 +20,7 @@ const std::unordered_map<std::string_view, ReadCard>& card_readers() {
   return readers;
 }
 
-/// Cards that the case control selects.
+/// Cards selected by the case control.
 const WordList& selected_cards() {
   static const WordList cards("DMIG DMIAX NSM*");
   return cards;
@@ -208,7 +208,7 @@ class ContentReader {
       if (!names.empty()) c_.notes.push_back(text + names);
   }
 
-  /// Nodes that are in the file twice with the same numbers are one, as in Nastran.
+  /// Nodes that are in the file twice with the same numbers are merged, as in Nastran.
   void once_each_grid() {
     std::unordered_map<int, std::size_t> first;
     std::size_t kept = 0;

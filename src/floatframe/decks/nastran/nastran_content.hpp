@@ -1,5 +1,5 @@
 #pragma once
-// What the cards of Nastran bulk data say, by kind and with the user's numbers, before it is a
+// Content of the cards of Nastran bulk data, by kind and with the user's numbers, before it is a
 // model.
 #include <array>
 #include <map>
@@ -28,7 +28,7 @@ class NastranRanges {
   std::vector<std::pair<int, int>> ranges_;
 };
 
-/// How many there are, and where the first is.
+/// Their number, and the location of the first.
 struct NastranCount {
   int number = 0;
   FeSource first;
@@ -112,7 +112,7 @@ struct NastranSectionValue {
   const char* name;
   double NastranSection::*member;
 };
-/// What may change along a beam, in the order of PBEAM.
+/// Properties that may vary along a beam, in the order of PBEAM.
 inline constexpr NastranSectionValue nastran_section_values[] = {
     {"A", &NastranSection::A},   {"I1", &NastranSection::I1},
     {"I2", &NastranSection::I2}, {"I12", &NastranSection::I12},
@@ -144,7 +144,7 @@ struct NastranProperty : NastranEntity {
   double turn = 0.0;                ///< of these from y of the element towards z [rad]
   /// PBEAM, PBEAML: of a taper, from end A to end B; empty: `section` is that of the whole beam.
   std::vector<NastranStation> stations;
-  std::vector<std::string> remarks;  ///< what is approximated
+  std::vector<std::string> remarks;  ///< approximations
   double nonstructural = 0.0;        ///< mass over length or area
 };
 
@@ -206,7 +206,7 @@ struct NastranSet : NastranEntity {
 /// Between two nodes or scalar points: CELAS1 to 4, CMASS1 to 4 (of scalar points), bushings.
 struct NastranScalarElement : NastranEntity {
   int property = 0;
-  std::optional<double> value;      ///< its own: CELAS2, CELAS4, CMASS2, CMASS4
+  std::optional<double> value;      ///< direct value: CELAS2, CELAS4, CMASS2, CMASS4
   std::array<int, 2> nodes{};       ///< 0: the ground; of springs the second
   std::array<int, 2> components{};  ///< CELAS: 0 to 5; -1: none, of a scalar point
 };
@@ -281,11 +281,11 @@ std::span<const NastranCardReader> nastran_scalar_cards();
 std::span<const NastranCardReader> nastran_constraint_cards();
 /// Fields 5 to 7; false if they are blank.
 bool read_nastran_direction(NastranFields& f, const char* node, NastranDirection& direction);
-/// What bars leave to BAROR and BEAMOR.
+/// Defaults for bars from BAROR and BEAMOR.
 void complete_nastran_bars(NastranContent&, TextSource&);
 /// Material, A, J and nonstructural mass of PROD and CONROD.
 void read_nastran_rod_section(NastranFields& f, std::size_t first, NastranProperty& p);
-/// Stations of a beam as they stand on the card; blanks are filled when all are known.
+/// Stations of a beam as on the card; blanks are filled when all are read.
 void read_nastran_beam_stations(NastranFields&, NastranProperty&, std::vector<NastranStation>);
 void read_nastran_named_section(NastranFields&, NastranProperty&);
 /// Section about its principal axes, and nonstructural mass.
@@ -295,7 +295,7 @@ void set_nastran_section(NastranProperty& property, const NastranSection& sectio
 bool is_harmless_nastran_card(std::string_view name);
 /// The same of a PARAM entry.
 bool is_harmless_nastran_parameter(std::string_view name);
-/// What to do about a card that is not read; null if there is nothing special about it.
+/// Alternative to a card that is not read; null if there is none.
 const char* why_nastran_card_is_refused(std::string_view name);
 
 }  // namespace floatframe

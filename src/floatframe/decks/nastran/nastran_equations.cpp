@@ -1,9 +1,9 @@
-// Equations of directions in turned axes, and MPC equations with scalar points: by Gauss and Jordan
-// each of these is solved for a scalar point as long as there is one, first for those without
-// springs. An equation of one without springs only says where that goes and is left out; one of
-// another makes it depend on nodes; without scalar points it ties nodes. A scalar point that is the
-// difference of nodes does not move when the part is displaced, so springs from it to the ground
-// are springs of the part: they end at a node that an equation holds.
+// Equations of directions in rotated axes, and MPC equations with scalar points: by Gauss and
+// Jordan each of these is solved for a scalar point as long as there is one, first for those
+// without springs. An equation of such a point only defines its motion and is omitted; that of
+// another point makes it depend on nodes; without scalar points it ties nodes. A scalar point
+// defined as the difference of nodes does not move with the part, so springs from it to the ground
+// are internal springs of the part: they end at a node fixed by an equation.
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using DofKey = NastranEquations::Dof;
 
-/// The largest factor of the block in the rows that are left.
+/// The largest factor of the block in the remaining rows.
 std::pair<std::size_t, int> pivot_of(const std::vector<NastranEquations::Row>& rows,
                                      std::size_t from, int node, int first, double& most) {
   std::pair<std::size_t, int> best{from, first};
@@ -214,8 +214,8 @@ class ScalarEquations {
     }
   }
 
-  /// Does what the equation says vanish when the part is displaced; if it is of rotations alone,
-  /// when it turns?
+  /// Does the left-hand side of the equation vanish when the part is displaced, or, if it has only
+  /// rotations, when it rotates?
   static bool is_difference(const LinearEquation& e) {
     Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
     double largest = 0.0;

@@ -3,9 +3,9 @@
 namespace floatframe {
 namespace {
 
-/// Cards that change neither stiffness nor mass nor geometry; '*' stands for any end.
+/// Cards that change neither stiffness nor mass nor geometry; '*' matches any end.
 constexpr std::string_view harmless_cards =
-    // loads, methods, what is held
+    // loads, methods, supports
     "EIG* FORCE* MOMENT* MOMAX PLOAD* PRES* GRAV RFORCE* ACCEL* LOAD* CLOAD TEMP* TTEMP SPCD SPCR "
     "SPCAX SPCOFF* ASET* BSET* BNDFIX* BNDFRE* CSET* QSET* USET* OMIT* SUPORT* SUPAX DAREA DELAY "
     "DPHASE DLOAD LSEQ SLOAD DEFORM TIC* DYNRED SEQGP BOLT* RVDOF* FREQ* RLOAD* TLOAD* TSTEP* "
@@ -33,7 +33,7 @@ constexpr std::string_view harmless_cards =
     "RADCAV RADCOL RADCT VIEW* BDYOR CHGEN* CFTUBE PFTUBE THPAD "
     // dampers
     "CVISC PVISC CDAMP* PDAMP "
-    // properties of elements that are refused, or of what depends on frequency
+    // properties of elements that are rejected, or of frequency-dependent ones
     "PELAST PBUSHT PBUSH2D PDAMPT PDAMP5 PGAP PFAST PWELD PSEAM PAABSF PACABS PACBAR PACINF PBEND "
     "PCONEAX PLPLANE PRAC2D PRAC3D "
     // aeroelasticity, also of ZAERO and ASTROS
@@ -41,7 +41,7 @@ constexpr std::string_view harmless_cards =
     "AEPRESS AEQUAD4 AETRIA3 AEGRID AEROS AEDW AEPLOT* AESCALE ACOORD CSSCHD TRIM* FLFACT FLUTTER "
     "FLUTTF FLTFAST FLTPARM FLSYM FLCOND GUST* GENGUST MKAERO* DIVERG UXVEC SET2 SET4 PANLST* "
     "BODY7 SEGMESH ATTACH MLD* PLT* RUNGEN "
-    // regions and parameters of contact, which do nothing without the cards below
+    // regions and parameters of contact, which have no effect without the cards below
     "BC* BSURF* BEDGE BFRIC BLSEG BWIDTH";
 
 /// These change something.
@@ -52,7 +52,7 @@ struct RefusedCards {
   const char* reason;
 };
 
-/// Cards that are refused with a sentence of their own.
+/// Cards that are rejected with a specific sentence.
 constexpr RefusedCards refused_cards[] = {
     {"CBEND", "curved beams are not supported; divide the arc into CBAR elements"},
     {"CBEAM3", "beams of three nodes are not supported; divide them into CBAR elements"},

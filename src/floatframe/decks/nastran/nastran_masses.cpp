@@ -2,7 +2,7 @@
 // body with the mass m, its centre at c from the node and J about the node are
 //   [ m 1          -m skew(c) ]
 //   [ m skew(c)     J         ]
-// Others, as a mass in one direction only, have no meaning in a part that moves freely.
+// Others, such as a mass in one direction only, have no meaning in a part that moves freely.
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
@@ -108,7 +108,7 @@ void check_nastran_scalar_masses(NastranBuild& build) {
   build.note(held, "masses of scalar points that are held (SPC) or of the ground are left out");
 }
 
-// Nastran takes lumped mass for granted: at the nodes without rotary inertia, but of bars about
+// The default of Nastran is lumped mass: at the nodes without rotary inertia, except bars about
 // their own axis, unless PARAM COUPMASS is positive.
 void nastran_mass_forms(NastranBuild& build) {
   if (build.content.properties.empty() || build.content.coupled_mass) return;

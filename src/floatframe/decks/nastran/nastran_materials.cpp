@@ -78,7 +78,7 @@ std::string material_misfit(const NastranMaterial& m, std::string_view card) {
   return solid ? "MAT1 or MAT9" : shell ? "MAT1, MAT2 or MAT8" : "MAT1";
 }
 
-/// What is wrong with the constants of a MAT2 that is the material of a shell.
+/// Errors in the constants of a MAT2 that is the material of a shell.
 std::string nastran_plane_error(const NastranMaterial& m) {
   return m.card == "MAT2" ? elasticity_error(*m.elasticity, true, plane_constant) : std::string();
 }
@@ -172,7 +172,7 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
     if (!error.empty()) b_.error(ErrorCode::wrong_value, m, "{}", error);
   }
   if (m.elasticity) return anisotropic_material(c_.stiffness_factor * *m.elasticity, m.plane, 0.0);
-  if (m.card != "MAT1") return result;  // refused already
+  if (m.card != "MAT1") return result;  // rejected already
   const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
   if (given < 2) {
     if (first)

@@ -75,7 +75,7 @@ void read_nastran_solid(NastranFields& f, NastranContent& c) {
     return f.error(ErrorCode::too_large, "it has more than {} nodes", card.all);
   const std::size_t count = given > 0 ? card.all : card.corners;
   for (std::size_t k = 0; k < count; ++k) {
-    // Nastran: bottom edges, vertical edges, top edges; here the vertical ones come last.
+    // Nastran: bottom edges, vertical edges, top edges; here the vertical edges are last.
     const std::size_t first = card.corners + card.uprights, n = card.uprights;
     const std::size_t to = n == 0 || k < first ? k : k < first + n ? k + n : k - n;
     e.nodes[to] = f.label(2 + k, "a node");
@@ -89,7 +89,7 @@ struct SurfaceCard {
   std::string_view name;
   std::size_t corners;
   bool midside;
-  std::size_t axes, flag;  ///< where THETA and TFLAG are
+  std::size_t axes, flag;  ///< fields of THETA and TFLAG
   ElementType linear, quadratic;
 };
 

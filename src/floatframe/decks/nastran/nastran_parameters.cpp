@@ -4,8 +4,8 @@ namespace floatframe {
 namespace {
 
 /// Parameters that change neither stiffness nor mass: results, methods of solution, checks,
-/// damping, loads, and factors of matrices that are refused (CK2 of K2GG, CM2 of M2GG).
-/// K6ROT and SNORM are of elements that have a counterpart of their own here. '*' stands for any
+/// damping, loads, and factors of matrices that are rejected (CK2 of K2GG, CM2 of M2GG).
+/// K6ROT and SNORM concern elements that have a different formulation here. '*' matches any
 /// end.
 constexpr std::string_view harmless_names =
     "ACEXTMTD ACEXTSET ACLN ACOUT ACOWEAK ACSYM ADJMETH ADMPOST ADPCON ADSTAT AESDISC AESMAXIT "

@@ -1,6 +1,6 @@
-// Property cards of solids, shells and bars. The element's y axis lies in the plane of its axis and
+// Property cards of solids, shells and bars. The element's y axis is in the plane of its axis and
 // the orientation vector (plane 1), so I1 = int y^2 dA is Iz of a section and I2 is Iy. Plies of
-// PCOMP and PCOMPG come from the bottom, the first at Z0 from the nodes along the normal.
+// PCOMP and PCOMPG are listed from the bottom, the first at Z0 from the nodes along the normal.
 #include <cmath>
 #include <numbers>
 
@@ -22,7 +22,7 @@ void read_psolid(NastranFields& f, NastranProperty& p) {
 }
 
 void read_pshell(NastranFields& f, NastranProperty& p) {
-  // A material 0 is blank: so pre-processors punch what is missing.
+  // A material 0 is blank: pre-processors write it for a missing one.
   const auto blank = [&](std::size_t i) { return f.blank(i) || parse_integer(f.text(i)) == 0; };
   if (blank(1) && !blank(3))
     return f.error(ErrorCode::unsupported,
@@ -66,7 +66,7 @@ void read_nastran_ply(NastranFields& f, std::size_t first, NastranProperty& p) {
   p.plies.push_back(ply);
 }
 
-/// LAM: which side is given, or what of the stiffness counts. True: the plies are one half.
+/// LAM: the side given, or the part of the stiffness that counts. True: the plies are one half.
 bool read_lam(NastranFields& f, NastranProperty& p) {
   const std::string_view lam = f.text(7);
   const bool symmetric = same_word(lam, "SYM");
@@ -118,7 +118,7 @@ void set_shear(const std::array<double, 2>& factors, double A, BeamSection& s) {
   s.shear_z = factors[1] * A;
 }
 
-/// I12 turns the principal axes, about which I1 and I2 would not be those of the card.
+/// I12 rotates the principal axes, about which I1 and I2 would not be those of the card.
 void check_product(NastranFields& f, const NastranSection& s) {
   if (s.I12 == 0.0 || (s.I1 > 0.0 && s.I2 > 0.0 && s.I12 * s.I12 < s.I1 * s.I2)) return;
   f.error(ErrorCode::out_of_range,
@@ -137,7 +137,7 @@ void read_pbar(NastranFields& f, NastranProperty& p) {
   set_shear(shear_factors(f, 16, 0.0), p.section.A, p.section);
 }
 
-/// End A and stations. What end B leaves blank is as at end A, what others leave blank lies between
+/// End A and stations. Blanks of end B are as at end A, other blanks are interpolated between
 /// the ends.
 void read_pbeam(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material");

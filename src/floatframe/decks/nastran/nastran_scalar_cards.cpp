@@ -19,7 +19,7 @@ void note_damping(NastranFields& f, std::size_t i, NastranContent& c) {
 /// Blank or 0: the ground.
 bool is_there(const NastranFields& f, std::size_t i) { return !f.blank(i) && f.text(i) != "0"; }
 
-/// With its property, or its own value: CELAS2, CELAS4, CMASS2, CMASS4.
+/// With its property, or a direct value: CELAS2, CELAS4, CMASS2, CMASS4.
 template <class Element>
 Element scalar_element(NastranFields& f, const char* value) {
   auto e = f.entity<Element>("the number of the element");

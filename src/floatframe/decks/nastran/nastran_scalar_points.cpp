@@ -1,7 +1,7 @@
 // Scalar points of Nastran bulk data (SPOINT, or named by CELAS3 and CELAS4): one degree of freedom
-// without a place. In the model each that a spring or an equation uses is a node of its own, of
-// which the component ux is used, or rx where its springs turn. Springs condense it
-// (fe/springs.hpp), or it depends on nodes by an equation; its place only says where it is shown.
+// without a position. In the model each one used by a spring or an equation is a separate node, of
+// which the component ux is used, or rx if its springs are torsional. Springs condense it
+// (fe/springs.hpp), or it depends on nodes by an equation; its position is only for display.
 #include "floatframe/decks/nastran/nastran_build.hpp"
 
 namespace floatframe {
@@ -102,7 +102,7 @@ class ScalarPointBuilder {
       }
   }
 
-  /// Where springs do not say it: equations of rotations alone.
+  /// If not determined by springs: equations of rotations only.
   void equations() {
     std::map<int, bool> turns;
     for (const NastranEquation& e : c_.equations) {

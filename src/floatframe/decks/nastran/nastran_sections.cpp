@@ -1,7 +1,7 @@
 // Sections of PBARL and PBEAML by name. Element y points up in the figures of Nastran, z to the
-// right. All but round ones and solid bars are made of plates along y and z (plate_section.hpp). J
-// of open sections is sum b t^3/3 of the plates, of a box that of Bredt. Shear deformation is that
-// of Nastran.
+// right. All but round ones and solid bars consist of plates along y and z (plate_section.hpp). J
+// of open sections is sum b t^3/3 of the plates, of a box that of Bredt. Shear deformation is as
+// in Nastran.
 #include <cmath>
 
 #include "floatframe/decks/nastran/nastran_content.hpp"
@@ -100,7 +100,7 @@ constexpr PlateSection plate_sections[] = {
                {y, (d[0] - d[5]) / 2, wall, d[5]}};
      }}};
 
-/// Sections that are not of plates, with a shape that is known for stress.
+/// Sections that do not consist of plates, with a known shape for stress.
 struct PlainSection {
   std::string_view type;
   std::size_t dimensions;
@@ -116,7 +116,7 @@ constexpr PlainSection plain_sections[] = {
      [](Dimensions d) { return BeamSection::hollow_round(2.0 * d[0], 2.0 * (d[0] - d[1])); }},
     {"BAR", 2, 5.0 / 6.0, [](Dimensions d) { return BeamSection::rectangle(d[1], d[0]); }}};
 
-/// Of a type; null if there is none.
+/// Entry for a type; null if there is none.
 template <class Section, std::size_t n>
 const Section* of_type(const Section (&sections)[n], std::string_view type) {
   const Section* const it = std::find_if(std::begin(sections), std::end(sections),

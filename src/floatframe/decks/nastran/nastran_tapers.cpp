@@ -1,8 +1,8 @@
-// Beams whose section changes along them (PBEAM, PBEAML with stations). A, I1, I2, I12, J and the
+// Beams whose section varies along them (PBEAM, PBEAML with stations). A, I1, I2, I12, J and the
 // nonstructural mass are linear between stations, as in Nastran. Such a beam becomes a chain of
-// beams of constant section with nodes of their own. A piece has the mean area, so that mass is
-// exact, and I and J with which torsion and a constant moment are, the mean over its length of 1/I
-// and 1/J,
+// beams of constant section with generated nodes. A piece has the mean area, so that mass is
+// exact, and I and J for exact torsion and bending by a constant moment, the mean over its length
+// of 1/I and 1/J,
 //   I = (I_b - I_a)/ln(I_b/I_a).
 // Under a force at its end the deflection of a cantilever of ratio r and n pieces is off by about
 // 0.25 ln(r)/n^2: n is chosen for 0.05 %. Its elongation is off by less than 0.1 %.
@@ -65,7 +65,7 @@ NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
   const NastranStation middle = between_stations(a, b, 0.5 * (a.x + b.x));
   NastranSection s = middle.section;
   s.J = harmonic(a.section.J, b.section.J);
-  // Turned principal axes turn along the piece: those of its middle.
+  // Rotated principal axes vary along the piece: those at its middle.
   if (a.section.I12 == 0.0 && b.section.I12 == 0.0) {
     s.I1 = harmonic(a.section.I1, b.section.I1);
     s.I2 = harmonic(a.section.I2, b.section.I2);

@@ -24,7 +24,7 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
                      NastranPart part) {
   const NastranContent content =
       read_nastran_content(source, has_control, part == NastranPart::nodes);
-  source.throw_if_any();  // what is missing otherwise may be missing for that reason; so below
+  source.throw_if_any();  // further missing items may be consequences; likewise below
   NastranBuild build(content, source);
   if (const NastranWholeNumbers& w = content.whole_numbers; w.count > 0)
     build.note(w.at,

@@ -1,10 +1,10 @@
 #pragma once
 // Nastran bulk data (.bdf, .dat, .nas, .fem): nodes with coordinate systems, solids, flat shells,
 // bars, point masses, rigid and averaging elements, multi-point constraints, supports;
-// docs/fe-files.md lists the cards. A card that may change stiffness or mass and is not read is a
+// docs/fe-files.md lists the cards. An unread card that may change stiffness or mass is an
 // error; others are listed in the notes. WTMASS is applied. A file without properties and materials
-// is a mesh: surfaces in it are skins that make node sets. Sets are "PID 3" and
-// "SET 5"; names that pre-processors leave in comments take their place or come beside them.
+// is a mesh: surfaces in it are skins that define node sets. Sets are "PID 3" and
+// "SET 5"; names in comments of pre-processors replace these or are added to them.
 #include <string_view>
 
 #include "floatframe/formats/fe_file.hpp"

@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-/// The model of what the file says.
+/// Builds the model from the content of the file.
 class UnvBuild {
  public:
   UnvBuild(TextSource& in, UnvContent content, const FeReadOptions& options)
@@ -47,7 +47,7 @@ class UnvBuild {
   }
 
   /// The nodes of an element as indices, in the order of the file; false if there is an error,
-  /// which is said once.
+  /// which is reported once.
   bool gather(const UnvElement& e, std::vector<int>& nodes) {
     if (invalid_.contains(e.first)) return false;
     if (look_up(e, nodes)) return true;
@@ -165,7 +165,7 @@ class UnvBuild {
     }
   }
 
-  /// Rigid elements that share a node are one rigid body.
+  /// Rigid elements that share a node form one rigid body.
   void join(const UnvElement& e, const std::vector<int>& nodes) {
     if (nodes.size() < 2)
       return error(ErrorCode::wrong_count, e, "has one node, at least 2 are expected");
@@ -268,7 +268,7 @@ class UnvBuild {
   std::unordered_map<int, std::vector<std::string>> groups_of_;  // of elements, by their numbers
   std::unordered_set<int> once_;
   std::unordered_set<std::size_t> invalid_;  // UnvElement::first
-  std::unordered_map<int, int> joined_;  // of the nodes of rigid elements, to be followed to a root
+  std::unordered_map<int, int> joined_;      // union-find over the nodes of rigid elements
   std::vector<std::pair<int, const UnvElement*>>
       in_order_;  // each such node with its first element
   std::size_t materials_ = 0;

@@ -201,7 +201,7 @@ class UnvParser {
     }
   }
 
-  /// Only systems that lie in the global one are taken.
+  /// Only systems aligned with the global one are supported.
   void read_systems() {
     static_cast<void>(needed("the number of a part is"));
     static_cast<void>(needed("the name of a part is"));

@@ -1,5 +1,5 @@
 #pragma once
-// What a universal file says, before it is a model: nodes, elements of any type, groups;
+// Content of a universal file, before it is a model: nodes, elements of any type, groups;
 // finite elements by their descriptor number, and the order of their nodes.
 #include <array>
 #include <map>
@@ -15,9 +15,9 @@
 
 namespace floatframe {
 
-/// What becomes of an element.
+/// Treatment of an element.
 enum class UnvUse {
-  mesh,    ///< a solid, or a skin or edge that makes node sets
+  mesh,    ///< a solid, or a skin or edge that defines node sets
   rigid,   ///< its nodes move as one rigid body
   left,    ///< neither stiffness nor mass: ignored
   refused  ///< has values in tables of the format that are not read
@@ -28,7 +28,7 @@ struct UnvType {
   const char* name = "";
   int nodes = 0;
   bool beam = false;  ///< a record of orientation and end sections comes first
-  /// A solid, or the shell that it is if a thickness is given to it.
+  /// A solid, or the shell that it becomes if a thickness is given.
   std::optional<ElementType> element;
   std::array<int, 20> order{};  ///< of these: node k is node order[k] of the file
   UnvUse use = UnvUse::mesh;
@@ -37,7 +37,7 @@ struct UnvType {
   bool shell() const noexcept { return element && !solid(); }
 };
 
-/// Null if the number is not known.
+/// Null if the number is unknown.
 const UnvType* unv_type(int number) noexcept;
 
 struct UnvElement {
@@ -67,7 +67,7 @@ struct UnvContent {
   std::set<int> passed_over;                             ///< datasets
 };
 
-/// Throws InputError at the first error of form: what follows it cannot be understood.
+/// Throws InputError at the first error of form: the rest cannot be interpreted.
 UnvContent read_unv_content(TextSource& in);
 
 /// The line that begins and ends datasets.

@@ -18,9 +18,9 @@
 // slenderness compensation c, has phi = 12 EI/(G As L^2) + c E A/(G As) - 1 > -1.
 // Displacements of second order: R = exp(theta) of sections has the torsional curvature
 //   theta_1' - 1/2 (theta_2 theta_3' - theta_3 theta_2')
-// on which a torque works (a beam bent in two planes twists), and fibres beside the axis lengthen
+// on which a torque works (a beam bent in two planes twists), and fibres off the axis lengthen
 // by 1/2 (y^2 + z^2) rx'^2, on which tension works.
-// K and M turn into body axes by T on each group of three. Loads at the ends are answered exactly.
+// K and M are rotated to body axes by T on each group of three. The response to end loads is exact.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), stiffness with shear,
 // consistent mass with rotary and torsional inertia.
 #include <cmath>
@@ -66,7 +66,7 @@ std::string error(const ElementInput& in) {
   if (!(length > 1e-12 * (in.p[0].norm() + in.p[1].norm()))) return "has zero length";
   const double r = in.reference.norm();
   if (!(r > 0.0)) return "has a reference vector of zero length";
-  // Its part across the axis gives y: a smaller one is the rounding of numbers in files.
+  // Its component across the axis gives y: a smaller one is round-off of numbers in files.
   if (d.cross(in.reference).norm() < 1e-6 * length * r) {
     return "has a reference vector parallel to its axis";
   }
@@ -254,7 +254,7 @@ void mass_stations(const ElementInput& in, std::vector<MassStation>& stations) {
   }
 }
 
-/// Where stress works on slopes at s: the axial force N on v' and w', and N (Iy + Iz)/A on rx'.
+/// Action of stress on slopes at s: the axial force N on v' and w', and N (Iy + Iz)/A on rx'.
 StressedPoint tension_point(const ElementInput& in, const Mat3& T, double L, double s, double dx) {
   const BendingShapes v(s, L, shear_ratio(in, L, false)), w(s, L, shear_ratio(in, L, true));
   const double radius = std::sqrt((in.section.Iy + in.section.Iz) / in.section.A);
@@ -272,7 +272,7 @@ StressedPoint tension_point(const ElementInput& in, const Mat3& T, double L, dou
   return point;
 }
 
-/// Where a torque works on the twist of second order, -1/2 (theta_2 theta_3' - theta_3 theta_2').
+/// Action of a torque on the twist of second order, -1/2 (theta_2 theta_3' - theta_3 theta_2').
 StressedPoint twist_point(const ElementInput& in, const Mat3& T, double L, double s, double dx) {
   const BendingShapes v(s, L, shear_ratio(in, L, false)), w(s, L, shear_ratio(in, L, true));
   Rows3 theta, rate;

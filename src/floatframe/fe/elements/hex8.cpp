@@ -159,7 +159,7 @@ void stiffness_r(const ElementInput& in, MatX& K) {
   const Strain24 B = solid::strain_matrix(b);
   const Strain24 DB = volume * elasticity_at(in, P.rowwise().mean()) * B;
   K = B.transpose() * DB;
-  // Hourglass vectors without what a linear field has in them: gamma = (h - sum_i (h . x_i) b_i)/8.
+  // Hourglass vectors without their linear part: gamma = (h - sum_i (h . x_i) b_i)/8.
   Eigen::Matrix<double, 8, 4> h;
   for (int a = 0; a < 8; ++a) {
     const double x = corner[a][0], y = corner[a][1], z = corner[a][2];

@@ -93,7 +93,7 @@ ShellLayers layers_at(const ShellLayers& layers, const Mat3& R) {
   return turned_layers(layers, std::atan2(local(1), local(0)));
 }
 
-/// The points of the stiffness; strains are best where there are few.
+/// The points of the stiffness; strains are most accurate with few points.
 template <int nodes>
 QuadratureRule points_of(bool few) {
   if constexpr (nodes == 3) return {{middle<3>(), 0.5}};
@@ -184,7 +184,7 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
   });
 }
 
-/// What is fitted to the points and carried to the nodes.
+/// The quantity fitted to the points and extrapolated to the nodes.
 template <int nodes>
 VecX smooth(double r, double s) {
   if (nodes == 3) return VecX::Ones(1);

@@ -89,7 +89,7 @@ std::vector<Vec3> nodes(int count) {
   return at;
 }
 
-/// Where the Jacobian must be positive: at the corners of the base and near the apex.
+/// Points where the Jacobian must be positive: the corners of the base and near the apex.
 QuadratureRule corners() {
   QuadratureRule rule;
   for (const double t : {0.0, 0.9})

@@ -1,4 +1,4 @@
-// 2-node rod: an axial force and nothing else, straight, of one section. With the length L, the
+// 2-node rod: an axial force only, straight, of one section. With the length L, the
 // axis t and B = [-t^T t^T]/L the strain is B q:
 //   K = EA L B^T B,   scalar mass rho A L/6 [2 1; 1 2] (in all directions)
 // Stress stiffness: the axial force times the slope of the axis squared. A rod has no torsion;

@@ -1,12 +1,12 @@
-// 4-node shear panel of Garvey: its edges pass on shear alone. In the plane of its diagonals the
+// 4-node shear panel of Garvey: its edges transmit shear only. In the plane of its diagonals the
 // stress is pure shear on two families of lines, those through the point P where the sides 14 and
 // 23 meet and those through Q, where 12 and 43 meet. With w the distance from the line PQ and theta
 // the angle between the two lines at a place, the shear flow and its energy are
 //   q = q_12 w_1 w_2/w^2,   E = int q^2/(2 G t) (1 + 2 cot^2 theta/(1 + nu)) dA
 // q_12: mean of the side 12. Half of the force of a side goes to each of its ends, where the two
 // sides together pull along the diagonal:
-//   f_1 = -f_3 = q_12 a_1 d_13,  a_1 = L_12/2 (e_12 x e_14)/(d_13 x e_14),   f_2 = -f_4 alike.
-// So K = a a^T/(2E) at q_12 = 1. P and Q may lie at infinity: their coordinates are homogeneous.
+//   f_1 = -f_3 = q_12 a_1 d_13,  a_1 = L_12/2 (e_12 x e_14)/(d_13 x e_14),   f_2 = -f_4 likewise.
+// So K = a a^T/(2E) at q_12 = 1. P and Q may be at infinity: their coordinates are homogeneous.
 // Source: Garvey, The quadrilateral shear panel (Aircraft Engineering 1951).
 #include <algorithm>
 #include <array>
@@ -116,7 +116,7 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   }
 }
 
-/// Its share of the stress stiffness is left out, as is its stress.
+/// Its part of the stress stiffness is neglected, as is its stress.
 void stressed_points(const ElementInput&, std::vector<StressedPoint>& points) { points.clear(); }
 
 constexpr std::array<shape::Corners, 2> corners{{{0, 1, 2, 3}, {0, 3, 2, 1}}};

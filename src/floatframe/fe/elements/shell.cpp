@@ -1,14 +1,14 @@
-// Shells with six dofs per node, made of flat triangles (shell_triangle.hpp): tri3 is one, quad4
+// Shells with six dofs per node, built of flat triangles (shell_triangle.hpp): tri3 is one, quad4
 // the mean of its two divisions into triangles (each with half its matrices), which also serves
 // quadrilaterals that are not flat. tri6 is four triangles: three at the corners and one between
 // the middles of the edges; quad8 four quad4 that meet in its middle, -1/4 of the corners and 1/2
 // of the middles of the edges, a node that carries no load and is condensed (its mass moves with
 // the same weights). They bend and stretch as a mesh twice as fine as their corners does, with all
-// their nodes on the surface: constant strain and curvature are exact whatever their shape, errors
+// their nodes on the surface: constant strain and curvature are exact for any shape, errors
 // fall with the square of the size. Scalar mass: of displacements that are linear in each triangle.
-// Where the turn about the normal is the element's own (ElementInput::own_drilling) constant stress
-// has no moment there (alpha = 0 on the sides at it), so it is exact still, and what the
-// turn does beyond it follows the other freedoms without load: it is condensed, as is the middle
+// Where the rotation about the normal is independent (ElementInput::own_drilling) constant stress
+// has no moment there (alpha = 0 on the sides at it), so it remains exact, and the further part of
+// that rotation follows the other freedoms without load: it is condensed, as is the middle
 // of quad8. It has no mass.
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ std::span<const Part> parts() {
 template <int nodes>
 constexpr int all_nodes = nodes == 8 ? 9 : nodes;
 
-/// Shares of the nodes in the middle.
+/// Weights of the nodes in the middle.
 constexpr double middle_share(int node) { return node < 4 ? -0.25 : 0.5; }
 
 template <int nodes>
@@ -105,7 +105,7 @@ std::string error(const ElementInput& given) {
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
     const double twice = (p[1] - p[0]).cross(p[2] - p[0]).dot(n);
-    // Thinner than 1e-9 of its size it is flat to the digits of its coordinates.
+    // Thinner than 1e-9 of its size it is flat to the precision of its coordinates.
     if (!(twice > 1e-9 * size * size)) {
       if (nodes > 4) return "is folded, or its nodes are in the wrong order";
       return nodes == 3 ? "is flat (its corners lie on a line)"
@@ -145,8 +145,8 @@ MatX motion(const MatX& K) {
   return G;
 }
 
-/// Of an element of which some turns about the normal are its own: its motion from that of its
-/// nodes. With the turn v at one node the energy is least where v^T K (u + v x) = 0.
+/// For an element with independent rotations about the normal: its motion from that of its
+/// nodes. With this rotation v at one node the energy is least where v^T K (u + v x) = 0.
 template <int nodes>
 MatX with_own_drilling(const ElementInput& in, MatX K) {
   MatX P = MatX::Identity(6 * nodes, 6 * nodes);
@@ -164,7 +164,7 @@ MatX with_own_drilling(const ElementInput& in, MatX K) {
   return P;
 }
 
-/// Does the element move otherwise than its nodes, with a middle or turns of its own?
+/// Does the motion of the element differ from its nodes (middle node or independent rotations)?
 template <int nodes>
 bool follows(const ElementInput& in) {
   return nodes == 8 || in.own_drilling != 0;
@@ -178,7 +178,7 @@ MatX motion_of_all(const ElementInput& in, const MatX& K) {
   return G * with_own_drilling<nodes>(in, G.transpose() * K * G);
 }
 
-/// Empty where the element moves as its nodes do.
+/// Empty if the element moves as its nodes do.
 template <int nodes>
 MatX following(const ElementInput& in) {
   if (!follows<nodes>(in)) return {};
@@ -251,7 +251,7 @@ void stressed_points(const ElementInput& given, std::vector<StressedPoint>& poin
       point.stress.middleCols<6>(to) = stress.middleCols<6>(6 * a);
       const Vec3 side = p[(a + 2) % 3] - p[(a + 1) % 3];
       const Vec3 g = R.col(2).cross(side) / (2.0 * area);
-      // Of the middle of the thickness: u + theta x offset n.
+      // At the middle of the thickness: u + theta x offset n.
       const Mat3 arm = -layers.offset * skew(R.col(2));
       for (int i = 0; i < 3; ++i) {
         point.gradient.block<3, 1>(3 * i, to + i) = g;
@@ -263,7 +263,7 @@ void stressed_points(const ElementInput& given, std::vector<StressedPoint>& poin
   }
 }
 
-/// At a node: the mean of the cells there; of a quadrilateral the mean of its two divisions, of
+/// At a node: the mean of the cells there; for a quadrilateral the mean of its two divisions, of
 /// which one has two triangles there.
 template <int nodes>
 void layer_stresses(const ElementInput& given, MatX& out) {

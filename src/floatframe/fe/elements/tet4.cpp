@@ -19,7 +19,7 @@ Mat3 edges(const ElementInput& in) {
 std::string error(const ElementInput& in) {
   const Mat3 J = edges(in);
   const double size = J.colwise().norm().maxCoeff();
-  // Of a flat one round-off is left, about 1e-16 of the cube of its size.
+  // For a flat element round-off remains, about 1e-16 of the cube of its size.
   if (!(J.determinant() > 1e-12 * size * size * size)) {
     return "is inverted or flat (its volume is not positive)";
   }

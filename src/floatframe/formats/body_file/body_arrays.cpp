@@ -80,7 +80,7 @@ std::optional<std::vector<double>> ArrayReader::doubles(const std::string& name,
 }
 
 MatX ArrayReader::zeros(Eigen::Index rows, Eigen::Index columns) {
-  // No memory for what a damaged file says and does not hold.
+  // No memory for array sizes that a damaged file claims but does not contain.
   if (rows > 0 && columns > 1'000'000 / rows) errors_.throw_if_any();
   return MatX::Zero(rows, columns);
 }

@@ -33,7 +33,7 @@ class ArrayWriter {
   void add(const std::string& name, const NpyArray& array) {
     out_.emplace_back(name, npy_bytes(array));
   }
-  /// Whether a member is written that need not be there.
+  /// Is an optional member written?
   static bool wants(const std::string& /*name*/, bool there) { return there; }
   void number(const std::string& name, double x) { add(name, {{}, std::vector<double>{x}}); }
   void list(const std::string& name, const VecX& v) { add(name, list_of(v)); }
@@ -76,9 +76,9 @@ class ArrayWriter {
   NamedBytes& out_;
 };
 
-/// Arrays of an archive by name. Every accessor adds an error that names the member if it is
+/// Arrays of an archive by name. Every accessor adds an error with the name of the member if it is
 /// missing or has another type or shape, or values that are not finite, and returns zeros of the
-/// right shape (or nothing), so that all errors of a file are found at once.
+/// right shape (or an empty one), so that all errors of a file are found at once.
 class ArrayReader {
  public:
   ArrayReader(const std::vector<ZipMember>& members, std::string file, ErrorList& errors)
@@ -94,7 +94,7 @@ class ArrayReader {
   /// points x `group` x columns as a matrix with points * group rows.
   MatX grouped(const std::string& name, Eigen::Index points, Eigen::Index group,
                Eigen::Index columns);
-  /// Integers from 0 to below `limit`; one dimension, or `columns` a row.
+  /// Integers from 0 to below `limit`; one dimension, or `columns` per row.
   std::vector<int> integers(const std::string& name, std::optional<std::size_t> columns,
                             std::int64_t limit);
   /// N a row.
@@ -106,7 +106,7 @@ class ArrayReader {
     return out;
   }
 
-  // As ArrayWriter has them.
+  // As in ArrayWriter.
   bool wants(const std::string& name, bool /*there*/) const { return has(name); }
   void number(const std::string& name, double& x) { x = number(name); }
   void list(const std::string& name, Vec3& v) { v = list(name, 3); }

@@ -1,7 +1,7 @@
 #pragma once
-// The body file `.ffb`: a reduced part with everything that a simulation, a picture and a sceptic
-// need. An uncompressed zip of `header.json` and `.npy` arrays (little-endian doubles and
-// integers), so numpy.load reads it. SI units. docs/body-file.md names every member.
+// The body file `.ffb`: a reduced part with all data for simulation, display and
+// verification. An uncompressed zip of `header.json` and `.npy` arrays (little-endian doubles and
+// integers), so numpy.load reads it. SI units. docs/body-file.md describes every member.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,13 +26,13 @@ struct BodyFile {
   Provenance provenance;
 };
 
-/// Version of the format that is written; newer ones are refused.
+/// Version of the format that is written; newer ones are rejected.
 inline constexpr int body_file_version = 1;
 inline constexpr const char* body_file_units = "SI (m, kg, s, rad)";
 
 /// Writes to a temporary name and renames. Equal contents give equal bytes. Throws OutputError.
 void write_body_file(const std::filesystem::path& file, const BodyFile& content);
-/// Throws InputError with every error: file, member, what was found and what was expected.
+/// Throws InputError with every error: file, member, value found and value expected.
 BodyFile read_body_file(const std::filesystem::path& file);
 
 /// The same with the bytes of the file; `name` is for the messages.
@@ -48,7 +48,7 @@ std::vector<int> surface_points_that_follow(const ReducedPart& part, const Modal
 /// Largest component by which a point of the surface leaves the rigid motion of a marker.
 double distance_from_rigid(const ReducedPart& part, const ModalNode& node, int point);
 
-/// Does a file begin as an archive does?
+/// Does a file begin with the signature of an archive?
 bool is_body_file(const std::filesystem::path& file);
 
 }  // namespace floatframe

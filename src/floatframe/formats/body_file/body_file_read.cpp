@@ -75,7 +75,7 @@ class BodyReader {
     throw InputError(code, {name_, 0, 0}, fmt::format(text, std::forward<Args>(args)...));
   }
 
-  /// Nothing else can be read without it.
+  /// The rest cannot be read without it.
   void header() {
     const auto it = std::find_if(members_.begin(), members_.end(),
                                  [](const ZipMember& m) { return m.name == "header.json"; });
@@ -162,7 +162,7 @@ class BodyReader {
     }
   }
 
-  /// What is not there has no name; names are for tables.
+  /// Missing entries have no name; names are for tables.
   static std::vector<std::string> texts_of(const Json& object, const char* key) {
     std::vector<std::string> out;
     if (const auto list = object.find(key); list != object.end() && list->is_array())
@@ -171,7 +171,7 @@ class BodyReader {
     return out;
   }
 
-  /// As in model files: no control characters, which a terminal would obey.
+  /// As in model files: no control characters, which a terminal would interpret.
   std::string name_of(const Json& object, const char* what) {
     std::string name = text_of(object, "name");
     if (printable(name) != name)
@@ -236,7 +236,7 @@ class BodyReader {
     part.surface.triangles = arrays_.integers<3>("surface_triangles", n);
     part.surface.lines = arrays_.integers<2>("surface_lines", n);
     arrays_.points("surface_positions", part.surface_positions, n);
-    // Without modes nothing can be missing; files of parts without modes were written empty once.
+    // Without modes there are no data to miss; earlier versions wrote the array empty then.
     part.surface_modes =
         nm > 0 ? arrays_.grouped("surface_modes", n, 3, nm) : MatX(MatX::Zero(3 * n, 0));
     body().stress =

@@ -74,7 +74,7 @@ class SymmetryCheck {
 constexpr std::int64_t any_integer = std::numeric_limits<std::int32_t>::max();
 constexpr int layers = 4;
 
-/// Of solids, in files that know no more.
+/// For solids, in files without further data.
 std::shared_ptr<const BodyStress> surface_stress(ArrayReader& arrays, Eigen::Index nm,
                                                  const std::vector<int>& nodes,
                                                  const Mat3X& positions) {

@@ -1,8 +1,8 @@
 #pragma once
-// The members of a body file that hold its matrices, for ArrayWriter and ArrayReader alike.
+// The members of a body file that hold its matrices, for ArrayWriter and ArrayReader.
 //
-// Are the numbers of a body file those of a body, and does it say the same where it says things
-// twice: arrays, header, health report?
+// Are the numbers of a body file those of a body, and are duplicate data consistent
+// (arrays, header, health report)?
 #include <fmt/format.h>
 
 #include <array>
@@ -61,14 +61,14 @@ void projection_matrices(IO& io, Data& data, Eigen::Index n, Eigen::Index nm) {
 }
 
 // Displacements of second order (body/second_order.hpp) as members of a body file: matrices
-// nm x nm one behind the other.
+// nm x nm one after the other.
 //   second_order_S      3: S2[j]
-//   second_order_Si     9: S2i[i][j] in place 3 i + j
+//   second_order_Si     9: S2i[i][j] at index 3 i + j
 //   second_order_nodes  markers that have h and theta, ascending
 //   second_order_h, second_order_theta  3 of each of these markers
-// All or none of them. Of displacements of what turns with the nodes (FlexibleBody::turning)
+// All or none of them. Displacements of points that turn with the nodes (FlexibleBody::turning)
 //   turning_S, turning_Si   as second_order_S, second_order_Si
-// Beside the projection data:
+// In addition to the projection data:
 //   projection_h            3 of each of its nodes
 //   projection_turning      point and rotation of each ProjectionData::turning, k x 2
 //   projection_arms         k x 3
@@ -81,7 +81,7 @@ std::shared_ptr<const SecondOrder> read_second_order(ArrayReader& arrays, Eigen:
                                                      Eigen::Index markers);
 /// FlexibleBody::turning; null if the file has none.
 std::shared_ptr<const SecondOrder> read_turning(ArrayReader& arrays, Eigen::Index nm);
-/// What of the projection data is of second order.
+/// The second-order part of the projection data.
 void read_projection_second_order(ArrayReader& arrays, Eigen::Index nm, ProjectionData& data);
 /// Adds an error if a matrix is not symmetric.
 void check_second_order(const FlexibleBody& body, ArrayReader& arrays);
@@ -98,9 +98,9 @@ void check_second_order(const FlexibleBody& body, ArrayReader& arrays);
 // Names of groups and beams are in the header. Files once had `surface_stress` of solids alone,
 // points x 6 x nm.
 
-/// What the header holds.
+/// Content of the header.
 struct StressNames {
-  std::vector<std::string> groups, beams;  ///< beams: one a section
+  std::vector<std::string> groups, beams;  ///< beams: one per section
 };
 
 void add_stress(const FlexibleBody& body, ArrayWriter& out);

@@ -16,9 +16,9 @@ class Check {
         const std::string& name)
       : file_(content), header_(header), arrays_(arrays), errors_(errors), name_(name) {}
 
-  /// What the numbers must satisfy, and whether they are those of the header.
+  /// Conditions on the numbers, and their agreement with the header.
   void run() {
-    // Of points only if the file says so: see check_invariants.hpp.
+    // For points only if the file states that: see check_invariants.hpp.
     const auto source = file_.part.health.rotary_inertia == false ? InvariantSource::integrals
                                                                   : InvariantSource::rotary;
     for (const InvariantError& f : check_invariants(file_.part.body, source))
@@ -56,7 +56,7 @@ class Check {
   }
 
  private:
-  /// What the file says of the same points twice.
+  /// Duplicate data of the same points.
   void markers_on_the_surface() {
     const ReducedPart& part = file_.part;
     if (part.surface_modes.size() == 0) return;
@@ -78,7 +78,7 @@ class Check {
       }
   }
 
-  /// The report was made of these integrals.
+  /// The report was computed from these integrals.
   void health(const InertiaInvariants& v) {
     const HealthReport& h = file_.part.health;
     const MassProperties& said = h.from_invariants;
@@ -112,7 +112,7 @@ class Check {
                         vector_text(node.p), node.name, vector_text(interface.p));
   }
 
-  /// What earlier programs wrote was not checked.
+  /// Files of earlier programs were not checked.
   void of_the_part(const InertiaInvariants& v, const HealthReport& h) {
     const double m = h.from_elements.mass;
     if (m > 0.0 && !(std::abs(v.m - m) <= same_number * m))

@@ -19,8 +19,8 @@ std::string own_damping_text(const OwnDamping& damping, std::size_t most, std::s
 
 /// An object; `indent` blanks a level.
 std::string health_json(const HealthReport& report, int indent = 2);
-/// What `health_json` wrote; unknown keys are ignored, missing ones keep their defaults. Throws
-/// InputError with one sentence, without a place, that names the key.
+/// Reads the output of `health_json`; unknown keys are ignored, missing ones keep their defaults.
+/// Throws InputError with one sentence, without a location, that contains the key.
 HealthReport health_from_json(const std::string& text);
 
 }  // namespace floatframe

@@ -147,7 +147,7 @@ NpyArray values(std::string_view bytes, const Header& header) {
   return {*header.shape, std::move(out)};
 }
 
-/// What stands before the values.
+/// The bytes before the values.
 std::string beginning(const std::string& type, const std::vector<std::size_t>& sizes) {
   std::string shape;
   for (const std::size_t n : sizes) shape += fmt::format("{}, ", n);

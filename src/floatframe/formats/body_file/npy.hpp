@@ -9,7 +9,7 @@
 
 namespace floatframe {
 
-/// Values in C order (the last index runs fastest), whatever the order in the file was.
+/// Values in C order (the last index runs fastest), for any order in the file.
 struct NpyArray {
   std::vector<std::size_t> shape;  ///< empty: one number
   std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::int64_t>> values;
@@ -21,7 +21,7 @@ std::string npy_bytes(const NpyArray& array);
 /// The bytes of a .npy file with a column of texts (UTF-8; unicode in NumPy). They are not read.
 std::string npy_texts(const std::vector<std::string>& texts);
 
-/// Throws InputError with one sentence, without a place: wrong beginning, unknown type, a shape
+/// Throws InputError with one sentence, without a location: wrong beginning, unknown type, a shape
 /// that does not fit the number of bytes.
 NpyArray read_npy(std::string_view bytes);
 

@@ -1,5 +1,5 @@
 // Layout (all numbers little-endian): for each member a local header, its name and its bytes; then
-// the directory with one entry a member; then the end record with the place of the directory.
+// the directory with one entry per member; then the end record with the offset of the directory.
 #include "floatframe/formats/body_file/zip_store.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace floatframe {
 namespace {
 
-/// By which a file is known as one of this program.
+/// Identifies a file of this program.
 constexpr std::string_view archive_comment = "Written by Floatframe";
 constexpr std::uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
 constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22;
@@ -45,7 +45,7 @@ std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
-/// What the local header and the directory entry have in common: version to checksum, sizes, name.
+/// The common part of the local header and the directory entry: version to checksum, sizes, name.
 void put_common(std::string& out, const ZipMember& m, std::uint32_t crc) {
   constexpr std::size_t stored = 0, midnight = 0, extra_field = 0;
   put(out, {{2, needed_version},

@@ -1,5 +1,5 @@
 #pragma once
-// What the readers of geometry files share: points and triangles as they come, checked and counted.
+// Common functions of the readers of geometry files: points and triangles, checked and counted.
 #include <fmt/format.h>
 
 #include <string>
@@ -41,7 +41,7 @@ class GeometryBuilder {
   std::vector<std::array<int, 3>> triangles_;
 };
 
-/// JSON, or the binary container if the bytes begin as one.
+/// JSON, or the binary container if the bytes begin with its signature.
 void parse_gltf(std::string_view bytes, const GeometryLoader& loader, GeometryBuilder& out);
 
 }  // namespace floatframe

@@ -1,10 +1,10 @@
 // STL. Text: solid, facets of three vertices each, endsolid. Binary: 80 bytes of any text, the
 // number of facets (u32), and 50 bytes for each: normal and three corners (f32, little-endian), two
-// bytes more. A binary file may begin with "solid", too: it is the one whose length fits.
+// bytes more. A binary file may begin with "solid", too: it is identified by its length.
 //
 // Wavefront OBJ: points (v) and faces (f) of any number of corners, which are divided as fans from
-// their first one. All else - lines, free-form curves, normals, texture coordinates, materials,
-// groups - is left out.
+// their first one. Everything else - lines, free-form curves, normals, texture coordinates,
+// materials, groups - is ignored.
 #include <bit>
 #include <cstring>
 #include <unordered_map>
@@ -142,7 +142,7 @@ void parse_stl(std::string_view bytes, GeometryBuilder& out) {
 }
 
 void parse_obj(std::string_view bytes, GeometryBuilder& out) {
-  std::string joined;  // of lines that go on
+  std::string joined;  // of continued lines
   std::vector<int> corners;
   int line = 0;
   while (!bytes.empty()) {
@@ -240,7 +240,7 @@ TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
 }
 
 TriangleGeometry read_geometry(const std::filesystem::path& file) {
-  // An ending that is not read is said before the file is looked for.
+  // An unsupported ending is reported before the file is searched.
   if (!is_geometry_file(file))
     throw InputError(ErrorCode::wrong_file, SourceMark{file.string(), 0, 0},
                      "found this ending, expected .stl, .obj, .gltf or .glb");

@@ -1,8 +1,8 @@
 #pragma once
 // Surfaces drawn by other programs: STL (text and binary), OBJ, glTF (.gltf with its buffers,
 // .glb).
-// Only triangles are taken: materials, colours, normals and textures are left out. So a page that
-// shows a run holds numbers that were checked here, not files.
+// Only triangles are read; materials, colours, normals and textures are ignored. So a page that
+// shows a run contains numbers that were checked here, not files.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,14 +22,14 @@ inline constexpr std::size_t geometry_triangles = 500'000;
 }  // namespace limits
 
 /// In the units and axes of the file. Corners at the same place are one point; triangles without
-/// area because two corners coincide are left out.
+/// area because two corners coincide are omitted.
 struct TriangleGeometry {
   Mat3X positions;                            ///< finite
   std::vector<std::array<int, 3>> triangles;  ///< indices of points; at least one
-  std::vector<std::filesystem::path> others;  ///< files that this one refers to, as they were read
+  std::vector<std::filesystem::path> others;  ///< files referenced by this one, as they were read
 };
 
-/// Gives the bytes of a file that a glTF file names, beside it; throws InputError.
+/// Returns the bytes of a file named in a glTF file, next to it; throws InputError.
 using GeometryLoader = std::function<std::string(const std::string& name)>;
 
 /// Endings that are read: .stl, .obj, .gltf, .glb, in any case.
@@ -39,7 +39,7 @@ bool is_geometry_file(const std::filesystem::path& file);
 /// cut short or damaged, no triangles, coordinates that are not finite.
 TriangleGeometry read_geometry(const std::filesystem::path& file);
 
-/// The same of bytes in memory; the ending of `name` says which format they are of.
+/// The same for bytes in memory; the ending of `name` selects the format.
 TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
                                 const GeometryLoader& loader = {});
 

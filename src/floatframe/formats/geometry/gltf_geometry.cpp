@@ -1,7 +1,7 @@
 // glTF 2.0: a JSON object that names meshes in a tree of nodes, their numbers in buffers: in the
-// second chunk of a .glb, in data: addresses or in files beside it. Triangles, strips and fans are
-// taken, with the transformations of their nodes; every length and index is checked against what is
-// there.
+// second chunk of a .glb, in data: addresses or in files next to it. Triangles, strips and fans are
+// read, with the transformations of their nodes; every length and index is checked against the
+// actual sizes.
 #include <algorithm>
 #include <charconv>
 #include <cstring>

@@ -160,7 +160,7 @@ class GmshParser {
     }
   }
 
-  /// Index of a list of groups; equal lists are kept once.
+  /// Index of a list of groups; equal lists are stored once.
   int group_list(std::vector<int> groups) {
     const auto [it, fresh] =
         known_lists_.try_emplace(groups, static_cast<int>(mesh_.group_lists.size()));

@@ -1,5 +1,5 @@
 #pragma once
-// What a .msh file says, before it is a model: nodes, elements of any type, physical groups.
+// Content of a .msh file, before it is a model: nodes, elements of any type, physical groups.
 #include <array>
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ struct GmshType {
   const char* name = "";
   int dimension = 0;
   int nodes = 0;
-  std::optional<ElementType> element;  ///< the solid or shell that it is, if there is one
+  std::optional<ElementType> element;  ///< the corresponding solid or shell, if there is one
   std::array<int, 20> order{};  ///< of these: node k of the element is node order[k] of the file
 };
 
@@ -56,7 +56,7 @@ struct GmshMesh {
   std::vector<std::string> passed_over;       ///< sections that are not used
 };
 
-/// Throws InputError at the first error: what follows it cannot be understood.
+/// Throws InputError at the first error: the rest cannot be interpreted.
 GmshMesh parse_gmsh_mesh(GmshStream& in);
 
 }  // namespace floatframe

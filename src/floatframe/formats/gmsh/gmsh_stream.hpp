@@ -1,6 +1,6 @@
 #pragma once
 // Numbers and lines of a .msh file in order, ASCII or binary of either byte order, with their
-// place. A count in the file is believed only if the bytes left can hold so many entries.
+// location. A count in the file is accepted only if the remaining bytes can hold so many entries.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -22,12 +22,12 @@ class GmshStream {
   }
   bool binary() const noexcept { return binary_; }
 
-  /// Where an error is: the line of an ASCII file, the byte (from 0) of a binary one.
+  /// Location of an error: the line of an ASCII file, the byte (from 0) of a binary one.
   struct Place {
     int line = 0;
     std::size_t byte = 0;
   };
-  /// Of the next number.
+  /// Location of the next number.
   Place here();
   ErrorEntry error(ErrorCode code, const Place& at, std::string message) const;
   template <class... Values>
@@ -42,7 +42,7 @@ class GmshStream {
 
   /// The next line, trimmed, ASCII in all files; false at the end.
   bool next_line(std::string_view& line);
-  /// To the line "$End<section>" and over it; what comes before it is left out. `begin`: of the
+  /// Skips everything up to and including the line "$End<section>". `begin`: of the
   /// section.
   void end_section(const Place& begin, std::string_view section);
   /// The same when all numbers were read: anything before the end is an error.

@@ -83,7 +83,7 @@ class GmshModel {
   }
 
   /// The element's nodes as indices, in the order of the file; false if there is an error, which is
-  /// said once.
+  /// reported once.
   bool gather(const GmshElement& e, std::vector<int>& nodes) {
     if (invalid_.contains(e.first)) return false;
     nodes.clear();
@@ -217,7 +217,7 @@ class GmshModel {
            repeated);
   }
 
-  /// Of an element that is there again: that of a named group counts.
+  /// For a duplicate element: that of a named group counts.
   void same_section(const GmshElement& e, std::size_t i, Element& known) {
     const int others = thickness_.others();
     if (section_[i] == known.section || section_[i] == others) return;
@@ -239,7 +239,7 @@ class GmshModel {
   }
 
   static const char* advice(int type) {
-    // In between are those of second order, complete.
+    // The types between them are those of second order, complete.
     return type >= 10 && type <= 14 ? "; save the mesh with Mesh.SecondOrderIncomplete = 1"
                                     : "; use elements of first or second order (Mesh.ElementOrder)";
   }

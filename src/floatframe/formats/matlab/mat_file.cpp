@@ -89,7 +89,7 @@ std::string compressed(const std::string& content) {
                 Z_BEST_COMPRESSION) != Z_OK)
     throw InputError(ErrorCode::unsupported, "a matrix cannot be compressed");
   out.resize(size);
-  return tag(mi_compressed, size) + out;  // not filled up
+  return tag(mi_compressed, size) + out;  // not padded
 }
 
 }  // namespace

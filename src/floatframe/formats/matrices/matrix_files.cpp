@@ -24,7 +24,7 @@ Path plain_name(const Path& file) {
   return same_word(file.extension().string(), ".gz") ? Path(file).replace_extension() : file;
 }
 
-/// The file given in the options, or the first candidate that is there, also with .gz. Empty paths
+/// The file given in the options, or the first existing candidate, also with .gz. Empty paths
 /// are no candidates. If there is none: an error "`what` missing: ... give the `option` file".
 Path companion(const Path& file, const Path& given, std::vector<Path> candidates,
                std::string_view what, std::string_view option, ErrorList& errors) {
@@ -74,7 +74,7 @@ Path with_letter(const Path& stem, char letter) {
   return name.substr(0, name.size() - 1) + (name.back() == 'K' ? other : lower_case(other));
 }
 
-/// arm_C.mtx beside arm_K.mtx, arm_DMPV1.mtx beside arm_STIF1.mtx.
+/// arm_C.mtx next to arm_K.mtx, arm_DMPV1.mtx next to arm_STIF1.mtx.
 Path damping_beside(const Path& stiffness) {
   const std::string ending = plain_name(stiffness).extension().string();
   if (!same_word(ending, ".mtx")) return {};

@@ -35,7 +35,7 @@ void add_file(FeModel& model, const std::string& file) {
     model.files.push_back(file);
 }
 
-/// Elements stand for nothing beside matrices: their sets become node sets.
+/// Elements have no effect if there are matrices: their sets become node sets.
 void keep_nodes(FeModel& model) {
   std::vector<int> list_of(model.positions.size(), 0);  // the last list that got the node
   int list = 0;
@@ -63,7 +63,7 @@ void keep_nodes(FeModel& model) {
   model.shells.clear();
 }
 
-/// Leaves nodes out: indices of the others move up; sets without nodes go.
+/// Removes nodes: indices of the others move up; sets without nodes are removed.
 void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof>& dofs) {
   std::vector<int> index(gone.size(), -1);
   int kept = 0;
@@ -88,8 +88,8 @@ void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof
   for (Dof& d : dofs) d.node = index[d.node];
 }
 
-/// Spiders of the deck are in the matrices: the nodes that follow them have no rows, and neither
-/// have the rotation nodes. Notes say so.
+/// Spiders of the deck are in the matrices: the nodes that follow them have no rows, nor
+/// have the rotation nodes. Notes report this.
 void remove_spiders(FeModel& model, std::vector<Dof>& dofs) {
   std::vector<char> with_row(model.positions.size(), 0), gone(model.positions.size(), 0);
   for (const Dof& d : dofs) with_row[d.node] = 1;
@@ -115,7 +115,7 @@ void remove_spiders(FeModel& model, std::vector<Dof>& dofs) {
   remove_nodes(model, gone, dofs);
 }
 
-/// A node for each scalar point, at a place that means nothing; returns their numbers.
+/// A node for each scalar point, at an arbitrary position; returns their numbers.
 std::vector<int> add_scalars(FeModel& model, const std::vector<DofLabel>& labels,
                              TextSource& source) {
   std::vector<int> numbers;
@@ -137,7 +137,7 @@ std::vector<int> add_scalars(FeModel& model, const std::vector<DofLabel>& labels
   return numbers;
 }
 
-/// A matrix of rows of which some have axes of their own, u = T u_row, in the model's: T A T^T.
+/// A matrix of rows, some with separate axes u = T u_row, in the model's axes: T A T^T.
 SparseMatrix in_model_axes(SparseMatrix A, const FeModel& model, const TextSource& source) {
   if (model.axes_of_rows.empty()) return A;
   const std::vector<Dof>& dofs = model.matrices->dofs;
@@ -179,7 +179,7 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
       fields = {line.substr(0, dot),
                 dot == std::string_view::npos ? std::string_view{} : line.substr(dot + 1)};
     }
-    // Of ANSYS: number of the row, node, UX to ROTZ.
+    // For ANSYS: number of the row, node, UX to ROTZ.
     if (fields.size() == 3 && parse_label(fields[0]) == static_cast<int>(labels.size()) + 1) {
       const auto* axis = std::find_if(std::begin(row_words), std::end(row_words),
                                       [&](const char* word) { return same_word(word, fields[2]); });

@@ -1,10 +1,10 @@
 #pragma once
-// What all formats of matrices share: the nodes behind the rows, the map of degrees of freedom, the
-// files beside the stiffness, and the model made of them.
+// Common parts of all formats of matrices: the nodes of the rows, the map of degrees of freedom,
+// the files next to the stiffness, and the resulting model.
 //
-// The files that lie beside a stiffness matrix, and what the lines of a matrix file say.
+// The files next to a stiffness matrix, and the content of the lines of a matrix file.
 //
-// Entries of a symmetric matrix as they stand in a file: one triangle, or both, in any order.
+// Entries of a symmetric matrix in the order of a file: one triangle, or both, in any order.
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace floatframe {
 
-/// One row of the matrices as the file says it: node number, direction 1..6; 0: a scalar point, the
+/// One row of the matrices as in the file: node number, direction 1..6; 0: a scalar point, the
 /// amplitude of a mode.
 struct DofLabel {
   int node = 0, direction = 0;
@@ -37,15 +37,15 @@ FeModel read_node_table(TextSource& source);
 FeModel read_nodes(const std::filesystem::path& file);
 
 /// Stiffness, mass and the nodes they belong to. Rows on the rotation node of a deck's spider are
-/// rotations of its reference. Spiders and equations of the deck are in the matrices already: the
-/// nodes that follow a spider and have no rows are left out, and so are their sets.
-/// `labels_source` for the places of errors and the names of files.
+/// rotations of its reference. Spiders and equations of the deck are already in the matrices: the
+/// nodes that follow a spider and have no rows are omitted, and so are their sets.
+/// `labels_source` for the locations of errors and the names of files.
 FeModel matrix_model(FeModel nodes, const std::vector<DofLabel>& labels, SparseMatrix K,
                      SparseMatrix M, TextSource& labels_source,
                      const std::vector<std::string>& matrix_files);
 
-/// Texts with stiffness, mass and viscous damping (null: there is none), and the one that names
-/// their rows. Several may be one.
+/// Texts with stiffness, mass and viscous damping (null: there is none), and the text with the
+/// names of their rows. Several may be identical.
 struct MatrixTexts {
   TextSource &stiffness, &mass;
   TextSource* damping;
@@ -59,7 +59,7 @@ FeModel matrix_model_of(const MatrixTexts& texts, FeModel nodes,
 /// A note of matrices that are not read.
 void note_other_matrices(FeModel& model, const std::string& file,
                          const std::vector<std::string>& names);
-/// Viscous damping, rows as those of the stiffness, beside stiffness and mass.
+/// Viscous damping, rows as those of the stiffness, in addition to stiffness and mass.
 void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source);
 
 /// `file` without .gz and without its ending.
@@ -71,16 +71,16 @@ std::filesystem::path with_word(const std::filesystem::path& file, std::string_v
                                 std::string_view other);
 /// The stem of a file up to the last `word`; empty if the word is not there.
 std::filesystem::path before_word(const std::filesystem::path& file, std::string_view word);
-/// Of a stem arm_K: arm_M (the case is kept); empty if it does not end with _K.
+/// For a stem arm_K: arm_M (the case is kept); empty if it does not end with _K.
 std::filesystem::path with_letter(const std::filesystem::path& stem, char letter);
 
-/// The file with the nodes: the one given in the options, or the first that lies beside a file,
+/// The file with the nodes: the one given in the options, or the first one found next to a file,
 /// also with .gz. Throws InputError if there is none.
 std::filesystem::path nodes_beside(const std::filesystem::path& file,
                                    const std::filesystem::path& given,
                                    const std::vector<const char*>& endings);
 
-/// Where the files beside a stiffness may be; empty paths are none.
+/// Candidates for the files next to a stiffness; empty paths are ignored.
 struct MatrixPlaces {
   std::vector<std::filesystem::path> stiffness = {};  ///< empty: it is the file itself
   std::vector<std::filesystem::path> mass = {};
@@ -90,8 +90,8 @@ struct MatrixPlaces {
 /// `dofs` and `damping` may be null.
 using ReadMatrices = std::function<FeModel(TextSource& stiffness, TextSource& mass,
                                            TextSource* dofs, FeModel nodes, TextSource* damping)>;
-/// Reads those of the options, and the others where they are. Throws InputError, which says what is
-/// missing: "the mass matrix is missing: ... give the mass file".
+/// Reads those of the options, and the others from these paths. Throws InputError for a missing
+/// file: "the mass matrix is missing: ... give the mass file".
 FeModel read_matrix_files(const std::filesystem::path& file, const FeReadOptions& options,
                           const MatrixPlaces& places, const ReadMatrices& read);
 
@@ -107,8 +107,8 @@ void each_line(TextSource& source, std::string_view comments, Use use) {
   }
 }
 
-/// Collects entries and makes the symmetric matrix with both halves. Errors: entries twice, halves
-/// that differ, a diagonal that is negative or a penalty.
+/// Collects entries and builds the symmetric matrix with both halves. Errors: duplicate entries,
+/// halves that differ, a diagonal that is negative or a penalty.
 class SymmetricEntries {
  public:
   /// `what` for messages: "stiffness", "mass".

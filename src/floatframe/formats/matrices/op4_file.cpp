@@ -1,5 +1,5 @@
 // A matrix is a header (columns, rows, form, type, name; rows negative: large strings), records of
-// columns in ascending order, and one of a column behind the last. A column: its number, its first
+// columns in ascending order, and one of a column after the last. A column: its number, its first
 // row, how many words follow, and values; with row 0 strings of values, each headed by
 //   one number   first row + 65536 (words + 1), or
 //   two numbers  words + 1, first row         where strings are large.
@@ -189,7 +189,7 @@ class TextOp4 {
     }
     return out;
   }
-  /// The values of the lines that follow, up to one without a decimal point.
+  /// The values of the following lines, up to one without a decimal point.
   void values() {
     values_.clear();
     while (rest_ < text_.size()) {
@@ -220,7 +220,7 @@ class TextOp4 {
     };
     if (number < 1)
       fail(ErrorCode::out_of_range, fmt::format("a column has the number {}", number));
-    if (row > 0) {  // here real numbers are counted, and real and imaginary parts
+    if (row > 0) {  // counts real numbers, and real and imaginary parts
       take(row, std::max(words, 0) / (m.type > 2 ? 2 : 1));
       return number <= m.columns;
     }
@@ -243,7 +243,7 @@ class TextOp4 {
   std::vector<double> values_;
 };
 
-/// Of a binary file its first word: the length of the first record. Else 0.
+/// For a binary file its first word: the length of the first record. Else 0.
 std::uint32_t first_length(std::string_view bytes) {
   std::uint32_t first = 0;
   if (bytes.size() > op4_header_bytes + 8) std::memcpy(&first, bytes.data(), 4);
@@ -295,8 +295,8 @@ std::vector<DofLabel> rows_of_cards(TextSource& source) {
   return labels;
 }
 
-/// The matrices of one letter that may be meant: real and square, of `size` rows if it is not 0;
-/// those of one row stand for none. Names that superelements give come first.
+/// The candidate matrices of one letter: real and square, of `size` rows if it is not 0;
+/// those with one row represent none. Names used for superelements come first.
 const Op4Matrix* choose_op4(const std::vector<Op4Matrix>& matrices, char letter, int size,
                             const std::string& file) {
   std::vector<const Op4Matrix*> found;
@@ -317,7 +317,7 @@ const Op4Matrix* choose_op4(const std::vector<Op4Matrix>& matrices, char letter,
                                fmt::join(names, ", "), letter, letter, letter, letter));
 }
 
-/// Both halves, also of a matrix that is stored as one.
+/// Both halves, also of a matrix stored as one.
 SparseMatrix whole(const Op4Matrix& m) {
   SparseMatrix A(m.rows, m.rows);
   A.setFromTriplets(m.entries.begin(), m.entries.end());
@@ -352,7 +352,7 @@ FeModel read_op4(const std::filesystem::path& file, const FeReadOptions& options
   const Op4Matrix* M = K == nullptr ? nullptr : choose_op4(matrices, 'M', K->rows, name);
   std::vector<std::string> names;
   for (const Op4Matrix& m : matrices)
-    if (m.rows > 1) names.push_back(m.name);  // those of one row stand for none
+    if (m.rows > 1) names.push_back(m.name);  // a single row represents none
   if (M == nullptr)
     throw InputError(
         ErrorCode::missing, {name},

@@ -3,7 +3,7 @@
 // by whole columns or by strings of them.
 //
 // Superelements in matrices of Nastran's OUTPUT4 (.op4): stiffness KXX, KAA or KAAX, and mass and
-// viscous damping that begin with M and B. Nodes come from Nastran cards beside the file. Rows are
+// viscous damping that begin with M and B. Nodes come from Nastran cards next to the file. Rows are
 // the degrees of freedom of EXTRN, else of ASET and QSET, else all, in ascending order; or those of
 // a CSV "node,dir".
 #include <Eigen/SparseCore>

@@ -18,7 +18,7 @@ struct DmigEntry {
   FeSource at;
 };
 
-/// The matrices of one file. Stiffness, mass and viscous damping are read, others only named.
+/// The matrices of one file. Stiffness, mass and viscous damping are read, others only listed.
 class DmigFile {
  public:
   explicit DmigFile(TextSource& source) : source_(source) {
@@ -63,7 +63,7 @@ class DmigFile {
                        [&](const auto& m) { return m.first[0] == letter; });
   }
   const std::string& name() const { return name_; }
-  /// Matrices that `matrix` has not given.
+  /// Matrices that `matrix` has not returned.
   std::vector<std::string> others() const {
     std::vector<std::string> names;
     std::set_difference(names_.begin(), names_.end(), used_.begin(), used_.end(),

@@ -1,8 +1,8 @@
 #pragma once
-// Direct input matrices that Nastran and OptiStruct punch (.pch): stiffness KAAX, mass MAAX and
+// Direct input matrices punched by Nastran and OptiStruct (.pch): stiffness KAAX, mass MAAX and
 // viscous damping BAAX (any names that begin with K, M and B) of PARAM,EXTOUT,DMIGPCH or EXTSEOUT.
 // Nodes come from GRID cards in the same file, from the deck given in the options, or from a deck
-// beside it with the same name.
+// with the same name next to it.
 #include <string_view>
 
 #include "floatframe/formats/fe_file.hpp"

@@ -11,7 +11,7 @@ namespace {
 
 using Fields = std::vector<std::string_view>;
 
-/// A line of whole numbers and a real one.
+/// A line of integers and one real number.
 bool is_entry(std::string_view line, std::size_t count,
               std::optional<int> (*whole)(std::string_view)) {
   Fields fields;
@@ -24,7 +24,7 @@ bool is_triple(std::string_view line) { return is_entry(line, 2, parse_label); }
 bool is_quintuple(std::string_view line) { return is_entry(line, 4, parse_integer); }
 
 /// Adds the entry of a line "row column value" with blanks or commas between, rows and columns from
-/// 1 to n; `limit` says what has n.
+/// 1 to n; `limit` describes the source of n.
 void add_triple(SymmetricEntries& entries, TextSource& source, std::string_view line,
                 Fields& fields, int n, const std::string& limit) {
   split_blanks(line, fields);
@@ -171,7 +171,7 @@ SymmetricEntries read_market(TextSource& source, const std::string& what, int n,
   return entries;
 }
 
-/// The entries of a matrix of n rows; `map` names the file that says n.
+/// The entries of a matrix of n rows; `map` is the file that defines n.
 using ReadEntries = SymmetricEntries (*)(TextSource& source, const std::string& what, int n,
                                          const std::string& map);
 
@@ -254,7 +254,7 @@ FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOp
 }
 
 FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOptions& options) {
-  // arm_STIF2.mtx has arm_MASS2.mtx beside it, perhaps arm_DMPV2.mtx, and belongs to arm.inp.
+  // arm_STIF2.mtx goes with arm_MASS2.mtx, optionally arm_DMPV2.mtx, and arm.inp.
   const std::filesystem::path job = before_word(file, "_STIF");
   MatrixPlaces places{.mass = {with_ending(with_word(file, "STIF", "MASS"), ".mtx")},
                       .nodes = {with_ending(job, ".inp"), with_ending(job, "_nodes.csv")}};

@@ -6,7 +6,7 @@
 //                  job_DMPV1.mtx
 //   Matrix Market  arm_K.mtx, arm_M.mtx with arm_dofs.csv ("node,dir") and arm_nodes.csv
 //                  ("node,x,y,z"); viscous damping arm_C.mtx
-// FeReadOptions names the files that do not lie beside the stiffness under these names. The nodes
+// FeReadOptions gives the files that are not next to the stiffness under these names. The nodes
 // may also come from any finite-element file.
 #include <string_view>
 

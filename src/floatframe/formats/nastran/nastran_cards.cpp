@@ -147,14 +147,14 @@ void NastranCards::comment(std::string_view text) {
 void NastranCards::split(std::string_view text, Line& line) {
   line.data.clear();
   line.mark = {};
-  if (text.find(',') < 72) {  // of a comment in the tenth field a comma may be
+  if (text.find(',') < 72) {  // a comment in the tenth field may contain a comma
     std::vector<std::string_view> fields;
     split_commas(text, fields);
     line.name = fields[0];
     line.large = line.name.ends_with('*') || line.name.starts_with('*');
     const std::size_t width = line.large ? 4 : 8;
     while (fields.size() > width + 2 && fields.back().empty()) fields.pop_back();
-    // A line that is put back comes again.
+    // A line that was put back is returned again.
     if (fields.size() > width + 2 &&
         std::exchange(too_long_, source_.here().line) != source_.here().line)
       source_.error(ErrorCode::wrong_count,

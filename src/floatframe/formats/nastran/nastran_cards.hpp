@@ -22,10 +22,10 @@ struct NastranCard {
   std::string name;                      ///< upper case, without '*'
   std::vector<std::string_view> fields;  ///< trimmed, from field 2; those of continuations follow
   FeSource at;
-  /// First field of each continuation and where it stands.
+  /// First field of each continuation and its location.
   std::vector<std::pair<std::size_t, FeSource>> continuations;
 
-  /// Where a field stands.
+  /// Location of a field.
   FeSource place(std::size_t i) const {
     const auto next = std::upper_bound(continuations.begin(), continuations.end(), i,
                                        [](std::size_t k, const auto& c) { return k < c.first; });
@@ -36,7 +36,7 @@ struct NastranCard {
   }
 };
 
-/// What the case control selects.
+/// Selections of the case control.
 struct NastranControl {
   bool there = false;                              ///< there is more than BEGIN BULK
   std::vector<std::pair<int, FeSource>> mpc, spc;  ///< MPC = n, SPC = n
@@ -51,7 +51,7 @@ struct NastranNames {
   std::map<int, std::string> properties, materials, sets;
 };
 
-/// What begins the bulk data: BEGIN BULK, or BEGIN SUPER of a punched superelement as well.
+/// Start of the bulk data: BEGIN BULK, or BEGIN SUPER of a punched superelement as well.
 enum class NastranBegin { bulk, any };
 
 class NastranCards {
@@ -69,7 +69,7 @@ class NastranCards {
 
  private:
   struct Line {
-    std::string_view name;  ///< field 1 as it stands
+    std::string_view name;  ///< field 1 as written
     std::string_view mark;  ///< field 10
     std::vector<std::string_view> data;
     bool large = false;

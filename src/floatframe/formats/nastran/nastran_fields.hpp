@@ -1,5 +1,5 @@
 #pragma once
-// Fields of one Nastran card as numbers, with errors that name the card and what is expected.
+// Fields of one Nastran card as numbers, with errors that name the card and the expected value.
 #include <fmt/format.h>
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace floatframe {
 
-/// What a card gives: the name of the card, its number and where it stands.
+/// Identification of a card: its name, its number and its location.
 struct NastranEntity {
   std::string card;
   int id = 0;
@@ -28,7 +28,7 @@ struct NastranWholeNumbers {
   FeSource at;
 };
 
-/// What a real number may be.
+/// Allowed range of a real number.
 enum class NastranRange { any, positive, not_negative };
 
 class NastranFields {
@@ -42,7 +42,7 @@ class NastranFields {
   FeSource at() const { return card_.at; }
   const std::string& name() const { return card_.name; }
 
-  /// What the card gives, with its number in a field; `what`: "the number of the element".
+  /// Identification of a card with its number in a field; `what`: "the number of the element".
   template <class Entity>
   Entity entity(const char* what, std::size_t i = 0) {
     Entity e;
@@ -58,7 +58,7 @@ class NastranFields {
     const auto [it, fresh] = all.try_emplace(id, std::move(entity));
     if (!fresh && id > 0) twice(it->second.at);
   }
-  /// Says that a number is in the file twice.
+  /// Reports a duplicate number.
   void twice(const FeSource& first) {
     error(ErrorCode::duplicate, "this number is in the file twice, first in line {}", first.line);
   }
@@ -80,7 +80,7 @@ class NastranFields {
   Vec3 vector(std::size_t i, const char* what);  ///< three fields, blank: 0
   /// Components such as "123456"; 0 and blank: none.
   unsigned components(std::size_t i, const char* what);
-  /// One of them from 0, 6 with an error; none, if it need not be there: -1.
+  /// Index of one of them from 0, 6 with an error; if it is optional and missing: -1.
   int component(std::size_t i, bool needed);
 
   /// Errors of the file so far.

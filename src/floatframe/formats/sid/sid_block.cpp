@@ -84,7 +84,7 @@ class BlockReader {
     }
   }
 
-  /// An error after which entries are not looked at.
+  /// An error after which entries are not checked.
   template <class... Args>
   void misfit(ErrorCode code, fmt::format_string<Args...> text, Args&&... args) {
     sizes_fit_ = false;
@@ -153,7 +153,7 @@ class BlockReader {
     values(e->row, e->column) = *value;
   }
 
-  /// Fills what the structure implies.
+  /// Fills the entries implied by the structure.
   void finish() {
     if (structure_ == 4) block_.m0.setIdentity();
     if (order_ == 1 && block_.m1.empty())

@@ -19,19 +19,19 @@ struct SidItem {
 
 std::string without_blanks(std::string_view text);
 
-/// The next line that is not blank. `wanted` says what should have come if the file ends: then it
+/// The next line that is not blank. `wanted` describes the expected item if the file ends: then it
 /// throws InputError, as `expect` does.
 SidItem next_sid_item(TextSource& source, const char* wanted);
 void expect_sid_item(TextSource& source, const char* key);
 
-/// A number; nothing with an error.
+/// A number; null with an error.
 std::optional<double> sid_real(TextSource& source, std::string_view field);
 
-/// To the end of something unknown; throws InputError if it has none.
+/// Skips to the end of an unknown item; throws InputError if it has none.
 void skip_sid_block(TextSource& source, const std::string& key);
 
-/// Reads the block whose name was the last line. `block` comes with the size that it must have;
-/// memory is taken for that and for the number of modes, never for what the block claims.
+/// Reads the block whose name was the last line. `block` has the required size on input;
+/// memory is allocated for that and for the number of modes, never for the sizes in the block.
 void read_sid_block(TextSource& source, const std::string& name, int modes, SidTaylor& block);
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
-// A body from the blocks of a SID_FEM file; sid_content.hpp has their meaning. What the file says
-// twice is compared: mdCM m1 and Ct must agree, the others give notes.
+// A body from the blocks of a SID_FEM file; sid_content.hpp has their meaning. Duplicate data are
+// compared: mdCM m1 and Ct must agree, the others give notes.
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -213,7 +213,7 @@ class BodyOfSid {
       note(c_.J.line, "{}", text);
   }
 
-  /// Stiffness and damping must not give energy.
+  /// Stiffness and damping must not add energy.
   void check_energy() {
     for (const auto& [block, matrix, what] :
          {std::tuple{&c_.Ke, &out_.body.K, "stiffness"}, {&c_.De, &out_.body.D, "damping"}}) {

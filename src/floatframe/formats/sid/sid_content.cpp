@@ -1,4 +1,4 @@
-// The blocks of a body, and their text: one item per line, D exponents, zeros left out.
+// The blocks of a body, and their text: one item per line, D exponents, zeros omitted.
 #include "floatframe/formats/sid/sid_content.hpp"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ void inertia_blocks(const InertiaInvariants& v, SidContent& c) {
   }
 }
 
-/// The node's own name if all names are different numbers, else a running number.
+/// The name of the node if all names are different numbers, else a running number.
 std::vector<std::string> frame_numbers(const std::vector<ModalNode>& nodes) {
   std::set<std::string> used;
   std::vector<std::string> names;

@@ -40,7 +40,7 @@ namespace floatframe {
 struct SidTaylor {
   MatX m0;
   std::vector<MatX> m1;  ///< one per mode; empty: order 0
-  int line = 0;          ///< of the block's name in the file; 0: not there
+  int line = 0;          ///< of the block's name in the file; 0: missing
 
   SidTaylor() = default;
   SidTaylor(int rows, int columns, int modes_of_m1)
@@ -109,7 +109,7 @@ inline constexpr SidBlock<SidFrame> sid_frame_blocks[] = {
 /// The blocks of a body. Me, Ke and De are symmetrised.
 SidContent sid_content(const FlexibleBody& body);
 
-// Of moments s(i, j) = int a_i b_j dm, with a = r or phi_l and b = phi_k:
+// For moments s(i, j) = int a_i b_j dm, with a = r or phi_l and b = phi_k:
 inline constexpr int sid_pairs_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};  ///< behind the squares
 inline constexpr int sid_pairs_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};   ///< behind the diagonal
 /// Row k of Oe.
@@ -131,17 +131,17 @@ SidContent parse_sid_content(std::string_view text, const std::string& name);
 /// The body that has these blocks. Throws InputError if they contradict each other.
 SidBody sid_body(const SidContent& content, const std::string& name);
 
-// Of a SID_FEM file what is of second order in the amplitudes: S^ij, and the displacements of
+// The parts of a SID_FEM file of second order in the amplitudes: S^ij, and the displacements of
 // second order (body/second_order.hpp), which are the terms of first order of phi, Ct, Cr and Oe.
 // With t_ij(l, k) = S^ij(l, k) + S2i[i][j](l, k), row k of m1(l) is
 //   Ct   S2[j](l, k)
-//   Cr   t_ij - t_ji: odd in l, k what S^ij has of it, even what S2i has
+//   Cr   t_ij - t_ji: the part odd in l, k is from S^ij, the even part from S2i
 //   Oe   t_aa - tr t,  t_ab + t_ba: the sum of both
-//   Gr   2 (tr t I - t^T), here of S^ij alone: of bodies with displacements of second order
+//   Gr   2 (tr t I - t^T), here of S^ij only: for bodies with displacements of second order
 //        Floatframe writes it, so that Oe can be divided
 // and phi, psi of a frame have h_j(l, k), theta_j(l, k) in row j. Files without this Gr: if Oe
-// gives the modal masses it is of inertia alone; else S^11, S^22, S^33 are each a third of Me and
-// the rest of Oe is S2i, so that the sum, which is what a stiffened body feels, is exact.
+// gives the modal masses it is of inertia only; else S^11, S^22, S^33 are each a third of Me and
+// the rest of Oe is S2i, so that the sum, which acts on a stiffened body, is exact.
 
 /// Sets Sij and second_order of a body that has its other invariants and nodes (in the order of the
 /// frames). Me: symmetric.
@@ -149,7 +149,7 @@ void sid_second_order(const SidContent& content, const MatX& Me, FlexibleBody& b
                       const std::function<void(int line, const std::string&)>& note);
 
 /// The same from a body: adds to the blocks of `content`, which are those of inertia. S2i is the
-/// sum of `second_order` and `turning`, which a file cannot tell apart: read again all of it counts
+/// sum of `second_order` and `turning`, which a file cannot distinguish: read again all of it acts
 /// with stiffening only.
 void add_sid_second_order(const FlexibleBody& body, SidContent& content);
 

@@ -2,15 +2,15 @@
 // SID_FEM: the Standard Input Data of flexible bodies (Wallrapp 1993; Schwertassek and Wallrapp
 // 1999), text. Its blocks follow from the inertia integrals.
 //
-// What the classical file determines, and what not: mass matrix at zero deformation and its first
+// Data determined by the classical file: mass matrix at zero deformation and its first
 // derivative in the modal amplitudes are in it completely, so m, m_u, P_u, S, S^i, the modal mass
-// S^11 + S^22 + S^33 (Me) and the differences S^ij - S^ji (Cr m1, Ge) come back exactly. The rest
-// of S^ij (three symmetric sums S^ij + S^ji, and how Me divides into S^11, S^22, S^33) decides the
-// inertia tensor at second order of the amplitudes and softening by spin. It is in the file only if
-// Oe has first-order terms and these are those of inertia alone (Oe m1 of the first three columns
+// S^11 + S^22 + S^33 (Me) and the differences S^ij - S^ji (Cr m1, Ge) are recovered exactly. The
+// rest of S^ij (three symmetric sums S^ij + S^ji, and the split of Me into S^11, S^22, S^33) gives
+// the inertia tensor at second order of amplitudes and spin softening. It is in the file only if
+// Oe has first-order terms and these are those of inertia only (Oe m1 of the first three columns
 // then sums to -2 Me; geometric stiffening breaks that). `write_sid` writes them. If they
 // are missing, S^11, S^22, S^33 are each taken as Me / 3 and the symmetric sums as zero, which
-// keeps the mass matrix positive and the trace of the inertia tensor exact; a note says so.
+// keeps the mass matrix positive and the trace of the inertia tensor exact; a note reports it.
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -3,8 +3,8 @@
 //   part / new modal / refmod .. end refmod / frame { new node .. end node } end frame / blocks /
 //   end modal / end part
 // A block is "name", order, nrow, ncol, nq, nqn, structure, entries m0(r,c) and m1(r,q,c), "end
-// name". Blanks do not matter. Memory is taken for the sizes that the number of modes implies,
-// never for what a block claims.
+// name". Blanks do not matter. Memory is allocated for the sizes implied by the number of modes,
+// never for those claimed in a block.
 #include <algorithm>
 #include <set>
 

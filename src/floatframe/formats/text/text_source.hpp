@@ -18,7 +18,7 @@
 
 namespace floatframe {
 
-/// No file may hold more after decompression: a file of a few kilobytes can be made to fill any
+/// Limit of a file after decompression: a file of a few kilobytes can be built to fill any
 /// memory.
 inline constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;  ///< [byte]
 /// Above 64 MiB, no file may be compressed better than this; decks and matrices reach 20.
@@ -32,7 +32,7 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t bytes)
 /// The same on bytes in memory; `name` is for messages. Bytes that are not gzip stay as they are.
 std::string decompressed(std::string bytes, const std::string& name);
 
-/// Empty if the bytes are text (any 8-bit encoding), else what they are: "the file is binary, not
+/// Empty if the bytes are text (any 8-bit encoding), else the reason: "the file is binary, not
 /// text: byte 0x00 in line 3".
 std::string not_text(std::string_view bytes);
 
@@ -53,7 +53,7 @@ class TextSource {
   /// The next line without its end; false after the last line of the first file. Views stay valid
   /// as long as the source lives.
   bool next(std::string_view& line);
-  /// The line of the last `next` comes again, once only; `here` is the line before it until then.
+  /// Returns the line of the last `next` again, once only; `here` is the line before it until then.
   void put_back() noexcept {
     again_ = true;
     std::swap(here_, before_);
@@ -63,12 +63,12 @@ class TextSource {
   /// Place of the last line.
   FeSource here() const noexcept { return here_; }
 
-  /// Goes on with the first line of another file and comes back after its last. The path (quotes
-  /// are removed, backslashes become slashes) is looked for beside the including file, then beside
-  /// the first file, also with `.gz`. Errors (missing, circular, too deep, too many) are thrown at
-  /// once.
+  /// Continues with the first line of another file and returns after its last. The path (quotes
+  /// are removed, backslashes become slashes) is looked up next to the including file, then next to
+  /// the first file, also with `.gz`. Errors (missing, circular, too deep, too many) are thrown
+  /// immediately.
   void include(std::string_view path, const FeSource& at);
-  /// The same; false and nothing else if the file is missing.
+  /// The same; only returns false if the file is missing.
   bool include_if_there(std::string_view path, const FeSource& at);
 
   SourceMark mark(const FeSource& source) const;
@@ -107,8 +107,8 @@ class TextSource {
   std::size_t errors() const noexcept { return errors_.size(); }
   static constexpr std::size_t most_errors = 50;
 
-  /// Lines may stand for many nodes, elements or cards (generated, copied, repeated): each says how
-  /// many it makes or looks at for that. Throws when they are too many in all, since a short file
+  /// A line may define many nodes, elements or cards (generated, copied, repeated): each reports
+  /// how many it creates or visits. Throws when the total is too large, since a short file
   /// could fill any memory.
   void make(std::int64_t count);
   void may_make(std::int64_t most) noexcept { may_make_ = most; }
@@ -131,9 +131,9 @@ class TextSource {
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<const std::string>> texts_;
   std::vector<std::string> keys_;                      // canonical paths
-  std::unordered_map<std::string, int> index_of_key_;  // included files, to find one again
+  std::unordered_map<std::string, int> index_of_key_;  // to find included files again
   std::vector<Open> stack_;
-  std::uint64_t expanded_ = 0;  // characters put onto the stack
+  std::uint64_t expanded_ = 0;  // characters pushed onto the stack
   std::size_t includes_ = 0;
   std::int64_t may_make_ = most_made, made_ = 0;
   std::string_view line_;

@@ -1,6 +1,6 @@
 #pragma once
-// The bytes of a .vtu file, an unstructured grid of VTK in XML with its numbers appended as they
-// lie in memory (header_type UInt64, little-endian). Source: VTK File Formats, XML formats.
+// The bytes of a .vtu file, an unstructured grid of VTK in XML with its numbers appended in
+// memory layout (header_type UInt64, little-endian). Source: VTK File Formats, XML formats.
 #include <cstdint>
 #include <string>
 #include <variant>

@@ -1,5 +1,5 @@
 #pragma once
-// Finite-element models written for other programs, to look at what a reader has understood and to
+// Finite-element models written for other programs, to inspect the result of a reader and to
 // compute with it. Numbers are those of the model, in its units. A new format is one file and one
 // entry in the list.
 #include <filesystem>
@@ -17,7 +17,7 @@ struct MeshWriteOptions {
 
 struct WrittenMesh {
   std::string bytes;
-  std::vector<std::string> notes;  ///< one sentence each: what the format cannot hold
+  std::vector<std::string> notes;  ///< one sentence each: data without equivalent in the format
 };
 
 struct MeshFormat {
@@ -30,7 +30,7 @@ struct MeshFormat {
 
 std::span<const MeshFormat> mesh_formats();
 
-/// By the ending of the file. Throws InputError that names those known.
+/// By the ending of the file. Throws InputError with the known ones.
 const MeshFormat& mesh_format_of(const std::filesystem::path& file);
 
 }  // namespace floatframe

@@ -12,10 +12,10 @@
 namespace floatframe {
 namespace {
 
-/// Sets beyond this many are left out: arrays of each cell would fill the memory.
+/// Sets beyond this number are omitted: arrays of each cell would fill the memory.
 constexpr std::size_t most_sets = 200;
 
-/// What a cell shows.
+/// Data of a cell.
 struct Cells {
   std::vector<std::int32_t> element, kind, material;
   std::vector<double> young, density, thickness;

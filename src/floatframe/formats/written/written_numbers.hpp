@@ -1,5 +1,5 @@
 #pragma once
-// What all written meshes need: numbers of nodes and elements, and names that any program reads.
+// Common data of all written meshes: numbers of nodes and elements, and portable names.
 #include <cstdint>
 #include <set>
 #include <string>
@@ -17,7 +17,7 @@ struct WrittenNumbers {
 };
 WrittenNumbers written_numbers(const FeModel& model, std::vector<std::string>& notes);
 
-/// What an element is in other programs.
+/// Equivalent of an element in other programs.
 struct WrittenCell {
   int dimension = 0, nodes = 0;
   std::uint8_t vtk = 0;
@@ -25,11 +25,11 @@ struct WrittenCell {
 };
 const WrittenCell& written_cell(ElementType type);
 
-/// Letters, digits, '_' and '-', at most 60; in upper case if asked for; none of `used`, which it
-/// joins.
+/// Letters, digits, '_' and '-', at most 60; in upper case on request; unique among `used`, where
+/// it is added.
 std::string written_name(const std::string& name, bool upper, std::set<std::string>& used);
 
-/// Names of sets and materials that a file has otherwise than the model, for one note.
+/// Names of sets and materials that are changed in a file, for one note.
 class RenamedNames {
  public:
   /// Small and capital letters are the same.
