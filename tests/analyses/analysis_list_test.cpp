@@ -68,7 +68,7 @@ TEST(AnalysisList, OptionsAreNeitherSharedOnesNorTwice) {
   }
 }
 
-TEST(AnalysisList, ReportsAreTextJsonAndTheFilesThatMayBeAskedFor) {
+TEST(AnalysisList, ReportsAreTextJsonAndOptionalFiles) {
   const Model model = model_of(hanging_bar);
   for (const Analysis& a : all_analyses()) {
     // What must be given depends on the model: tests of their own.

@@ -118,7 +118,7 @@ TEST(MassProperties, UndeformedBarIsACylinder) {
   }
 }
 
-TEST(MassProperties, IsThatOfTheStartThatIsAskedFor) {
+TEST(MassProperties, BelongsToTheRequestedStart) {
   const Model model = model_of(bar("isoparametric") + "\ngravity: [30, 0, -9.81]\n");
   const ModelMass given = mass_properties(model, {.start = Start::given});
   const ModelMass sagged = mass_properties(model, {.start = Start::equilibrium});
@@ -220,7 +220,7 @@ simulation: {step: 0.001, duration: 1}
   EXPECT_EQ(error_of([&] { mass_properties(model_of(light)); }), "singular");
 }
 
-TEST(MassReport, TextAndJsonSayTheSame) {
+TEST(MassReport, TextAndJsonAgree) {
   const Model model = model_of(block_and_rod);
   const ModelMass p = mass_properties(model);
   const AnalysisReport report = mass_properties_analysis().run(model);

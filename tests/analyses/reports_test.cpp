@@ -90,7 +90,7 @@ TEST(StaticsJson, MarksReactionsThatAreNotUnique) {
   }
 }
 
-TEST(AdviceJson, SaysWhatItWasAskedFor) {
+TEST(AdviceJson, HoldsTheRequest) {
   Analysis advise = advise_analysis();
   for (const Option& option : advise.options) {
     if (option.name == "--share") *std::get<double*>(option.target) = 0.02;

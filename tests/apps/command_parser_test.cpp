@@ -38,7 +38,7 @@ TEST(CommandParser, NumbersAndListsReachTheirPlaces) {
   EXPECT_EQ(values.speeds, (std::vector<double>{3.0, -4.5, 1e-3}));
 }
 
-TEST(CommandParser, WhatIsNotGivenKeepsItsDefault) {
+TEST(CommandParser, MissingOptionsKeepTheirDefault) {
   Values values;
   ASSERT_EQ(parse(values, {}), 0);
   EXPECT_EQ(values.from, 0.5);
@@ -61,7 +61,7 @@ TEST(CommandParser, NumbersOutOfRangeAreRefused) {
   }
 }
 
-TEST(Commands, HaveNamesOfTheirOwn) {
+TEST(Commands, HaveDifferentNames) {
   std::set<std::string> names;
   for (const Command& command : all_commands())
     EXPECT_TRUE(names.insert(command.name).second) << command.name;

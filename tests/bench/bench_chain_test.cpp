@@ -94,7 +94,7 @@ TEST(ChainModel, AnyNumberOfModesUpToTheLargest) {
   EXPECT_THROW(build_model(chain_model(1, 10, 4)), InputError);
 }
 
-TEST(BenchChain, TipIsWhereItBelongs) {
+TEST(BenchChain, TipMatchesTheReference) {
   ChainOptions options;
   options.links = {4};
   options.duration = 1.0;
@@ -124,7 +124,7 @@ TEST(BenchChain, TipIsWhereItBelongs) {
   }
 }
 
-TEST(BenchChain, AFailedRowSaysWhyAndTheOthersGoOn) {
+TEST(BenchChain, AFailedRowHasItsReasonAndOthersRun) {
   ChainOptions options;
   options.links = {2, 1};
   options.duration = 0.02;

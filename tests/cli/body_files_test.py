@@ -225,7 +225,7 @@ class BodyFiles(unittest.TestCase):
         for factor in (1e6, -1.0, 0.0):
             self.refused(good, "member 'marker_X.npy': marker 'A' moves",
                          marker_X=good.scaled("marker_X.npy", factor))
-        self.refused(good, "Hz for normal mode 1, but the health report says",
+        self.refused(good, "Hz for normal mode 1, but the health report gives",
                      frequencies=good.scaled("frequencies.npy", 2.0))
 
         def header(**changed):

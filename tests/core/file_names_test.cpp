@@ -19,7 +19,7 @@ TEST(FileName, LettersOfAnyScriptStay) {
   EXPECT_EQ(file_name_from("..x"), "_.x");
 }
 
-TEST(FileName, WhatNobodySeesOrIsNoTextDoesNot) {
+TEST(FileName, InvisibleOrBinaryNamesAreRefused) {
   // No-break space, zero width space, right-to-left override, byte order mark, private use.
   for (const char* hidden : {"\u00a0", "\u200b", "\u202e", "\ufeff", "\ue000", "\u3000"})
     EXPECT_EQ(file_name_from("a" + std::string(hidden) + "b"), "a_b");

@@ -83,7 +83,7 @@ struct Tape {
   }
 };
 
-TEST(Histogram, IsTheSameWhereItGoesOn) {
+TEST(Histogram, ContinuesAfterSerialization) {
   Histogram h, other;
   for (const Nanoseconds x : {5, 700, 90'000, 90'100, 3'000'000}) h.add(x);
   Tape tape;

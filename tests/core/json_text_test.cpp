@@ -31,7 +31,7 @@ TEST(JsonText, DepthIsBounded) {
   EXPECT_EQ(why, "nests deeper than 64 levels");
 }
 
-TEST(JsonText, WhatIsNotJson) {
+TEST(JsonText, InvalidTextIsDiscarded) {
   for (const char* text : {"", "[", "]", "{\"a\" 1}", "[1e999]", "\"\xff\"", "1 2"}) {
     std::string why;
     EXPECT_TRUE(read_json(text, why).is_discarded()) << text;

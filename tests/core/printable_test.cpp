@@ -46,7 +46,7 @@ TEST(Printable, BytesThatAreNoUtf8) {
   }
 }
 
-TEST(Printable, WhatIsWrittenOutIsPrintable) {
+TEST(Printable, EscapedTextIsPrintable) {
   std::string all;
   for (int a = 0; a < 256; ++a)
     for (const int b : {0, 10, 65, 128, 191, 255})

@@ -40,7 +40,7 @@ TEST_F(RegularFile, WholeAndBeginning) {
   EXPECT_TRUE(test::contains(regular_file("/proc/self/status"), "Name:"));
 }
 
-TEST_F(RegularFile, WhatIsNoRegularFile) {
+TEST_F(RegularFile, OtherKindsOfFilesAreRefused) {
   const std::filesystem::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(why(pipe), "this is not a regular file");

@@ -9,7 +9,7 @@
 namespace floatframe::test {
 namespace {
 
-TEST(WorkProgress, IsHeardByTheInnermostOfThisThread) {
+TEST(WorkProgress, ReachesTheInnermostListenerOfThisThread) {
   std::vector<std::string> outer, inner;
   tell_progress("nobody", 0.5);
   {

@@ -83,7 +83,7 @@ TEST(Abaqus, GmshsOwnDeckIsTheSameMesh) {
   EXPECT_TRUE(contains(b.notes[0], "elements of type CPS6 have no section"));
 }
 
-TEST(Abaqus, AMeshWithoutMaterialIsReadAndSaysSo) {
+TEST(Abaqus, AMeshWithoutMaterialIsReadWithANote) {
   const FeModel model = read_fe_file(folder + "aarm_coarse_mesh.inp.gz");
   EXPECT_TRUE(model.materials.empty());
   EXPECT_EQ(model.elements[0].material, -1);

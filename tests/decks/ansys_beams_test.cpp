@@ -86,7 +86,7 @@ TEST(AnsysBeamShapes, AreaAndMomentsAreThoseOfTheOutline) {
   EXPECT_NEAR(torsion("HREC", "101,101,1,1,1,1"), 1e6, 0.01 * 1e6);
 }
 
-TEST(AnsysBeamShapes, WhatIsTakenForGrantedIsSaid) {
+TEST(AnsysBeamShapes, AssumptionsAreNoted) {
   const auto notes = [](const char* shape, const char* data) { return beam_of(shape, data).notes; };
   EXPECT_TRUE(notes("I", "80,80,110,10,10,5").empty());
   EXPECT_TRUE(notes("HREC", "60,80,6,6,4,4").empty());
@@ -115,7 +115,7 @@ void expect_arm(const FeModel& m, const Vec3& arm) {
   EXPECT_EQ(m.spiders[1].nodes, std::vector<int>{m.elements[0].nodes[1]});
 }
 
-TEST(AnsysBeamShapes, NodesBesideTheCentroid) {
+TEST(AnsysBeamShapes, NodesOffTheCentroid) {
   // An I section: the origin is in the middle of the lower flange.
   expect_arm(beam_of("I", "80,80,110,10,10,5", "SECOFFSET,ORIGIN\n"), Vec3(0, 0, 55));
   expect_arm(beam_of("I", "80,80,110,10,10,5", "SECOFFSET,USER,0,160\n"), Vec3(0, 0, -105));

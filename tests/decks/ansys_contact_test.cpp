@@ -21,7 +21,7 @@ std::string two_bricks(int behaviour) {
              behaviour);
 }
 
-TEST(AnsysContact, BondedPairsAreTiedOthersAsTheOptionsSay) {
+TEST(AnsysContact, BondedPairsAreTiedOthersByOption) {
   const FeModel bonded = ansys_of(two_bricks(5));
   EXPECT_EQ(bonded.elements.size(), 2u);
   ASSERT_EQ(bonded.equations.size(), 12u);

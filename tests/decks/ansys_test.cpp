@@ -180,7 +180,7 @@ TEST(Ansys, OptionsOfBricks) {
 
 /// An edge without its node is straight: of a brick of 20 nodes of which all are left out the
 /// stiffness is that of the brick of 8.
-TEST(Ansys, EdgesWithoutTheirNodeAreStraight) {
+TEST(Ansys, EdgesWithoutMidNodeAreStraight) {
   const FeModel twenty = one_element(ElementType::hex20);
   std::vector<int> nodes = as_brick(twenty, twenty.elements[0]);
   const auto read = [&](const std::vector<int>& list) {

@@ -121,7 +121,7 @@ const Case decks[] = {
 
 class BadDecks : public testing::TestWithParam<Case> {};
 
-TEST_P(BadDecks, SayWhatIsWrong) {
+TEST_P(BadDecks, GiveErrors) {
   EXPECT_EQ(inp_error(deck_of(GetParam().text), {}, "bad.inp"), GetParam().expected);
 }
 
@@ -147,7 +147,7 @@ const Case calculix[] = {
 
 class BadCalculix : public testing::TestWithParam<Case> {};
 
-TEST_P(BadCalculix, SayWhatIsWrong) {
+TEST_P(BadCalculix, GiveErrors) {
   EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"), K(GetParam().text, "bad.sti"),
                   M(matrix_text, "bad.mas"), dofs(map_text, "bad.dof");
@@ -167,7 +167,7 @@ const Case maps[] = {
 
 class BadMaps : public testing::TestWithParam<Case> {};
 
-TEST_P(BadMaps, SayWhatIsWrong) {
+TEST_P(BadMaps, GiveErrors) {
   EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"), K(matrix_text, "bad.sti"),
                   M(matrix_text, "bad.mas"), dofs(GetParam().text, "bad.dof");
@@ -194,7 +194,7 @@ const Case market[] = {
 
 class BadMarket : public testing::TestWithParam<Case> {};
 
-TEST_P(BadMarket, SayWhatIsWrong) {
+TEST_P(BadMarket, GiveErrors) {
   EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"), K(GetParam().text, "bad_K.mtx"),
                   M("", "bad_M.mtx"), dofs(map_text, "bad_dofs.csv");
@@ -214,7 +214,7 @@ const Case labels[] = {
 
 class BadLabels : public testing::TestWithParam<Case> {};
 
-TEST_P(BadLabels, SayWhatIsWrong) {
+TEST_P(BadLabels, GiveErrors) {
   EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"),
                   K(GetParam().text, "bad_STIF1.mtx"), M("2,1, 2,1, 1.\n", "bad_MASS1.mtx");
@@ -287,7 +287,7 @@ TEST_F(BadFiles, UnknownFormatAndMissingFile) {
   EXPECT_EQ(errors("empty.inp"), "empty.inp: missing");
 }
 
-TEST_F(BadFiles, MatricesWithoutTheirCompanions) {
+TEST_F(BadFiles, MatricesWithoutCompanionFiles) {
   write("a.sti", matrix_text);
   EXPECT_EQ(errors("a.sti"), "a.sti: missing\na.sti: missing\na.sti: missing");
 }

@@ -61,7 +61,7 @@ const std::string nastran_cut =
     "MAT1,1,2.1+11,,.3,7800.\nPSOLID,1,1\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n"
     "GRID,4,,0.,0.,1.\nCTETRA,1,1,1,2,3,4\n";
 
-TEST(CutDecks, NastranSaysWhatIsMissingOrPassedOver) {
+TEST(CutDecks, NastranReportsMissingAndIgnoredCards) {
   const FeModel whole = read_bdf("SOL 103\nCEND\nBEGIN BULK\n" + nastran_cut + "ENDDATA\n");
   EXPECT_FALSE(contains(whole.notes, "ENDDATA"));
   EXPECT_FALSE(contains(whole.notes, "WTMASS"));

@@ -61,7 +61,7 @@ void expect_same_matrices(const FeModel& a, const FeModel& b) {
   EXPECT_LE((assemble_mass(a, false, 3) - M).norm(), 1e-13 * M.norm());
 }
 
-TEST(DeckAssembly, APartTwiceOnceTurnedAboutAnAxisBesideIt) {
+TEST(DeckAssembly, APartTwiceOnceTurnedAboutAnOffsetAxis) {
   const std::string deck =
       "*Heading\n*Part, name=BRICK\n" + brick_lines +
       "*End Part\n*Assembly, name=A\n*Instance, name=BRICK-1, part=BRICK\n*End Instance\n"

@@ -141,7 +141,7 @@ TEST(DeckBeamOffsets, NodesOfARigidBodyAndInstances) {
   EXPECT_LE((system.K * u).norm(), 1e-9 * MatX(system.K).norm());
 }
 
-TEST(DeckBeamOffsets, SaysWhatIsWrong) {
+TEST(DeckBeamOffsets, InvalidOffsetsAreErrors) {
   const auto error = [](const std::string& text, DeckDialect dialect) {
     return error_of([&] { stick_deck(sticks("B31", text, false), dialect); });
   };

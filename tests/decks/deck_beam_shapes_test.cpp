@@ -92,7 +92,7 @@ TEST(DeckBeamShapes, FurtherNodes) {
             "girder.inp:7: unsupported");
 }
 
-TEST(DeckBeamShapes, SaysWhatIsWrong) {
+TEST(DeckBeamShapes, InvalidShapesAreErrors) {
   EXPECT_EQ(girder_error(i_of(".1, .2, .08, .08, .012, .012")), "girder.inp:10: wrong_count");
   EXPECT_EQ(girder_error(i_of(".1, .2, .08, .08, .1, .1, .006")), "girder.inp:11: geometry");
   EXPECT_EQ(girder_error(i_of(".1, .2, .08, 0., .01, .01, .006")), "girder.inp:11: incomplete");

@@ -105,7 +105,7 @@ TEST(DeckKeywords, HarmlessOnesAreKnown) {
   }
 }
 
-TEST(DeckKeywords, BesideMatricesOnlyNodesCount) {
+TEST(DeckKeywords, WithMatricesOnlyNodesAreRead) {
   const FeModel model = parsed(
       known_deck + "*SPECIAL LAYER\n1, 2\n*STEP\n*MODEL CHANGE, REMOVE, TYPE=ELEMENT\nBODY\n",
       DeckDialect::by_content, DeckPart::nodes);
@@ -145,7 +145,7 @@ TEST(DeckDialects, ARoundSectionWithoutClueIsRefused) {
   EXPECT_EQ(error(beam("CIRC\n2.", calculix_clue + abaqus_clue)), "deck.inp:13: out_of_range");
 }
 
-TEST(DeckDialects, TheUserMayTell) {
+TEST(DeckDialects, UserOptionOverridesDetection) {
   EXPECT_NEAR(parsed(beam("CIRC\n2."), DeckDialect::abaqus).sections.at(0).A, 4.0 * pi, 1e-14);
   EXPECT_NEAR(parsed(beam("CIRC\n2."), DeckDialect::calculix).sections.at(0).A, pi, 1e-14);
   // Also against what the deck looks like.
@@ -153,7 +153,7 @@ TEST(DeckDialects, TheUserMayTell) {
               1e-14);
 }
 
-TEST(DeckDialects, CluesTell) {
+TEST(DeckDialects, DetectsDialectFromKeywords) {
   const FeModel calculix = parsed(beam("CIRC\n2.", calculix_clue));
   EXPECT_NEAR(calculix.sections.at(0).A, pi, 1e-14);
   EXPECT_EQ(calculix.notes.back(),

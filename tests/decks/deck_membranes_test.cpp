@@ -99,7 +99,7 @@ TEST(DeckMembranes, ElementsAndThicknessOfNodes) {
   EXPECT_NEAR(thickness(1), .003, 1e-16);
 }
 
-TEST(DeckMembranes, SaysWhatIsWrong) {
+TEST(DeckMembranes, InvalidMembranesAreErrors) {
   const auto error = [](const std::string& section) {
     return error_of([&] { foil_deck(foil(section)); });
   };

@@ -66,7 +66,7 @@ TEST(NonstructuralMass, OfPlies) {
   EXPECT_LE((masses_of(model) - Vec3(1000, 30, 60)).norm(), 1e-9);
 }
 
-TEST(NonstructuralMass, SaysWhatIsWrong) {
+TEST(NonstructuralMass, InvalidMassesAreErrors) {
   const auto error = [](const std::string& more) {
     return error_of([&] { smeared("*NONSTRUCTURAL MASS, " + more); });
   };

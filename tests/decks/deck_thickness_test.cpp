@@ -75,7 +75,7 @@ TEST(NodalThickness, OfPartsWithSeveralInstances) {
   for (const Element& e : m.elements) EXPECT_EQ(m.shells[e.section].thickness, 0.4);
 }
 
-TEST(NodalThickness, SaysWhatIsWrong) {
+TEST(NodalThickness, InvalidThicknessesAreErrors) {
   EXPECT_EQ(thick_errors(", NODAL THICKNESS\n", "*NODAL THICKNESS\n1, .4\n2, .4\n"),
             "a.inp:21: missing");
   EXPECT_EQ(thick_errors(", NODAL THICKNESS\n", ""), "a.inp:21: missing");

@@ -25,7 +25,7 @@ FeModel read(const TemporaryFolder& folder, const std::map<std::string, double>&
   return read_fe_file(folder / "two.inp", options);
 }
 
-TEST(Density, MissingOnesAreAskedFor) {
+TEST(Density, MissingDensityIsRequired) {
   TemporaryFolder folder;
   folder.write("two.inp", two_materials_deck);
   const FeModel model = read(folder, {});
@@ -54,7 +54,7 @@ TEST(Density, OneForAllOrByName) {
   EXPECT_EQ(one.without_density.begin()->first, 1);
 }
 
-TEST(Density, ThatNobodyNeedsIsAnError) {
+TEST(Density, UnusedDensityIsRejected) {
   TemporaryFolder folder;
   folder.write("two.inp", two_materials_deck);
   EXPECT_EQ(test::without_folders(error_of([&] {

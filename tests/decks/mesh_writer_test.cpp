@@ -194,7 +194,7 @@ TEST(MeshWriter, SpidersAndEquationsAreEquationsOfADeck) {
   }
 }
 
-TEST(MeshWriter, NotesSayWhatIsLost) {
+TEST(MeshWriter, LossesAreNoted) {
   FeModel model = bricks_with(Spider::Kind::rigid);
   model.masses[0].J = Mat3::Identity();
   model.surfaces["END"] = {{0, 2}};

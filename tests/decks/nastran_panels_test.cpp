@@ -91,7 +91,7 @@ TEST(NastranPanels, Quadrilateral) {
 }
 
 // A general quadrilateral is between trapezoids that it goes over to.
-TEST(NastranPanels, QuadrilateralGoesOverToATrapezoid) {
+TEST(NastranPanels, QuadrilateralApproachesATrapezoid) {
   const auto at = [](double h) {
     return panel_stiffness({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(.8, .5 + h, 0), Vec3(.1, .5, 0)});
   };

@@ -55,7 +55,7 @@ TEST(NastranPassing, MissingIncludesOfTheExecutiveControl) {
             "arm.bdf:3: not_found");
 }
 
-TEST(NastranPassing, WhatIsRefused) {
+TEST(NastranPassing, RefusedCards) {
   const char* const refused[] = {"CBEND",   "CBEAM3",  "RSPLINE", "RSSCON", "RTRPLT1", "CGAP",
                                  "CBUSH2D", "GENEL",   "CFAST",   "CWELD",  "CSEAM",   "PBMSECT",
                                  "PBRSECT", "TF",      "CHACAB",  "CAABSF", "CFLUID3", "BGSET",
@@ -67,7 +67,7 @@ TEST(NastranPassing, WhatIsRefused) {
 }
 
 // Matrices and nonstructural mass count only where the case control selects them.
-TEST(NastranPassing, WhatIsNotSelected) {
+TEST(NastranPassing, CardsThatAreNotSelected) {
   const std::string cards = "NSM1,3,PSOLID,.2,1\nDMIG,K1,1,1,1.\n";
   EXPECT_EQ(bdf_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
   EXPECT_EQ(bdf_error(tetra + cards), "arm.bdf:9: unsupported\narm.bdf:8: unsupported");
@@ -89,7 +89,7 @@ TEST(NastranPassing, BeginBulkIsNoCaseControl) {
   EXPECT_TRUE(read_bdf("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());
 }
 
-TEST(NastranPassing, NotesSayWhatIsPassedOver) {
+TEST(NastranPassing, IgnoredCardsAreNoted) {
   const FeModel m = read_bdf("CEND\nBEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\nPBUSHT,9,K,3\n");
   ASSERT_GE(m.notes.size(), 2u);
   EXPECT_TRUE(

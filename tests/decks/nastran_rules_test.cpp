@@ -159,7 +159,7 @@ TEST(NastranRules, WholeNumbersForRealOnes) {
     EXPECT_FALSE(contains(note, "a whole number"));
 }
 
-TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
+TEST(NastranRules, SectionsWithUnusualDimensions) {
   const FeModel other =
       read_bdf(bulk + "MAT1,2,1.+9,,.25,8000.\nCTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,2,.4\n");
   EXPECT_NEAR(other.shells.at(0).shear, .4 * .01 / 200.0, 1e-12);

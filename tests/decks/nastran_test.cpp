@@ -406,7 +406,7 @@ TEST(Dmig, RoundTrip) {
             "K4AAX");
 }
 
-TEST(Dmig, NodesInTheFileOrBesideIt) {
+TEST(Dmig, NodesInTheFileOrInAnother) {
   const TemporaryFolder folder;
   const Matrices m = random_matrices();
   folder.write("arm.pch", punch("KAAX", m.K, m));

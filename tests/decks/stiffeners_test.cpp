@@ -161,7 +161,7 @@ std::string more_bar(int from, int to, const std::string& pin, const Vec3& own_a
                             wide_field(arm(1)), wide_field(arm(2))});
 }
 
-TEST(Stiffeners, TwistedWithTheirPlateTheyAreInTorsionOnly) {
+TEST(Stiffeners, TwistedWithThePlateTheyAreInTorsionOnly) {
   EXPECT_NEAR(twist_energy_ratio(nastran_plate(rib_property("PBAR"))), 1.0, 1e-7);
   EXPECT_NEAR(twist_energy_ratio(nastran_plate(rib_property("PBEAM"))), 1.0, 1e-7);
   EXPECT_NEAR(twist_energy_ratio(calculix_plate()), 1.0, 1e-7);

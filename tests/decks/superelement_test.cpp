@@ -243,7 +243,7 @@ TEST(Superelement, RowsOfTurnedNodes) {
   EXPECT_LT((MatX(read.matrices->M) - MatX(model.matrices->M)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(Superelement, WhatIsWrong) {
+TEST(Superelement, Errors) {
   const TemporaryFolder folder;
   folder.write("arm.pch", cards);
   const FeModel model = with_modes();

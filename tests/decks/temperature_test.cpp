@@ -94,7 +94,7 @@ TEST(Temperature, InitialTemperaturesOfTheDeck) {
             2.1e5);
 }
 
-TEST(Temperature, InitialTemperaturesThatSayNone) {
+TEST(Temperature, InitialTemperaturesWithoutAValue) {
   const auto error = [](const std::string& conditions) {
     const std::string text = error_of([&] { initially(conditions); });
     return text.substr(0, text.find('\n'));

@@ -130,7 +130,7 @@ int count_of(const std::string& text, const std::string& what) {
 
 // CalculiX 2.20 finds the same frequencies in the deck and in the written one (57.05754, 229.0906,
 // 307.3343, 338.1722 Hz); with the arms as equations the legs came loose from each other.
-TEST(WrittenConnections, BeamsBesideTheirNodesAreThoseOfCalculix) {
+TEST(WrittenConnections, OffsetBeamsAreThoseOfCalculix) {
   const FeModel model = legs_model(", OFFSET1=2, OFFSET2=-1");
   EXPECT_EQ(model.nodes(), 38);
   const std::string text = written(model, ".inp").bytes;
@@ -145,7 +145,7 @@ TEST(WrittenConnections, BeamsBesideTheirNodesAreThoseOfCalculix) {
   expect_same_system(all, there_and_back(all, ".inp"));
 }
 
-TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
+TEST(WrittenConnections, ArmsThatOffsetsCannotExpressAreRefused) {
   const FeModel model = legs_model(", OFFSET1=2");
   const auto refusal = [](const FeModel& m) { return error_of([&] { written(m, ".inp"); }); };
   // One end is moved along the beam.

@@ -73,7 +73,7 @@ TEST(WrittenKnots, TurnsOfNodesWhereBeamsMeetAreKept) {
 
 // CalculiX 2.20 finds seven frequencies of zero of a beam that stands askew on the corner of a
 // plate, where a shell of ours has some stiffness about its normal.
-TEST(WrittenKnots, BeamsOnShellsAreSaid) {
+TEST(WrittenKnots, BeamsOnShellsAreNoted) {
   FeModel model = KnottedFrames{}.read();
   EXPECT_FALSE(contains(written_notes(model, ".inp"), "beams and shells share"));
   Element plate = model.elements[0];
@@ -156,7 +156,7 @@ TEST(WrittenKnots, CouplingsOfSomeDirections) {
   EXPECT_TRUE(contains(written(sprung, ".inp").bytes, "*BOUNDARY\n13, 3, 3\n14, 2, 2\n"));
 }
 
-TEST(WrittenKnots, EquationsThatHoldThePartAreSaid) {
+TEST(WrittenKnots, EquationsThatHoldThePartAreNoted) {
   FeModel model = coupled_bricks(0b111);
   LinearEquation nothing, held;
   nothing.terms = {{0, 0, 1.0}, {0, 0, -1.0}};
@@ -176,10 +176,10 @@ TEST(WrittenKnots, NoMoreModesThanCalculixFinds) {
   EXPECT_TRUE(contains(written(model, ".inp", 20).bytes, "*FREQUENCY\n6\n"));
   EXPECT_TRUE(contains(written(model, ".inp", 4).bytes, "*FREQUENCY\n4\n"));
   const std::vector<std::string> notes = written(model, ".inp", 20).notes;
-  EXPECT_EQ(
-      notes.back(),
-      "the step requests 6 modes, a fifth of the 30 degrees of freedom of the deck: if more are requested "
-      "than exist, CalculiX prints zeros");
+  EXPECT_EQ(notes.back(),
+            "the step requests 6 modes, a fifth of the 30 degrees of freedom of the deck: if more "
+            "are requested "
+            "than exist, CalculiX prints zeros");
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST(FreeTurns, AnArmOnOneNodeDoesNothing) {
   for (int k = 6; k < 36; ++k) EXPECT_NEAR(a(k) / b(k), 1.0, 1e-9) << k;
 }
 
-TEST(FreeTurns, WhatHasMassBesideTheLineStaysAMechanism) {
+TEST(FreeTurns, MassOffTheLineLeavesAMechanism) {
   FeModel model = bar_block();
   const int a = block_node(0, 1, 0), b = block_node(3, 0, 2);
   const int beside = add_node(model, Vec3(0.2, 0.3, 0.05));
@@ -172,7 +172,7 @@ TEST(FreeTurns, WhatHasMassBesideTheLineStaysAMechanism) {
   EXPECT_LT(lambda(7), 1e-9 * lambda(8));
 }
 
-TEST(FreeTurns, WhatIsHeldHasNone) {
+TEST(FreeTurns, HeldNodesHaveNone) {
   FeModel model = bar_block();
   const int a = block_node(0, 1, 0), b = block_node(3, 0, 2);
   add_spider(model, a, {b, block_node(2, 2, 2)});  // three nodes, no line

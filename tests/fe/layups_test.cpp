@@ -270,7 +270,7 @@ TEST(Layups, MassVolumeStress) {
   }
 }
 
-TEST(Layups, WhatIsRefused) {
+TEST(Layups, RefusedLayups) {
   const FeModel good = layered_element(ElementType::hex8, Mat3::Identity());
   const auto error = [&](const auto& change) {
     FeModel model = good;

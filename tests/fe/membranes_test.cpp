@@ -199,7 +199,7 @@ TEST(Membranes, TensionStiffensThemAcross) {
   }
 }
 
-TEST(Membranes, WhatIsWrongIsSaid) {
+TEST(Membranes, ErrorsNameTheElement) {
   const auto error = [](ElementType type, const std::function<void(FeModel&)>& change) {
     FeModel model = membrane_sheet(type, 1, 1.0, 1.0, 0.0, Mat3::Identity());
     model.elements.resize(1);

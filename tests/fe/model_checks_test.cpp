@@ -121,7 +121,7 @@ TEST(Validation, SpidersSetsAndMatrices) {
   EXPECT_EQ(errors(model), "duplicate\ncontradiction");
 }
 
-TEST(Warnings, WhatIsSuspicious) {
+TEST(Warnings, SuspiciousValues) {
   FeModel model = block(ElementType::hex8, 2);
   EXPECT_TRUE(model_warnings(model).empty());
   EXPECT_EQ(corner_quality(model, model.elements[0]), 1.0);

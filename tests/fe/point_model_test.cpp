@@ -156,7 +156,7 @@ TEST(PointModels, StationsAreTheConsistentMass) {
 
 // Every point that turns keeps its distance from what it is fixed to, to second order, and the
 // points of a structure that turns as one about a node move on circles about it.
-TEST(PointModels, ArmsOfWhatIsFixed) {
+TEST(PointModels, ArmsOfFixedPoints) {
   FeModel model = with_offsets();
   model.positions.emplace_back(0.9, 0.2, 0.3);
   const int last = model.nodes() - 1;

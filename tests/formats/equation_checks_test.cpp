@@ -34,7 +34,7 @@ std::vector<std::string> equation_notes(const FeModel& m) {
   return out;
 }
 
-TEST(EquationChecks, ThatSayNothingGo) {
+TEST(EquationChecks, EmptyEquationsAreDropped) {
   const FeModel m = equation_model(equation_deck +
                                    "2\n1, 1, 1., 1, 1, -1.\n2\nTWO, 2, 1., TWO, 2, -1.\n"
                                    "2\n1, 1, 1., 2, 1, -1.\n");

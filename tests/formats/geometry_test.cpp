@@ -150,7 +150,7 @@ TEST(Geometry, NodesOfGltfMoveTheirMeshes) {
   EXPECT_NEAR(g.positions.row(2).minCoeff(), 5.0, 1e-6);
 }
 
-TEST(Geometry, BuffersBesideAreReadAndNamed) {
+TEST(Geometry, BuffersInOtherFilesAreReadAndNamed) {
   const TemporaryFolder folder;
   folder.write("a shape.bin", gltf_numbers());
   folder.write("t.gltf", gltf_json("a%20shape.bin"));

@@ -165,7 +165,7 @@ TEST(Matrices, MatrixMarketSymmetricAndGeneral) {
 
 // arm_C.mtx beside arm_K.mtx, job_DMPV1.mtx beside job_STIF1.mtx, or a file that is named; a row
 // that the stiffness does not have is an error.
-TEST(Matrices, ViscousDampingBesideTheStiffness) {
+TEST(Matrices, ViscousDampingInAnotherFile) {
   const FeModel model = two_bricks();
   const TemporaryFolder folder;
   const Texts triples = written(model, [&](int i, int j, double v) {

@@ -287,7 +287,7 @@ TEST(SidFile, ClassicalDialect) {
   EXPECT_EQ(read.body.nodes[0].X_theta(2, 1), -2.0);
 }
 
-TEST(SidFile, WhatIsInDoubtIsSaid) {
+TEST(SidFile, DoubtfulValuesAreNoted) {
   const auto noted = [](const std::string& from, const std::string& to, const std::string& note) {
     std::string text = classical();
     const std::size_t at = text.find(from);

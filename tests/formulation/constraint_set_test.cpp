@@ -19,7 +19,7 @@ Model two_bodies_in_a_loop() {
   return build_model(s.d);
 }
 
-TEST(ConstraintSet, RowsFollowEachOtherAndKnowTheirOwner) {
+TEST(ConstraintSet, RowsAreContiguousWithOwners) {
   const Model model = two_bodies_in_a_loop();
   const std::vector<int> joints{2, 1};
   ConstraintSet set(model, joints);

@@ -142,7 +142,7 @@ class JointConstraints : public ::testing::TestWithParam<Case> {
   VecX q_, v_, a_, qa_, va_, aa_;
 };
 
-TEST_P(JointConstraints, TreeIsAsTheCaseSays) {
+TEST_P(JointConstraints, TreeIsThatOfTheCase) {
   const Topology& t = relative_.tree().topology();
   const bool is_cut = std::find(t.cut_joints.begin(), t.cut_joints.end(), 1) != t.cut_joints.end();
   const bool constrains = GetParam().type != JointType::free;

@@ -110,7 +110,7 @@ TEST(StateHistory, PosesAndModesGiveThePlaceOfANode) {
   EXPECT_EQ(sections[2], 0.01);
 }
 
-TEST(StateHistory, SurfacesComeWithTheirModes) {
+TEST(StateHistory, SurfacesHaveModes) {
   ModelDescription d = description_of(
       "bodies: {a: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}}\n"
       "simulation: {duration: 0.001, step: 0.001}\n");
@@ -131,7 +131,7 @@ TEST(StateHistory, SurfacesComeWithTheirModes) {
   EXPECT_TRUE(history.numbers("shapes/0/surface_modes").empty());
 }
 
-TEST(StateHistory, SomeBodiesCarryWhatTheyHangFrom) {
+TEST(StateHistory, SelectedBodiesIncludeTheirParents) {
   SimulationDescription o = short_run();
   o.record.bodies = {"beam"};
   const StateHistory some = StateHistory::of_bytes(bytes_of(o), "x");
@@ -190,7 +190,7 @@ TEST(StateHistory, AByteThatWasChangedIsNoticed) {
   }
 }
 
-TEST(StateHistory, WhatIsWrongIsSaid) {
+TEST(StateHistory, InvalidFilesAreErrors) {
   const auto error = [](const std::string& bytes) {
     return error_of([&] { StateHistory::of_bytes(bytes, "x"); });
   };

@@ -11,7 +11,7 @@
 namespace floatframe {
 namespace {
 
-TEST(Table, LinearGoesThroughItsPointsAndContinues) {
+TEST(Table, LinearPassesThroughItsPointsAndContinues) {
   const auto f = table_function({{0, 1}, {1, 3}, {3, 2}}, Interpolation::linear, Beyond::tangent);
   EXPECT_DOUBLE_EQ(f(-1).f, -1.0);
   EXPECT_DOUBLE_EQ(f(0.5).f, 2.0);
@@ -43,7 +43,7 @@ TEST(Table, CubicIsMonotoneAndSmooth) {
   EXPECT_DOUBLE_EQ(line(3).f, 7.0);
 }
 
-TEST(TimeTable, JumpsBetweenSidesOfTheirOwn) {
+TEST(TimeTable, JumpsBetweenTwoSides) {
   const auto step = time_table({{0.5, 0}, {0.5, 1}}, Interpolation::linear);
   EXPECT_EQ(step(-3).f, 0.0);
   EXPECT_EQ(step(std::nextafter(0.5, 0.0)).f, 0.0);

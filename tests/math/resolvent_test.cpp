@@ -34,7 +34,7 @@ TEST(Resolvent, SolvesWhateverTheUnits) {
   }
 }
 
-TEST(Resolvent, SaysWhereThereIsNone) {
+TEST(Resolvent, SingularShiftsAreReported) {
   MatX A(2, 2);
   A << 0, 1, -4, 0;
   const Resolvent resolvent(A);

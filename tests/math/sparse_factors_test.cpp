@@ -172,13 +172,13 @@ void expect_both_in_place() {
   EXPECT_EQ(::dlsym(RTLD_DEFAULT, "mpi_bcast_"), nullptr);
 }
 
-TEST(MumpsBesideMpi, MumpsFirst) {
+TEST(MumpsBesideMpi, LoadedBeforeMpi) {
   if (!mumps_available()) GTEST_SKIP() << "built without MUMPS";
   EXPECT_GT(SparseFactors(laplacian(5), SparseSolver::mumps).entries(), 0.0);
   load_mpi_module();
   if (!IsSkipped()) expect_both_in_place();
 }
-TEST(MumpsBesideMpi, MpiFirst) {
+TEST(MumpsBesideMpi, LoadedAfterMpi) {
   load_mpi_module();
   if (IsSkipped() || !mumps_available()) GTEST_SKIP() << "built without MPI or without MUMPS";
   expect_both_in_place();

@@ -155,7 +155,7 @@ TEST_P(ForceOfKind, TangentAgainstFiniteDifferences) {
 
 // The rows are the symmetric part of the stiffness at rest and of the damping, but for what the
 // regime says they leave out; and what it says is true.
-TEST_P(ForceOfKind, RowsHoldWhatTheySay) {
+TEST_P(ForceOfKind, KeysWorkAsTheirRowsState) {
   double left_out = 0.0;
   for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();

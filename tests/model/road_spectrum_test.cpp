@@ -84,7 +84,7 @@ TEST(RoadSpectrum, IsSmoothAndEndsInThePlane) {
   EXPECT_NEAR(slope, road(3.0).df, 1e-7);
 }
 
-TEST(RoadSpectrum, SaysWhatIsWrong) {
+TEST(RoadSpectrum, InvalidSpectraAreErrors) {
   RoadSpectrum s;
   s.length = 0.5;
   EXPECT_EQ(error_of([&] { random_road(s); }), "out_of_range");

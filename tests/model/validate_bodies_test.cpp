@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-TEST(Validate, WhatIsValidIsBuilt) {
+TEST(Validate, ValidModelsAreBuilt) {
   const Model model = build_model(valid_description());
   EXPECT_EQ(model.bodies.size(), 3u);
   EXPECT_EQ(model.bodies[1].modes(), 4);

@@ -34,7 +34,7 @@ std::string expected_of(const std::filesystem::path& model) {
   return text;
 }
 
-TEST(BadModels, GiveTheirErrors) {
+TEST(BadModels, GiveTheExpectedErrors) {
   int models = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.is_directory() || entry.path().extension() == ".txt") continue;

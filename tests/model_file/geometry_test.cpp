@@ -86,7 +86,7 @@ TEST_F(BodyGeometry, IsMirroredWithItsBody) {
   EXPECT_EQ(normal(*right), Vec3::UnitY()) << "normals stay outward";
 }
 
-TEST_F(BodyGeometry, ErrorsHaveTheirPlace) {
+TEST_F(BodyGeometry, ErrorsHaveAPlace) {
   EXPECT_EQ(errors("plate.obj"), "m.yaml:5:15: bodies.a.geometry: wrong_value");
   EXPECT_EQ(errors("{scale: 2}"), "m.yaml:5:5: bodies.a.geometry: missing");
   EXPECT_EQ(errors("{file: none.stl}"), "m.yaml:5:22: bodies.a.geometry.file: unreadable");

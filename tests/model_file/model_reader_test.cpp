@@ -314,7 +314,7 @@ TEST(Examples, SliderCrankStartsClosed) {
   EXPECT_NEAR(named(d.joints, "slide").velocity[0], -8.7693122078907457, 1e-13);
 }
 
-TEST(Examples, PendulumHasTheModesAsked) {
+TEST(Examples, PendulumHasTheRequestedModes) {
   const ModelDescription d = read_model(examples + "flexible_pendulum/flexible_pendulum.yaml");
   EXPECT_EQ(flexible(d, "beam").interfaces.size(), 4u);
   EXPECT_EQ(flexible(d, "beam").normal_modes, 2);

@@ -35,7 +35,7 @@ std::string with(const std::string& before, const std::string& after) {
   return text.replace(at, before.size(), after);
 }
 
-TEST(OneError, WhatIsRight) {
+TEST(OneError, ValidModelsHaveNone) {
   EXPECT_EQ(said(good_model), "no error");
   EXPECT_EQ(said("\xEF\xBB\xBF" + good_model), "no error");
   std::string crlf;

@@ -49,7 +49,7 @@ TEST_F(Parts, BodyFileIsTheBody) {
   EXPECT_EQ(m.markers[m.joints[0].frame_M].node, 2);
 }
 
-TEST_F(Parts, PositionOfAPartIsItsOwnUnlessSaid) {
+TEST_F(Parts, PositionOfAPartIsThatOfTheFileUnlessGiven) {
   const Model m = model(
       "points: {p: [0.3, 0.2, 0.25]}\n"
       "bodies: {arm: {part: bracket.ffb}}\n"
@@ -216,7 +216,7 @@ TEST_F(Parts, ProjectionNeedsItsData) {
       "model.yaml:2:22: unsupported");
 }
 
-TEST_F(Parts, WarningsOfItsReportAreTold) {
+TEST_F(Parts, WarningsOfItsReportAreReported) {
   const std::string file = write("bodies: {arm: {part: bracket.ffb}}\n");
   std::vector<std::string> lines;
   read_model(file, {}, nullptr, {[&](const std::string& line) { lines.push_back(line); }});

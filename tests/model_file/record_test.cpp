@@ -70,7 +70,7 @@ TEST(ResolvedText, IsTheModelFileWithTheValuesOfItsParameters) {
   EXPECT_EQ(model_hash(build_model(read_model(again))), model_hash(build_model(description)));
 }
 
-TEST(ResolvedText, HasSubsystemsAsDocumentsOfTheirOwn) {
+TEST(ResolvedText, HasSubsystemsAsSeparateDocuments) {
   const TemporaryFolder folder;
   folder.write("part.yaml",
                "floatframe: 1\nparameters: {k: 1}\nbodies: {a: {rigid: {mass: \"${k}\", "
@@ -100,7 +100,7 @@ TEST(AddedOutputs, FollowThoseOfTheFile) {
   EXPECT_TRUE(contains(error, "--add:1:"));
 }
 
-TEST(Shapes, BarsKnowTheirSections) {
+TEST(Shapes, BarsHaveSections) {
   const Model model = model_of(R"(
 points: {p: [0, 0, 0], q: [1, 0, 0], r: [1, 1, 0]}
 bodies:

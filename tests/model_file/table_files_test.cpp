@@ -67,7 +67,7 @@ TEST_F(TableFiles, AreAmongTheFilesOfTheFingerprint) {
   EXPECT_NE(before.files.at(folder_.file("t.csv")), after.files.at(folder_.file("t.csv")));
 }
 
-TEST_F(TableFiles, ErrorsHaveTheirPlace) {
+TEST_F(TableFiles, ErrorsHaveAPlace) {
   EXPECT_EQ(errors("t,f\n0,0\n1,x\n"), "t.csv:3:1: out_of_range");
   EXPECT_EQ(errors("0;0\n0,5;1\n"), "t.csv:2:1: out_of_range");
   EXPECT_EQ(errors("t,f\nu,v\n0,0\n1,1\n"), "t.csv:2:1: out_of_range");

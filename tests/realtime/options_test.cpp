@@ -84,7 +84,7 @@ TEST(RealTimeOptions, EachHasItsSentence) {
   }
 }
 
-TEST(RealTimeOptions, AllThatIsWrongIsSaid) {
+TEST(RealTimeOptions, AllErrorsAreReported) {
   RealTimeOptions options;
   options.max_lag = options.input_timeout = -1.0;
   try {

@@ -90,7 +90,7 @@ TEST(Layout, HashIsFnv1aOverNamesAndUnits) {
   EXPECT_EQ((SignalLayout{{{"a", "N"}}}.hash()), h);
 }
 
-TEST(Layout, HashTellsNamesUnitsAndOrderApart) {
+TEST(Layout, HashDependsOnNamesUnitsAndOrder) {
   const SignalLayout ab{{{"a", "N"}, {"b", "m"}}};
   for (const SignalLayout& other :
        {SignalLayout{{{"b", "m"}, {"a", "N"}}}, SignalLayout{{{"a", "m"}, {"b", "N"}}},
@@ -99,7 +99,7 @@ TEST(Layout, HashTellsNamesUnitsAndOrderApart) {
     EXPECT_NE(ab.hash(), other.hash());
 }
 
-TEST(InputBuffer, RefusesWhatIsNotFiniteOrOutside) {
+TEST(InputBuffer, RefusesValuesNotFiniteOrOutside) {
   Model model;
   model.inputs.push_back({"a", "N", 1.0, -5.0, 5.0});
   model.inputs.push_back({"b", "N", 2.0});

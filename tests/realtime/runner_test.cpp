@@ -160,7 +160,7 @@ TEST(RealTime, MovesTheClockWhenItIsTooFarBehind) {
   EXPECT_GE(r.wall, 0.045 + r.slipped);
 }
 
-TEST(RealTime, StopsWhenAsked) {
+TEST(RealTime, StopsOnRequest) {
   std::atomic<bool> stop{false};
   Recorder port;
   port.answer = [&stop](Recorder& self, InputBuffer&) { stop = self.received == 7; };
@@ -217,7 +217,7 @@ TEST(RealTime, AFailedStepNamesItsCulpritAndKeepsTheLastGoodState) {
   for (const double x : r.outputs) EXPECT_TRUE(std::isfinite(x));
 }
 
-TEST(RealTime, StrictRunsNeedWhatTheyAskFor) {
+TEST(RealTime, StrictRunsNeedTheirScheduling) {
   const RealTimeOptions options{.priority = 99, .strict = true};
   try {
     EXPECT_TRUE(run_real_time(model(), simulation(0.01), options, nullptr).priority);

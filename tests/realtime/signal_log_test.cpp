@@ -47,7 +47,7 @@ TEST(SignalLog, HoldsEveryRowWithAllItsDigits) {
   EXPECT_EQ(log.error(), 0);
 }
 
-TEST(SignalLog, LosesNothingWhereNobodyPaces) {
+TEST(SignalLog, LosesNothingWithoutPacing) {
   const TemporaryFolder folder;
   Model wide = one_in_one_out();
   for (int k = 0; k < 5000; ++k) wide.outputs.push_back(wide.outputs[0]);

@@ -133,7 +133,7 @@ TEST(Silence, ASilentPartnerStopsTheRunOnlyIfItEverSpoke) {
   EXPECT_FALSE(waiting.inputs_came);
 }
 
-TEST(Silence, NobodyWaitsForInputsThatNeverComeThisWay) {
+TEST(Silence, OtherPortsDoNotWaitForInputs) {
   class Listener : public Recorder {
    public:
     bool gives_inputs() const noexcept override { return false; }

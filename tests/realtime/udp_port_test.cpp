@@ -132,7 +132,7 @@ TEST(UdpPort, ForeignMismatchedAndBadValuesAreCountedAndIgnored) {
   EXPECT_EQ(loop.inputs.refused(1), 1);
 }
 
-TEST(UdpPort, OnlyThePeerThatBeganIsHeard) {
+TEST(UdpPort, OnlyTheFirstPeerIsAccepted) {
   Loop loop;
   UdpSocket other(parse_udp_address("127.0.0.1:0", "test"));
   EXPECT_FALSE(loop.port.peer().known());
@@ -154,7 +154,7 @@ TEST(UdpPort, OnlyThePeerThatBeganIsHeard) {
   EXPECT_EQ(loop.port.other_senders()[0].packets, 3);
 }
 
-TEST(UdpPort, OnlyThePeerThatIsNamedIsHeard) {
+TEST(UdpPort, OnlyTheNamedPeerIsAccepted) {
   for (const bool lock_step : {false, true}) {
     Loop loop(lock_step, 0.05, true);
     UdpSocket other(parse_udp_address("127.0.0.1:0", "test"));
@@ -204,7 +204,7 @@ TEST(InputFilter, APeerWithoutAPortMaySendFromAny) {
   EXPECT_TRUE(filter.fresh());
 }
 
-TEST(InputBuffer, ClampsWhereItIsAskedTo) {
+TEST(InputBuffer, ClampsOnRequest) {
   Model model = two_in_one_out();
   model.inputs[0].clamp = true;
   InputBuffer inputs(model);
@@ -311,7 +311,7 @@ TEST(UdpAddress, TheWayToThisMachineStaysInside) {
             "127.0.0.1");
 }
 
-TEST(UdpSocket, SaysWhenThePortIsTaken) {
+TEST(UdpSocket, APortInUseIsAnError) {
   const UdpSocket first(parse_udp_address("127.0.0.1:0", "test"));
   EXPECT_THROW(UdpSocket{first.local()}, RunError);
 }

@@ -195,7 +195,7 @@ FeModel as_matrices(double alpha, double beta) {
   return model;
 }
 
-TEST(Damping, OfAMatrixBesideStiffnessAndMass) {
+TEST(Damping, OfAMatrixWithStiffnessAndMass) {
   for (const bool at_node : {false, true}) {
     PartOptions options = both_ends();
     if (at_node) options.reference = {BodyReference::Kind::node, "A"};
@@ -222,7 +222,7 @@ TEST(Damping, OfAMatrixBesideStiffnessAndMass) {
             "out_of_range");
 }
 
-TEST(Damping, ErrorsAndWhatIsLeft) {
+TEST(Damping, ErrorsAndRemainder) {
   const auto refused = [](const ModalDamping& damping, PartOptions options = both_ends()) {
     options.damping = damping;
     return error_of([&] { reduce_part(beam(), options); });

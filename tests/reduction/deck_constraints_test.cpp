@@ -92,7 +92,7 @@ const char* const pair_deck =
     "*MATERIAL,NAME=M\n*ELASTIC\n1.,.3\n*DENSITY\n1.\n*SOLID SECTION,ELSET=A,MATERIAL=M\n"
     "*SURFACE,NAME=TOP\n1,S2\n*SURFACE,NAME=BOTTOM\n2,S1\n";
 
-TEST(DeckConstraints, ContactPairsAreWhatTheUserSays) {
+TEST(DeckConstraints, ContactPairsFollowTheOption) {
   TemporaryFolder folder;
   folder.write("two.inp", std::string(pair_deck) +
                               "*SURFACE INTERACTION,NAME=I\n"

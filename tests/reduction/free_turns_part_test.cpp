@@ -91,7 +91,7 @@ TEST(FreeTurnsOfParts, AnInterfaceCannotHoldThem) {
 }
 
 /// A third node beside the line that holds the bar: nothing would resist a force there.
-TEST(FreeTurnsOfParts, AForceBesideTheLineCannotTurnThem) {
+TEST(FreeTurnsOfParts, AForceOffTheLineCannotTurnThem) {
   FeModel model = beam();
   const auto [a, b] = two_nodes(model);
   add_spider(model, model.nodes(), {a, b});

@@ -177,7 +177,7 @@ TEST(PartStress, BeamsOfSolids) {
   }
 }
 
-TEST(PartStress, NotAskedFor) {
+TEST(PartStress, NotRequested) {
   PartOptions options = both_ends(3);
   options.stresses = false;
   options.check_free_modes = false;

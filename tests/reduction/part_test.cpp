@@ -37,7 +37,7 @@ VecX free_frequencies(const FlexibleBody& body) {
   return generalised_eigenvalues(K, M).values.tail(nm).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
-TEST(PartReferences, HoldWhatTheySayAndSpanTheSame) {
+TEST(PartReferences, HoldTheirConditionsAndSpanTheSame) {
   FeModel model = beam();
   // Half of it heavier, so that mass and volume weigh differently.
   model.materials.push_back(steel);

@@ -195,7 +195,7 @@ TEST(RunPage, OfARunThatDidNotStart) {
   EXPECT_TRUE(page["curves"]["channels"].empty());
 }
 
-TEST(RunPage, SaysHowTheRunEnded) {
+TEST(RunPage, ShowsHowTheRunEnded) {
   Report report;
   report.result.table = {{{"time", "s"}, {"x", "m"}}, {0.0, 1.0, 0.1, 2.0}};
   RunSummary& s = report.result.summary;

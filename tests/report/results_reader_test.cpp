@@ -87,7 +87,7 @@ TEST_F(Reading, LeavesOutALineThatWasCutOff) {
   }
 }
 
-TEST_F(Reading, SaysWhatIsNotAsExpected) {
+TEST_F(Reading, ReportsUnexpectedContent) {
   EXPECT_EQ(complaint(""), " missing");
   EXPECT_EQ(complaint("x,y\n"), "1:1: wrong_value");
   EXPECT_EQ(complaint("time,x,x\n"), "1:8: duplicate");

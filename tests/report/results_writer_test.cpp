@@ -92,7 +92,7 @@ TEST(SummaryJson, NotFiniteIsNullAndBrokenTextIsReplaced) {
   EXPECT_EQ(json["message"], "bad \xEF\xBF\xBD byte");
 }
 
-TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
+TEST(SummaryJson, UnmeasuredValuesAreAbsent) {
   const auto keys = [](const RunSummary& summary) {
     std::vector<std::string> names;
     const auto json = nlohmann::ordered_json::parse(summary_json(summary));
@@ -114,7 +114,7 @@ TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
   EXPECT_EQ(keys(ended).size(), 21u);
 }
 
-TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {
+TEST(SummaryJson, ReportsTheStartValues) {
   RunSummary summary;
   summary.start.changes.push_back({"joint 'crank'", "angle", false, "rad", 0.3, 0.076});
   summary.start.redundant.push_back({"joint 'pin'", "rotation about x"});
@@ -145,7 +145,7 @@ TEST(AtomicFile, FolderIsMadeWithThoseAboveItAndLeftEmpty) {
   EXPECT_TRUE(fs::is_empty(deep));
 }
 
-TEST(AtomicFile, SaysWhatCannotBeWrittenAndWhy) {
+TEST(AtomicFile, ReportsFilesThatCannotBeWritten) {
   const test::TemporaryFolder folder;
   const std::string file = folder.file("file");
   write_file(file, "x");

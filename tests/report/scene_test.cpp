@@ -72,7 +72,7 @@ void draw(const std::string& text, Drawn& out,
 }
 
 // Halves of the stress per amplitude, and the largest over the frames, of a swept bar.
-TEST(Scene, StressOfVerticesIsThatOfTheirPlaces) {
+TEST(Scene, StressOfVerticesIsThatOfTheNodes) {
   Drawn d;
   draw(recorded_machine, d);
   int bodies = 0;
@@ -163,7 +163,7 @@ TEST(Scene, GeometryOfAFileIsDrawnInThePlaceOfTheBox) {
   EXPECT_FALSE(names.contains(at + "surface_modes"));
 }
 
-TEST(Scene, PointsMoveAsTheOutputsOfTheRunSay) {
+TEST(Scene, PointsMoveAsTheOutputs) {
   Drawn d;
   draw(std::string(recorded_machine) + tip_output, d);
   const Json& scene = d.scene;
@@ -308,7 +308,7 @@ TEST(Scene, JointsForcesAndRodsNameTheirPoints) {
       }
 }
 
-TEST(Scene, BodiesThatWereNotRecordedSaySo) {
+TEST(Scene, BodiesThatWereNotRecordedAreMarked) {
   Drawn d;
   draw(std::string(recorded_machine) + tip_output, d,
        [](SimulationDescription& o) { o.record.bodies = {"beam"}; });
@@ -316,7 +316,7 @@ TEST(Scene, BodiesThatWereNotRecordedSaySo) {
     EXPECT_EQ(body.contains("recorded"), body["name"] != "beam") << body["name"];
 }
 
-TEST(Scene, FarFromTheOriginPositionsAreMeasuredFromAPlaceOfTheirOwn) {
+TEST(Scene, FarFromTheOriginPositionsAreRelative) {
   Drawn d;
   draw(R"(
 bodies: {a: {rigid: {mass: 1, centre_of_mass: [12345.25, 0, 7], inertia: [1, 1, 1]}}}

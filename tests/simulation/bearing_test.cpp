@@ -166,7 +166,7 @@ TEST(Bearing, InModelFiles) {
   EXPECT_LT((R.col(2) - Vec3::UnitX()).norm() + (R.col(0) - Vec3::UnitY()).norm(), 1e-15);
 }
 
-TEST(Bearing, SaysWhatIsWrong) {
+TEST(Bearing, InvalidBearingsAreErrors) {
   const auto error = [](const std::string& force) {
     const std::string text = error_of([&] { read_bearing(force); });
     return text.substr(std::min(text.find("forces."), text.size()));

@@ -237,7 +237,7 @@ TEST(Bushing, InModelFiles) {
   EXPECT_EQ(build_model(read(ends + "angular_velocity}")).forces.at(0).numbers.size(), 1u);
 }
 
-TEST(Bushing, SaysWhatIsWrong) {
+TEST(Bushing, InvalidBushingsAreErrors) {
   const std::string ends =
       "{type: bushing, from: {body: ground, at: [0, 0, 0.9]}, to: {body: block, at: [0, 0, 1]}";
   const auto error = [](const std::string& force) {

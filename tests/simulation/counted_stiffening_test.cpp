@@ -156,7 +156,7 @@ TEST(CountedStiffening, ABladeThatSpins) {
   EXPECT_EQ(linearize(model).stiffened.size(), 1U);
 }
 
-TEST(CountedStiffening, SixDofIsSaidToLackIt) {
+TEST(CountedStiffening, SixDofIsReportedWithoutIt) {
   const LinearSystem system =
       linear_system(model_of(blade("", "six_dof", ", inertia: projection")));
   EXPECT_TRUE(system.stiffened.empty());
@@ -164,7 +164,7 @@ TEST(CountedStiffening, SixDofIsSaidToLackIt) {
   expect_in(system.notes[0], "mass_model six_dof has no second order of its turning sections");
 }
 
-TEST(CountedStiffening, ReportsSayItFirst) {
+TEST(CountedStiffening, ReportsBeginWithIt) {
   const Model model = model_of(pulled(20000.0, ""));
   for (const Analysis& analysis : {modes_analysis(), linearize_analysis(), response_analysis()}) {
     SCOPED_TRACE(analysis.name);

@@ -165,7 +165,7 @@ forces:
   EXPECT_EQ(ziegler("false").size(), 1u);
 }
 
-TEST(Stability, IsSaidOfStartsToo) {
+TEST(Stability, IsReportedOfStartsToo) {
   ModelDescription d = read_model(FLOATFRAME_TEST_DATA "/hints/inverted.yaml");
   const Model model = build_model(d);
   for (const Coordinates c : both_coordinates) {

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, Folding,
                                            Fold{40, Coordinates::absolute, 5e-3, 10.0, 1e-2},
                                            Fold{40, Coordinates::absolute, 1e-3, 3.0, 1e-3}));
 
-TEST(FoldingThinBars, SaysWhereItPassesInBothFormulations) {
+TEST(FoldingThinBars, PassingIsReportedInBothFormulations) {
   const Model model = model_of(windows_text(2, true));
   for (const Coordinates coordinates : both_coordinates) {
     SimulationDescription o = with(model.simulation, coordinates, 1e-3, 1.0);

@@ -203,7 +203,7 @@ std::string frame_with(const std::string& output) {
 }
 
 /// What a description does not tell apart is asked for, never chosen by rounding.
-TEST(Gauges, DoubtfulPlacesAreAskedFor) {
+TEST(Gauges, AmbiguousPlacesAreErrors) {
   for (const char* output :
        {// On the axis of a bar: four places at the edges of the flat sides are equally near.
         "{stress: {body: beam, at: [0.2, 0, 0]}}",
@@ -238,7 +238,7 @@ TEST(Gauges, ABarIsChosenByItsDirection) {
 }
 
 /// All six components of a place that is not there: one sentence.
-TEST(Gauges, AWrongPlaceIsSaidOnce) {
+TEST(Gauges, AWrongPlaceIsReportedOnce) {
   const std::string said = sentences_of(
       [] { build_model(description_of(frame_with("{stress: {body: beam, node: nowhere}}"))); });
   EXPECT_EQ(said.find('\n'), std::string::npos) << said;

@@ -269,7 +269,7 @@ TEST_P(HeldInputs, RealTimeHoldsThemToo) {
   }
 }
 
-TEST_P(HeldInputs, AStateBetweenAnInputAndItsStepGoesOnWithEqualBits) {
+TEST_P(HeldInputs, AStateBetweenAnInputAndItsStepContinuesWithEqualBits) {
   const Model model = model_of(stepped_machine);
   SimulationOptions o = options(2e-3, 0.8);
   Simulation s(model, o), other(model, o);

@@ -223,7 +223,7 @@ TEST(LoopPath, CrossesAChangePointStraightOn) {
   }
 }
 
-TEST(LoopPath, OutOfReachSaysHowFarItCame) {
+TEST(LoopPath, OutOfReachReportsTheGap) {
   // A crank of 1 m, a coupler of 0.5 m and a rocker of 1.12 m: the crank cannot turn far.
   const std::string said = sentences_of([] { closed_start_of(parallelogram(2.0, "0.5")); });
   expect_in(said, "the model cannot be assembled: joint 'C' has a gap of 0.");

@@ -83,7 +83,7 @@ TEST(MasslessMotion, StepsDoNotAllocate) {
   }
 }
 
-TEST(MasslessMotion, CheckSaysHowToGiveItInertia) {
+TEST(MasslessMotion, CheckSuggestsInertia) {
   const std::vector<std::string> notes = check(bar_on_ball_joint()).start.notes;
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.find("body 'beam' has a motion without mass") != std::string::npos &&

@@ -88,7 +88,7 @@ TEST(ModelOrder, OfTheIltis) {
   EXPECT_TRUE(coarse.warnings.empty()) << coarse.warnings.front();
 }
 
-TEST(ModelOrder, SaysWhereBodiesHaveTooFewModes) {
+TEST(ModelOrder, ReportsBodiesWithTooFewModes) {
   const Model model = load_model(FLOATFRAME_EXAMPLES "/flexible_pendulum/flexible_pendulum.yaml");
   const ModelOrder r = model_order(model, {.below = 60.0});
   ASSERT_EQ(r.warnings.size(), 1u);

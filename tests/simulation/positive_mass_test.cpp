@@ -45,7 +45,7 @@ TEST(PositiveMass, FallsWithTheSquareOfTheBendInAFrameOfANode) {
   EXPECT_GT(mass_margin(free, bent(*free.data, 0.02)), 0.5);
 }
 
-TEST(PositiveMass, ARunThatFailsForItSaysSo) {
+TEST(PositiveMass, ARunThatFailsForItNamesIt) {
   for (const char* coordinates : {"relative", "absolute"}) {
     const TemporaryFolder folder;
     const Model model = rotor(folder, true, coordinates);

@@ -241,7 +241,7 @@ std::size_t allocations(F& f, State state, double step, double penalty) {
   return scope.count();
 }
 
-TEST(Range, TheWatchDoesNotAllocateWhileItGoes) {
+TEST(Range, TheWatchDoesNotAllocateInSteps) {
   if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
   const ModelDescription d = read_model(EXAMPLE("iltis"));
   const Model model = build_model(d);

@@ -319,7 +319,7 @@ TEST(Reactions, ImpulsesOfTheProjectionsAreTheChangeOfMomentum) {
 }
 
 // As outputs: none before the first step, then those of the cut joints or of all.
-TEST(Reactions, OfTheProjectionsAreAnOutputOfTheirOwn) {
+TEST(Reactions, OfTheProjectionsAreASeparateOutput) {
   ModelDescription d = description_of(spatial_linkage);
   d.outputs.clear();
   for (const JointDescription& j : d.joints)

@@ -179,7 +179,7 @@ TEST_P(RunStates, WithoutAWatchThereIsNoHealth) {
   EXPECT_GT(calls, 0);
 }
 
-TEST_P(RunStates, BodiesDeformAsTheirModesSay) {
+TEST_P(RunStates, BodiesDeformByTheirModes) {
   // A cantilever of one mode in a slowly growing load: what its tip does is what its node is
   // displaced by.
   const Model model = model_of(R"(

@@ -104,7 +104,7 @@ TEST_P(RunStream, ResumedRunsGoOnWithEqualBits) {
   }
 }
 
-TEST_P(RunStream, AStoppedRunGoesOnFromWhereItStopped) {
+TEST_P(RunStream, AStoppedRunContinues) {
   const SimulationDescription o = streamed_options(GetParam());
   const RunResult whole = run(streamed_model(), o);
   std::atomic<bool> stop{false};

@@ -108,7 +108,7 @@ TEST_P(Stepping, StepsOfAnotherSizeAreAPartOfTheState) {
   EXPECT_TRUE(equal_bits(trace(fresh, 0, 20), first));
 }
 
-TEST_P(Stepping, GoesOnAfterAFailedStep) {
+TEST_P(Stepping, ContinuesAfterAFailedStep) {
   Simulation s(model(), options());
   trace(s, 0, 10);
   const SimulationState saved = s.save();
@@ -226,7 +226,7 @@ TEST(SteppingStart, ReportsWhatBecameOfTheStart) {
 
 /// The second half of the next test, in a process of its own: numbers written by one and read by
 /// the other.
-TEST(SteppingProcess, DISABLED_GoesOn) {
+TEST(SteppingProcess, DISABLED_Continues) {
   const char* folder = std::getenv("FLOATFRAME_STEPPING");
   ASSERT_NE(folder, nullptr);
   for (const Coordinates c : both_coordinates) {
@@ -245,7 +245,7 @@ TEST(SteppingProcess, DISABLED_GoesOn) {
   }
 }
 
-TEST(SteppingProcess, AnotherProcessGoesOnWithEqualBits) {
+TEST(SteppingProcess, AnotherProcessContinuesWithEqualBits) {
   const TemporaryFolder folder;
   std::vector<std::string> expected;
   long substeps = 0;
@@ -266,7 +266,7 @@ TEST(SteppingProcess, AnotherProcessGoesOnWithEqualBits) {
   ASSERT_GT(readlink("/proc/self/exe", program, sizeof(program) - 1), 0);
   const std::string command =
       "FLOATFRAME_STEPPING='" + folder.path().string() + "' '" + program +
-      "' --gtest_also_run_disabled_tests --gtest_filter=SteppingProcess.DISABLED_GoesOn "
+      "' --gtest_also_run_disabled_tests --gtest_filter=SteppingProcess.DISABLED_Continues "
       "> /dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
   for (std::size_t k = 0; k < 2; ++k) {

@@ -360,7 +360,7 @@ TEST(Stiffened, BarsByProjection) {
   }
 }
 
-TEST(Stiffened, SaysWhereItDoesNotKnowTheSecondOrder) {
+TEST(Stiffened, ReportsMissingSecondOrder) {
   ModelDescription d = spin_up(true);
   d.simulation.duration = 0.05;
   Model model = build_model(d);

@@ -31,7 +31,7 @@ RunSummary run_of(const ModelDescription& d, Coordinates coordinates) {
   return run(build_model(d), s).summary;
 }
 
-TEST(HalfTurn, OfABushingIsSaidWithItsInstant) {
+TEST(HalfTurn, OfABushingIsReportedWithItsInstant) {
   for (const Coordinates c : both_coordinates) {
     const RunSummary s = run_of(read_model(FLOATFRAME_TEST_DATA "/range/bushing_turns.yaml"), c);
     ASSERT_EQ(s.warnings.size(), 1u);

@@ -37,7 +37,7 @@ std::string shaft_text(double d, const std::string& more) {
          more;
 }
 
-TEST(TurningBars, ShaftWhirlsAsRayleighSays) {
+TEST(TurningBars, ShaftWhirlsAsRayleighPredicts) {
   // Hinged at both ends: with k = pi / L and r^2 = I / A
   //   w^2 (1 + r^2 k^2) -+ 2 r^2 k^2 W w = E I k^4 / (rho A)
   // Nothing of it is foreshortening: about its axis a shaft pulls at nothing.

@@ -91,7 +91,7 @@ TEST_F(Journal, AnotherStudyIsRefusedWithTheReason) {
   EXPECT_EQ(finished({{"another program", "2"}}), 0u);
 }
 
-TEST_F(Journal, SomebodyElsesFileIsLeftAlone) {
+TEST_F(Journal, ForeignFilesStayUntouched) {
   set_text("time [s],x\n0,1\n");
   EXPECT_EQ(refusal(study), "mismatch");
   EXPECT_EQ(text(), "time [s],x\n0,1\n");
@@ -138,7 +138,7 @@ TEST_F(Journal, FilesMustNotChangeButMayComeToBeKnown) {
 }
 
 // Anything may lie at the place of the journal; it is neither waited for nor read without end.
-TEST_F(Journal, WhatIsNotARegularFileIsRefused) {
+TEST_F(Journal, OnlyRegularFilesAreAccepted) {
   ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
   EXPECT_EQ(refusal(study), "unreadable");
   std::filesystem::remove(path_);

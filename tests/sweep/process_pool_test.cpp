@@ -282,7 +282,7 @@ TEST(ProcessPool, SignalsOfTheTerminalAreNotForWorkers) {
   EXPECT_EQ(lost(pool, "x"), "answered alive");
 }
 
-TEST(MessagePipe, WhatIsNoMessageClosesIt) {
+TEST(MessagePipe, AnInvalidMessageClosesIt) {
   int one = -1, other = -1;
   ASSERT_EQ(open_pipe(one, other), 0);
   const std::string rubbish(20, '\xff');

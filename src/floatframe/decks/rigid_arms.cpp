@@ -104,8 +104,8 @@ class StiffenedNodes {
 
 }  // namespace
 
-int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
-                 int& largest) {
+int add_generated_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
+                       int& largest) {
   largest = largest == 0 ? *std::max_element(model.node_ids.begin(), model.node_ids.end())
                          : std::max(largest, model.node_ids.back());
   if (largest == std::numeric_limits<int>::max())
@@ -150,7 +150,7 @@ int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm
                 arm(0), arm(1), arm(2), model.node_label(node));
   const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
   if (!fresh) return it->second;
-  it->second = add_own_node(model, source, model.positions[node] + arm, at, largest_id_);
+  it->second = add_generated_node(model, source, model.positions[node] + arm, at, largest_id_);
   arms_.push_back({it->second, node, at});
   return it->second;
 }

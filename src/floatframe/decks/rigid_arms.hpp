@@ -31,8 +31,8 @@ void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> be
 
 /// A node that is not in the file, with a number above all others. `largest`: that of the
 /// last one added by this caller, 0 before the first.
-int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
-                 int& largest);
+int add_generated_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
+                       int& largest);
 
 /// A rigid spider without nodes so far.
 Spider& add_rigid_spider(FeModel& model, int reference, std::string name, const FeSource& at);

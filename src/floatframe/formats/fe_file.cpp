@@ -223,7 +223,7 @@ void note_empty(FeModel& model, const std::map<std::pair<int, int>, long>& empty
 
 /// Removes equations whose terms cancel (0 = 0), with a note. Throws InputError for those that fix
 /// one degree of freedom of the part to the ground.
-void look_at_equations(FeModel& model) {
+void check_equations(FeModel& model) {
   if (model.equations.empty() || model.matrices) return;
   const std::vector<int> dofs = dofs_without_springs(model);
   std::map<std::pair<int, int>, long> empty;  // by file and line
@@ -280,7 +280,7 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
   names_as_utf8(model);
   fill_densities(file, options, model);
   choose(options, model);
-  look_at_equations(model);
+  check_equations(model);
   if (model.notes.size() > most_notes) {
     const std::size_t more = model.notes.size() - most_notes;
     model.notes.resize(most_notes);

@@ -264,7 +264,7 @@ void ClusterTangent::add_couplings(const Cluster& c, int i, MatX& front) const n
   }
 }
 
-void ClusterTangent::hand_to_parent(const Cluster& c, int i, MatX& front) noexcept {
+void ClusterTangent::add_to_parent(const Cluster& c, int i, MatX& front) noexcept {
   const TreeBody& b = tree_.body(i);
   if (b.parent < 0) return;
   BodyTangent& t = bodies_[i];
@@ -299,7 +299,7 @@ void ClusterTangent::assemble_cluster(const Cluster& c, MatX& front) noexcept {
     find_products(i);
     add_own(c, i, front);
     add_couplings(c, i, front);
-    hand_to_parent(c, i, front);
+    add_to_parent(c, i, front);
   }
 }
 

@@ -112,7 +112,7 @@ class ClusterTangent {
   void find_products(int i) noexcept;                                       // (2)
   void add_own(const Cluster& c, int i, MatX& front) noexcept;              // (3), (7)
   void add_couplings(const Cluster& c, int i, MatX& front) const noexcept;  // (4)
-  void hand_to_parent(const Cluster& c, int i, MatX& front) noexcept;       // (5)
+  void add_to_parent(const Cluster& c, int i, MatX& front) noexcept;        // (5)
   void hand_front_to_parent(const Cluster& c, const MatX& front) noexcept;
   void solve(VecX& x, const VecX* w, VecX* increments, int slot) noexcept;
   void add_part_loads(const Factors& f, std::size_t k, const VecX& w) noexcept;

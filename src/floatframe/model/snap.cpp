@@ -16,7 +16,7 @@ namespace {
 constexpr double widest_angle = 0.1, widest_distance = 0.03;
 /// Deviations below the first value, too small for the thresholds of the mobility test, are scaled
 /// to the second value for the test.
-constexpr double smallest_judged = 1e-4, judged_as = 1e-3;
+constexpr double min_test_deviation = 1e-4, scaled_deviation = 1e-3;
 /// Above it dense linear algebra takes too long: such loops are not changed.
 constexpr std::size_t most_bodies = 100;
 
@@ -51,7 +51,7 @@ class Snapping {
     if (relations.empty() || !fits()) return {};
     const std::vector<JointPlace> exact = alignment_.aligned(relations);
     const double miss = farthest(exact);
-    const double scale = miss > 0.0 && miss < smallest_judged ? judged_as / miss : 1.0;
+    const double scale = miss > 0.0 && miss < min_test_deviation ? scaled_deviation / miss : 1.0;
     const int gained = freedoms(exact, exact, scale);
     if (gained == 0) return {};
     for (int k = std::ssize(relations); k-- > 0 && relations.size() > 1;) {

@@ -18,7 +18,7 @@ namespace {
 /// Above this limit only nodes with a name are kept.
 constexpr int many_nodes = 2000;
 /// Limit of the numbers of all nodes that are kept by default.
-constexpr Eigen::Index few_numbers = 1 << 19;
+constexpr Eigen::Index default_memory_limit = 1 << 19;
 /// Numbers of one group of pairs of modes.
 constexpr Eigen::Index group_numbers = 1 << 23;
 
@@ -142,7 +142,8 @@ void add_pairs(const MatX& integrals, const std::vector<ModePair>& pairs, Second
 }
 
 bool keeps_all(const FeModel& model, Eigen::Index nm, bool all_nodes) {
-  return model.nodes() <= many_nodes && (all_nodes || 6 * nm * nm * model.nodes() <= few_numbers);
+  return model.nodes() <= many_nodes &&
+         (all_nodes || 6 * nm * nm * model.nodes() <= default_memory_limit);
 }
 
 /// Memory: per mode the deformation of each element, per two modes the displacements of nodes.

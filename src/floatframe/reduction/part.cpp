@@ -146,7 +146,7 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
     throw InputError(ErrorCode::contradiction,
                      fmt::format("a rigid motion has an eigenvalue of {:.1e} of the first elastic "
                                  "one instead of zero: {}",
-                                 worst, hold_text(model, health.rigid_residual)));
+                                 worst, stiffness_cause_text(model, health.rigid_residual)));
 }
 
 /// Mass of the model, and whether its stiffness allows rigid motions.

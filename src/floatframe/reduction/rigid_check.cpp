@@ -96,7 +96,7 @@ std::string mechanism_text(const FeModel& model, const FeSystem& system, const V
       largest_nodes(model, of_node));
 }
 
-std::string hold_text(const FeModel& model, double residual) {
+std::string stiffness_cause_text(const FeModel& model, double residual) {
   const Spring* holding = nullptr;
   double largest = 0.0;
   for (const Spring& s : model.springs) {

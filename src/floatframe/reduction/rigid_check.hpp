@@ -22,7 +22,7 @@ inline constexpr double largest_rigid_residual = 1e-3;
 
 /// Cause of the stiffness of a rigid motion, in spite of its small `residual`: a soft spring that
 /// does not act along the line of its nodes, else a support or the digits of the stiffness.
-std::string hold_text(const FeModel& model, double residual);
+std::string stiffness_cause_text(const FeModel& model, double residual);
 
 /// Throws if a shape (n x k, the rigid motions are not among them) has no stiffness: its strain
 /// energy cannot be distinguished from the rounding of the entries of K,

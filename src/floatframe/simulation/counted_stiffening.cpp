@@ -154,7 +154,7 @@ void note_body(const Model& model, std::size_t body, OperatingPoint& at,
   const Vec3 w = at.spin(body);
   const double lowest = range.lowest_frequency();
   if (!(lowest > 0.0)) return;
-  const double across = range.pulling_spin(w) / lowest;
+  const double across = range.loading_spin(w) / lowest;
   if (b.data->mass_model == MassModel::six_dof && w.norm() > 1e-3 * lowest)
     notes.push_back(
         fmt::format("body '{}' spins at {:.4g} rad/s, and mass_model six_dof has no second order "
@@ -166,7 +166,7 @@ void note_body(const Model& model, std::size_t body, OperatingPoint& at,
     notes.push_back(fmt::format(
         "body '{}' spins at {:.4g} rad/s, {:.3g} times its lowest frequency of {:.4g} rad/s, and "
         "what that does to its stiffness is left out: {}",
-        b.name, range.pulling_spin(w), across, lowest,
+        b.name, range.loading_spin(w), across, lowest,
         !b.data->second_order                      ? "it is not known"
         : b.data->mass_model == MassModel::six_dof ? "geometric_stiffening: true counts it in"
                                                    : "inertia: preprocessing counts it in"));

@@ -15,7 +15,7 @@ namespace {
 
 /// Stiffness so small that it hardly affects modes with mass: s k = 1e-4 m for the stiffest.
 template <class F>
-double little_stiffness(const F& f) {
+double regularisation_scale(const F& f) {
   double stiffest = 0.0;
   for (const double w2 : f.own_frequencies_squared())
     if (w2 < no_inertia) stiffest = std::max(stiffest, w2);
@@ -150,7 +150,7 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
   const double nothing = growth_of_motions(f, scale, 1e-30, penalty_mass);
   // Above the size for dense linear algebra the passes decide, as far as rounding permits.
   const bool large = scale.size() > most_dense;
-  double s = little_stiffness(f);
+  double s = regularisation_scale(f);
   const int attempts = large || !bent(f, state.q) ? 2 : 0;
   for (int attempt = 0; attempt < attempts; ++attempt, s *= 1e-3) {
     const double held = large ? 0.0 : growth_of_motions(f, scale, s, penalty_mass);
@@ -167,7 +167,7 @@ std::vector<std::string> massless_notes(F& f, const State& state, double penalty
   const auto bends = [](const Body& b) { return b.modes() > 0; };
   if (std::none_of(all.begin(), all.end(), bends)) return {};
   const int nv = f.velocities();
-  const double s = little_stiffness(f), penalty = penalty_of_passes(f, penalty_mass);
+  const double s = regularisation_scale(f), penalty = penalty_of_passes(f, penalty_mass);
   const VecX no_lambda = VecX::Zero(f.constraints());
   VecX r0(nv);
   f.residual(VecX::Zero(nv), no_lambda, 0.0, r0);

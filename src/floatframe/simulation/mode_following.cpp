@@ -95,7 +95,7 @@ std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
 }
 
 /// Paths that end in the same mode.
-std::vector<std::size_t> paths_that_meet(const std::vector<ModePath>& paths) {
+std::vector<std::size_t> merged_paths(const std::vector<ModePath>& paths) {
   std::vector<std::size_t> met;
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = 0; j < paths.size(); ++j)
@@ -154,7 +154,7 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
   std::vector<ModePath> paths = follow(from, to, modes, begins, 0);
   // Paths by different intermediate speeds may merge if one of them has taken too long a step.
   for (int level = 1; level <= 5; ++level) {
-    const std::vector<std::size_t> met = paths_that_meet(paths);
+    const std::vector<std::size_t> met = merged_paths(paths);
     if (met.empty()) return paths;
     std::vector<std::size_t> again;
     std::vector<Begin> again_begins;

@@ -244,7 +244,7 @@ class Writer {
 }  // namespace
 
 std::string spin_sentence(const Model& model, const BodyRange& range, int body, const Vec3& w) {
-  const double spin = range.pulling_spin(w);
+  const double spin = range.loading_spin(w);
   return fmt::format(
       "body '{}' spins too fast for its stiffness: at {:.4g} rad/s, {:.3g} times its lowest "
       "frequency of {:.4g} rad/s; {}",

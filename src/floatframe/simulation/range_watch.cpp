@@ -131,7 +131,7 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
   turn_.offer(h * w.norm(), t, l.turn);
   const Eigen::Index modes = data_.modes();
   if (modes == 0) return;
-  if (softened_ > 0.0) spin_.offer(pulling_spin(w), t, l.spin * softened_);
+  if (softened_ > 0.0) spin_.offer(loading_spin(w), t, l.spin * softened_);
   // All modes together move no node farther than the sum of each: single nodes are checked only if
   // that sum could be a new largest value.
   double move = 0.0, turn = 0.0;

@@ -76,7 +76,7 @@ class BodyRange {
   /// spin about the worst axis [s2]; 0: unknown.
   double stiffening() const noexcept { return stiffening_; }
   /// The component of a spin that loads the body [rad/s]; w: in body axes.
-  double pulling_spin(const Vec3& w) const noexcept { return (stretch_ * w).norm(); }
+  double loading_spin(const Vec3& w) const noexcept { return (stretch_ * w).norm(); }
   const Largest& displacement() const { return displacement_; }  ///< [m]
   const Largest& rotation() const { return rotation_; }          ///< [rad]
   const Largest& spin() const { return spin_; }                  ///< [rad/s]

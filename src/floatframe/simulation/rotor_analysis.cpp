@@ -56,7 +56,7 @@ std::vector<std::string> stiffening_notes(const Model& model, const Rotor& rotor
     if (b.stiffens()) continue;
     const BodyRange range(model, r.body);
     const Vec3 w = speed * r.axis;
-    const double lowest = range.lowest_frequency(), pulling = range.pulling_spin(w);
+    const double lowest = range.lowest_frequency(), pulling = range.loading_spin(w);
     if (!(lowest > 0.0) || !(pulling > RangeLimits{}.spin * lowest)) continue;
     if (b.stiffening_given)
       notes.push_back(spin_sentence(model, range, r.body, w));

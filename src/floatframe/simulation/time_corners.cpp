@@ -12,7 +12,7 @@ namespace floatframe {
 namespace {
 
 /// Number of corners within two steps up to which they are located nevertheless.
-constexpr std::size_t most_together = 4;
+constexpr std::size_t max_located_corners = 4;
 constexpr double near_steps = 2.0;
 
 /// One instant of a function of time.
@@ -102,7 +102,7 @@ std::size_t thin_out(std::vector<Kink>& kinks, const TimeCornerOptions& o) {
     std::size_t to = from + 1;
     while (to < kinks.size() && kinks[to].at - kinks[to - 1].at <= near) ++to;
     for (std::size_t k = from; k < to; ++k) {
-      if (to - from <= most_together || kinks[k].jump)
+      if (to - from <= max_located_corners || kinks[k].jump)
         located.push_back(kinks[k]);
       else if (!ends_a_step(kinks[k].at, o))
         ++dense;

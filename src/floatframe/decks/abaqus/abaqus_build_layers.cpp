@@ -23,8 +23,8 @@ using Kind = AbaqusOrientation::Kind;
 
 /// Is `what`, such as "SYSTEM=Z RECTANGULAR", treated as in CalculiX, which `does` ("ignores it";
 /// `done`: "ignored")? With a note if the user may not expect it.
-bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
-                    const std::string& what, const char* does, const char* done) {
+bool treated_as_in_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
+                            const std::string& what, const char* does, const char* done) {
   const DialectClues& clues = build.clues;
   const bool given = build.content.options.dialect != DeckDialect::by_content;
   const bool calculix = build.dialect() == DeckDialect::calculix;
@@ -48,17 +48,17 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                                      const std::string& name, bool shell) {
   if (o.kind == Kind::z_rectangular &&
-      is_of_calculix(build, o, name, "SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR",
-                     "taken as RECTANGULAR"))
+      treated_as_in_calculix(build, o, name, "SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR",
+                             "taken as RECTANGULAR"))
     o.kind = Kind::rectangular;
   if (o.kind != Kind::cylindrical && o.c != Vec3::Zero() &&
-      is_of_calculix(build, o, name,
-                     fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
-                     "ignores it", "ignored"))
+      treated_as_in_calculix(
+          build, o, name, fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
+          "ignores it", "ignored"))
     o.c.setZero();
   // For shells the axis alone determines the one about the normal.
   if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
-      is_of_calculix(
+      treated_as_in_calculix(
           build, o, name,
           fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 in Abaqus),",
                       o.angle * 180.0 / std::numbers::pi),

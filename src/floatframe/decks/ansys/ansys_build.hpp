@@ -98,7 +98,7 @@ struct AnsysBuild {
   int solved_sections = 0;                             ///< shapes whose torsion has been computed
   RigidArms arms = {};                                 ///< of beams offset from their nodes
   std::vector<char> rotates = {};                      ///< for masses: `nodes_with_rotations`
-  int largest_node = 0;                                ///< of `add_own_node`
+  int largest_node = 0;                                ///< of `add_generated_node`
   std::vector<int> said = {};                          ///< types with an error
   struct Shared {
     AnsysElement first;

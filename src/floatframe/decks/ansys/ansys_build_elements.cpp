@@ -218,8 +218,8 @@ class AnsysElementBuilder {
       const auto [it, fresh] = middles_.try_emplace(std::minmax(a, b), b_.model.nodes());
       middle = it->second;
       if (!fresh) continue;
-      add_own_node(b_.model, b_.source, 0.5 * (b_.model.positions[a] + b_.model.positions[b]), e.at,
-                   b_.largest_node);
+      add_generated_node(b_.model, b_.source, 0.5 * (b_.model.positions[a] + b_.model.positions[b]),
+                         e.at, b_.largest_node);
       for (int axis = 0; axis < 3; ++axis) {
         b_.model.equations.push_back(
             {{{middle, axis, 1.0}, {a, axis, -0.5}, {b, axis, -0.5}}, e.at});

@@ -178,7 +178,7 @@ bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
 }
 
 /// Omits ends of beams whose arms differ from OFFSET1 and OFFSET2, and everything attached to them.
-void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
+void drop_unsupported_offsets(const FeModel& model, ArmEnds& ends) {
   const ArmNodes nodes(model);
   std::map<int, std::vector<int>> beams_at;
   for (std::size_t i = 0; i < model.elements.size(); ++i)
@@ -206,7 +206,7 @@ void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
 
 std::optional<OffsetBeams> offset_beams(const FeModel& model) {
   ArmEnds ends(model);
-  keep_what_can_be_said(model, ends);
+  drop_unsupported_offsets(model, ends);
   std::set<int> moved;
   for (const Element& e : model.elements)
     if (is_beam(e.type))
