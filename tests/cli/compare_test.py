@@ -40,7 +40,7 @@ class Compare(RunCase):
     def test_another_span_is_a_difference(self):
         self.program("run", "m.yaml", "--duration", "0.1", "--out", "short", "--no-report")
         done = self.program("compare", "one", "short", "--tolerance", "0", code=1)
-        self.assertIn("from 0 to 0.2 s", done.stderr)
+        self.assertIn("covers 0 to 0.2 s", done.stderr)
         self.program("compare", "one", "short", "--tolerance", "0", "--overlap")
 
     def test_the_page(self):

@@ -248,7 +248,7 @@ class States(RunCase):
         self.assertIn("--out", refused("out", *add, "--out", "out/states.ffr"))
         self.assertEqual((self.folder / "out/states.ffr").read_bytes(), before)
         (self.folder / "m.yaml").rename(self.folder / "moved.yaml")
-        self.assertIn("found no model file 'm.yaml' any more, expected its place with --model", refused("out", *add))
+        self.assertIn("the model file 'm.yaml' does not exist any more", refused("out", *add))
         self.program("outputs", "out", *add, "--model", "moved.yaml")  # the same by another name
         (self.folder / "m.yaml").write_text((self.folder / "moved.yaml").read_text() + "# changed\n")
         self.assertIn("made before 'm.yaml' was changed", refused("out", *add))

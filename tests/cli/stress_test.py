@@ -129,7 +129,7 @@ class Stress(RunCase):
         self.assertEqual(self.stress("--top", "0")["bodies"][0]["hot_spots"], [])
 
     def test_what_has_no_stress_is_said_in_one_sentence(self):
-        self.refused("--body: body 'slider' is rigid and has no stress data, expected a flexible body with stress", "out",
+        self.refused("--body: body 'slider' is rigid and has no stress, expected a flexible body with stress", "out",
                      "--body", "slider")
         self.refused("--body: found 'beem', expected a body of the model, did you mean 'beam'?", "out", "--body", "beem")
         self.refused("found --from 2 after --to 1, expected an earlier time", "out", "--from", "2", "--to", "1")

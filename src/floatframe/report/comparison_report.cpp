@@ -56,7 +56,7 @@ std::vector<std::string> comparison_notes(const ComparedResults& r) {
     if (c.spans_differ())
       notes.push_back(
           fmt::format("compared from {:g} to {:g} s: the one covers {:g} to {:g} s, "
-                      "the other from {:g} to {:g} s",
+                      "the other {:g} to {:g} s",
                       c.from, c.to, c.start_a, c.end_a, c.start_b, c.end_b));
   }
   if (!r.tolerance) {
@@ -96,7 +96,7 @@ std::vector<std::string> disagreements(const ComparedResults& r) {
   if (!c.other_units.empty()) out.push_back("in different units: " + listed(c.other_units));
   if (c.spans_differ() && !r.overlap)
     out.push_back(
-        fmt::format("'{}' covers {:g} to {:g} s, '{}' {:g} to {:g} s (--overlap compares "
+        fmt::format("'{}' covers {:g} to {:g} s, '{}' covers {:g} to {:g} s (--overlap compares "
                     "the span that both have)",
                     r.file_a, c.start_a, c.end_a, r.file_b, c.start_b, c.end_b));
   std::vector<std::string> names;
