@@ -93,7 +93,7 @@ TEST(AnsysMaterials, IsotropicInAllForms) {
   const FeModel plastic = ansys_of(cdb_brick + cdb_steel + "TB,BISO,1,1\nTBDATA,1,200,2000\n");
   EXPECT_EQ(plastic.notes.at(0),
             "a.cdb:21: TB,BISO of material 1 is not linear: the part has the elastic constants "
-            "beside it");
+            "given with it");
 }
 
 /// R_z R_x R_y; systems of cylinders and spheres; solids have the axes of ESYS.

@@ -54,9 +54,9 @@ void describe(const AxisMotion& axis, TurningMode& mode) {
   const double rotor = m.dot(axis.rotor * m).real(), others = m.dot(axis.others * m).real(),
                points = static_cast<double>(std::max<Eigen::Index>(u1.size(), 1));
   const double of_axis = axis.mass * size / points, energy = rotor + others;
-  // u2 lags u1 by a quarter in a turn from e1 to e2: u1 conj times u2 is -i.
-  mode.whirl = size > 0.0 ? -area / size : 0.0;
   mode.across = of_axis > least_energy * energy && all > 0.0 ? size / all : 0.0;
+  // u2 lags u1 by a quarter in a turn from e1 to e2: u1 conj times u2 is -i.
+  mode.whirl = mode.across > 0.0 ? -area / size : 0.0;  // else a quotient of round-off
   const double rigid = axis.mass * largest_square(u3) + axis.spin * largest_square(twist);
   if (mode.across >= least_across)
     mode.kind = mode.whirl > 0.1    ? MotionKind::forward
