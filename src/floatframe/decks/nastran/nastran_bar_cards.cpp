@@ -175,8 +175,8 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
   const Vec3 p[2] = {b_.model.positions[node[0]], b_.model.positions[node[1]]};
   if (element.type != ElementType::rod2) {
     const bool pinned = (ends.pins[0] | ends.pins[1]) != 0;
-    const bool beside = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
-    bars_.push_back({{node[0], node[1], -1}, beside, bends && !pinned});
+    const bool offset = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
+    bars_.push_back({{node[0], node[1], -1}, offset, bends && !pinned});
   }
   if (!b_.direction(e.orientation, node[0], ends.axes[0] == 'G', e, element.reference))
     return false;
