@@ -57,8 +57,10 @@ std::string op4_text(const std::string& name, const MatX& A, Storage storage) {
     for (const auto& run : runs) words += 2 * run.second + (large ? 2 : 1);
     out += fmt::format("{:8}{:8}{:8}\n", j + 1, 0, words);
     for (const auto& [first, count] : runs) {
-      out += large ? fmt::format("{:8}{:8}\n", 2 * count + 1, first + 1)
-                   : fmt::format("{:8}\n", first + 1 + 65536 * (2 * count + 1));
+      out += large
+                 ? fmt::format("{:8}{:8}\n", 2 * count + 1, first + 1)
+                 // Some writers give the number more columns, which it may need.
+                 : fmt::format("{:{}}\n", first + 1 + 65536 * (2 * count + 1), j % 2 == 0 ? 8 : 11);
       values(A.col(j).segment(first, count));
     }
   }
@@ -266,6 +268,36 @@ TEST(Superelement, Errors) {
   EXPECT_EQ(error(good.substr(0, 200)), at + ":2: wrong_count");
   const std::string binary = op4_binary("KXX", K, Storage::strings, false);
   EXPECT_EQ(error(binary.substr(0, 100)), at + ": damaged");
+}
+
+// A file that is cut off within the mass: where one amplitude has mass, all have.
+TEST(Superelement, MassWithoutItsLastAmplitudes) {
+  const TemporaryFolder folder;
+  std::string text = read_whole_file(fe_data("superelement_with_modes.pch"));
+  const std::size_t last = text.rfind("DMIG*");
+  ASSERT_NE(last, std::string::npos);
+  ASSERT_TRUE(contains(text.substr(last, 30), "MAAX"));
+  folder.write("arm.pch", text.substr(0, last));
+  EXPECT_TRUE(contains(error_of([&] { read_fe_file(folder / "arm.pch"); }), "damaged"));
+}
+
+TEST(Superelement, CardsThatAreNotReadAreListed) {
+  const TemporaryFolder folder;
+  const std::string text = read_whole_file(fe_data("superelement_with_modes.pch"));
+  EXPECT_EQ(count_with(read_fe_file(fe_data("superelement_with_modes.pch")).notes, "cards"), 0);
+  folder.write("arm.pch", text + "CONM2,9,1,,100.\nSPC1,1,123,2\n");
+  EXPECT_EQ(count_with(read_fe_file(folder / "arm.pch").notes, "ignored: CONM2 (1), SPC1 (1)"), 1);
+}
+
+// Files that a format does not read are refused, whether they exist or not.
+TEST(Superelement, FilesOfOtherFormats) {
+  const auto error = [](const char* file, FeReadOptions options) {
+    return error_of([&] { read_fe_file(fe_data(file), options); });
+  };
+  const std::string kind = ": exclusive";
+  EXPECT_TRUE(error("beam_superelement.op4", {.mass = "none.op4"}).ends_with(kind));
+  EXPECT_TRUE(error("beam_superelement.op4", {.damping_matrix = "none.op4"}).ends_with(kind));
+  EXPECT_TRUE(error("superelement_with_modes.pch", {.dofs = "none.csv"}).ends_with(kind));
 }
 
 }  // namespace

@@ -30,10 +30,11 @@ FeModel nastran_nodes(const std::filesystem::path& file) {
 const FeFormat readers[] = {
     {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus, false,
      abaqus_nodes},
-    {"ansys", "ANSYS deck (.cdb)", {".cdb"}, looks_like_ansys, read_ansys, false, ansys_nodes},
+    {"ansys", "ANSYS deck (.cdb), experimental", {".cdb"}, looks_like_ansys, read_ansys, false,
+     ansys_nodes},
     {"nastran", "Nastran bulk data (.bdf)", {".bdf", ".dat", ".nas", ".fem", ".blk"},
      looks_like_nastran, read_nastran, false, nastran_nodes},
-    {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv, true}};
+    {"unv", "Universal file (.unv), experimental", {".unv"}, looks_like_unv, read_unv, true}};
 // clang-format on
 const MeshFormat writer{"calculix", "CalculiX deck (.inp)", ".inp", calculix_deck};
 

@@ -21,26 +21,51 @@ namespace {
 
 constexpr std::size_t most_notes = 500;
 
+const std::vector<std::string> every_file{"mass", "dofs", "nodes", "damping_matrix"};
+
 /// Formats of this folder. A reader is one file and one entry here; decks are in deck_list.cpp.
 const FeFormat own_formats[] = {
     {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh, true},
-    {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
-    {"op4", "Nastran matrices (OUTPUT4, .op4)", {".op4"}, looks_like_op4, read_op4},
+    {"dmig",
+     "Nastran matrices (DMIG, .pch)",
+     {".pch"},
+     looks_like_dmig,
+     read_dmig,
+     false,
+     nullptr,
+     {"mass", "nodes", "damping_matrix"}},
+    {"op4",
+     "Nastran matrices (OUTPUT4, .op4)",
+     {".op4"},
+     looks_like_op4,
+     read_op4,
+     false,
+     nullptr,
+     {"dofs", "nodes"}},
     {"calculix_matrices",
      "CalculiX matrices (.sti, .mas, .dof)",
      {".sti", ".mas"},
      looks_like_calculix_matrix,
-     read_calculix_matrices},
+     read_calculix_matrices,
+     false,
+     nullptr,
+     every_file},
     {"abaqus_matrices",
      "Abaqus matrices (.mtx)",
      {".mtx"},
      looks_like_abaqus_matrix,
-     read_abaqus_matrices},
+     read_abaqus_matrices,
+     false,
+     nullptr,
+     every_file},
     {"matrix_market",
      "Matrix Market matrices (.mtx)",
      {".mtx", ".mm"},
      looks_like_matrix_market,
-     read_matrix_market}};
+     read_matrix_market,
+     false,
+     nullptr,
+     every_file}};
 
 const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list = [] {
@@ -185,6 +210,22 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
   }
 }
 
+/// Refuses options with files that the format does not read.
+void check_more_files(const std::filesystem::path& file, const FeReadOptions& options,
+                      const FeFormat& format) {
+  const std::pair<const char*, const std::filesystem::path*> given[] = {
+      {"mass", &options.mass},
+      {"dofs", &options.dofs},
+      {"nodes", &options.nodes},
+      {"damping_matrix", &options.damping_matrix}};
+  for (const auto& [name, path] : given)
+    if (!path->empty() && std::ranges::find(format.more_files, name) == format.more_files.end())
+      throw InputError(
+          ErrorCode::exclusive, {file.string()},
+          fmt::format("{} '{}' is given, but the format '{}' reads no such file: leave it out",
+                      name, path->string(), format.name));
+}
+
 }  // namespace
 
 std::span<const FeFormat> fe_formats() { return formats(); }
@@ -214,6 +255,7 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
                      fmt::format("a thickness is given, but shells of the format '{}' have that of "
                                  "the file: leave it out",
                                  chosen.name));
+  check_more_files(file, options, chosen);
   FeModel model = chosen.read(file, options);
   names_as_utf8(model);
   fill_densities(file, options, model);

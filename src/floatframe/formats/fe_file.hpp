@@ -95,6 +95,8 @@ struct FeFormat {
   bool without_sections = false;
   /// For a deck in addition to matrices: only nodes, sets, spiders and supports; null: unsupported.
   FeModel (*read_nodes)(const std::filesystem::path& file) = nullptr;
+  /// The options with files that it reads: "mass", "dofs", "nodes", "damping_matrix".
+  std::vector<std::string> more_files = {};
 };
 
 std::span<const FeFormat> fe_formats();

@@ -289,7 +289,7 @@ std::string command_of(const PartJob& job, const FeModel& model,
   if (grounded) add("grounded-springs", "ignore");
   if (interfaces.empty()) add("method", "free_free");
   for (const InterfaceDescription& d : interfaces) add("interface", interface_text(d));
-  if (modes < default_modes) add("modes", std::to_string(modes));
+  if (modes != default_modes) add("modes", std::to_string(modes));
   return text;
 }
 
@@ -335,6 +335,9 @@ ReduceProposal propose_reduction(const PartJob& job, const FeModel& model,
   out.interfaces = trial.accepted();
   const int inner = inner_dofs(trial.model(), out.interfaces.size());
   int modes = inner <= default_modes ? inner / 2 : default_modes;
+  // Of a superelement all its amplitudes: they are the inner motions of the part it was made of.
+  if (model.matrices && !model.matrices->scalars.empty())
+    modes = static_cast<int>(model.matrices->scalars.size());
   out.obstacle = obstacle_of(trial.model());
   if (out.obstacle.empty())
     out.obstacle = refusal_of(model, job, likely_units.empty() ? "si" : likely_units.front(),

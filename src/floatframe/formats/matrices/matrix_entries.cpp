@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "floatframe/formats/matrices/matrix_model.hpp"
 
@@ -65,21 +66,26 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
 
 SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& labels,
                                       bool whole_diagonal) {
+  std::vector<int> all(whole_diagonal ? static_cast<std::size_t>(n) : 0);
+  std::iota(all.begin(), all.end(), 0);
+  return finish(n, labels, all);
+}
+
+SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& labels,
+                                      const std::vector<int>& with_diagonal) {
   SparseMatrix full(n, n);
   if (!check(labels) || n == 0) return full;  // Eigen's compression reads beyond a matrix of size 0
-  if (whole_diagonal) {
-    std::vector<char> there(n, 0);
-    for (const Entry& e : entries_)
-      if (e.row == e.column) there[e.row] = 1;
-    const auto missing = std::find(there.begin(), there.end(), 0);
-    if (missing != there.end()) {
-      source_.error(ErrorCode::damaged,
-                    "the {} ends without a diagonal entry for {} and {} more: the file is "
-                    "truncated or does not belong to these degrees of freedom",
-                    what_, labels[missing - there.begin()],
-                    std::count(missing + 1, there.end(), 0));
-      return full;
-    }
+  std::vector<char> there(n, 0);
+  for (const Entry& e : entries_)
+    if (e.row == e.column) there[e.row] = 1;
+  const auto lacks = [&](int row) { return there[row] == 0; };
+  const auto missing = std::ranges::find_if(with_diagonal, lacks);
+  if (missing != with_diagonal.end()) {
+    source_.error(ErrorCode::damaged,
+                  "the {} ends without a diagonal entry for {} and {} more: the file is "
+                  "truncated or does not belong to these degrees of freedom",
+                  what_, labels[*missing], std::ranges::count_if(with_diagonal, lacks) - 1);
+    return full;
   }
   Eigen::VectorXi count = Eigen::VectorXi::Zero(n);
   for (const Entry& e : entries_) {

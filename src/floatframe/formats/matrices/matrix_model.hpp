@@ -123,6 +123,9 @@ class SymmetricEntries {
   /// n x n; `last()` must be less than n. `labels`: of the rows, for messages. With
   /// `whole_diagonal` each row must have its diagonal entry, be it zero.
   SparseMatrix finish(int n, const std::vector<std::string>& labels, bool whole_diagonal);
+  /// The same, where these rows alone need a diagonal entry.
+  SparseMatrix finish(int n, const std::vector<std::string>& labels,
+                      const std::vector<int>& with_diagonal);
 
  private:
   struct Entry {

@@ -177,12 +177,14 @@ class TextOp4 {
     }
     return true;
   }
+  /// In fields of eight columns; a number by itself may be wider.
   template <std::size_t n>
   std::array<int, n> integers() const {
+    constexpr std::size_t width = n == 1 ? std::string_view::npos : 8;
     std::array<int, n> out{};
     for (std::size_t i = 0; i < n; ++i) {
       const std::string_view field =
-          trimmed(line_.substr(std::min(8 * i, line_.size())).substr(0, 8));
+          trimmed(line_.substr(std::min(8 * i, line_.size())).substr(0, width));
       const auto value = parse_integer(field);
       if (!value) fail(ErrorCode::not_a_number, not_an_integer(field));
       out[i] = *value;

@@ -12,6 +12,13 @@ namespace {
 
 using Row = std::pair<int, int>;  // node, component from 1; scalar point, 0
 
+/// Nodes, their axes and lists of degrees of freedom, which are read as nodes or follow from the
+/// matrices.
+constexpr std::string_view without_effect[] = {
+    "GRID",    "CORD1R",  "CORD2R",   "CORD1C", "CORD2C",  "CORD1S", "CORD2S", "SPOINT", "EXTRN",
+    "ASET",    "ASET1",   "QSET",     "QSET1",  "BSET",    "BSET1",  "CSET",   "CSET1",  "BNDFIX",
+    "BNDFREE", "BNDFIX1", "BNDFREE1", "BEGIN",  "ENDDATA", "PARAM",  "DTI"};
+
 struct DmigEntry {
   Row row, column;
   double value = 0.0;
@@ -25,7 +32,11 @@ class DmigFile {
     NastranCards cards(source, false, NastranBegin::any);
     NastranCard card;
     while (cards.next(card)) {
-      if (card.name != "DMIG") continue;
+      if (card.name != "DMIG") {
+        if (std::ranges::find(without_effect, card.name) == std::end(without_effect))
+          ++ignored_[card.name];
+        continue;
+      }
       NastranFields fields(source, card);
       const std::string name = upper_case(card.field(0));
       if (card.field(1) == "0")
@@ -63,6 +74,13 @@ class DmigFile {
                        [&](const auto& m) { return m.first[0] == letter; });
   }
   const std::string& name() const { return name_; }
+  /// "CONM2 (1), SPC1 (2)": cards that a reader of matrices does not use.
+  std::string ignored_cards() const {
+    std::string text;
+    for (const auto& [name, count] : ignored_)
+      text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", name, count);
+    return text;
+  }
   /// Matrices that `matrix` has not returned.
   std::vector<std::string> others() const {
     std::vector<std::string> names;
@@ -122,6 +140,7 @@ class DmigFile {
   std::map<std::string, std::vector<DmigEntry>> matrices_;
   std::map<std::string, std::pair<FeSource, std::string>> unfit_;  ///< why they are not read
   std::set<std::string> names_, used_;
+  std::map<std::string, int> ignored_;
   std::string name_;
 };
 
@@ -151,14 +170,18 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
                     what, heavy ? "; or give the mass file" : "");
     if (stiff) {
       K_name = file.name();
+      std::map<Row, FeSource> first_at;
       for (const DmigEntry& e : entries)
-        for (const Row& row : {e.row, e.column}) rows.emplace(row, 0);
+        for (const Row& row : {e.row, e.column}) {
+          rows.emplace(row, 0);
+          first_at.emplace(row, e.at);
+        }
       if (rows.empty())
         source.stop(ErrorCode::missing, {0, 0}, "matrix {} has no entries, expected a stiffness",
                     K_name);
       for (auto& [row, index] : rows) {
         index = static_cast<int>(labels.size());
-        labels.push_back({row.first, row.second, {0, 0}});
+        labels.push_back({row.first, row.second, first_at.at(row)});
       }
       names = dof_names(labels);
     }
@@ -170,13 +193,29 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSo
                       row.first, row.second, file.name(), K_name);
       matrix.add(rows.at(e.row), rows.at(e.column), e.value, e.at);
     }
-    return matrix.finish(static_cast<int>(rows.size()), names, stiff);
+    if (stiff) return matrix.finish(static_cast<int>(rows.size()), names, true);
+    // Where one modal amplitude has mass, all have.
+    std::vector<int> amplitudes;
+    const auto modal = [](const DmigEntry& e) { return e.row == e.column && e.row.second == 0; };
+    if (heavy && std::ranges::any_of(entries, modal))
+      for (const auto& [row, index] : rows)
+        if (row.second == 0) amplitudes.push_back(index);
+    return matrix.finish(static_cast<int>(rows.size()), names, amplitudes);
   };
   if (damping == nullptr && first.has('B')) damping = &stiffness;
   FeModel model =
       matrix_model_of({stiffness, mass == nullptr ? stiffness : *mass, damping, stiffness},
                       std::move(nodes), labels, read);
-  note_other_matrices(model, stiffness.files().front(), first.others());
+  std::vector<std::string> others = first.others();
+  std::erase_if(others, [&](const std::string& name) {  // replaced by those of another file
+    return (mass != nullptr && name.starts_with('M')) ||
+           (damping != nullptr && damping != &stiffness && name.starts_with('B'));
+  });
+  note_other_matrices(model, stiffness.files().front(), others);
+  if (const std::string cards = first.ignored_cards(); !cards.empty())
+    model.notes.push_back(
+        fmt::format("{}: only matrices and nodes are read; cards that are ignored: {}",
+                    stiffness.files().front(), cards));
   return model;
 }
 
