@@ -49,9 +49,9 @@ void gauge(benchmark::State& state, Coordinates coordinates) {
   SteppedModel<F> steps(model, options, {.duration = 1.0});
   std::vector<double> row(2);
   steps.sample(row.data());
-  const OutputView view(steps.formulation(), steps.state().t, steps.state().q);
+  const SystemMotion& motion = steps.formulation().motion({.accelerations = true});
   FollowedOutput last;
-  for (auto _ : state) benchmark::DoNotOptimize(output_value(view, model.outputs[0], last));
+  for (auto _ : state) benchmark::DoNotOptimize(output_value(motion, model.outputs[0], last));
 }
 
 void gauge_relative(benchmark::State& state) {

@@ -66,6 +66,8 @@ OUTSIDE = {"main": {"apps/command_line.hpp", "bench/bench_command.hpp"}, "mpi": 
 # Comments of installed headers send nobody to a header that is not installed.
 NAMED = re.compile(r"^(?!\s*#).*?\b([a-z_]+\.hpp)")
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^">]+)[">]')
+DECLARED = re.compile(r"(?:class|struct) (\w+);")
+DEFINED = re.compile(r"^(?:class|struct) (\w+)\b[^;{]*\{", re.M)
 
 
 def room_of(path):
@@ -132,7 +134,27 @@ def public_errors(root):
                 waiting.append(used)
 
 
+def rooms_of_types(root):
+    """For each type of the rooms: the rooms that define one of this name."""
+    found = {}
+    for path in root.rglob("*.hpp"):
+        room = room_of(path.relative_to(root).as_posix())
+        for name in DEFINED.findall(path.read_text(encoding="utf-8")):
+            found.setdefault(name, set()).add(room)
+    return found
+
+
+def errors_of_declarations(path, room, rooms):
+    """A type that is declared but not included is used as well."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        declared = DECLARED.match(line)
+        used = rooms.get(declared.group(1), set()) if declared else set()
+        if used and not used & (ALLOWED[room] | {room}):
+            yield f"{path}:{number}: '{room}' must not declare {declared.group(1)} of '{', '.join(sorted(used))}'"
+
+
 def errors(root):
+    types = rooms_of_types(root)
     yield from public_errors(root)
     yield from errors_outside(root)
     yield from errors_of_python(root)
@@ -145,6 +167,7 @@ def errors(root):
             yield f"{path}:1: the folder '{room}' is not a room; add it to ALLOWED in {pathlib.Path(__file__).name}"
             continue
         yield from odd_paths(path)
+        yield from errors_of_declarations(path, room, types)
         for number, header in included(path):
             used = room_of(header)
             if not used:

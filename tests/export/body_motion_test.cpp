@@ -60,7 +60,7 @@ TEST_P(ExportedNodes, MoveAsMarkersDo) {
   RecordedMotion motion(history, model, o);
   double bent = 0.0, turned = 0.0;
   for (std::size_t k = 0; k < motion.instants(); k += 40) {
-    const OutputView& view = motion.at(k);
+    const SystemMotion& view = motion.at(k);
     for (int marker = 0; marker < static_cast<int>(model.markers.size()); ++marker) {
       const Marker& m = model.markers[marker];
       if (m.node < 0 || !m.X_NM.p.isZero(0.0)) continue;

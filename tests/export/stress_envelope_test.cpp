@@ -172,8 +172,8 @@ simulation: {step: 1.0e-3, duration: 0.1}
     const FlexibleBody& body = *model.bodies[0].data;
     StressEnvelopeOf envelope(*body.stress, body.modes());
     for (std::size_t k = 0; k < motion.instants(); ++k) {
-      const OutputView& view = motion.at(k);
-      envelope.add(view.time(), body_motion(view, 0).y, stress_loads(view, 0));
+      const SystemMotion& view = motion.at(k);
+      envelope.add(view.t, body_motion(view, 0).y, stress_loads(view, 0));
     }
     const StressEnvelope& found = envelope.result();
     const std::vector<SectionPeak> peaks = section_peaks(*body.stress, found);

@@ -114,7 +114,7 @@ simulation: {step: 1.0e-3, duration: 0.05}
     StressField field(picture, *model.bodies[0].data);
     ASSERT_TRUE(field.known());
     for (const std::size_t k : {std::size_t{0}, motion.instants() - 1}) {
-      const OutputView& view = motion.at(k);
+      const SystemMotion& view = motion.at(k);
       field.at(body_motion(view, 0).y, stress_loads(view, 0));
       std::map<int, std::vector<double>> of_node;
       for (Eigen::Index v = 0; v < picture.surface_points(); ++v) {

@@ -86,7 +86,7 @@ Model with_exact_dampers(const Model& model, const VecX& q) {
     const MarkerState& b = f.marker(force.b);
     const ForceState& state = f.force(static_cast<int>(k));
     const ForceTangent t = exact_tangent(
-        {model, force, force.a >= 0 ? f.marker(force.a) : b, b, f.origin(), 0.3, 0.0, {}});
+        {model, force, force.a >= 0 ? f.marker(force.a) : b, b, f.motion().origin, 0.3, 0.0, {}});
     Mat12 C = 0.5 * (t.C + t.C.transpose());
     for (int r = 0; r < state.row_count; ++r) {
       const Vec12 g = stacked(state.rows[r].g);

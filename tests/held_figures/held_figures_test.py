@@ -74,6 +74,7 @@ def source_figures():
     figures = {
         "casts in src": sum(len(re.findall(r"\b(?:static|const|reinterpret|dynamic)_cast<", t)) for t in texts.values()),
         "lines of src": sum(t.count("\n") for t in texts.values()),
+        "templates over a formulation": sum(len(re.findall(r"template ?<.*(?:class|typename) F\b", t)) for t in texts.values()),
         "lines of decks and formats": sum(t.count("\n") for p, t in texts.items() if {SOURCES / "formats", SOURCES / "decks"} & set(p.parents)),
         "lines of tests": sum(p.read_text(encoding="utf-8").count("\n") for p in (ROOT / "tests").rglob("*") if p.suffix in (".cpp", ".hpp", ".py")),
     }

@@ -175,20 +175,20 @@ outputs:
     RecordedMotion motion(history, model, o);
     ASSERT_EQ(motion.instants(), whole.table.rows());
     for (const std::size_t k : {motion.instants() - 1, std::size_t{0}, std::size_t{77}}) {
-      const OutputView& view = motion.at(k);
-      EXPECT_EQ(view.time(), whole.table.at(k, 0));
+      const SystemMotion& view = motion.at(k);
+      EXPECT_EQ(view.t, whole.table.at(k, 0));
       const int beam = 2, stone = 4;
       ASSERT_EQ(model.bodies[stone].name, "stone");
       EXPECT_TRUE(motion.recorded(stone));
       for (int i = 0; i < 3; ++i) {
         const auto column = static_cast<std::size_t>(i);
-        EXPECT_NEAR(view.body_position(stone)[i], whole.table.at(k, 1 + column), 1e-12);
-        EXPECT_NEAR(view.body_velocity(stone)[i], whole.table.at(k, 4 + column), 1e-11);
-        EXPECT_NEAR(view.body_acceleration(stone)[i], whole.table.at(k, 7 + column), 1e-9);
+        EXPECT_NEAR(view.body(stone).p_WB[i], whole.table.at(k, 1 + column), 1e-12);
+        EXPECT_NEAR(view.body(stone).v_WB[i], whole.table.at(k, 4 + column), 1e-11);
+        EXPECT_NEAR(view.body(stone).a_WB[i], whole.table.at(k, 7 + column), 1e-9);
       }
-      EXPECT_EQ(view.amplitude(beam, 1), whole.table.at(k, 10));
-      EXPECT_EQ(view.amplitude_rate(beam, 1), whole.table.at(k, 11));
-      EXPECT_EQ(view.amplitude_acceleration(beam, 1), whole.table.at(k, 12));
+      EXPECT_EQ(view.body(beam).y[1], whole.table.at(k, 10));
+      EXPECT_EQ(view.body(beam).yd[1], whole.table.at(k, 11));
+      EXPECT_EQ(view.body(beam).ydd[1], whole.table.at(k, 12));
       EXPECT_EQ(motion.outputs().size(), 13u);
     }
     EXPECT_THROW(motion.at(motion.instants()), InputError);

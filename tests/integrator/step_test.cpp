@@ -81,7 +81,7 @@ std::vector<Vec3> tip_path(const Model& m, double h, double rho) {
   const long every = std::lround(0.05 / h);
   for (int k = 0; k < 10; ++k) {
     s.run(h, every);
-    path.push_back(s.f.marker(m.outputs[0].marker).r + s.f.origin());
+    path.push_back(s.f.motion().place(m.outputs[0].marker));
   }
   return path;
 }
@@ -145,19 +145,19 @@ Drift spin(JointType type, double h) {
   System<F> s(m, o);
   const Mat3 J = Vec3(0.1, 0.2, 0.27).asDiagonal();
   const auto momentum = [&]() -> Vec3 {
-    const Mat3& R = s.f.body_rotation(0);
-    return R * J * R.transpose() * s.f.body_angular_velocity(0);
+    const Mat3& R = s.f.motion().body(0).R_WB;
+    return R * J * R.transpose() * s.f.motion().body(0).w_WB;
   };
   evaluate_at(s.f, 0.0, s.state.q, s.state.v);
   const Vec3 L0 = momentum();
-  const Vec3 axis0 = s.f.body_rotation(0).col(1);
+  const Vec3 axis0 = s.f.motion().body(0).R_WB.col(1);
   const double E0 = s.f.kinetic_energy(s.state.v);
   Drift d;
   for (int k = 0; k < 40; ++k) {
     s.run(h, std::lround(0.1 / h));
     d.momentum = std::max(d.momentum, (momentum() - L0).norm() / L0.norm());
-    d.turned += 0.1 * s.f.body_angular_velocity(0).norm();
-    d.tilt = std::max(d.tilt, 1.0 - s.f.body_rotation(0).col(1).dot(axis0));
+    d.turned += 0.1 * s.f.motion().body(0).w_WB.norm();
+    d.tilt = std::max(d.tilt, 1.0 - s.f.motion().body(0).R_WB.col(1).dot(axis0));
     d.energy = std::max(d.energy, std::abs(s.f.kinetic_energy(s.state.v) / E0 - 1.0));
     evaluate_at(s.f, s.state.t, s.state.q, s.state.v);
   }
@@ -349,9 +349,7 @@ TEST(MasslessFreedom, HeldByASpringIsNoSingularTangent) {
   for (const double h : {1e-3, 2e-4, 1e-4}) {
     System<RelativeFormulation> r(m, o);
     System<AbsoluteFormulation> a(m, o);
-    const auto tip = [&](const auto& s) -> Vec3 {
-      return s.f.marker(m.outputs[0].marker).r + s.f.origin();
-    };
+    const auto tip = [&](const auto& s) -> Vec3 { return s.f.motion().place(m.outputs[0].marker); };
     double d = 0.0, moved = 0.0;
     const Vec3 from = tip(r);
     for (int k = 0; k < 10; ++k) {

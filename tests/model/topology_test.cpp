@@ -146,8 +146,8 @@ TEST(Topology, AutomaticFreeJointStartsInTheDesignPose) {
   VecX q, v;
   f.start(q, v);
   f.positions(0.0, q);
-  EXPECT_LT((f.body_position(0) - m.bodies[0].X_WB.p).norm(), 1e-15);
-  EXPECT_LT(largest(f.body_rotation(0) - m.bodies[0].X_WB.R), 1e-15);
+  EXPECT_LT((f.motion().body(0).p_WB - m.bodies[0].X_WB.p).norm(), 1e-15);
+  EXPECT_LT(largest(f.motion().body(0).R_WB - m.bodies[0].X_WB.R), 1e-15);
 }
 
 TEST(Topology, CutAloneLeavesTheBodyFree) {

@@ -26,6 +26,12 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertTrue(text.startswith("model/a.hpp:2: 'model' must not use 'integrator'; it may use "), text)
 
+    def test_a_type_that_is_only_declared_counts_as_used(self):
+        files = {"formulation/f.hpp": "class Formulation {\n};\n", "simulation/s.hpp": "class Formulation;\n"}
+        self.assertEqual(self.check(files), (0, ""))
+        files["model/a.hpp"] = "#pragma once\nclass Formulation;\n"
+        self.assertEqual(self.check(files), (1, "model/a.hpp:2: 'model' must not declare Formulation of 'formulation'\n"))
+
     def test_public_headers_reach_nothing_foreign(self):
         files = {"model.hpp": '#include "floatframe/model/a.hpp"\n', "model/a.hpp": "#include <vector>\n#include <Eigen/Core>\n"}
         self.assertEqual(self.check(files), (0, ""))

@@ -255,7 +255,7 @@ void check_allocations(bool paced) {
   Plain port;
   RealTimeReport report;
   RealTimeRunner<F> runner(steps, options, &port, report);
-  MotionWatch<F> watch(steps.formulation(), d.step);
+  MotionWatch watch(steps.model(), d.step);
   runner.watched_by(watch);
   const AllocationScope scope;
   const auto end = runner.run();

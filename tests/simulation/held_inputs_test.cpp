@@ -199,9 +199,9 @@ template <class F>
 EnergySummary balance(const Model& model, const SimulationDescription& d, double& travelled) {
   SteppedModel<F> steps(model, d, {.duration = d.duration});
   F& f = steps.formulation();
-  RunWatch<F> watch(f, d.step, steps.grid().steps());
+  RunWatch watch(f, d.step, steps.grid().steps());
   steps.set_edge_watch({&watch, [](void* w, const State& s, const VecX& reactions) noexcept {
-                          static_cast<RunWatch<F>*>(w)->edge(s, reactions);
+                          static_cast<RunWatch*>(w)->edge(s, reactions);
                         }});
   watch.start(steps.state());
   std::vector<double> row(model.outputs.size() + 1);

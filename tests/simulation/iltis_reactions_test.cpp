@@ -16,8 +16,8 @@ template <class F>
 double worst_balance(const Model& model, SimulationDescription options, double duration) {
   options.step = 1e-3;
   SteppedModel<F> steps(model, options);
-  ReactionSolver<F> solver(steps.model(), options.inertia, steps.state(),
-                           {steps.step_options().penalty_mass, options.step, false});
+  ReactionSolver solver(F::coordinates_of, steps.model(), options.inertia, steps.state(),
+                        {steps.step_options().penalty_mass, options.step, false});
   double worst = 0.0;
   for (int k = 0; k <= std::lround(duration / options.step); ++k) {
     if (k > 0 && !steps.advance()) {
@@ -26,8 +26,7 @@ double worst_balance(const Model& model, SimulationDescription options, double d
     }
     if (k % 10 != 0) continue;
     solver.solve(steps.state(), steps.formulation().inputs(), steps.formulation().spring_angles());
-    const BodyBalance b =
-        body_balance(solver.formulation(), steps.state().q, solver.reactions(), options.inertia);
+    const BodyBalance b = body_balance(solver.formulation(), solver.reactions(), options.inertia);
     EXPECT_LT(b.error, 1e-8) << "at " << steps.state().t << " s: " << b.body;
     worst = std::max(worst, b.error);
   }

@@ -82,8 +82,8 @@ TEST(LeastReactions, AreAnOrthogonalProjection) {
   const State s = relative_start(f, Start::given);
   f.positions(s.t, s.q);
   f.velocities(s.v);
-  LeastReactions<RelativeFormulation> least(model);
-  least.place(f, s.t);
+  LeastReactions least(model);
+  least.place(f);
   const int n = least.rows();
   MatX P(n, n);
   for (int k = 0; k < n; ++k) {

@@ -23,12 +23,12 @@ std::vector<double> closed_start_of(const Model& model) {
   f.positions(0.0, s.q);
   f.velocities(s.v);
   std::vector<double> all;
-  for (int i = 0; i < f.tree().body_count(); ++i) {
+  for (const BodyKinematics& b : f.motion().bodies) {
     const auto add = [&](const auto& x) { all.insert(all.end(), x.data(), x.data() + x.size()); };
-    add(Vec3(f.body_position(i)));
-    add(Mat3(f.body_rotation(i)));
-    add(Vec3(f.body_velocity(i)));
-    add(Vec3(f.body_angular_velocity(i)));
+    add(b.p_WB);
+    add(b.R_WB);
+    add(b.v_WB);
+    add(b.w_WB);
   }
   return all;
 }

@@ -99,8 +99,9 @@ void momenta(const RelativeFormulation& f, const State& s, const FlexibleBody& b
   const InertiaInvariants& v = body.invariants;
   const int nm = v.modes();
   const VecX y = s.q.tail(nm), yd = s.v.tail(nm);
-  const Mat3& A = f.body_rotation(0);
-  const Vec3 r0 = f.body_position(0), v0 = f.body_velocity(0), w = f.body_angular_velocity(0);
+  const BodyKinematics& b = f.motion().body(0);
+  const Mat3& A = b.R_WB;
+  const Vec3 &r0 = b.p_WB, &v0 = b.v_WB, &w = b.w_WB;
   const Vec3 m_bar = v.m_u + v.S * y;  // (29)
   Mat3 P_bar = v.P_u, rate = Mat3::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -146,7 +147,7 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
   evaluate_at(f, 0.0, s.q, s.v);
   Vec3 p0, h0, p1, h1;
   momenta(f, s, part.body, p0, h0);
-  const double e0 = f.kinetic_energy(s.v) + f.elastic_energy(s.q);
+  const double e0 = f.kinetic_energy(s.v) + elastic_energy(f.motion());
   AugmentedLagrangian<RelativeFormulation> integrator(f, options);
   Tumble t;
   const long steps = std::lround(duration / step);
@@ -159,7 +160,7 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
     if ((k + 1) % std::max(1l, steps / 16) != 0) continue;
     evaluate_at(f, s.t, s.q, s.v);
     momenta(f, s, part.body, p1, h1);
-    const double e1 = f.kinetic_energy(s.v) + f.elastic_energy(s.q);
+    const double e1 = f.kinetic_energy(s.v) + elastic_energy(f.motion());
     t.energy = std::max(t.energy, std::abs(e1 / e0 - 1.0));
     t.linear = std::max(t.linear, (p1 - p0).norm() / p0.norm());
     t.angular = std::max(t.angular, (h1 - h0).norm() / h0.norm());
@@ -168,7 +169,7 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
   const auto place = [&](std::size_t first) {
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis)
-      p[axis] = (f.origin() + f.marker(model.outputs[first].marker).r)[axis];
+      p[axis] = f.motion().place(model.outputs[first].marker)[axis];
     return p;
   };
   t.big_end = place(0);

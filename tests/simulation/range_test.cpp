@@ -229,7 +229,7 @@ std::size_t allocations(F& f, State state, double step, double penalty) {
   Runner<F> runner(f, options, step / 64.0);
   runner.state() = std::move(state);
   start_accelerations(f, runner.state(), penalty);
-  RunWatch<F> watch(f, step, 10);
+  RunWatch watch(f, step, 10);
   EXPECT_TRUE(runner.advance(step));
   const AllocationScope scope;
   watch.start(runner.state());

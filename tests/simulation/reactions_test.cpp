@@ -118,11 +118,11 @@ simulation: {step: 0.01, duration: 0.3, output_interval: 0.1}
 /// Of one formulation at the start of a mechanism.
 template <class F>
 struct Solved {
-  InitialisedModel<F> started;
-  ReactionSolver<F> solver;
+  InitialisedModel started;
+  ReactionSolver solver;
   explicit Solved(const Model& model, const SimulationDescription& o, InertiaMethod method)
-      : started(model, with(o, method)),
-        solver(started.model(), method, started.state(),
+      : started(model, with(o, method), F::coordinates_of),
+        solver(F::coordinates_of, started.model(), method, started.state(),
                {started.step_options().penalty_mass, o.step, !started.report().redundant.empty()}) {
     solver.solve(started.state(), started.formulation().inputs(),
                  started.formulation().spring_angles());
@@ -143,10 +143,10 @@ TEST(Reactions, BalanceEveryBodyOfRandomMechanismsAndAreThoseOfEitherFormulation
       if (fastest_rate(model, mechanism.relative) == 0.0) continue;
       Solved<RelativeFormulation> r(model, model.simulation, mechanism.relative);
       Solved<AbsoluteFormulation> a(model, model.simulation, mechanism.absolute);
-      const BodyBalance br = body_balance(r.solver.formulation(), r.started.state().q,
-                                          r.solver.reactions(), mechanism.relative);
-      const BodyBalance ba = body_balance(a.solver.formulation(), a.started.state().q,
-                                          a.solver.reactions(), mechanism.absolute);
+      const BodyBalance br =
+          body_balance(r.solver.formulation(), r.solver.reactions(), mechanism.relative);
+      const BodyBalance ba =
+          body_balance(a.solver.formulation(), a.solver.reactions(), mechanism.absolute);
       // Before the first step nothing need balance the forces on a freedom without mass.
       if (r.solver.lacks_mass() && r.solver.force_error() > 1e-6 * br.largest_force) {
         ++weightless;
@@ -284,8 +284,8 @@ TEST(Reactions, AreSampledWithoutAllocation) {
 template <class F>
 void expect_impulses_to_be_the_change_of_momentum() {
   const Model model = model_of(spatial_linkage);
-  InitialisedModel<F> started(model, model.simulation);
-  F& f = started.formulation();
+  InitialisedModel started(model, model.simulation, F::coordinates_of);
+  F& f = static_cast<F&>(started.formulation());
   StepOptions options = started.step_options();
   AugmentedLagrangian<F> projecting(f, options);
   projecting.keep_impulses();

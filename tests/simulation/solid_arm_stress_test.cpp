@@ -4,7 +4,7 @@
 
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/model/gauge.hpp"
-#include "floatframe/model/output_view.hpp"
+#include "floatframe/model/system_motion.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 #include "simulation/iltis.hpp"
 #include "support/coordinates.hpp"
@@ -50,19 +50,15 @@ Instant hardest_moment(const Model& model, int body, const BodyStress& stress) {
     }
     if (k % 10 != 0) continue;
     steps.sample(row.data());
-    const OutputView view(steps.formulation(), steps.state().t, steps.state().q);
+    const SystemMotion& motion = steps.formulation().motion({.accelerations = true});
+    const BodyKinematics& b = motion.body(body);
     Instant now;
     now.time = steps.state().t;
-    now.w = view.body_rotation(body).transpose() * view.body_angular_velocity(body);
-    now.c = body_load_coefficients(view, body);
-    now.y.resize(nm);
-    now.v.resize(nm);
-    now.a.resize(nm);
-    for (int j = 0; j < nm; ++j) {
-      now.y(j) = view.amplitude(body, j);
-      now.v(j) = view.amplitude_rate(body, j);
-      now.a(j) = view.amplitude_acceleration(body, j);
-    }
+    now.w = b.R_WB.transpose() * b.w_WB;
+    now.c = body_load_coefficients(motion, body);
+    now.y = b.y;
+    now.v = b.yd;
+    now.a = b.ydd;
     const VecX s = stress.modes * now.y;
     for (std::size_t p = 0; p < stress.places.size(); ++p)
       if (!stress.places[p].doubtful)

@@ -243,21 +243,11 @@ Vec6 beam_momenta(F& f, const State& s) {
   StiffeningData stiffening(data, *second_order_on_masses(*body.data, body.stiffens()));
   PreprocessingWorkspace work(nm);
   MatX M(6 + nm, 6 + nm);
-  VecX Qv(6 + nm), y(nm), v(6 + nm);
-  for (int k = 0; k < nm; ++k) {
-    y[k] = f.amplitude(s.q, 0, k);
-    v[6 + k] = f.amplitude_rate(s.v, 0, k);
-  }
+  VecX Qv(6 + nm), v(6 + nm);
   evaluate_at(f, s.t, s.q, s.v);
-  Vec3 r0;
-  if constexpr (std::is_same_v<F, RelativeFormulation>)
-    r0 = f.body_position(0);
-  else
-    r0 = s.q.template head<3>();
-  const Vec3 w = f.body_angular_velocity(0);
-  v.head<3>() = f.body_velocity(0) - w.cross(r0);
-  v.segment<3>(3) = w;
-  relative_stiffened(data, stiffening, r0, f.body_rotation(0), w, y.data(), v.data() + 6, work, M,
+  const BodyKinematics& b = f.motion().body(0);
+  v << b.v_WB - b.w_WB.cross(b.p_WB), b.w_WB, b.yd;
+  relative_stiffened(data, stiffening, b.p_WB, b.R_WB, b.w_WB, b.y.data(), b.yd.data(), work, M,
                      Qv);
   return (M * v).head<6>();
 }

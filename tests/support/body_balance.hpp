@@ -20,10 +20,10 @@ struct BodyBalance {
   std::string body;            ///< with that error
 };
 
-/// `f` is at (q, v) with the accelerations that go with the reactions, after `dynamics`.
-template <class F>
-BodyBalance body_balance(const F& f, const VecX& q, const Reactions& reactions,
-                         InertiaMethod method) {
+/// `f` is at the state with the accelerations that go with the reactions, after `dynamics`.
+inline BodyBalance body_balance(const Formulation& f, const Reactions& reactions,
+                                InertiaMethod method) {
+  const SystemMotion& motion = f.motion({.accelerations = true});
   const Model& model = f.model();
   const std::size_t n = model.bodies.size();
   std::vector<VecX> sum(n);
@@ -31,7 +31,7 @@ BodyBalance body_balance(const F& f, const VecX& q, const Reactions& reactions,
   const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
     const LocalMarker& m = f.local_marker(marker);
     if (m.body < 0) return;
-    const Vec3 arm = f.body_rotation(m.body) * m.p_B;
+    const Vec3 arm = motion.body(m.body).R_WB * m.p_B;
     VecX& h = sum[m.body];
     h.head<3>() -= force;
     h.segment<3>(3) -= arm.cross(force) + torque;
@@ -42,33 +42,26 @@ BodyBalance body_balance(const F& f, const VecX& q, const Reactions& reactions,
     h.tail(own.size()) -= own;
   };
   for (std::size_t i = 0; i < n; ++i) {
-    const int k = static_cast<int>(i), nm = model.bodies[i].modes();
+    const BodyKinematics& b = motion.bodies[i];
+    const int nm = model.bodies[i].modes();
     BodyInertia inertia(model.bodies[i], method);
     MatX M = MatX::Zero(6 + nm, 6 + nm);
-    VecX Qv = VecX::Zero(6 + nm), y(nm), yd(nm), z(6 + nm);
-    for (int m = 0; m < nm; ++m) {
-      y[m] = f.amplitude(q, k, m);
-      yd[m] = f.amplitude_rate(k, m);
-      z[6 + m] = f.amplitude_acceleration(k, m);
-    }
-    inertia.relative(Vec3::Zero(), f.body_rotation(k), f.body_angular_velocity(k), y.data(),
-                     yd.data(), M, Qv);
-    const PointMotion a = f.body_acceleration(k);
-    z.head<3>() = a.linear - model.gravity;
-    z.segment<3>(3) = a.angular;
+    VecX Qv = VecX::Zero(6 + nm), z(6 + nm);
+    inertia.relative(Vec3::Zero(), b.R_WB, b.w_WB, b.y.data(), b.yd.data(), M, Qv);
+    z << b.a_WB - model.gravity, b.alpha_WB, b.ydd;
     sum[i] = M * z - Qv;
     if (nm == 0) continue;
-    sum[i].tail(nm) += model.bodies[i].data->K * y + model.bodies[i].data->D * yd;
+    sum[i].tail(nm) += model.bodies[i].data->K * b.y + model.bodies[i].data->D * b.yd;
   }
   for (const VecX& h : sum) largest = std::max(largest, h.head<3>().norm());
   for (std::size_t k = 0; k < model.forces.size(); ++k) {
     const Force& force = model.forces[k];
-    const WrenchRow& w = f.force(static_cast<int>(k)).wrench;
+    const WrenchRow& w = motion.forces[k].wrench;
     if (force.a >= 0) add(force.a, w.Fa, w.Ta);
     add(force.b, w.Fb, w.Tb);
   }
   const auto between = [&](int a, int b, const Reactions::Wrench& w) {
-    const Vec3 d = f.marker(b).r - f.marker(a).r;
+    const Vec3 d = motion.marker(b).r - motion.marker(a).r;
     add(b, w.force, w.torque);
     add(a, -w.force, -(w.torque + d.cross(w.force)));
   };

@@ -135,9 +135,10 @@ std::string check_json(const ModelCounts& c, const Model& model) {
 /// The page of the model in its start configuration.
 std::string page_of_start(const Model& model, const ModelCounts& counts) {
   require_page("--report");
-  InitialisedModel<RelativeFormulation> start(model, model.simulation);
+  InitialisedModel start(model, model.simulation, Coordinates::relative);
   JointFollower joints(start.model());
-  SystemState state = system_state(start.formulation(), start.state(), joints);
+  kinematics_at(start.formulation(), start.state());
+  SystemState state = system_state(start.formulation().motion(), joints);
   place_bodies(start.model(), start.inertia(), state);
   const CoordinateCounts &r = counts.relative, &a = counts.absolute;
   const FactTable facts{"Model",

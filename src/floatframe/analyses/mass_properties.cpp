@@ -138,13 +138,10 @@ ModelMass mass_properties(const Model& model, const SimulationOptions& options) 
   const State state = start_state(f, d, &whole.start);
   f.positions(state.t, state.q);
   whole.time = state.t;
+  const SystemMotion& motion = f.motion();
   for (std::size_t i = 0; i < started.bodies.size(); ++i) {
-    const Body& body = started.bodies[i];
-    const int k = static_cast<int>(i);
-    VecX y(body.modes());
-    for (int m = 0; m < body.modes(); ++m) y[m] = f.amplitude(state.q, k, m);
-    whole.bodies.push_back(
-        mass_of_body(body, d.inertia, f.body_position(k), f.body_rotation(k), y));
+    const BodyKinematics& b = motion.bodies[i];
+    whole.bodies.push_back(mass_of_body(started.bodies[i], d.inertia, b.p_WB, b.R_WB, b.y));
   }
   add_up(whole);
   return whole;

@@ -226,11 +226,11 @@ std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& syst
 
 // -- the page
 
-template <class F>
 SystemState linearised_state(const Model& model) {
-  InitialisedModel<F> start(model, model.simulation);
+  InitialisedModel start(model, model.simulation);
   JointFollower joints(start.model());
-  SystemState state = system_state(start.formulation(), start.state(), joints);
+  kinematics_at(start.formulation(), start.state());
+  SystemState state = system_state(start.formulation().motion(), joints);
   place_bodies(start.model(), start.inertia(), state);
   return state;
 }
@@ -262,9 +262,7 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
                           const std::string& at) {
   require_page("--report");
   ModesPage page;
-  page.state = model.simulation.coordinates == Coordinates::relative
-                   ? linearised_state<RelativeFormulation>(model)
-                   : linearised_state<AbsoluteFormulation>(model);
+  page.state = linearised_state(model);
   page.sentences = {
       fmt::format("The natural vibrations of the model {}.", place_text(at, page.state.time)),
       "All modes are animated at the same slow rate with constant amplitude, whatever their "

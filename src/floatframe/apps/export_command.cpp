@@ -58,7 +58,7 @@ int export_motion(const ExportArguments& arguments) {
     if (!arguments.csv.empty()) files.push_back(motion_table(bodies, arguments.csv));
     ProgressBar bar(true, static_cast<double>(instants.size()), "instants");
     for (std::size_t i = 0; i < instants.size(); ++i) {
-      const OutputView& view = motion.at(instants[i]);
+      const SystemMotion& view = motion.at(instants[i]);
       for (const auto& file : files) file->add(view);
       bar.show(static_cast<double>(i + 1) / static_cast<double>(instants.size()));
     }

@@ -65,12 +65,12 @@ void replay(const RecordedRun& run, const ExportSelection& selection, StressRepo
   const std::vector<std::size_t> instants = selected_instants(run.history, selection);
   RecordedMotion motion(run.history, model, recorded_options(run));
   for (const std::size_t k : instants) {
-    const OutputView& view = motion.at(k);
-    if (report.instants++ == 0) report.from = view.time();
-    report.to = view.time();
+    const SystemMotion& view = motion.at(k);
+    if (report.instants++ == 0) report.from = view.t;
+    report.to = view.t;
     for (std::size_t i = 0; i < envelopes.size(); ++i) {
       const int b = report.bodies[i].body;
-      envelopes[i].add(view.time(), body_motion(view, b).y, stress_loads(view, b));
+      envelopes[i].add(view.t, body_motion(view, b).y, stress_loads(view, b));
     }
   }
   for (std::size_t i = 0; i < envelopes.size(); ++i)

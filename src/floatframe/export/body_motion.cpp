@@ -5,23 +5,18 @@
 
 namespace floatframe {
 
-BodyInstant body_motion(const OutputView& view, int body) {
+BodyInstant body_motion(const SystemMotion& motion, int body) {
   BodyInstant m;
-  m.p = view.body_position(body);
-  m.v = view.body_velocity(body);
-  m.a = view.body_acceleration(body);
-  m.R = view.body_rotation(body);
-  m.w = view.body_angular_velocity(body);
-  m.alpha = view.body_angular_acceleration(body);
-  const int nm = view.model().bodies[static_cast<std::size_t>(body)].modes();
-  m.y.resize(nm);
-  m.yd.resize(nm);
-  m.ydd.resize(nm);
-  for (int k = 0; k < nm; ++k) {
-    m.y[k] = view.amplitude(body, k);
-    m.yd[k] = view.amplitude_rate(body, k);
-    m.ydd[k] = view.amplitude_acceleration(body, k);
-  }
+  const BodyKinematics& b = motion.body(body);
+  m.p = b.p_WB;
+  m.v = b.v_WB;
+  m.a = b.a_WB;
+  m.R = b.R_WB;
+  m.w = b.w_WB;
+  m.alpha = b.alpha_WB;
+  m.y = b.y;
+  m.yd = b.yd;
+  m.ydd = b.ydd;
   return m;
 }
 

@@ -5,7 +5,7 @@
 //   v = p' + w x (x - p) + R (X + e_j y^T h_j) y',
 // the terms with h_j only for a body with geometric stiffening, at nodes with second-order data
 // (SecondOrder). A node rotates by exp(skew(theta)), theta = X_theta y plus its second order.
-#include "floatframe/model/output_view.hpp"
+#include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 
@@ -15,7 +15,7 @@ struct BodyInstant {
   Vec3 w, alpha;    ///< world axes [rad/s, rad/s2]
   VecX y, yd, ydd;  ///< amplitudes, rates, accelerations
 };
-BodyInstant body_motion(const OutputView& view, int body);
+BodyInstant body_motion(const SystemMotion& motion, int body);
 
 struct NodeMotion {
   Vec3 p, v;         ///< world axes [m, m/s]

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/model/output_view.hpp"
+#include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 
@@ -24,7 +24,7 @@ class ExportFile {
  public:
   virtual ~ExportFile() = default;
   /// Adds the next instant. Throws OutputError if data cannot be written meanwhile.
-  virtual void add(const OutputView& view) = 0;
+  virtual void add(const SystemMotion& motion) = 0;
   /// Writes the file; returns a short description of it. Throws OutputError, or InputError if it
   /// would be larger than its format allows.
   virtual std::string finish() = 0;

@@ -49,14 +49,14 @@ class GlbScene : public ExportFile {
     }
   }
 
-  void add(const OutputView& view) override {
+  void add(const SystemMotion& motion) override {
     // Times must ascend as floats, too.
-    const auto time = static_cast<float>(view.time() - first_time_.value_or(view.time()));
-    if (!first_time_) first_time_ = view.time();
+    const auto time = static_cast<float>(motion.t - first_time_.value_or(motion.t));
+    if (!first_time_) first_time_ = motion.t;
     if (!times_.empty() && !(time > times_.back())) return;
     times_.push_back(time);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(motion, bodies_.bodies[i]);
       Track& track = tracks_[i];
       track.places.push_back(m.p);
       track.turns.push_back(continued_quaternion(

@@ -24,15 +24,15 @@ class MotionTable : public ExportFile {
     }
   }
 
-  void add(const OutputView& view) override {
+  void add(const SystemMotion& motion) override {
     ++instants_;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       Lines& l = lines_[i];
       const Body& body = bodies_.body(i);
-      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
-      row(view.time(), l.body, "", {m.p, m.v, m.R, m.w, Vec3::Zero()}, l.turns[0]);
+      const BodyInstant m = body_motion(motion, bodies_.bodies[i]);
+      row(motion.t, l.body, "", {m.p, m.v, m.R, m.w, Vec3::Zero()}, l.turns[0]);
       for (std::size_t k = 0; k < l.named.size(); ++k)
-        row(view.time(), l.body, l.names[k], node_motion(body, l.named[k], m), l.turns[k + 1]);
+        row(motion.t, l.body, l.names[k], node_motion(body, l.named[k], m), l.turns[k + 1]);
     }
   }
 

@@ -35,10 +35,10 @@ class NumpyArchive : public ExportFile {
                       bodies.instants, 1e-9 * size));
   }
 
-  void add(const OutputView& view) override {
-    time_.push_back(view.time());
+  void add(const SystemMotion& motion) override {
+    time_.push_back(motion.t);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(motion, bodies_.bodies[i]);
       Track& t = tracks_[i];
       t.turn = continued_quaternion(m.R, t.turn);
       keep(t.position, m.p);
@@ -51,7 +51,7 @@ class NumpyArchive : public ExportFile {
       keep(t.amplitudes, m.y);
       keep(t.rates, m.yd);
       keep(t.amplitude_accelerations, m.ydd);
-      if (t.field.known()) keep(t.stress, t.field.at(m.y, stress_loads(view, bodies_.bodies[i])));
+      if (t.field.known()) keep(t.stress, t.field.at(m.y, stress_loads(motion, bodies_.bodies[i])));
       const Pose& design = body(i).X_WB;
       for (const int n : t.named) {
         const NodeMotion node = node_motion(body(i), n, m);

@@ -27,11 +27,11 @@ std::map<std::pair<int, int>, std::pair<int, int>> places_of_sections(const Body
 
 }  // namespace
 
-VecX stress_loads(const OutputView& view, int body) {
-  const int nm = view.model().bodies[static_cast<std::size_t>(body)].modes();
+VecX stress_loads(const SystemMotion& motion, int body) {
+  const int nm = motion.model.bodies[static_cast<std::size_t>(body)].modes();
   VecX c(body_load_cases + nm);
-  c.head<body_load_cases>() = body_load_coefficients(view, body);
-  for (int k = 0; k < nm; ++k) c[body_load_cases + k] = -view.amplitude_acceleration(body, k);
+  c.head<body_load_cases>() = body_load_coefficients(motion, body);
+  c.tail(nm) = -motion.body(body).ydd;
   return c;
 }
 

@@ -9,7 +9,7 @@
 namespace floatframe {
 
 /// c, 12 + nm.
-VecX stress_loads(const OutputView& view, int body);
+VecX stress_loads(const SystemMotion& motion, int body);
 
 /// xx yy zz xy yz zx in world axes. R: R_WB.
 Vec6 turned_stress(const Mat3& R, const Vec6& stress) noexcept;

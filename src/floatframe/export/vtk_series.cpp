@@ -63,21 +63,21 @@ class VtkSeries : public ExportFile {
     grid_.cell_data = {{"body", 1, std::move(cell_body_)}, {"drawn", 1, std::move(cell_drawn_)}};
   }
 
-  void add(const OutputView& view) override {
+  void add(const SystemMotion& motion) override {
     std::size_t first = 0;
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(motion, bodies_.bodies[i]);
       place(i, m, first);
       if (fields_[i].known()) {
-        fields_[i].at(m.y, stress_loads(view, bodies_.bodies[i]));
+        fields_[i].at(m.y, stress_loads(motion, bodies_.bodies[i]));
         stress(i, m, first);
       }
       first += static_cast<std::size_t>(pictures_[i].points.cols());
     }
-    grid_.time = view.time();
+    grid_.time = motion.t;
     const std::string name = file_of_series(files_.size());
     write_file(path(name), vtu_bytes(grid_), Flush::later);
-    files_.emplace_back(view.time(), name);
+    files_.emplace_back(motion.t, name);
   }
 
   std::string finish() override {

@@ -22,7 +22,7 @@ std::vector<int> all_joints(const Model& model) {
 }  // namespace
 
 AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod method)
-    : model_(model), constraint_set_(model, all_joints(model)), force_set_(model) {
+    : Formulation(model, all_joints(model)) {
   for (const Marker& m : model_.markers) {
     MarkerData d;
     static_cast<LocalMarker&>(d) = LocalMarker(model_, m);
@@ -31,6 +31,8 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   place_outer_points();
   number_coordinates(method);
   make_factors();
+  for (const BodyData& b : bodies_) show_body(b.A, b.w_WB, b.y, b.yd, a_.data() + b.offset + 12);
+  for (const MarkerData& m : markers_) show_marker(m.s, m);
 }
 
 /// Outer points: where a constraint uses the position of a deforming node. Joints at one node share
@@ -177,28 +179,25 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
   tree.positions(0.0, tree_q);
   tree.velocities(tree_v);
   tree.forces();
+  const SystemMotion& motion = tree.motion();
   for (std::size_t k = 0; k < model_.forces.size(); ++k)
-    if (model_.forces[k].rotational)
-      force_set_.set_angle(k, tree.force(static_cast<int>(k)).length);
+    if (model_.forces[k].rotational) force_set_.set_angle(k, motion.forces[k].length);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
-    const int k = static_cast<int>(i);
-    const Mat3& A = tree.body_rotation(k);
-    const Mat3 Adot = skew(tree.body_angular_velocity(k)) * A;
-    q.segment<3>(b.offset) = tree.body_position(k);
-    v.segment<3>(b.offset) = tree.body_velocity(k);
+    const BodyKinematics& from = motion.bodies[i];
+    const Mat3 Adot = skew(from.w_WB) * from.R_WB;
+    q.segment<3>(b.offset) = from.p_WB;
+    v.segment<3>(b.offset) = from.v_WB;
     for (int c = 0; c < 3; ++c) {
-      q.segment<3>(b.offset + 3 + 3 * c) = A.col(c);
+      q.segment<3>(b.offset + 3 + 3 * c) = from.R_WB.col(c);
       v.segment<3>(b.offset + 3 + 3 * c) = Adot.col(c);
     }
-    for (int m = 0; m < b.nm; ++m) {
-      q[b.offset + 12 + m] = tree.amplitude(tree_q, k, m);
-      v[b.offset + 12 + m] = tree.amplitude_rate(tree_v, k, m);
-    }
+    q.segment(b.offset + 12, b.nm) = from.y;
+    v.segment(b.offset + 12, b.nm) = from.yd;
     for (int p = 0; p < b.points; ++p) {
-      const MarkerState& s = tree.marker(b.point_marker[p]);
-      q.segment<3>(b.offset + 12 + b.nm + 3 * p) = s.r + tree.origin();
-      v.segment<3>(b.offset + 12 + b.nm + 3 * p) = s.v;
+      const int marker = b.point_marker[p];
+      q.segment<3>(b.offset + 12 + b.nm + 3 * p) = motion.place(marker);
+      v.segment<3>(b.offset + 12 + b.nm + 3 * p) = motion.marker(marker).v;
     }
   }
 }

@@ -38,41 +38,21 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/formulation/body_inertia.hpp"
-#include "floatframe/formulation/constraint_set.hpp"
-#include "floatframe/formulation/counts.hpp"
-#include "floatframe/formulation/force_set.hpp"
-#include "floatframe/formulation/local_marker.hpp"
+#include "floatframe/formulation/formulation.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/block_ldlt.hpp"
 #include "floatframe/math/independent_rows.hpp"
 
 namespace floatframe {
 
-class AbsoluteFormulation {
+class AbsoluteFormulation final : public Formulation {
  public:
   /// The only allocating call. Throws InputError if a body lacks the data `method` needs.
   AbsoluteFormulation(const Model& model, InertiaMethod method);
-  AbsoluteFormulation(const AbsoluteFormulation&) = delete;
-  AbsoluteFormulation& operator=(const AbsoluteFormulation&) = delete;
 
-  const Model& model() const noexcept { return model_; }
-  const ConstraintSet& constraint_set() const noexcept { return constraint_set_; }
-
-  /// As in relative.hpp.
-  void set_inputs(std::span<const double> values) noexcept { force_set_.set_inputs(values); }
-  std::span<const double> inputs() const noexcept { return force_set_.inputs(); }
-  std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
-  void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
-  /// As in relative.hpp, at the present positions and velocities.
-  std::span<const std::int64_t> force_branches() const noexcept { return force_set_.branches(); }
-  void hold_force_branches(std::span<const std::int64_t> branches) noexcept {
-    force_set_.hold_branches(branches);
-  }
-  void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
-    force_set_.hold_branch(force, branch);
-  }
-  ForceSide force_side(std::size_t force) const noexcept;
+  static constexpr Coordinates coordinates_of = Coordinates::absolute;
+  Coordinates coordinates() const noexcept override { return coordinates_of; }
+  ForceSide force_side(std::size_t force) const noexcept override;
 
   /// The same configuration and velocities as a relative state. Axes do not determine turns: the
   /// angles of joint springs are continued from those of the tree.
@@ -83,79 +63,48 @@ class AbsoluteFormulation {
 
   /// Tuned with the Iltis benchmark.
   static constexpr double factorization_cost = 3.0;
-  int velocities() const noexcept { return nq_; }
-  int configurations() const noexcept { return nq_; }
-  int constraints() const noexcept { return constraint_set_.count(); }
+  int velocities() const noexcept override { return nq_; }
+  int configurations() const noexcept override { return nq_; }
   /// All markers are updated, also during steps.
-  void stepping(bool on, bool accepted = true) noexcept { force_set_.stepping(on, accepted); }
-  void positions(double t, const VecX& q) noexcept;
-  void velocities(const VecX& v) noexcept;
-  void dynamics() noexcept;
-  void forces() noexcept;
-  void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept;
-  int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept {
+  void stepping(bool on, bool accepted = true) noexcept override {
+    force_set_.stepping(on, accepted);
+  }
+  void positions(double t, const VecX& q) noexcept override;
+  void velocities(const VecX& v) noexcept override;
+  void dynamics() noexcept override;
+  void forces() noexcept override;
+  void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept override;
+  int factorize(double mass, double damping, double s, double alpha,
+                int slot = 0) noexcept override {
     return eliminate({mass, damping, s, s * alpha, true}, factors_[slot]);
   }
-  int factorize_metric(double s, double penalty, int slot) noexcept {
+  int factorize_metric(double s, double penalty, int slot) noexcept override {
     return eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
   }
-  double log_pivots(int slot) const noexcept { return factors_[slot].matrix.log_pivots(); }
-  void solve(VecX& b, int slot = 0) noexcept;
-  void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept;
-  void balance(VecX& lambda, VecX& r) noexcept;
-  const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
-  const VecX& own_frequencies_squared() const noexcept { return omega2_; }
-  void constraint_rates(VecX& out) noexcept;
-  void constraint_accelerations(const VecX& a, VecX& out) noexcept;
-  void constraint_increments(const VecX& delta, VecX& out) noexcept;
-  void constraint_forces(const VecX& w, VecX& out) noexcept;
-  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept { q = q0 + x; }
-  void settle(const VecX& q0, VecX& x) const noexcept;
+  double log_pivots(int slot) const noexcept override { return factors_[slot].matrix.log_pivots(); }
+  void solve(VecX& b, int slot = 0) noexcept override;
+  void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept override;
+  void balance(VecX& lambda, VecX& r) noexcept override;
+  void constraint_rates(VecX& out) noexcept override;
+  void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
+  void constraint_increments(const VecX& delta, VecX& out) noexcept override;
+  void constraint_forces(const VecX& w, VecX& out) noexcept override;
+  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override { q = q0 + x; }
+  void settle(const VecX& q0, VecX& x) const noexcept override;
   /// From the present positions, with increments (5).
-  void advance(VecX& x, const VecX& delta) const noexcept;
+  void advance(VecX& x, const VecX& delta) const noexcept override;
 
-  // -- for outputs, energies and reports, as in relative.hpp
+  // -- Formulation
 
-  const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
-  Vec3 origin() const noexcept { return Vec3::Zero(); }
-  const LocalMarker& local_marker(int index) const noexcept { return markers_[index]; }
-  const ForceState& force(int index) const noexcept { return force_set_.state(index); }
-  void set_accelerations(const VecX& a) noexcept { a_ = a; }
-  Vec3 marker_acceleration(int index) const noexcept;
-  Vec3 body_position(int i) const noexcept { return bodies_[i].p_WB; }
-  const Mat3& body_rotation(int i) const noexcept { return bodies_[i].A; }
-  Vec3 body_angular_velocity(int i) const noexcept { return bodies_[i].w_WB; }
-  Vec3 body_velocity(int i) const noexcept { return bodies_[i].v_WB; }
-  PointMotion body_acceleration(int i) const noexcept;
-  double amplitude(const VecX& q, int i, int mode) const noexcept {
-    return q[bodies_[i].offset + 12 + mode];
-  }
-  double amplitude_rate(const VecX& v, int i, int mode) const noexcept {
-    return v[bodies_[i].offset + 12 + mode];
-  }
-  double amplitude_rate(int i, int mode) const noexcept { return bodies_[i].yd[mode]; }
-  double amplitude_acceleration(int i, int mode) const noexcept {
-    return a_[bodies_[i].offset + 12 + mode];
-  }
-  double body_kinetic_energy(int i) const noexcept;
-  double body_gravity_energy(int i) const noexcept;
-  double body_elastic_energy(int i) const noexcept;
-  double modal_damping_power(const VecX& v) const noexcept;
-  double motion_power(const VecX& lambda) const noexcept {
-    return constraint_set_.motion_power(lambda);
-  }
-  double kinetic_energy(const VecX& v) noexcept;
-  double gravity_energy(const VecX& q) const noexcept;
-  double elastic_energy(const VecX& q) const noexcept;
-  std::string coordinate_owner(int i) const;
-  /// Phi_q, sparse and dense, load time only.
-  SparseRowMatrix constraint_rows();
-  MatX constraint_jacobian() { return MatX(constraint_rows()); }
-  CoordinateCounts counts() const;
+  void set_accelerations(const VecX& a) noexcept override { a_ = a; }
+  double kinetic_energy(const VecX& v) noexcept override;
+  BodyCoordinates body_coordinates(int body) const override;
+  std::string coordinate_owner(int i) const override;
+  CoordinateCounts counts() const override;
+  SparseRowMatrix constraint_rows() override;
+  VecX mass_diagonal() const override;
   /// Dense mass matrix at the present configuration (load time, tests).
   MatX mass_matrix() const;
-  /// Of the mass matrix, after `dynamics`; load time.
-  VecX mass_diagonal() const;
   /// Coordinates and internal constraints of a body; those of all bodies are consecutive.
   int body_size(int i) const noexcept { return bodies_[i].size(); }
   int body_rows(int i) const noexcept { return bodies_[i].rows(); }
@@ -217,6 +166,12 @@ class AbsoluteFormulation {
     double penalty = 0.0;
   };
 
+  void fill_poses(SystemMotion& motion) const noexcept override;
+  void fill_accelerations(SystemMotion& motion) const noexcept override;
+  double body_kinetic_energy(int body) const noexcept override;
+  const BodyInertia& inertia(int body) const noexcept override { return bodies_[body].inertia; }
+  Vec3 marker_acceleration(int index) const noexcept;
+
   // Load time.
   void place_outer_points();
   void number_coordinates(InertiaMethod method);
@@ -260,9 +215,6 @@ class AbsoluteFormulation {
   void gather(const BodyData& b, const VecX& x, double* z) const noexcept;
   void spread(const BodyData& b, const double* z, VecX& x) const noexcept;
 
-  const Model& model_;
-  ConstraintSet constraint_set_;
-  ForceSet force_set_;
   std::vector<BodyData> bodies_;
   std::vector<MarkerData> markers_;
   std::vector<PartPlace> places_;  ///< of the constraint parts
@@ -274,8 +226,7 @@ class AbsoluteFormulation {
   bool stiffens_ = false;      ///< a body has geometric stiffening
   bool second_order_ = false;  ///< a body has displacements of second order
   int nq_ = 0;
-  double time_ = 0.0;
-  VecX omega2_, a_;
+  VecX a_;  ///< of `set_accelerations`
 };
 
 }  // namespace floatframe

@@ -1,15 +1,27 @@
-// Access to the absolute formulation for outputs, energies and counts; not part of the step's inner
-// loop.
+// The absolute formulation for readers: its motion, energies and counts; not part of the step's
+// inner loop.
 #include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
 
-PointMotion AbsoluteFormulation::body_acceleration(int i) const noexcept {
-  const BodyData& b = bodies_[i];
-  PointMotion x{a_.segment<3>(b.offset), Vec3::Zero()};
-  for (int c = 0; c < 3; ++c)  // of (4): Adot x Adot is zero
-    x.angular += 0.5 * b.A.col(c).cross(a_.segment<3>(b.offset + 3 + 3 * c));
-  return x;
+void AbsoluteFormulation::fill_poses(SystemMotion& motion) const noexcept {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    motion.bodies[i].p_WB = bodies_[i].p_WB;
+    motion.bodies[i].v_WB = bodies_[i].v_WB;
+  }
+}
+
+void AbsoluteFormulation::fill_accelerations(SystemMotion& motion) const noexcept {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyData& b = bodies_[i];
+    BodyKinematics& x = motion.bodies[i];
+    x.a_WB = a_.segment<3>(b.offset);
+    x.alpha_WB.setZero();
+    for (int c = 0; c < 3; ++c)  // of (4): Adot x Adot is zero
+      x.alpha_WB += 0.5 * b.A.col(c).cross(a_.segment<3>(b.offset + 3 + 3 * c));
+  }
+  for (std::size_t k = 0; k < motion.markers.size(); ++k)
+    motion.marker_accelerations[k] = marker_acceleration(static_cast<int>(k));
 }
 
 double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
@@ -23,20 +35,6 @@ double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
   return sum;
 }
 
-double AbsoluteFormulation::body_gravity_energy(int i) const noexcept {
-  const BodyData& b = bodies_[i];
-  const Vec3 m_bar = b.inertia.static_moment(b.y.data());
-  return -model_.gravity.dot(b.inertia.data().m * b.p_WB + b.A * m_bar);
-}
-
-double AbsoluteFormulation::body_elastic_energy(int i) const noexcept {
-  const BodyData& b = bodies_[i];
-  const MatX& K = model_.bodies[i].data->K;
-  double sum = 0.0;
-  for (int k = 0; k < b.nm; ++k) sum += 0.5 * b.y[k] * K.col(k).dot(b.y);
-  return sum;
-}
-
 double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
   double sum = 0.0;
   for (BodyData& b : bodies_) {
@@ -47,35 +45,9 @@ double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
   return sum;
 }
 
-double AbsoluteFormulation::gravity_energy(const VecX&) const noexcept {
-  double sum = 0.0;
-  for (const BodyData& b : bodies_) {
-    const Vec3 m_bar = b.inertia.static_moment(b.y.data());
-    sum -= model_.gravity.dot(b.inertia.data().m * b.p_WB + b.A * m_bar);
-  }
-  return sum;
-}
-
-double AbsoluteFormulation::elastic_energy(const VecX& q) const noexcept {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto y = q.segment(bodies_[i].offset + 12, bodies_[i].nm);
-    const MatX& K = model_.bodies[i].data->K;
-    for (Eigen::Index k = 0; k < y.size(); ++k) sum += 0.5 * y[k] * K.col(k).dot(y);
-  }
-  return sum;
-}
-
-double AbsoluteFormulation::modal_damping_power(const VecX& v) const noexcept {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const BodyData& b = bodies_[i];
-    const MatX& D = model_.bodies[i].data->D;
-    const double* rate = v.data() + b.offset + 12;
-    for (int k = 0; k < b.nm; ++k)
-      for (int l = 0; l < b.nm; ++l) sum += rate[k] * D(l, k) * rate[l];
-  }
-  return sum;
+BodyCoordinates AbsoluteFormulation::body_coordinates(int body) const {
+  const BodyData& b = bodies_[body];
+  return {b.offset, b.size(), b.offset + 12, b.offset, b.size(), b.offset + 12, -1};
 }
 
 std::string AbsoluteFormulation::coordinate_owner(int i) const {

@@ -113,21 +113,4 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
 };
 // clang-format on
 
-/// One evaluation of the system up to its velocities; for a state: at its t, q, v.
-template <class F>
-void kinematics_at(F& f, double t, const VecX& q, const VecX& v) noexcept {
-  f.positions(t, q);
-  f.velocities(v);
-}
-template <class F, class S>
-void kinematics_at(F& f, const S& state) noexcept {
-  kinematics_at(f, state.t, state.q, state.v);
-}
-/// The same up to `dynamics`.
-template <class F, class S>
-void dynamics_at(F& f, const S& state) noexcept {
-  kinematics_at(f, state);
-  f.dynamics();
-}
-
 }  // namespace floatframe

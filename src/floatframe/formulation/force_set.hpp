@@ -62,6 +62,7 @@ class ForceSet {
   }
 
   const ForceState& state(std::size_t k) const noexcept { return states_[k]; }
+  std::span<const ForceState> states() const noexcept { return states_; }
 
   /// All states at time t; `state(marker)` is a MarkerState with positions from `p_WO`.
   template <class StateOf>

@@ -3,21 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/formulation/formulation.hpp"
 
 namespace floatframe {
 
 /// Of each velocity coordinate: "joint 'crank'", "mode 2 of body 'beam'".
-template <EquationsOfMotion F>
-std::vector<std::string> coordinate_owners(const F& f) {
+inline std::vector<std::string> coordinate_owners(const Formulation& f) {
   std::vector<std::string> owners;
   for (int k = 0; k < f.velocities(); ++k) owners.push_back(f.coordinate_owner(k));
   return owners;
 }
 
 /// Of each row of the constraints: "joint 'guide'".
-template <EquationsOfMotion F>
-std::vector<std::string> constraint_owners(const F& f) {
+inline std::vector<std::string> constraint_owners(const Formulation& f) {
   std::vector<std::string> owners;
   for (int k = 0; k < f.constraints(); ++k) owners.push_back(f.constraint_set().owner_of_row(k));
   return owners;

@@ -52,10 +52,8 @@ std::vector<char> bodies_without_mass(const TreeKinematics& tree,
 }  // namespace
 
 RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod method)
-    : model_(model),
+    : Formulation(model, find_topology(model).cut_joints),
       tree_(model),
-      constraint_set_(model, tree_.topology().cut_joints),
-      force_set_(model),
       tangent_(tree_, constraint_set_, force_set_, number(tree_, constraint_set_)),
       wrenches_(tree_.body_vectors()),
       increments_(wrenches_) {
@@ -81,6 +79,11 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
   for (const Force& f : model.forces)
     spring_body_.push_back(f.rotational ? tree_.body_between(f.a, f.b) : -1);
   force_set_.count_turns_from(model, 0.0);
+  for (const TreeBody& b : tree_.bodies()) show_body(b.R_WB, b.w_WB, b.y, b.yd, b.ydd.data());
+  for (std::size_t k = 0; k < model.markers.size(); ++k) {
+    const TreeMarker& m = tree_.marker(static_cast<int>(k));
+    show_marker(m.s, m);
+  }
 }
 
 void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v) {

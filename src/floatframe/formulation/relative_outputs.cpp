@@ -1,23 +1,30 @@
-// Access to the relative formulation for outputs, energies and counts; not part of the step's inner
-// loop.
+// The relative formulation for readers: its motion, energies and counts; not part of the step's
+// inner loop.
 #include "floatframe/formulation/composite_diagonal.hpp"
 #include "floatframe/formulation/relative.hpp"
 
 namespace floatframe {
 
-Vec3 RelativeFormulation::body_velocity(int i) const noexcept {
-  const TreeBody& b = tree_.body(i);
-  return b.Z.head<3>() + b.w_WB.cross(b.p_OB);
+void RelativeFormulation::fill_poses(SystemMotion& motion) const noexcept {
+  motion.origin = tree_.origin();
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+    const TreeBody& b = tree_.body(static_cast<int>(i));
+    motion.bodies[i].p_WB = tree_.origin() + b.p_OB;
+    motion.bodies[i].v_WB = b.Z.head<3>() + b.w_WB.cross(b.p_OB);
+  }
 }
 
-PointMotion RelativeFormulation::body_acceleration(int i) const noexcept {
-  const TreeBody& b = tree_.body(i);
-  const Vec6 z = b.Zdot + b.Zdot_0;
-  PointMotion x;
-  x.angular = z.tail<3>();
-  x.linear =
-      z.head<3>() + x.angular.cross(b.p_OB) + b.w_WB.cross(b.w_WB.cross(b.p_OB)) + model_.gravity;
-  return x;
+void RelativeFormulation::fill_accelerations(SystemMotion& motion) const noexcept {
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+    const TreeBody& b = tree_.body(static_cast<int>(i));
+    const Vec6 z = b.Zdot + b.Zdot_0;
+    BodyKinematics& x = motion.bodies[i];
+    x.alpha_WB = z.tail<3>();
+    x.a_WB = z.head<3>() + x.alpha_WB.cross(b.p_OB) + b.w_WB.cross(b.w_WB.cross(b.p_OB)) +
+             model_.gravity;
+  }
+  for (std::size_t k = 0; k < motion.markers.size(); ++k)
+    motion.marker_accelerations[k] = tree_.acceleration_in_world(static_cast<int>(k)).linear;
 }
 
 double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
@@ -35,21 +42,6 @@ VecX RelativeFormulation::mass_diagonal() const {
       tree_, [this](int i) -> const MatX& { return terms_[static_cast<std::size_t>(i)].M; });
 }
 
-double RelativeFormulation::body_gravity_energy(int i) const noexcept {
-  const TreeBody& b = tree_.body(i);
-  const BodyInertia& inertia = terms_[i].inertia;
-  const Vec3 m_bar = inertia.static_moment(b.y.data());
-  return -model_.gravity.dot(inertia.data().m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
-}
-
-double RelativeFormulation::body_elastic_energy(int i) const noexcept {
-  const TreeBody& b = tree_.body(i);
-  const MatX& K = model_.bodies[i].data->K;
-  double sum = 0.0;
-  for (int k = 0; k < b.nm; ++k) sum += 0.5 * b.y[k] * K.col(k).dot(b.y);
-  return sum;
-}
-
 double RelativeFormulation::kinetic_energy(const VecX& v) noexcept {
   double sum = 0.0;
   for (const int i : tree_.order()) {
@@ -64,50 +56,22 @@ double RelativeFormulation::kinetic_energy(const VecX& v) noexcept {
   return sum;
 }
 
-double RelativeFormulation::gravity_energy(const VecX& q) const noexcept {
-  double sum = 0.0;
-  for (const int i : tree_.order()) {
+void RelativeFormulation::add_tree_wrenches(Reactions& reactions) const noexcept {
+  for (std::size_t j = 0; j < reactions.joints.size(); ++j) {
+    const int i = tree_.body_of_joint(static_cast<int>(j));
+    if (i < 0) continue;
     const TreeBody& b = tree_.body(i);
-    const BodyInertia& inertia = terms_[i].inertia;
-    const Vec3 m_bar = inertia.static_moment(q.data() + b.iyq);
-    sum -= model_.gravity.dot(inertia.data().m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
+    const Vec6 h = wrenches_[i].head<6>();
+    const double sign = b.reversed ? -1.0 : 1.0;  // on the child of the joint as described
+    const Vec3& r = tree_.marker(model_.joints[j].frame_M).s.r;
+    reactions.joints[j].force += sign * h.head<3>();
+    reactions.joints[j].torque += sign * (h.tail<3>() - r.cross(h.head<3>()));
   }
-  return sum;
 }
 
-double RelativeFormulation::elastic_energy(const VecX& q) const noexcept {
-  double sum = 0.0;
-  for (const int i : tree_.order()) {
-    const TreeBody& b = tree_.body(i);
-    const MatX& K = model_.bodies[i].data->K;
-    for (int k = 0; k < b.nm; ++k) sum += 0.5 * q[b.iyq + k] * K.col(k).dot(q.segment(b.iyq, b.nm));
-  }
-  return sum;
-}
-
-double RelativeFormulation::modal_damping_power(const VecX& v) const noexcept {
-  double sum = 0.0;
-  for (const int i : tree_.order()) {
-    const TreeBody& b = tree_.body(i);
-    const MatX& D = model_.bodies[i].data->D;
-    const double* rate = v.data() + b.iy;
-    for (int k = 0; k < b.nm; ++k)
-      for (int l = 0; l < b.nm; ++l) sum += rate[k] * D(l, k) * rate[l];
-  }
-  return sum;
-}
-
-void RelativeFormulation::tree_joint_wrench(int joint, Vec3& force, Vec3& torque) const noexcept {
-  force.setZero();
-  torque.setZero();
-  const int i = tree_.body_of_joint(joint);
-  if (i < 0) return;
-  const TreeBody& b = tree_.body(i);
-  const Vec6 h = wrenches_[i].head<6>();
-  const double sign = b.reversed ? -1.0 : 1.0;  // on the child of the joint as described
-  const Vec3& r = tree_.marker(model_.joints[joint].frame_M).s.r;
-  force = sign * h.head<3>();
-  torque = sign * (h.tail<3>() - r.cross(h.head<3>()));
+BodyCoordinates RelativeFormulation::body_coordinates(int body) const {
+  const TreeBody& b = tree_.body(body);
+  return {b.iq, b.iyq - b.iq + b.nm, b.iyq, b.iv, b.nj + b.nm, b.iy, b.parent};
 }
 
 double RelativeFormulation::total_mass() const noexcept {

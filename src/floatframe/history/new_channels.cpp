@@ -28,7 +28,7 @@ class RecordedParts {
                          "expected an output of its model file",
                          output.name));
     if (history_.header().complete()) return;
-    if (output_kind(output.type).terms == OutputTerms::reactions)
+    if (output_kind(output.type).needs_of_motion.reactions)
       refuse(
           ErrorCode::missing, history_,
           fmt::format("output '{}': reactions need the states of all bodies, found those of some",

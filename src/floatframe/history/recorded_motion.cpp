@@ -4,6 +4,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 
@@ -11,7 +12,7 @@ namespace floatframe {
 
 struct RecordedMotion::Replay {
   virtual ~Replay() = default;
-  virtual const OutputView& at(std::size_t k, std::vector<double>& outputs) = 0;
+  virtual const SystemMotion& at(std::size_t k, std::vector<double>& outputs) = 0;
 };
 
 namespace {
@@ -29,7 +30,8 @@ struct RecordedMotion::ReplayOf : Replay {
       : history(h),
         steps(model, options, {.duration = options.duration}),
         memory(steps.memory()),
-        row(history.header().columns) {
+        row(history.header().columns),
+        computes_energies(needs_of_outputs(model).energies) {
     const F& f = steps.formulation();
     if (h.header().configurations != f.configurations() ||
         h.header().velocities != f.velocities() || size_of("inputs") != f.inputs().size() ||
@@ -37,12 +39,12 @@ struct RecordedMotion::ReplayOf : Replay {
       refuse_other_model(history);
     // A step starts from the integrator's `a`; if it was not recorded, it is solved for.
     if (!h.header().find("accelerations"))
-      solver.emplace(steps.model(), options.inertia, memory.state,
+      solver.emplace(f.coordinates(), steps.model(), options.inertia, memory.state,
                      ReactionOptions{steps.step_options().penalty_mass, steps.grid().step(),
                                      !steps.start_report().redundant.empty()});
   }
 
-  const OutputView& at(std::size_t k, std::vector<double>& outputs) override {
+  const SystemMotion& at(std::size_t k, std::vector<double>& outputs) override {
     history.instant(k, row);
     const HistoryHeader& h = history.header();
     State& s = memory.state;
@@ -63,7 +65,7 @@ struct RecordedMotion::ReplayOf : Replay {
     steps.set_memory(memory);
     steps.sample(outputs.data());
     memory.runner.outputs = steps.memory().runner.outputs;  // turns counted by outputs
-    return view.emplace(f, s.t, s.q);
+    return f.motion({.accelerations = true, .energies = computes_energies});
   }
 
   std::size_t size_of(const char* name) const {
@@ -82,9 +84,9 @@ struct RecordedMotion::ReplayOf : Replay {
   const StateHistory& history;
   SteppedModel<F> steps;
   SteppedMemory memory;
-  std::optional<ReactionSolver<F>> solver;
+  std::optional<ReactionSolver> solver;
   std::vector<double> row;
-  std::optional<OutputView> view;
+  bool computes_energies;
 };
 
 RecordedMotion::RecordedMotion(const StateHistory& history, const Model& model,
@@ -100,6 +102,6 @@ RecordedMotion::RecordedMotion(const StateHistory& history, const Model& model,
 
 RecordedMotion::~RecordedMotion() = default;
 
-const OutputView& RecordedMotion::at(std::size_t k) { return replay_->at(k, outputs_); }
+const SystemMotion& RecordedMotion::at(std::size_t k) { return replay_->at(k, outputs_); }
 
 }  // namespace floatframe

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "floatframe/history/state_history.hpp"
-#include "floatframe/model/output_view.hpp"
+#include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 
@@ -29,7 +29,7 @@ class RecordedMotion {
   /// All bodies, markers and forces at an instant, in either formulation; valid until the next
   /// call. Without reactions, and without energies unless an output of the model needs them. Throws
   /// InputError if there is no such instant or its numbers are not finite.
-  const OutputView& at(std::size_t k);
+  const SystemMotion& at(std::size_t k);
   /// Time and all outputs of the model at the instant of the last `at`. Outputs that count turns
   /// continue from the previous instant.
   const std::vector<double>& outputs() const noexcept { return outputs_; }

@@ -8,7 +8,7 @@
 
 #include "floatframe/body/flexible_body.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/output_view.hpp"
+#include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 namespace {
@@ -48,11 +48,11 @@ void fill_rows(const FlexibleBody& body, Gauge& gauge) {
   }
 }
 
-BodyLoadCoefficients body_load_coefficients(const OutputView& view, int body) noexcept {
-  const Mat3& R = view.body_rotation(body);
-  const Vec3 a = R.transpose() * (view.body_acceleration(body) - view.model().gravity);
-  const Vec3 w = R.transpose() * view.body_angular_velocity(body);
-  const Vec3 alpha = R.transpose() * view.body_angular_acceleration(body);
+BodyLoadCoefficients body_load_coefficients(const SystemMotion& motion, int body) noexcept {
+  const BodyKinematics& b = motion.body(body);
+  const Vec3 a = b.R_WB.transpose() * (b.a_WB - motion.model.gravity);
+  const Vec3 w = b.R_WB.transpose() * b.w_WB;
+  const Vec3 alpha = b.R_WB.transpose() * b.alpha_WB;
   const Mat3 A = skew(alpha) + skew(w) * skew(w);
   BodyLoadCoefficients c;
   c.head<3>() = -a;
@@ -60,15 +60,15 @@ BodyLoadCoefficients body_load_coefficients(const OutputView& view, int body) no
   return c;
 }
 
-Vec6 gauge_values(const OutputView& view, const Gauge& gauge) noexcept {
+Vec6 gauge_values(const SystemMotion& motion, const Gauge& gauge) noexcept {
   Vec6 out = Vec6::Zero();
+  const BodyKinematics& b = motion.body(gauge.body);
   const auto nm = static_cast<int>(gauge.modes.cols());
-  for (int k = 0; k < nm; ++k) out += gauge.modes.col(k) * view.amplitude(gauge.body, k);
+  for (int k = 0; k < nm; ++k) out += gauge.modes.col(k) * b.y[k];
   if (gauge.loads.cols() == 0) return out;
-  const BodyLoadCoefficients c = body_load_coefficients(view, gauge.body);
+  const BodyLoadCoefficients c = body_load_coefficients(motion, gauge.body);
   for (int k = 0; k < body_load_cases; ++k) out += gauge.loads.col(k) * c(k);
-  for (int k = 0; k < nm; ++k)
-    out -= gauge.loads.col(body_load_cases + k) * view.amplitude_acceleration(gauge.body, k);
+  for (int k = 0; k < nm; ++k) out -= gauge.loads.col(body_load_cases + k) * b.ydd[k];
   return out;
 }
 

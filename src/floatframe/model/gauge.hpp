@@ -16,7 +16,7 @@ namespace floatframe {
 
 struct FlexibleBody;
 struct Model;
-class OutputView;
+struct SystemMotion;
 
 struct Gauge {
   int body = -1;
@@ -32,9 +32,9 @@ void fill_rows(const FlexibleBody& body, Gauge& gauge);
 
 using BodyLoadCoefficients = Eigen::Matrix<double, body_load_cases, 1>;
 /// c of the whole body, without those of its modes.
-BodyLoadCoefficients body_load_coefficients(const OutputView& view, int body) noexcept;
+BodyLoadCoefficients body_load_coefficients(const SystemMotion& motion, int body) noexcept;
 /// At an instant: xx yy zz xy yz zx, or N Vy Vz T My Mz, or the strain in row 0.
-Vec6 gauge_values(const OutputView& view, const Gauge& gauge) noexcept;
+Vec6 gauge_values(const SystemMotion& motion, const Gauge& gauge) noexcept;
 
 /// Sentences about outputs, starting with the given one, whose gauge is where the model of the part
 /// is stiffer than the part.

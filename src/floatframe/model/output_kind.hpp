@@ -6,14 +6,21 @@
 #include <span>
 
 #include "floatframe/model/force_outputs.hpp"
-#include "floatframe/model/output_view.hpp"
 #include "floatframe/model/rules.hpp"
+#include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 
+/// Last sample of an output: angles over several turns are continued from there.
+struct FollowedOutput {
+  bool started = false;
+  double time = 0.0, position = 0.0, rate = 0.0;
+};
+
 /// The value at a sample: noexcept, no allocation. `last` is the memory of this output.
 template <OutputType type>
-double output_value_of(const OutputView& view, const Output& output, FollowedOutput& last) noexcept;
+double output_value_of(const SystemMotion& motion, const Output& output,
+                       FollowedOutput& last) noexcept;
 
 /// The entity that an output refers to in a model file, and the fields of `Output` for it.
 enum class OutputOf {
@@ -28,13 +35,6 @@ enum class OutputOf {
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `joint`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
-};
-
-/// Quantities that must be computed for a sample in addition to the motion.
-enum class OutputTerms {
-  forces,    ///< of the force elements
-  inertia,   ///< mass matrices of the bodies, too
-  reactions  ///< accelerations and reactions that satisfy the equations of motion, too
 };
 
 /// Components with names, of which `Output::component` is one: a column each, or only the one
@@ -56,7 +56,7 @@ struct OutputKind {
   const char* (*unit_of)(const Model& model, const Output& output) = nullptr;
   /// For a force element: the required property.
   ForceQuantity needs = ForceQuantity::force;
-  OutputTerms terms = OutputTerms::forces;
+  MotionNeeds needs_of_motion = {};
 };
 
 template <ForceQuantity quantity>
@@ -66,10 +66,11 @@ const char* unit_of_force(const Model& model, const Output& output) {
 
 const OutputKind& output_kind(OutputType type) noexcept;
 
-/// The terms required by any output of the model.
-OutputTerms output_terms(const Model& model) noexcept;
+/// What all outputs of the model need.
+MotionNeeds needs_of_outputs(const Model& model) noexcept;
 
-double output_value(const OutputView& view, const Output& output, FollowedOutput& last) noexcept;
+double output_value(const SystemMotion& motion, const Output& output,
+                    FollowedOutput& last) noexcept;
 
 #define FLOATFRAME_KIND(name) extern const OutputKind name##_output;
 FLOATFRAME_OUTPUTS(FLOATFRAME_KIND)

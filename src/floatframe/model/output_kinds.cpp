@@ -14,11 +14,11 @@ constexpr const OutputKind* output_list[] = {FLOATFRAME_OUTPUTS(FLOATFRAME_KIND)
 #undef FLOATFRAME_KIND
 
 template <std::size_t... I>
-double value_of_type(std::index_sequence<I...>, const OutputView& view, const Output& output,
+double value_of_type(std::index_sequence<I...>, const SystemMotion& motion, const Output& output,
                      FollowedOutput& last) noexcept {
   double value = 0.0;
   static_cast<void>(((output.type == output_types[I] &&
-                      (value = output_value_of<output_types[I]>(view, output, last), true)) ||
+                      (value = output_value_of<output_types[I]>(motion, output, last), true)) ||
                      ...));
   return value;
 }
@@ -27,14 +27,15 @@ double value_of_type(std::index_sequence<I...>, const OutputView& view, const Ou
 
 const OutputKind& output_kind(OutputType type) noexcept { return *output_list[index_of(type)]; }
 
-OutputTerms output_terms(const Model& model) noexcept {
-  OutputTerms most = OutputTerms::forces;
-  for (const Output& o : model.outputs) most = std::max(most, output_kind(o.type).terms);
-  return most;
+MotionNeeds needs_of_outputs(const Model& model) noexcept {
+  MotionNeeds all;
+  for (const Output& o : model.outputs) all = all | output_kind(o.type).needs_of_motion;
+  return all;
 }
 
-double output_value(const OutputView& view, const Output& output, FollowedOutput& last) noexcept {
-  return value_of_type(std::make_index_sequence<std::size(output_types)>{}, view, output, last);
+double output_value(const SystemMotion& motion, const Output& output,
+                    FollowedOutput& last) noexcept {
+  return value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
 }
 
 }  // namespace floatframe

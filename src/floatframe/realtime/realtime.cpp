@@ -52,7 +52,7 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
   SteppedModel<F> steps(given, d, limits(d, options));
   report.start = steps.start_report();
   RealTimeRunner<F> runner(steps, options, port, report);
-  MotionWatch<F> watch(steps.formulation(), d.step);
+  MotionWatch watch(steps.model(), d.step);
   if (options.watch) runner.watched_by(watch);
   const RealTimeScheduling scheduling({options.priority, options.lock_memory});
   report.priority = scheduling.has_priority();

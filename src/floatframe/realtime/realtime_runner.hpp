@@ -34,7 +34,7 @@ class RealTimeRunner {
 
   /// Checks the start and every step whose end state is already evaluated, else two steps of every
   /// `watch_every`. The results are read after `run`.
-  void watched_by(MotionWatch<F>& watch) noexcept { watch_ = &watch; }
+  void watched_by(MotionWatch& watch) noexcept { watch_ = &watch; }
   const InputBuffer& inputs() const noexcept { return inputs_; }
   /// Time and outputs at the current state.
   std::span<const double> sample() noexcept {
@@ -184,8 +184,9 @@ class RealTimeRunner {
   void watch_start() noexcept {
     if (watch_ == nullptr) return;
     evaluate();
-    watch_->look(steps_.state());
-    watch_->start(steps_.state());
+    const SystemMotion& motion = f_.motion();
+    watch_->look(motion);
+    watch_->start(motion);
   }
 
   /// Called after the outputs are sent, off the critical path. Phases are those of one step.
@@ -196,11 +197,12 @@ class RealTimeRunner {
     const long turn = held ? 1 : step % watch_every;
     if (turn > 1) return;
     if (!held) evaluate();
-    watch_->look(steps_.state());
+    const SystemMotion& motion = f_.motion();
+    watch_->look(motion);
     if (turn == 0)
-      watch_->start(steps_.state());
+      watch_->start(motion);
     else if (full)
-      watch_->follow(steps_.state());
+      watch_->follow(motion);
   }
 
   void evaluate() noexcept {
@@ -232,7 +234,7 @@ class RealTimeRunner {
   RealTimeReport& report_;
   Nanoseconds base_ = 0;  ///< due time of step 0
   std::uint64_t next_logged_ = 0;
-  MotionWatch<F>* watch_ = nullptr;
+  MotionWatch* watch_ = nullptr;
 };
 
 }  // namespace floatframe

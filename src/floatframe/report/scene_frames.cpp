@@ -118,7 +118,7 @@ void add_load_coefficients(const Model& model, const StateHistory& history,
     RecordedMotion motion(history, model, options);
     std::vector<double> loads;
     for (const std::size_t k : frames.instants) {
-      const OutputView& view = motion.at(k);
+      const SystemMotion& view = motion.at(k);
       for (std::size_t b = 0; b < first.size(); ++b) {
         if (first[b] < 0) continue;
         const BodyLoadCoefficients c = body_load_coefficients(view, static_cast<int>(b));

@@ -39,15 +39,16 @@ AxisMotion axis_motion(RelativeFormulation& f, const Rotor& rotor, const SteadyT
   AxisMotion axis;
   axis.across_1 = axis.across_2 = axis.along = axis.twist = MatX::Zero(count, 2 * rows);
   axis.rotor = axis.others = MatX::Zero(rows, rows);
+  const SystemMotion& motion = f.motion();
   const auto form_of = [&](std::size_t i) { return Eigen::seqN(begin[i], 6 + bodies[i].modes()); };
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    axis.others(form_of(i), form_of(i)) = motion_form(
-        *bodies[i].data, f.body_rotation(static_cast<int>(i)), Vec3::Zero(), rotor.length);
+    axis.others(form_of(i), form_of(i)) =
+        motion_form(*bodies[i].data, motion.bodies[i].R_WB, Vec3::Zero(), rotor.length);
   Eigen::Index at = 0;
   for (const RotorBody& r : rotor.bodies) {
     const std::size_t i = static_cast<std::size_t>(r.body);
     const FlexibleBody& body = *bodies[i].data;
-    const Mat3 R = f.body_rotation(r.body) * rotation_exp(-s.angle * r.axis);
+    const Mat3 R = motion.bodies[i].R_WB * rotation_exp(-s.angle * r.axis);
     axis.others(form_of(i), form_of(i)).setZero();
     axis.rotor(form_of(i), form_of(i)) = motion_form(body, R, r.p_BP, rotor.length);
     axis.mass += body.invariants.m;

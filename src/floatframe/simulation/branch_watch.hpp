@@ -14,7 +14,7 @@
 #include <optional>
 #include <span>
 
-#include "floatframe/formulation/constraint_set.hpp"
+#include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/step.hpp"
 #include "floatframe/simulation/range_warning.hpp"
 #include "floatframe/simulation/redundancy.hpp"
@@ -38,8 +38,7 @@ class BranchWatch {
   }
 
   /// The sentence about the first singular configuration, if there was one. Moves the formulation.
-  template <class F>
-  std::optional<RangeWarning> warning(F& f) const {
+  std::optional<RangeWarning> warning(Formulation& f) const {
     for (const Dip* d : {&first_, &deepest_}) {
       if (d->found == 0.0 || d->q.size() != f.configurations() || f.velocities() > most_coordinates)
         continue;

@@ -83,11 +83,8 @@ class ModalStiffness {
   }
 
   MatX of(std::size_t body) {
-    const VecX numbers = VecX::LinSpaced(f_.velocities(), 0.0, f_.velocities() - 1.0);
-    std::vector<int> columns;
-    for (int m = 0; m < model_.bodies[body].modes(); ++m)
-      columns.push_back(
-          static_cast<int>(std::lround(f_.amplitude_rate(numbers, static_cast<int>(body), m))));
+    std::vector<int> columns(static_cast<std::size_t>(model_.bodies[body].modes()));
+    std::iota(columns.begin(), columns.end(), f_.body_coordinates(static_cast<int>(body)).yd);
     MatX K(columns.size(), columns.size());
     VecX x = VecX::Zero(f_.velocities()), q = s_.q, ahead = x, behind = x;
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -116,7 +113,8 @@ class ModalStiffness {
 /// The start of the model, and the effect of loads and spin on the stiffness of its bodies there.
 class OperatingPoint {
  public:
-  explicit OperatingPoint(const Model& model) : model_(model), start_(model, model.simulation) {}
+  explicit OperatingPoint(const Model& model)
+      : model_(model), start_(model, model.simulation, Coordinates::relative) {}
 
   /// The largest relative change of the stiffness of a body by geometric stiffening.
   double part(std::size_t body) {
@@ -133,15 +131,14 @@ class OperatingPoint {
 
   /// In body axes [rad/s].
   Vec3 spin(std::size_t body) {
-    RelativeFormulation& f = start_.formulation();
-    kinematics_at(f, start_.state());
-    const int b = static_cast<int>(body);
-    return f.body_rotation(b).transpose() * f.body_angular_velocity(b);
+    kinematics_at(start_.formulation(), start_.state());
+    const BodyKinematics& b = start_.formulation().motion().bodies[body];
+    return b.R_WB.transpose() * b.w_WB;
   }
 
  private:
   const Model& model_;
-  InitialisedModel<RelativeFormulation> start_;
+  InitialisedModel start_;
   std::optional<ModalStiffness> with_, without_;
 };
 

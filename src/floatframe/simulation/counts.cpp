@@ -14,13 +14,13 @@
 namespace floatframe {
 namespace {
 
-/// Wheels far above their road or deep in it, at the state of `f`.
-void note_wheel_heights(const RelativeFormulation& f, std::vector<std::string>& notes) {
+/// Wheels far above their road or deep in it.
+void note_wheel_heights(const SystemMotion& motion, std::vector<std::string>& notes) {
   constexpr double high = 3.0, low = 0.6;  // relative to the radius
-  const Model& model = f.model();
+  const Model& model = motion.model;
   for (const Force& tyre : model.forces) {
     if (tyre.road < 0) continue;
-    const Vec3 centre = f.origin() + f.marker(tyre.b).r;
+    const Vec3 centre = motion.place(tyre.b);
     const double height = centre.z() - road_at(model.roads[tyre.road], centre.x()).z;
     if (height > low * tyre.radius && height < high * tyre.radius) continue;
     const double gap = height - tyre.radius;
@@ -93,7 +93,7 @@ ModelCounts check(const Model& model) {
   c.degrees_of_freedom = relative.velocities() - rank;
   c.redundant_constraints = relative.constraints() - rank;
   c.start.notes.insert(c.start.notes.end(), model.hints.notes.begin(), model.hints.notes.end());
-  note_wheel_heights(relative, c.start.notes);
+  note_wheel_heights(relative.motion(), c.start.notes);
   note_unstable_start(model, c.start.notes);
   return c;
 }
@@ -119,16 +119,21 @@ StaticsResult statics(const Model& model) {
   if (!unstable.empty()) s.notes.push_back(unstable);
   s.iterations = e.iterations;
   s.residual = e.residual;
+  const SystemMotion& motion = f.motion();
   for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const ForceState& x = f.force(static_cast<int>(k));
+    const ForceState& x = motion.forces[k];
     s.forces.push_back(
         {model.forces[k].name, force_type_name(model.forces[k].type), x.force, x.length});
   }
+  Reactions tree;
+  tree.joints.resize(model.joints.size());
+  f.add_tree_wrenches(tree);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     StaticsJoint joint;
     joint.name = model.joints[k].name;
     joint.type = joint_type_name(model.joints[k].type);
-    f.tree_joint_wrench(static_cast<int>(k), joint.force, joint.torque);
+    joint.force = tree.joints[k].force;
+    joint.torque = tree.joints[k].torque;
     s.joints.push_back(joint);
   }
   for (std::size_t k = 0; k < f.constraint_set().parts().size();
@@ -149,12 +154,11 @@ StaticsResult statics(const Model& model) {
   }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     StaticsBody b;
-    const int k = static_cast<int>(i);
+    const BodyKinematics& m = motion.bodies[i];
     b.name = model.bodies[i].name;
-    b.position = f.body_position(k);
-    b.roll_pitch_yaw = roll_pitch_yaw(f.body_rotation(k) * model.bodies[i].X_WB.R.transpose());
-    b.amplitudes = VecX::Zero(model.bodies[i].modes());
-    for (int m = 0; m < model.bodies[i].modes(); ++m) b.amplitudes[m] = f.amplitude(state.q, k, m);
+    b.position = m.p_WB;
+    b.roll_pitch_yaw = roll_pitch_yaw(m.R_WB * model.bodies[i].X_WB.R.transpose());
+    b.amplitudes = m.y;
     s.bodies.push_back(b);
   }
   if (f.constraints() > 0 && rank_of(f.constraint_rows()) < f.constraints()) {
@@ -166,7 +170,8 @@ StaticsResult statics(const Model& model) {
     throw RunError(ErrorCode::singular, "no equilibrium: " + singular);
   state.v = zero;
   JointFollower joints(model);
-  s.state = std::make_shared<SystemState>(system_state(f, state, joints));
+  kinematics_at(f, state);
+  s.state = std::make_shared<SystemState>(system_state(f.motion(), joints));
   place_bodies(model, model.simulation.inertia, *s.state);
   return s;
 }

@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/system_motion.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
@@ -39,17 +41,17 @@ inline bool target_may_jump(const Force& force) noexcept {
          (force.target.input >= 0 || !force.target.function.pieces.breaks().empty());
 }
 
-/// At the present positions, velocities and forces of a formulation.
-template <class F>
-FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
+/// In a motion; `reactions`: the multipliers of the constraints.
+inline FlowSample flows(const SystemMotion& motion, const ConstraintSet& constraints,
+                        const VecX& reactions) noexcept {
   FlowSample sample;
   EnergyFlows& p = sample.power;
-  const Model& model = f.model();
+  const Model& model = motion.model;
   for (std::size_t k = 0; k < model.forces.size(); ++k) {
     const Force& force = model.forces[k];
-    const ForceState& s = f.force(static_cast<int>(k));
-    const MarkerState& b = f.marker(force.b);
-    const MarkerState& a = force.a >= 0 ? f.marker(force.a) : b;
+    const ForceState& s = motion.forces[k];
+    const MarkerState& b = motion.marker(force.b);
+    const MarkerState& a = motion.first_marker(force);
     // Power of the wrench that the spring neither stores nor releases.
     const double rest = wrench_power(force, s.wrench, a, b) + s.energy_rate;
     const EnergyCategory category = energy_category(force.type);
@@ -67,8 +69,8 @@ FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
         p[EnergyFlow::actuators] += rest + s.damping;
     }
   }
-  p[EnergyFlow::modal_damping] = -f.modal_damping_power(v);
-  p[EnergyFlow::motions] = f.motion_power(reactions);
+  p[EnergyFlow::modal_damping] = -modal_damping_power(motion);
+  p[EnergyFlow::motions] = constraints.motion_power(reactions);
   return sample;
 }
 

@@ -24,11 +24,10 @@ Model with_lifts(const Model& model, std::vector<Output> outputs) {
 
 }  // namespace
 
-template <class F>
-ExcitedSystem<F>::ExcitedSystem(InitialisedModel<F>& started, std::vector<Output> outputs,
-                                double step)
+ExcitedSystem::ExcitedSystem(InitialisedModel& started, std::vector<Output> outputs, double step)
     : model_(with_lifts(started.model(), std::move(outputs))),
-      f_(model_, started.inertia()),
+      own_(make_formulation(started.formulation().coordinates(), model_, started.inertia())),
+      f_(*own_),
       state_(started.state()),
       followed_(model_.outputs.size()) {
   f_.set_spring_angles(started.formulation().spring_angles());
@@ -36,8 +35,8 @@ ExcitedSystem<F>::ExcitedSystem(InitialisedModel<F>& started, std::vector<Output
   inputs_.assign(values.begin(), values.end());
   f_.set_inputs(inputs_);
   for (const Joint& joint : model_.joints) laws_.push_back(joint.motion.value_or(TimeFunction()));
-  if (output_terms(model_) == OutputTerms::reactions)
-    reactions_.emplace(model_, started.inertia(), state_,
+  if (needs_of_outputs(model_).reactions)
+    reactions_.emplace(f_.coordinates(), model_, started.inertia(), state_,
                        ReactionOptions{started.step_options().penalty_mass, step,
                                        !started.report().redundant.empty()});
   const VecX still = VecX::Zero(f_.velocities());
@@ -45,14 +44,12 @@ ExcitedSystem<F>::ExcitedSystem(InitialisedModel<F>& started, std::vector<Output
   this->outputs(still, still, still);  // angles over several turns are continued from here
 }
 
-template <class F>
-const std::vector<std::string>& ExcitedSystem<F>::open_outputs() const noexcept {
+const std::vector<std::string>& ExcitedSystem::open_outputs() const noexcept {
   static const std::vector<std::string> none;
   return reactions_ ? reactions_->open_outputs() : none;
 }
 
-template <class F>
-double ExcitedSystem<F>::value(const LinearInput& input) const {
+double ExcitedSystem::value(const LinearInput& input) const {
   const auto k = static_cast<std::size_t>(input.index);
   switch (input.kind) {
     case LinearInput::Kind::signal:
@@ -64,8 +61,7 @@ double ExcitedSystem<F>::value(const LinearInput& input) const {
   }
 }
 
-template <class F>
-void ExcitedSystem<F>::move(const LinearInput& input, const Vec3& by) {
+void ExcitedSystem::move(const LinearInput& input, const Vec3& by) {
   const auto k = static_cast<std::size_t>(input.index);
   if (input.kind == LinearInput::Kind::signal) {
     std::vector<double> moved = inputs_;
@@ -81,8 +77,7 @@ void ExcitedSystem<F>::move(const LinearInput& input, const Vec3& by) {
   }
 }
 
-template <class F>
-VecX ExcitedSystem<F>::balance() {
+VecX ExcitedSystem::balance() {
   const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
   VecX all(nv + 3 * nc), r(nv), rows(nc);
   dynamics_at(f_, state_);
@@ -96,8 +91,7 @@ VecX ExcitedSystem<F>::balance() {
   return all;
 }
 
-template <class F>
-double ExcitedSystem<F>::step_of(const LinearInput& input) {
+double ExcitedSystem::step_of(const LinearInput& input) {
   if (input.kind == LinearInput::Kind::road) return 1e-4;
   if (input.kind == LinearInput::Kind::motion) return 1e-3;  // constraints are linear in it
   const double first = 1e-3 * std::max(1.0, std::abs(value(input)));
@@ -109,9 +103,8 @@ double ExcitedSystem<F>::step_of(const LinearInput& input) {
   return change > 0.0 ? first * std::clamp(wanted / change, 1e-6, 1e6) : first;
 }
 
-template <class F>
-void ExcitedSystem<F>::derivatives(const LinearInput& input, double step, Eigen::Index column,
-                                   InputMotions& out) {
+void ExcitedSystem::derivatives(const LinearInput& input, double step, Eigen::Index column,
+                                InputMotions& out) {
   const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
   for (int k = 0; k <= input.order(); ++k) {
     const VecX size = VecX::Constant(1, step * std::pow(10.0, k));
@@ -127,8 +120,7 @@ void ExcitedSystem<F>::derivatives(const LinearInput& input, double step, Eigen:
   move(input, Vec3::Zero());
 }
 
-template <class F>
-VecX ExcitedSystem<F>::outputs(const VecX& x, const VecX& dv, const VecX& da) {
+VecX ExcitedSystem::outputs(const VecX& x, const VecX& dv, const VecX& da) {
   State s = state_;
   f_.retract(state_.q, x, s.q);
   s.v = state_.v + dv;
@@ -136,18 +128,16 @@ VecX ExcitedSystem<F>::outputs(const VecX& x, const VecX& dv, const VecX& da) {
   dynamics_at(f_, s);
   if (reactions_) reactions_->solve(s, f_.inputs(), f_.spring_angles());
   f_.set_accelerations(s.a);
-  const OutputView view(f_, s.t, s.q, reactions_ ? &reactions_->reactions() : nullptr);
+  const SystemMotion& motion =
+      f_.motion(needs_of_outputs(model_), reactions_ ? &reactions_->reactions() : nullptr);
   VecX y(static_cast<Eigen::Index>(model_.outputs.size()));
   for (std::size_t k = 0; k < model_.outputs.size(); ++k) {
     FollowedOutput& memory = followed_[k];
-    if (!memory.started) output_value(view, model_.outputs[k], memory);
+    if (!memory.started) output_value(motion, model_.outputs[k], memory);
     FollowedOutput last = memory;
-    y[static_cast<Eigen::Index>(k)] = output_value(view, model_.outputs[k], last);
+    y[static_cast<Eigen::Index>(k)] = output_value(motion, model_.outputs[k], last);
   }
   return y;
 }
-
-template class ExcitedSystem<RelativeFormulation>;
-template class ExcitedSystem<AbsoluteFormulation>;
 
 }  // namespace floatframe

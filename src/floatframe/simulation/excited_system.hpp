@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/linear_ports.hpp"
 #include "floatframe/simulation/linear_reduction.hpp"
@@ -15,15 +14,14 @@
 
 namespace floatframe {
 
-template <class F>
 class ExcitedSystem {
  public:
   /// At the start state that was found, with these outputs only.
-  ExcitedSystem(InitialisedModel<F>& started, std::vector<Output> outputs, double step);
+  ExcitedSystem(InitialisedModel& started, std::vector<Output> outputs, double step);
   ExcitedSystem(const ExcitedSystem&) = delete;
   ExcitedSystem& operator=(const ExcitedSystem&) = delete;
 
-  F& formulation() noexcept { return f_; }
+  Formulation& formulation() noexcept { return f_; }
   const State& state() const noexcept { return state_; }
   const std::vector<std::string>& open_outputs() const noexcept;
 
@@ -41,15 +39,13 @@ class ExcitedSystem {
   VecX balance();  ///< residual, Phi and its derivatives
 
   Model model_;
-  F f_;
+  std::unique_ptr<Formulation> own_;
+  Formulation& f_;  ///< *own_
   State state_;
   std::vector<TimeFunction> laws_;  ///< original laws of the joints
   std::vector<double> inputs_;
-  std::optional<ReactionSolver<F>> reactions_;
+  std::optional<ReactionSolver> reactions_;
   std::vector<FollowedOutput> followed_;
 };
-
-extern template class ExcitedSystem<RelativeFormulation>;
-extern template class ExcitedSystem<AbsoluteFormulation>;
 
 }  // namespace floatframe

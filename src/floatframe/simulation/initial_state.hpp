@@ -58,10 +58,8 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report = 
 std::vector<double> joint_coordinates_in_range(const Joint& joint,
                                                const std::vector<double>& values);
 
-/// Adds the start values that differ from the given ones, at the present positions and velocities
-/// of `f`, and the corresponding messages.
-void report_changes(const RelativeFormulation& f, const State& state, Start start,
-                    StartReport& report);
+/// Adds the start values that differ from the given ones, and the corresponding messages.
+void report_changes(const SystemMotion& motion, Start start, StartReport& report);
 
 /// s alpha of the integrator if the user gives no penalty: 1e5 mean body masses, in absolute
 /// coordinates 1e8. There multipliers are unknowns, so that a large penalty costs no digits, and
@@ -112,18 +110,19 @@ std::string loose_sentence(const Model& model, const std::vector<std::size_t>& b
                            const std::string& owner);
 
 /// The bodies that move when the velocities are a column of `directions`, by their indices.
-template <class F>
-std::vector<std::size_t> bodies_moved(F& f, const State& state, const MatX& directions) {
+inline std::vector<std::size_t> bodies_moved(Formulation& f, const State& state,
+                                             const MatX& directions) {
   const Model& model = f.model();
   VecX speed = VecX::Zero(static_cast<Eigen::Index>(model.bodies.size()));
   f.positions(state.t, state.q);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     f.velocities(directions.col(k).normalized());
+    const SystemMotion& motion = f.motion();
     for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-      double v = f.body_angular_velocity(static_cast<int>(i)).norm() * model.bodies[i].length;
+      double v = motion.bodies[i].w_WB.norm() * model.bodies[i].length;
       for (std::size_t m = 0; m < model.markers.size(); ++m)
         if (model.markers[m].body == static_cast<int>(i))
-          v = std::max(v, f.marker(static_cast<int>(m)).v.norm());
+          v = std::max(v, motion.markers[m]->v.norm());
       speed[i] = std::max(speed[i], v);
     }
   }
@@ -134,16 +133,14 @@ std::vector<std::size_t> bodies_moved(F& f, const State& state, const MatX& dire
 }
 
 /// The owner of the largest component of the first direction.
-template <class F>
-std::string coordinate_moved(F& f, const MatX& directions) {
+inline std::string coordinate_moved(Formulation& f, const MatX& directions) {
   Eigen::Index worst = 0;
   directions.col(0).cwiseAbs().maxCoeff(&worst);
   return f.coordinate_owner(static_cast<int>(worst));
 }
 
 /// The names of the moving bodies; without any, the owner of that coordinate.
-template <class F>
-std::string moving_bodies(F& f, const State& state, const MatX& directions) {
+inline std::string moving_bodies(Formulation& f, const State& state, const MatX& directions) {
   std::vector<std::string> names;
   for (const std::size_t i : bodies_moved(f, state, directions))
     names.push_back(f.model().bodies[i].name);
@@ -151,8 +148,7 @@ std::string moving_bodies(F& f, const State& state, const MatX& directions) {
 }
 
 /// Fills state.a and state.lambda by dense linear algebra.
-template <class F>
-void start_accelerations_dense(F& f, State& state) {
+inline void start_accelerations_dense(Formulation& f, State& state) {
   const int nv = f.velocities();
   const VecX no_lambda = VecX::Zero(f.constraints());
   const VecX possible = possible_masses(f, state);
@@ -184,8 +180,7 @@ void start_accelerations_dense(F& f, State& state) {
 
 /// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t. True if some direction
 /// has no mass.
-template <class F>
-bool start_accelerations(F& f, State& state, double penalty_mass) {
+inline bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
   state.a = VecX::Zero(f.velocities());
   state.lambda = VecX::Zero(f.constraints());
   check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <numeric>
 
-#include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
@@ -77,8 +76,7 @@ void solve_small(Mat6& A, int n, Vec6& x) noexcept {
 
 }  // namespace
 
-template <class F>
-LeastReactions<F>::LeastReactions(const Model& model)
+LeastReactions::LeastReactions(const Model& model)
     : model_(model), all_(model, every_joint(model)), motion_(model.joints.size(), -1) {
   all_.number_rows(0);
   std::vector<int> sizes;
@@ -124,13 +122,12 @@ LeastReactions<F>::LeastReactions(const Model& model)
   least_ = VecX::Zero(rows());
 }
 
-template <class F>
-void LeastReactions<F>::fill(const F& f, const Side& side, const Group& group, int part,
-                             bool of_b) noexcept {
+void LeastReactions::fill(const Formulation& f, const SystemMotion& motion, const Side& side,
+                          const Group& group, int part, bool of_b) noexcept {
   if (side.body < 0) return;
   const ConstraintPart& p = all_.parts()[part];
   const LocalMarker& m = f.local_marker(of_b ? p.b : p.a);
-  const Vec3 arm = f.body_rotation(m.body) * m.p_B;
+  const Vec3 arm = motion.body(m.body).R_WB * m.p_B;
   const double per_length = 1.0 / model_.bodies[m.body].length;
   double* out = rows_of_J_.data() + side.at + (all_.offset(part) - group.row) * side.size;
   for (int r = 0; r < p.rows(); ++r, out += side.size) {
@@ -149,8 +146,7 @@ void LeastReactions<F>::fill(const F& f, const Side& side, const Group& group, i
   }
 }
 
-template <class F>
-void LeastReactions<F>::add_normal_equations(const Side& s, const Side& t, int rows) noexcept {
+void LeastReactions::add_normal_equations(const Side& s, const Side& t, int rows) noexcept {
   int os = 0, ot = 0;
   MatX& front = normal_.front(s.body, t.body, os, ot);
   // The lower triangle is read.
@@ -165,14 +161,14 @@ void LeastReactions<F>::add_normal_equations(const Side& s, const Side& t, int r
         corner[j * front.rows() + i] += u[r * low.size + i] * v[r * high.size + j];
 }
 
-template <class F>
-void LeastReactions<F>::place(const F& f, double t) noexcept {
-  all_.evaluate(t, [&](int marker) -> const MarkerState& { return f.marker(marker); });
+void LeastReactions::place(const Formulation& f) noexcept {
+  const SystemMotion& motion = f.motion();
+  all_.evaluate(motion.t, [&](int marker) -> const MarkerState& { return motion.marker(marker); });
   normal_.set_zero();
   for (const Group& group : groups_) {
     for (int k = group.first; k < group.first + group.parts; ++k) {
-      fill(f, group.a, group, k, false);
-      fill(f, group.b, group, k, true);
+      fill(f, motion, group.a, group, k, false);
+      fill(f, motion, group.b, group, k, true);
     }
     if (group.a.body >= 0) add_normal_equations(group.a, group.a, group.rows);
     if (group.b.body >= 0) add_normal_equations(group.b, group.b, group.rows);
@@ -188,8 +184,7 @@ void LeastReactions<F>::place(const F& f, double t) noexcept {
   dense_ = false;
 }
 
-template <class F>
-void LeastReactions<F>::times_transpose(const VecX& lambda, VecX& out) const noexcept {
+void LeastReactions::times_transpose(const VecX& lambda, VecX& out) const noexcept {
   out.setZero();
   for (const Group& g : groups_)
     for (const Side* s : {&g.a, &g.b})
@@ -198,8 +193,7 @@ void LeastReactions<F>::times_transpose(const VecX& lambda, VecX& out) const noe
       });
 }
 
-template <class F>
-void LeastReactions<F>::add_times(const VecX& x, VecX& lambda) const noexcept {
+void LeastReactions::add_times(const VecX& x, VecX& lambda) const noexcept {
   for (const Group& g : groups_)
     for (const Side* s : {&g.a, &g.b})
       with_rows(*s, g.rows, [&](const auto& J) {
@@ -207,12 +201,10 @@ void LeastReactions<F>::add_times(const VecX& x, VecX& lambda) const noexcept {
       });
 }
 
-template <class F>
-void LeastReactions<F>::add_load(const F& f, int marker, const Vec3& force,
-                                 const Vec3& torque) noexcept {
-  const LocalMarker& m = f.local_marker(marker);
+void LeastReactions::add_load(const LocalMarker& m, const SystemMotion& motion, const Vec3& force,
+                              const Vec3& torque) noexcept {
   if (m.body < 0) return;
-  const Vec3 arm = f.body_rotation(m.body) * m.p_B;
+  const Vec3 arm = motion.body(m.body).R_WB * m.p_B;
   double* out = load_.data() + column_[m.body];
   Eigen::Map<Vec3> frame(out), turning(out + 3);
   frame += force;
@@ -226,14 +218,14 @@ void LeastReactions<F>::add_load(const F& f, int marker, const Vec3& force,
   }
 }
 
-template <class F>
-void LeastReactions<F>::find_load(const F& f, const Reactions& reactions) noexcept {
+void LeastReactions::find_load(const Formulation& f, const Reactions& reactions) noexcept {
   load_.setZero();
+  const SystemMotion& motion = f.motion();
   // The reaction acts back on a, with a moment if the points are apart.
   const auto add = [&](int a, int b, const Reactions::Wrench& w) {
-    const Vec3 d = f.marker(b).r - f.marker(a).r;
-    add_load(f, b, -w.force, -w.torque);
-    add_load(f, a, w.force, w.torque + d.cross(w.force));
+    const Vec3 d = motion.marker(b).r - motion.marker(a).r;
+    add_load(f.local_marker(b), motion, -w.force, -w.torque);
+    add_load(f.local_marker(a), motion, w.force, w.torque + d.cross(w.force));
   };
   for (std::size_t j = 0; j < model_.joints.size(); ++j)
     add(model_.joints[j].frame_F, model_.joints[j].frame_M, reactions.joints[j]);
@@ -241,8 +233,7 @@ void LeastReactions<F>::find_load(const F& f, const Reactions& reactions) noexce
     add(model_.rods[k].a, model_.rods[k].b, reactions.rods[k]);
 }
 
-template <class F>
-bool LeastReactions<F>::solve_sparse() noexcept {
+bool LeastReactions::solve_sparse() noexcept {
   if (!factorised_) return false;
   const double size = largest(load_);
   x_ = load_;
@@ -261,8 +252,7 @@ bool LeastReactions<F>::solve_sparse() noexcept {
   return true;
 }
 
-template <class F>
-void LeastReactions<F>::project_to_minimum_norm(VecX& lambda) noexcept {
+void LeastReactions::project_to_minimum_norm(VecX& lambda) noexcept {
   times_transpose(lambda, load_);
   if (solve_sparse())
     lambda = least_;
@@ -270,8 +260,7 @@ void LeastReactions<F>::project_to_minimum_norm(VecX& lambda) noexcept {
     shorten_dense(lambda);
 }
 
-template <class F>
-void LeastReactions<F>::project_to_minimum_norm(const F& f, Reactions& reactions) noexcept {
+void LeastReactions::project_to_minimum_norm(const Formulation& f, Reactions& reactions) noexcept {
   find_load(f, reactions);
   if (!solve_sparse()) {
     multipliers(reactions, least_);
@@ -280,8 +269,7 @@ void LeastReactions<F>::project_to_minimum_norm(const F& f, Reactions& reactions
   wrenches(least_, reactions);
 }
 
-template <class F>
-void LeastReactions<F>::orthonormalise() noexcept {
+void LeastReactions::orthonormalise() noexcept {
   U_.setZero();
   for (const Group& g : groups_)
     for (const Side* s : {&g.a, &g.b})
@@ -313,8 +301,7 @@ void LeastReactions<F>::orthonormalise() noexcept {
   }
 }
 
-template <class F>
-void LeastReactions<F>::multipliers(const Reactions& reactions, VecX& lambda) noexcept {
+void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexcept {
   lambda.setZero();
   std::size_t k = 0;
   const std::size_t parts = all_.parts().size();
@@ -361,16 +348,14 @@ void LeastReactions<F>::multipliers(const Reactions& reactions, VecX& lambda) no
   }
 }
 
-template <class F>
-void LeastReactions<F>::shorten_dense(VecX& lambda) noexcept {
+void LeastReactions::shorten_dense(VecX& lambda) noexcept {
   if (!dense_) orthonormalise();
   for (Eigen::Index j = 0; j < rank_; ++j) projected_[j] = U_.col(j).dot(lambda);
   lambda.setZero();
   for (Eigen::Index j = 0; j < rank_; ++j) lambda += projected_[j] * U_.col(j);
 }
 
-template <class F>
-void LeastReactions<F>::wrenches(const VecX& lambda, Reactions& reactions) const noexcept {
+void LeastReactions::wrenches(const VecX& lambda, Reactions& reactions) const noexcept {
   for (Reactions::Wrench& w : reactions.joints) w = {};
   add_part_wrenches(all_, lambda, reactions);
 }
@@ -391,8 +376,5 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
     if (is_motion(p)) reactions.motions[p.owner.index] = motion_scale(p) * lambda[set.offset(k)];
   }
 }
-
-template class LeastReactions<RelativeFormulation>;
-template class LeastReactions<AbsoluteFormulation>;
 
 }  // namespace floatframe

@@ -15,7 +15,7 @@
 // than 1e-7 of the longest are gaps of closed loops. Step time: no heap, noexcept.
 #include <vector>
 
-#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/formulation/formulation.hpp"
 #include "floatframe/math/block_ldlt.hpp"
 #include "floatframe/model/reactions.hpp"
 
@@ -25,7 +25,6 @@ namespace floatframe {
 /// motions.
 void add_part_wrenches(const ConstraintSet& set, const VecX& lambda, Reactions& reactions) noexcept;
 
-template <class F>
 class LeastReactions {
  public:
   /// Allocates.
@@ -33,9 +32,9 @@ class LeastReactions {
 
   int rows() const noexcept { return all_.count(); }
   /// J at the present positions of f.
-  void place(const F& f, double t) noexcept;
+  void place(const Formulation& f) noexcept;
   /// Replaces reactions by those of least norm with the same effect, in place, after `place`.
-  void project_to_minimum_norm(const F& f, Reactions& reactions) noexcept;
+  void project_to_minimum_norm(const Formulation& f, Reactions& reactions) noexcept;
   /// Equation (1) applied to multipliers, in place.
   void project_to_minimum_norm(VecX& lambda) noexcept;
   /// The wrenches of lambda.
@@ -55,7 +54,8 @@ class LeastReactions {
     int first = 0, parts = 0;  ///< parts
     int row = 0, rows = 0;
   };
-  void fill(const F& f, const Side& side, const Group& group, int part, bool of_b) noexcept;
+  void fill(const Formulation& f, const SystemMotion& motion, const Side& side, const Group& group,
+            int part, bool of_b) noexcept;
   void add_normal_equations(const Side& s, const Side& t, int rows) noexcept;
   /// Calls f with the rows of a side as columns: of a rigid body at most six of six numbers.
   template <class Call>
@@ -69,8 +69,9 @@ class LeastReactions {
   void times_transpose(const VecX& lambda, VecX& out) const noexcept;
   void add_times(const VecX& x, VecX& lambda) const noexcept;
   /// load_ = J^T lambda for these reactions.
-  void find_load(const F& f, const Reactions& reactions) noexcept;
-  void add_load(const F& f, int marker, const Vec3& force, const Vec3& torque) noexcept;
+  void find_load(const Formulation& f, const Reactions& reactions) noexcept;
+  void add_load(const LocalMarker& m, const SystemMotion& motion, const Vec3& force,
+                const Vec3& torque) noexcept;
   void multipliers(const Reactions& reactions, VecX& lambda) noexcept;
   /// least_ from load_; false if it is not accurate enough.
   bool solve_sparse() noexcept;
@@ -90,8 +91,5 @@ class LeastReactions {
   Eigen::Index rank_ = 0;
   VecX lengths_, projected_, load_, left_, x_, least_;
 };
-
-extern template class LeastReactions<RelativeFormulation>;
-extern template class LeastReactions<AbsoluteFormulation>;
 
 }  // namespace floatframe

@@ -19,8 +19,7 @@ MatX free_motions(const MatX& J, const VecX& possible);
 /// of m (v^2 + w^2 l^2) over the bodies, with the velocity v of the body frame and the
 /// characteristic length l, and m x^2 of modes. It depends on the bodies only, not on the
 /// coordinates that describe a motion.
-template <class F>
-MatX possible_mass_of(F& f, const State& state, const MatX& motions) {
+inline MatX possible_mass_of(Formulation& f, const State& state, const MatX& motions) {
   const Model& model = f.model();
   const std::size_t n = model.bodies.size();
   Eigen::Index rows = 0;
@@ -30,16 +29,16 @@ MatX possible_mass_of(F& f, const State& state, const MatX& motions) {
   for (Eigen::Index k = 0; k < motions.cols(); ++k) {
     const VecX v = motions.col(k);
     f.velocities(v);
+    const SystemMotion& motion = f.motion();
     Eigen::Index at = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const int body = static_cast<int>(i);
+      const BodyKinematics& b = motion.bodies[i];
       const double l = model.bodies[i].length, root = std::sqrt(possible_mass(model, i));
-      moved.block<3, 1>(at, k) = root * f.body_velocity(body);
-      moved.block<3, 1>(at + 3, k) = root * l * f.body_angular_velocity(body);
+      moved.block<3, 1>(at, k) = root * b.v_WB;
+      moved.block<3, 1>(at + 3, k) = root * l * b.w_WB;
       at += 6;
       for (int m = 0; m < model.bodies[i].modes(); ++m, ++at)
-        moved(at, k) =
-            std::sqrt(possible_modal_mass(model, i, m, l * l)) * f.amplitude_rate(v, body, m);
+        moved(at, k) = std::sqrt(possible_modal_mass(model, i, m, l * l)) * b.yd[m];
     }
   }
   return moved.transpose() * moved;
@@ -51,17 +50,18 @@ MatX light_directions(const MatX& mass, const MatX& possible_mass, const MatX& m
 
 /// The combinations of `directions` that move body frames. The rest are massless modes (torsion of
 /// a bar without spin inertia), which are held by their stiffness.
-template <class F>
-MatX moving_frames(F& f, const State& state, const MatX& directions) {
+inline MatX moving_frames(Formulation& f, const State& state, const MatX& directions) {
   constexpr double moves = 1e-3;
   const auto bodies = static_cast<Eigen::Index>(f.model().bodies.size());
   MatX frames(6 * bodies, directions.cols());
   f.positions(state.t, state.q);
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
     f.velocities(directions.col(k).normalized());
+    const SystemMotion& motion = f.motion();
     for (Eigen::Index i = 0; i < bodies; ++i) {
-      frames.block<3, 1>(6 * i, k) = f.body_velocity(static_cast<int>(i));
-      frames.block<3, 1>(6 * i + 3, k) = f.body_angular_velocity(static_cast<int>(i));
+      const BodyKinematics& b = motion.body(static_cast<int>(i));
+      frames.block<3, 1>(6 * i, k) = b.v_WB;
+      frames.block<3, 1>(6 * i + 3, k) = b.w_WB;
     }
   }
   const SymmetricEigen eig = symmetric_eigen(frames.transpose() * frames);
@@ -71,8 +71,7 @@ MatX moving_frames(F& f, const State& state, const MatX& directions) {
 }
 
 /// Addition to the failure message of a run at this state, beginning with "; ", or nothing.
-template <class F>
-std::string light_motion_note(F& f, const State& state) {
+inline std::string light_motion_note(Formulation& f, const State& state) {
   constexpr int most = 1000;      // dense linear algebra above this would take minutes
   constexpr double light = 1e-6;  // a radius of gyration of a thousandth of the length
   const int nv = f.velocities(), nc = f.constraints();

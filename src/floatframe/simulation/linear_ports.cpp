@@ -46,23 +46,20 @@ double step_along(const VecX& motion, const VecX& steps) {
 }
 
 /// dy for unit motions with these columns of x, v and a.
-template <class F>
-VecX output_column(ExcitedSystem<F>& excited, double h, const VecX& x, const VecX& v,
-                   const VecX& a) {
+VecX output_column(ExcitedSystem& excited, double h, const VecX& x, const VecX& v, const VecX& a) {
   return precise_differences(
              VecX::Constant(1, h), 0,
              [&](const VecX& s) { return excited.outputs(s[0] * x, s[0] * v, s[0] * a); })
       .columns;
 }
 
-template <class F>
-void find_output_columns(ExcitedSystem<F>& excited, const std::vector<double>& input_steps,
+void find_output_columns(ExcitedSystem& excited, const std::vector<double>& input_steps,
                          const LinearInputs& moved, LinearModel& linear) {
   const LinearSystem& system = linear.system;
   const Eigen::Index nv = system.x_of.rows(), nz = system.A.rows(),
                      ny = linear.output_values.size(),
                      nu = static_cast<Eigen::Index>(linear.inputs.size());
-  F& f = excited.formulation();
+  Formulation& f = excited.formulation();
   const VecX steps = motion_steps(f.model(), possible_masses(f, excited.state()));
   linear.C.resize(ny, nz);
   for (Eigen::Index z = 0; z < nz; ++z) {
@@ -89,16 +86,15 @@ void find_output_columns(ExcitedSystem<F>& excited, const std::vector<double>& i
   }
 }
 
-template <class F>
 LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
                             const SimulationDescription& options) {
   LinearModel linear;
   linear.inputs = chosen(linear_inputs(model), ports.inputs, "input");
   const std::vector<Output> outputs = chosen(model.outputs, ports.outputs, "output");
   for (const Output& output : outputs) linear.outputs.push_back({output.name, output.unit});
-  InitialisedModel<F> started(model, options);
-  ExcitedSystem<F> excited(started, outputs, options.step);
-  F& f = excited.formulation();
+  InitialisedModel started(model, options);
+  ExcitedSystem excited(started, outputs, options.step);
+  Formulation& f = excited.formulation();
   const Eigen::Index nv = f.velocities(), nc = f.constraints(),
                      nu = static_cast<Eigen::Index>(linear.inputs.size());
   InputMotions motions;
@@ -119,7 +115,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   for (LinearInput& input : linear.inputs)
     if (input.wheels.size() == 1) {
       const Force& wheel = model.forces[static_cast<std::size_t>(input.wheels[0])];
-      input.place = (f.marker(wheel.b).r + f.origin()).x();
+      input.place = f.motion().place(wheel.b).x();
     }
   LinearInputs moved;
   linear.system = linear_system_at(f, excited.state(), &motions, &moved);
@@ -171,9 +167,7 @@ LinearModel linear_model(const Model& model, const LinearPorts& ports,
                          const SimulationOptions& options) {
   const CountedStiffening counted = counted_at(model, options);
   const SimulationDescription& d = counted.model.simulation;
-  LinearModel linear = d.coordinates == Coordinates::relative
-                           ? linear_model_of<RelativeFormulation>(counted.model, ports, d)
-                           : linear_model_of<AbsoluteFormulation>(counted.model, ports, d);
+  LinearModel linear = linear_model_of(counted.model, ports, d);
   say_counted(counted, linear.system);
   return linear;
 }

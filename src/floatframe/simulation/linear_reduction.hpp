@@ -43,8 +43,8 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
                             int slowest = 0);
 
 /// For a started formulation `f`: `linear_system` of a model for existing formulations and states.
-template <class F>
-LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs = nullptr,
+LinearSystem linear_system_at(Formulation& f, const State& state,
+                              const InputMotions* inputs = nullptr,
                               LinearInputs* response = nullptr, int slowest = 0);
 
 /// The model with these options and the stiffening that matters there, and the messages about it in

@@ -20,8 +20,7 @@ namespace floatframe {
 namespace {
 
 /// Components of the motions of each state at bodies and force elements.
-template <class F>
-void describe_motions(F& f, const State& state, LinearSystem& system) {
+void describe_motions(Formulation& f, const State& state, LinearSystem& system) {
   const Model& model = f.model();
   Eigen::Index rates = 0, bends = 0;
   for (const Body& b : model.bodies) rates += 6 + b.modes(), bends += b.modes();
@@ -30,35 +29,31 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
   system.bends_of = MatX::Zero(bends, nz);
   system.springs_of = MatX::Zero(6 * forces, nz);
   system.places_of = MatX::Zero(6 * static_cast<Eigen::Index>(model.bodies.size()), nz);
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    VecX y(model.bodies[i].modes());
-    for (int m = 0; m < y.size(); ++m) y[m] = f.amplitude(state.q, static_cast<int>(i), m);
-    system.amplitudes.push_back(std::move(y));
-  }
   // The stiffness of forces at the present state; their measures in the motions, below.
   dynamics_at(f, state);
+  for (const BodyKinematics& b : f.motion().bodies) system.amplitudes.push_back(b.y);
   std::vector<ForceState> found;
   for (Eigen::Index k = 0; k < forces; ++k) found.push_back(f.force(static_cast<int>(k)));
   for (Eigen::Index z = 0; z < nz; ++z) {
     f.velocities(VecX(system.v_of.col(z)));
     Eigen::Index row = 0, bend = 0;
-    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-      const int k = static_cast<int>(i);
-      const Mat3 to_body = f.body_rotation(k).transpose();
-      system.rates_of.block<3, 1>(row, z) = to_body * f.body_velocity(k);
-      system.rates_of.block<3, 1>(row + 3, z) = to_body * f.body_angular_velocity(k);
-      row += 6;
-      for (int m = 0; m < model.bodies[i].modes(); ++m, ++row)
-        system.rates_of(row, z) = f.amplitude_rate(VecX(system.v_of.col(z)), k, m);
+    for (const BodyKinematics& b : f.motion().bodies) {
+      const Mat3 to_body = b.R_WB.transpose();
+      system.rates_of.block<3, 1>(row, z) = to_body * b.v_WB;
+      system.rates_of.block<3, 1>(row + 3, z) = to_body * b.w_WB;
+      system.rates_of.block(row + 6, z, b.yd.size(), 1) = b.yd;
+      row += 6 + b.yd.size();
     }
     // Increments move markers in the same way as velocities.
     const VecX x = system.x_of.col(z);
     f.velocities(x);
-    for (int k = 0; k < static_cast<int>(model.bodies.size()); ++k) {
-      system.places_of.block<3, 1>(6 * k, z) = f.body_velocity(k);
-      system.places_of.block<3, 1>(6 * k + 3, z) = f.body_angular_velocity(k);
-      for (int m = 0; m < model.bodies[static_cast<std::size_t>(k)].modes(); ++m, ++bend)
-        system.bends_of(bend, z) = f.amplitude_rate(x, k, m);
+    row = 0;
+    for (const BodyKinematics& b : f.motion().bodies) {
+      system.places_of.block<3, 1>(row, z) = b.v_WB;
+      system.places_of.block<3, 1>(row + 3, z) = b.w_WB;
+      system.bends_of.block(bend, z, b.yd.size(), 1) = b.yd;
+      row += 6;
+      bend += b.yd.size();
     }
     for (Eigen::Index k = 0; k < forces; ++k) {
       const Force& force = model.forces[static_cast<std::size_t>(k)];
@@ -76,19 +71,12 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
   dynamics_at(f, state);
 }
 
-template <class F>
-LinearSystem system_of(const Model& model, const SimulationDescription& options, int slowest) {
-  InitialisedModel<F> started(model, options);
-  return linear_system_at(started.formulation(), started.state(), nullptr, nullptr, slowest);
-}
-
 }  // namespace
 
-template <class F>
-LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs,
+LinearSystem linear_system_at(Formulation& f, const State& state, const InputMotions* inputs,
                               LinearInputs* response, int slowest) {
   const double speed = largest(state.v);
-  constexpr bool relative = std::is_same_v<F, RelativeFormulation>;
+  const bool relative = f.coordinates() == Coordinates::relative;
   if (!relative && speed > 1e-6)
     throw RunError(ErrorCode::unsupported,
                    "the state moves: its linear system needs relative coordinates, since those of "
@@ -113,11 +101,6 @@ LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inpu
   }
   return system;
 }
-
-template LinearSystem linear_system_at(RelativeFormulation&, const State&, const InputMotions*,
-                                       LinearInputs*, int);
-template LinearSystem linear_system_at(AbsoluteFormulation&, const State&, const InputMotions*,
-                                       LinearInputs*, int);
 
 double LinearMode::frequency() const noexcept {
   return std::abs(lambda) / (2.0 * std::numbers::pi);
@@ -197,9 +180,9 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
 LinearSystem linear_system(const Model& model, const SimulationOptions& options, int slowest) {
   const CountedStiffening counted = counted_at(model, options);
   const SimulationDescription& d = counted.model.simulation;
-  LinearSystem system = d.coordinates == Coordinates::relative
-                            ? system_of<RelativeFormulation>(counted.model, d, slowest)
-                            : system_of<AbsoluteFormulation>(counted.model, d, slowest);
+  InitialisedModel started(counted.model, d);
+  LinearSystem system =
+      linear_system_at(started.formulation(), started.state(), nullptr, nullptr, slowest);
   say_counted(counted, system);
   return system;
 }

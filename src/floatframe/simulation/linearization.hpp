@@ -12,7 +12,7 @@
 // allocates: load time only.
 #include <cmath>
 
-#include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
 namespace floatframe {
@@ -47,8 +47,8 @@ inline VecX equilibration(const MatX& A) {
 }
 
 /// r without accelerations at t, q, v: moves `f` there, up to `dynamics`.
-template <EquationsOfMotion F>
-VecX residual_at(F& f, double t, const VecX& q, const VecX& v, const VecX& lambda) {
+inline VecX residual_at(Formulation& f, double t, const VecX& q, const VecX& v,
+                        const VecX& lambda) {
   VecX r(f.velocities());
   kinematics_at(f, t, q, v);
   f.dynamics();
@@ -57,16 +57,15 @@ VecX residual_at(F& f, double t, const VecX& q, const VecX& v, const VecX& lambd
 }
 
 /// M d at the state of `f`, from r0, the residual there without accelerations, at size d.
-template <EquationsOfMotion F>
-VecX mass_times(F& f, const VecX& d, double size, const VecX& r0, const VecX& lambda) {
+inline VecX mass_times(Formulation& f, const VecX& d, double size, const VecX& r0,
+                       const VecX& lambda) {
   VecX r(f.velocities());
   f.residual(size * d, lambda, 0.0, r);
   return (r - r0) / size;
 }
 
 /// M at the state of `f`, its columns from trial accelerations of these sizes.
-template <EquationsOfMotion F>
-MatX mass_matrix(F& f, const VecX& sizes, const VecX& r0, const VecX& lambda) {
+inline MatX mass_matrix(Formulation& f, const VecX& sizes, const VecX& r0, const VecX& lambda) {
   const int nv = f.velocities();
   MatX M(nv, nv);
   for (int j = 0; j < nv; ++j) M.col(j) = mass_times(f, VecX::Unit(nv, j), sizes[j], r0, lambda);
@@ -74,8 +73,7 @@ MatX mass_matrix(F& f, const VecX& sizes, const VecX& r0, const VecX& lambda) {
 }
 
 /// K at t, q, v: moves `f`.
-template <EquationsOfMotion F>
-MatX stiffness_matrix(F& f, const State& s) {
+inline MatX stiffness_matrix(Formulation& f, const State& s) {
   constexpr double step = 1e-6;  // [m, rad, amplitudes]
   VecX q = s.q;
   return central_differences(f.velocities(), step, [&](const VecX& x) {
@@ -86,8 +84,7 @@ MatX stiffness_matrix(F& f, const State& s) {
 
 /// C at t, q, v: moves `f`. Inertia and laws of dampers are at most of second order in v: the step
 /// may be large.
-template <EquationsOfMotion F>
-MatX damping_matrix(F& f, const State& s) {
+inline MatX damping_matrix(Formulation& f, const State& s) {
   constexpr double step = 1e-3;  // [m/s, rad/s, amplitudes/s]
   return central_differences(f.velocities(), step, [&](const VecX& x) {
     return residual_at(f, s.t, s.q, VecX(s.v + x), s.lambda);

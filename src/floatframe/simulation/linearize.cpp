@@ -9,10 +9,9 @@
 namespace floatframe {
 namespace {
 
-template <class F>
 Linearization linearized(const Model& model, const SimulationDescription& options) {
-  InitialisedModel<F> started(model, options);
-  F& f = started.formulation();
+  InitialisedModel started(model, options);
+  Formulation& f = started.formulation();
   SmallMotions terms = small_motions(f, started.state());
   Linearization l;
   l.M = std::move(terms.M);
@@ -23,7 +22,8 @@ Linearization linearized(const Model& model, const SimulationDescription& option
   l.coordinates = coordinate_owners(f);
   l.constraints = constraint_owners(f);
   JointFollower joints(started.model());
-  l.state = system_state(f, started.state(), joints);
+  kinematics_at(f, started.state());
+  l.state = system_state(f.motion(), joints);
   place_bodies(started.model(), options.inertia, l.state);
   l.start = started.report();
   return l;
@@ -34,9 +34,7 @@ Linearization linearized(const Model& model, const SimulationDescription& option
 Linearization linearize(const Model& model, const SimulationOptions& options) {
   const CountedStiffening counted = counted_at(model, options);
   const SimulationDescription& d = counted.model.simulation;
-  Linearization l = d.coordinates == Coordinates::relative
-                        ? linearized<RelativeFormulation>(counted.model, d)
-                        : linearized<AbsoluteFormulation>(counted.model, d);
+  Linearization l = linearized(counted.model, d);
   l.stiffened = counted.bodies;
   l.start.notes.insert(l.start.notes.end(), counted.notes.begin(), counted.notes.end());
   return l;

@@ -156,13 +156,14 @@ void LoopEquations::add_body(int body, double least_mass, double least_inertia) 
 
 VecX LoopEquations::shape() const {
   VecX x(rows_);
+  const SystemMotion& motion = f_.motion();
   for (const BodyShape& s : bodies_) {
-    const Mat3& R = f_.body_rotation(s.body);
-    x.segment<3>(s.row) = s.root_mass * (f_.body_position(s.body) + R * s.c_B);
+    const BodyKinematics& b = motion.body(s.body);
+    const Mat3& R = b.R_WB;
+    x.segment<3>(s.row) = s.root_mass * (b.p_WB + R * s.c_B);
     const Mat3 U = R * s.U_B;
     for (int k = 0; k < 3; ++k) x.segment<3>(s.row + 3 + 3 * k) = U.col(k);
-    x.segment(s.row + 12, s.mode_costs.size()) =
-        s.mode_costs.cwiseProduct(f_.tree().body(s.body).y);
+    x.segment(s.row + 12, s.mode_costs.size()) = s.mode_costs.cwiseProduct(b.y);
   }
   return x;
 }
@@ -173,15 +174,15 @@ VecX LoopEquations::displacement() const { return shape() - shape_0_; }
 
 void LoopEquations::fill_column(Eigen::Index column, int coordinate) {
   f_.velocities(VecX::Unit(f_.velocities(), coordinate));
+  const SystemMotion& motion = f_.motion();
   for (const BodyShape& s : bodies_) {
-    const Mat3& R = f_.body_rotation(s.body);
-    const Vec3 w = f_.body_angular_velocity(s.body);
-    A_.col(column).segment<3>(s.row) =
-        s.root_mass * (f_.body_velocity(s.body) + w.cross(R * s.c_B));
+    const BodyKinematics& b = motion.body(s.body);
+    const Mat3& R = b.R_WB;
+    const Vec3& w = b.w_WB;
+    A_.col(column).segment<3>(s.row) = s.root_mass * (b.v_WB + w.cross(R * s.c_B));
     for (int k = 0; k < 3; ++k)
       A_.col(column).segment<3>(s.row + 3 + 3 * k) = w.cross(R * s.U_B.col(k));
-    A_.col(column).segment(s.row + 12, s.mode_costs.size()) =
-        s.mode_costs.cwiseProduct(f_.tree().body(s.body).yd);
+    A_.col(column).segment(s.row + 12, s.mode_costs.size()) = s.mode_costs.cwiseProduct(b.yd);
   }
   Eigen::Index row = 0;
   for (const LoopValue& v : values_) {

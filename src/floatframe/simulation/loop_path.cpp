@@ -320,14 +320,15 @@ bool LoopPath::near(const VecX& from, const VecX& to) {
   std::vector<Mat3> R;
   std::vector<Vec3> p;
   f_.positions(t_, from);
-  for (int i = 0; i < f_.tree().body_count(); ++i) {
-    R.push_back(f_.body_rotation(i));
-    p.push_back(f_.body_position(i));
+  for (const BodyKinematics& b : f_.motion().bodies) {
+    R.push_back(b.R_WB);
+    p.push_back(b.p_WB);
   }
   f_.positions(t_, to);
-  for (int i = 0; i < f_.tree().body_count(); ++i)
-    if (rotation_log(R[i].transpose() * f_.body_rotation(i)).norm() > largest_turn ||
-        (f_.body_position(i) - p[i]).norm() > largest_move * size_)
+  const std::vector<BodyKinematics>& moved = f_.motion().bodies;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (rotation_log(R[i].transpose() * moved[i].R_WB).norm() > largest_turn ||
+        (moved[i].p_WB - p[i]).norm() > largest_move * size_)
       return false;
   return true;
 }

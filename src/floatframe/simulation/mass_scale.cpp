@@ -32,7 +32,9 @@ double possible_modal_mass(const Model& model, std::size_t body, int mode, doubl
   return std::max(own, possible_mass(model, body) * most);
 }
 
-VecX possible_masses(RelativeFormulation& f, const State& state) {
+namespace {
+
+VecX possible_in_tree(RelativeFormulation& f, const State& state) {
   const Model& model = f.model();
   const TreeKinematics& tree = f.tree();
   f.positions(state.t, state.q);
@@ -58,21 +60,28 @@ VecX possible_masses(RelativeFormulation& f, const State& state) {
   return masses;
 }
 
-VecX possible_masses(AbsoluteFormulation& f, const State&) {
+VecX possible_in_axes(const Formulation& f) {
   const Model& model = f.model();
   VecX masses = VecX::Zero(f.velocities());
-  Eigen::Index at = 0;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const double m = possible_mass(model, i), l = model.bodies[i].length;
-    const int modes = model.bodies[i].modes(), size = f.body_size(static_cast<int>(i));
+    const int modes = model.bodies[i].modes();
+    const BodyCoordinates c = f.body_coordinates(static_cast<int>(i));
+    const int at = c.v, size = c.v_count;
     // Frame origin, axes, modes, points on the body.
     masses.segment(at, size).setConstant(m);
     masses.segment(at + 3, 9).setConstant(m * l * l);
     for (int k = 0; k < modes; ++k) masses[at + 12 + k] = possible_modal_mass(model, i, k, l * l);
-    at += size;
   }
   fill_gaps(masses, model);
   return masses;
+}
+
+}  // namespace
+
+VecX possible_masses(Formulation& f, const State& state) {
+  auto* relative = dynamic_cast<RelativeFormulation*>(&f);
+  return relative != nullptr ? possible_in_tree(*relative, state) : possible_in_axes(f);
 }
 
 VecX mass_scale(const VecX& diagonal, const VecX& possible) {

@@ -20,8 +20,7 @@ double possible_modal_mass(const Model& model, std::size_t body, int mode, doubl
 /// The mass or inertia that each coordinate could have at these positions: the sum of m (v^2 + w^2
 /// l^2) over the bodies that a unit velocity moves by v and rotates by w, with the characteristic
 /// lengths l, and m x^2 for a mode that moves nodes by x. Changes the velocities of `f`.
-VecX possible_masses(RelativeFormulation& f, const State& state);
-VecX possible_masses(AbsoluteFormulation& f, const State& state);
+VecX possible_masses(Formulation& f, const State& state);
 
 /// Scales of coordinates for tests of the mass matrix: its diagonal, but at least 1e-4 of the
 /// possible mass, so that round-off stays small.

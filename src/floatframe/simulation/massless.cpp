@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -14,8 +13,7 @@ namespace floatframe {
 namespace {
 
 /// Stiffness so small that it hardly affects modes with mass: s k = 1e-4 m for the stiffest.
-template <class F>
-double regularisation_scale(const F& f) {
+double regularisation_scale(const Formulation& f) {
   double stiffest = 0.0;
   for (const double w2 : f.own_frequencies_squared())
     if (w2 < no_inertia) stiffest = std::max(stiffest, w2);
@@ -24,20 +22,16 @@ double regularisation_scale(const F& f) {
 
 /// True if some body is bent. A massless direction is then a bend that rotates with its body, which
 /// seems to be held by stiffness, although the elastic energy does not change.
-template <class F>
-bool bent(const F& f, const VecX& q) {
-  const Model& model = f.model();
-  for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    for (int k = 0; k < model.bodies[i].modes(); ++k)
-      if (f.amplitude(q, static_cast<int>(i), k) != 0.0) return true;
-  return false;
+bool bent(const Formulation& f) {
+  const std::vector<BodyKinematics>& bodies = f.motion().bodies;
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const BodyKinematics& b) { return !b.y.isZero(0.0); });
 }
 
 /// Penalty of the passes. They converge at a rate of 1 / (penalty mu), with the smallest eigenvalue
 /// mu of Phi_q M^-1 Phi_q^T, which for chains of loops decreases with the square of their number.
-template <class F>
-double penalty_of_passes(const F& f, double penalty_mass) {
-  if (std::is_same_v<F, AbsoluteFormulation>) return penalty_mass;
+double penalty_of_passes(const Formulation& f, double penalty_mass) {
+  if (f.coordinates() == Coordinates::absolute) return penalty_mass;
   const double loops = std::max(1.0, f.constraints() / 100.0);
   return penalty_mass * loops * loops;
 }
@@ -49,8 +43,8 @@ double varied(Eigen::Index i) {
 }
 
 /// x without its massless part, by T of slot 0: T^-1 M x with the same Phi_q x.
-template <class F>
-VecX with_mass(F& f, const VecX& x, const VecX& r0, const VecX& lambda, double penalty_mass) {
+VecX with_mass(Formulation& f, const VecX& x, const VecX& r0, const VecX& lambda,
+               double penalty_mass) {
   VecX y = mass_times(f, x, 1.0, r0, lambda), rates(lambda.size()), mu(lambda.size());
   f.constraint_increments(x, rates);
   f.solve(y, VecX(-rates), penalty_mass, mu, 0);
@@ -59,8 +53,7 @@ VecX with_mass(F& f, const VecX& x, const VecX& r0, const VecX& lambda, double p
 
 }  // namespace
 
-template <class F>
-VecX mass_diagonal(F& f, const State& state) {
+VecX mass_diagonal(Formulation& f, const State& state) {
   VecX r0(f.velocities());
   f.residual(VecX::Zero(f.velocities()), state.lambda, 0.0, r0);
   check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
@@ -69,8 +62,7 @@ VecX mass_diagonal(F& f, const State& state) {
   return diagonal;
 }
 
-template <class F>
-double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass) {
+double growth_of_motions(Formulation& f, const VecX& scale, double s, double penalty_mass) {
   constexpr int slot = 1;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   // Round-off of the full penalty would look like mass.
@@ -89,16 +81,16 @@ double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass)
   return growth;
 }
 
-template <class F>
-double growth_by_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
+double growth_by_mass(Formulation& f, const VecX& diagonal, const VecX& possible,
+                      double penalty_mass) {
   if (diagonal.size() == 0) return 0.0;
   if (!(diagonal.maxCoeff() > 0.0)) return std::numeric_limits<double>::infinity();
   constexpr double s = 1e-30;
   return growth_of_motions(f, mass_scale(diagonal, possible), s, penalty_mass);
 }
 
-template <class F>
-bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
+bool may_lack_mass(Formulation& f, const VecX& diagonal, const VecX& possible,
+                   double penalty_mass) {
   return may_lack_mass(growth_by_mass(f, diagonal, possible, penalty_mass));
 }
 
@@ -106,8 +98,7 @@ bool may_lack_mass(double growth) { return !(growth < 0.1 / no_mass); }
 
 bool lacks_mass(double growth) { return !(growth < 1e12); }
 
-template <class F>
-bool start_by_passes(F& f, State& state, double s, double least_penalty, bool lacks_mass,
+bool start_by_passes(Formulation& f, State& state, double s, double least_penalty, bool lacks_mass,
                      bool must_settle) {
   const double penalty_mass = penalty_of_passes(f, least_penalty);
   if (f.factorize(1.0, 0.0, s, penalty_mass / s) >= 0) return false;
@@ -144,14 +135,13 @@ bool start_by_passes(F& f, State& state, double s, double least_penalty, bool la
   return (settled || !must_settle) && state.a.allFinite() && violation < 1e-5 * size && size < 1e7;
 }
 
-template <class F>
-bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass) {
+bool start_held_by_stiffness(Formulation& f, State& state, const VecX& scale, double penalty_mass) {
   // Without mass and stiffness only rounding is left of a direction, whatever s.
   const double nothing = growth_of_motions(f, scale, 1e-30, penalty_mass);
   // Above the size for dense linear algebra the passes decide, as far as rounding permits.
   const bool large = scale.size() > most_dense;
   double s = regularisation_scale(f);
-  const int attempts = large || !bent(f, state.q) ? 2 : 0;
+  const int attempts = large || !bent(f) ? 2 : 0;
   for (int attempt = 0; attempt < attempts; ++attempt, s *= 1e-3) {
     const double held = large ? 0.0 : growth_of_motions(f, scale, s, penalty_mass);
     if (!(held < 1e13 && held < 1e-2 * nothing)) break;
@@ -161,8 +151,7 @@ bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penal
   return !lacks_mass(nothing) && start_by_passes(f, state, no_stiffness, penalty_mass, false, true);
 }
 
-template <class F>
-std::vector<std::string> massless_notes(F& f, const State& state, double penalty_mass) {
+std::vector<std::string> massless_notes(Formulation& f, const State& state, double penalty_mass) {
   const std::vector<Body>& all = f.model().bodies;
   const auto bends = [](const Body& b) { return b.modes() > 0; };
   if (std::none_of(all.begin(), all.end(), bends)) return {};
@@ -195,20 +184,5 @@ std::vector<std::string> massless_notes(F& f, const State& state, double penalty
   dynamics_at(f, state);
   return notes;
 }
-
-template VecX mass_diagonal(RelativeFormulation&, const State&);
-template VecX mass_diagonal(AbsoluteFormulation&, const State&);
-template double growth_of_motions(RelativeFormulation&, const VecX&, double, double);
-template double growth_of_motions(AbsoluteFormulation&, const VecX&, double, double);
-template double growth_by_mass(RelativeFormulation&, const VecX&, const VecX&, double);
-template double growth_by_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
-template bool may_lack_mass(RelativeFormulation&, const VecX&, const VecX&, double);
-template bool may_lack_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
-template bool start_by_passes(RelativeFormulation&, State&, double, double, bool, bool);
-template bool start_by_passes(AbsoluteFormulation&, State&, double, double, bool, bool);
-template std::vector<std::string> massless_notes(RelativeFormulation&, const State&, double);
-template std::vector<std::string> massless_notes(AbsoluteFormulation&, const State&, double);
-template bool start_held_by_stiffness(RelativeFormulation&, State&, const VecX&, double);
-template bool start_held_by_stiffness(AbsoluteFormulation&, State&, const VecX&, double);
 
 }  // namespace floatframe

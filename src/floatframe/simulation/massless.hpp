@@ -11,25 +11,22 @@ namespace floatframe {
 
 /// The diagonal of the mass matrix, after `dynamics`. Throws RunError naming the entry, or the
 /// force there, that is too large to compute with.
-template <class F>
-VecX mass_diagonal(F& f, const State& state);
+VecX mass_diagonal(Formulation& f, const State& state);
 
 /// Upper bound of the growth of a solution with T = M + s K + penalty Phi_q^T Phi_q, relative to
 /// masses of `scale`: the inverse of the smallest mass of a direction that constraints leave free,
 /// as a fraction of its scale (inverse iteration from a vector that is in general orthogonal to no
 /// direction). Infinite if a pivot vanishes.
-template <class F>
-double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass);
+double growth_of_motions(Formulation& f, const VecX& scale, double s, double penalty_mass);
 
 /// The same without stiffness, at the diagonal of the mass matrix and `possible_masses`.
-template <class F>
-double growth_by_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass);
+double growth_by_mass(Formulation& f, const VecX& diagonal, const VecX& possible,
+                      double penalty_mass);
 
 /// True if some direction that the constraints leave free may have no mass. A massless coordinate
 /// alone is not sufficient: most of natural coordinates are held by constraints. Conservative:
 /// false positives cost a dense solve, false negatives a wrong start.
-template <class F>
-bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass);
+bool may_lack_mass(Formulation& f, const VecX& diagonal, const VecX& possible, double penalty_mass);
 
 /// The same for a given growth.
 bool may_lack_mass(double growth);
@@ -40,8 +37,7 @@ bool lacks_mass(double growth);
 /// passes with T. Returns false, with an unusable state, if stiffness does not hold all of them or
 /// a force moves them beyond the available digits, unless the mass is small but above rounding. `f`
 /// is at the state.
-template <class F>
-bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
+bool start_held_by_stiffness(Formulation& f, State& state, const VecX& scale, double penalty_mass);
 
 /// Spectral radius to use instead of the trapezoidal rule, for which rate errors of massless
 /// motions alternate in sign at each step.
@@ -50,8 +46,7 @@ inline constexpr double massless_spectral_radius = 0.7;
 /// Sentences about flexible bodies with a massless motion that is held by stiffness, at the state
 /// of `f`. None if a pivot vanishes, or if such a body has no mass at all: its motion is determined
 /// by dampers. Rigid bodies without inertia are guided by their joints.
-template <class F>
-std::vector<std::string> massless_notes(F& f, const State& state, double penalty_mass);
+std::vector<std::string> massless_notes(Formulation& f, const State& state, double penalty_mass);
 
 /// The value of s for a T without stiffness.
 inline constexpr double no_stiffness = 1e-30;
@@ -59,8 +54,7 @@ inline constexpr double no_stiffness = 1e-30;
 /// Passes that solve M a + Phi_q^T lambda = Q, Phi_q a = gamma with T, in slot 0. False if T has a
 /// vanishing pivot; true if the constraints are satisfied and all values are finite, and with
 /// `must_settle` only if the passes converge.
-template <class F>
-bool start_by_passes(F& f, State& state, double s, double penalty_mass, bool lacks_mass,
+bool start_by_passes(Formulation& f, State& state, double s, double penalty_mass, bool lacks_mass,
                      bool must_settle);
 
 /// Number of coordinates up to which dense linear algebra takes milliseconds.

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/formulation/formulation.hpp"
+#include "floatframe/integrator/step.hpp"
 #include "floatframe/model/constraint_part.hpp"
-#include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
@@ -20,8 +20,7 @@ inline constexpr double largest_beside_one = 1e15;
 /// "the spring of 's' has a slope of 1e+308 [N/m, N m/rad]", or nothing if all numbers of the model
 /// at these positions and velocities and the time t are below the limit. The text is the same in
 /// all formulations. Moves `f`.
-template <class F>
-std::string overflow_text(F& f, const State& state, double t, double limit) {
+inline std::string overflow_text(Formulation& f, const State& state, double t, double limit) {
   const Model& model = f.model();
   std::string text;
   const auto look = [&](double x, const auto& sentence) {
@@ -39,18 +38,18 @@ std::string overflow_text(F& f, const State& state, double t, double limit) {
   }
   kinematics_at(f, t, state.q, state.v);
   f.forces();
+  const SystemMotion& motion = f.motion();
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const int body = static_cast<int>(i);
-    look(f.body_angular_velocity(body).stableNorm(), [&](const std::string& n) {
+    look(motion.bodies[i].w_WB.stableNorm(), [&](const std::string& n) {
       return fmt::format("body '{}' turns at {} rad/s", model.bodies[i].name, n);
     });
-    look(f.body_velocity(body).stableNorm(), [&](const std::string& n) {
+    look(motion.bodies[i].v_WB.stableNorm(), [&](const std::string& n) {
       return fmt::format("body '{}' moves at {} m/s", model.bodies[i].name, n);
     });
   }
   for (std::size_t k = 0; k < model.forces.size(); ++k) {
     const Force& force = model.forces[k];
-    const auto& now = f.force(static_cast<int>(k));
+    const ForceState& now = motion.forces[k];
     const auto slope = [&](const char* law, const char* unit) {
       return [&force, law, unit](const std::string& n) {
         return fmt::format("the {} of '{}' has a slope of {} [{}]", law, force.name, n, unit);

@@ -12,8 +12,7 @@
 
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/force_outputs.hpp"
-#include "floatframe/model/marker_state.hpp"
-#include "floatframe/model/model.hpp"
+#include "floatframe/model/system_motion.hpp"
 #include "floatframe/simulation/range_warning.hpp"
 #include "floatframe/simulation/results.hpp"
 #include "floatframe/simulation/time_corners.hpp"
@@ -147,26 +146,24 @@ class TurnWatch {
   /// For runs with this step size [s].
   TurnWatch(const Model& model, double step);
 
-  /// At the start, and after every step: `f` has the positions and velocities of that state.
-  template <class F>
-  void start(const F& f) noexcept {
+  /// At the start, and after every step.
+  void start(const SystemMotion& motion) noexcept {
     for (Watched& x : watched_)
-      if (!x.counts) x.theta = rotation(f, x);
+      if (!x.counts) x.theta = rotation(motion, x);
   }
-  template <class F>
-  void follow(const F& f, double t) noexcept {
+  void follow(const SystemMotion& motion) noexcept {
     for (Watched& x : watched_) {
       if (x.counts) {
         const Force& force = model_.forces[x.force];
-        const MarkerState &a = f.marker(force.a), &b = f.marker(force.b);
+        const MarkerState &a = motion.marker(force.a), &b = motion.marker(force.b);
         const double turn = step_ * std::abs(a.R.col(2).dot(b.w - a.w));
-        if (turn > std::numbers::pi && x.first < 0.0) x.first = t;
+        if (turn > std::numbers::pi && x.first < 0.0) x.first = motion.t;
         x.most = std::max(x.most, turn);
         continue;
       }
-      const Vec3 theta = rotation(f, x);
+      const Vec3 theta = rotation(motion, x);
       if (x.first < 0.0 && theta.dot(x.theta) < 0.0 && quarter(theta) && quarter(x.theta))
-        x.first = t;
+        x.first = motion.t;
       x.theta = theta;
     }
   }
@@ -192,10 +189,9 @@ class TurnWatch {
     double most = 0.0;          ///< angle in one step [rad]
   };
   static bool quarter(const Vec3& theta) noexcept { return theta.norm() > 0.5 * std::numbers::pi; }
-  template <class F>
-  Vec3 rotation(const F& f, const Watched& x) const noexcept {
+  Vec3 rotation(const SystemMotion& motion, const Watched& x) const noexcept {
     const Force& force = model_.forces[x.force];
-    const Mat3 R = f.marker(force.a).R.transpose() * f.marker(force.b).R;
+    const Mat3 R = motion.marker(force.a).R.transpose() * motion.marker(force.b).R;
     return quaternion_log(Eigen::Quaterniond(R));
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -32,10 +31,9 @@ double largest_entry(const VecX& x) noexcept {
 
 }  // namespace
 
-template <class F>
-ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, const State& start,
-                                  const ReactionOptions& options)
-    : f_(model, method), options_(options) {
+ReactionSolver::ReactionSolver(Coordinates coordinates, const Model& model, InertiaMethod method,
+                               const State& start, const ReactionOptions& options)
+    : own_(make_formulation(coordinates, model, method)), f_(*own_), options_(options) {
   const int nv = f_.velocities(), nc = f_.constraints();
   a_ = residual_ = delta_ = best_a_ = VecX::Zero(nv);
   lambda_ = gamma_ = work_ = best_lambda_ = VecX::Zero(nc);
@@ -47,7 +45,7 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
   reactions_.rod_impulses.assign(model.rods.size(), Vec3::Zero());
   if (options.redundant) {
     // The penalty of absolute coordinates is already as large as digits allow.
-    if (std::is_same_v<F, RelativeFormulation>) options_.penalty_mass *= stiffer;
+    if (coordinates == Coordinates::relative) options_.penalty_mass *= stiffer;
     least_.emplace(model);
   }
   const VecX possible = possible_masses(f_, start);
@@ -56,18 +54,16 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
   if (least_) find_open_outputs(start);
 }
 
-template <class F>
-int ReactionSolver<F>::factorize() noexcept {
+int ReactionSolver::factorize() noexcept {
   constexpr double s = 1e-30;  // no stiffness
   has_W_ = !lacks_mass_ && f_.factorize(1.0, 0.0, s, options_.penalty_mass / s, reaction_slot) < 0;
   if (has_W_) return -1;
   return f_.factorize_metric(options_.step * options_.step, options_.penalty_mass, reaction_slot);
 }
 
-template <class F>
-void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs,
-                              std::span<const double> spring_angles,
-                              std::span<const std::int64_t> force_branches) noexcept {
+void ReactionSolver::solve(const State& state, std::span<const double> inputs,
+                           std::span<const double> spring_angles,
+                           std::span<const std::int64_t> force_branches) noexcept {
   if (!force_branches.empty()) f_.hold_force_branches(force_branches);
   f_.set_inputs(inputs);
   f_.set_spring_angles(spring_angles);
@@ -91,12 +87,11 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   }
   collect_wrenches();
   if (!least_) return;
-  least_->place(f_, state.t);
+  least_->place(f_);
   least_->project_to_minimum_norm(f_, reactions_);
 }
 
-template <class F>
-void ReactionSolver<F>::find_force_error() noexcept {
+void ReactionSolver::find_force_error() noexcept {
   f_.residual(a_, lambda_, 0.0, residual_);
   f_.balance(lambda_, residual_);
   force_error_ = largest_entry(residual_);
@@ -105,8 +100,7 @@ void ReactionSolver<F>::find_force_error() noexcept {
 /// (2), with the residual already computed. With W itself a pass leaves no forces in (1), and Phi_q
 /// a - gamma is known from the solution; `refines`: both are computed again. The best of the passes
 /// is kept: round-off may make the last ones worse.
-template <class F>
-void ReactionSolver<F>::iterate(bool refines) noexcept {
+void ReactionSolver::iterate(bool refines) noexcept {
   const double p = options_.penalty_mass;
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double best = infinite, last = infinite, last_step = infinite;
@@ -149,19 +143,13 @@ void ReactionSolver<F>::iterate(bool refines) noexcept {
   }
 }
 
-template <class F>
-void ReactionSolver<F>::collect_wrenches() noexcept {
-  for (std::size_t j = 0; j < reactions_.joints.size(); ++j) {
-    Reactions::Wrench& w = reactions_.joints[j];
-    w = {};
-    if constexpr (requires { f_.tree_joint_wrench(0, w.force, w.torque); })
-      f_.tree_joint_wrench(static_cast<int>(j), w.force, w.torque);
-  }
+void ReactionSolver::collect_wrenches() noexcept {
+  for (Reactions::Wrench& w : reactions_.joints) w = {};
+  f_.add_tree_wrenches(reactions_);
   add_part_wrenches(f_.constraint_set(), lambda_, reactions_);
 }
 
-template <class F>
-void ReactionSolver<F>::set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept {
+void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept {
   for (Vec3& x : reactions_.joint_impulses) x.setZero();
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintOwner& owner = set.parts()[k].owner;
@@ -173,12 +161,11 @@ void ReactionSolver<F>::set_impulses(const ConstraintSet& set, const VecX& impul
   }
 }
 
-template <class F>
-void ReactionSolver<F>::find_open_outputs(const State& start) {
+void ReactionSolver::find_open_outputs(const State& start) {
   kinematics_at(f_, start);
-  least_->place(f_, start.t);
+  least_->place(f_);
   const Model& model = f_.model();
-  const OutputView view(f_, start.t, start.q, &reactions_);
+  const SystemMotion& motion = f_.motion({}, &reactions_);
   const Eigen::Index n = least_->rows();
   for (const Output& o : model.outputs) {
     const OutputOf of = output_kind(o.type).of;
@@ -187,15 +174,12 @@ void ReactionSolver<F>::find_open_outputs(const State& start) {
     for (Eigen::Index i = 0; i < n; ++i) {
       FollowedOutput nothing;
       least_->wrenches(VecX::Unit(n, i), reactions_);
-      part[i] = output_value(view, o, nothing);
+      part[i] = output_value(motion, o, nothing);
     }
     VecX held = part;
     least_->project_to_minimum_norm(held);
     if ((part - held).norm() > left_open * part.norm()) open_.push_back(o.name);
   }
 }
-
-template class ReactionSolver<RelativeFormulation>;
-template class ReactionSolver<AbsoluteFormulation>;
 
 }  // namespace floatframe

@@ -18,7 +18,7 @@
 //
 // Wrenches. In absolute coordinates all joints have multipliers; in relative coordinates those of
 // the tree follow from the balance of each body, from the leaves to the root
-// (`RelativeFormulation::tree_joint_wrench`). In both cases the balance of every body - inertia,
+// (`Formulation::add_tree_wrenches`). In both cases the balance of every body - inertia,
 // applied forces, reactions, modal forces - is (1).
 //
 // It uses a separate formulation, so that steps do not depend on whether reactions are evaluated,
@@ -30,7 +30,7 @@
 #include <vector>
 
 #include "floatframe/integrator/step.hpp"
-#include "floatframe/model/output_view.hpp"
+#include "floatframe/model/system_motion.hpp"
 #include "floatframe/simulation/least_reactions.hpp"
 
 namespace floatframe {
@@ -41,12 +41,12 @@ struct ReactionOptions {
   bool redundant = false;     ///< true if constraints are redundant at the start
 };
 
-template <class F>
 class ReactionSolver {
  public:
-  /// `start`: the state at which masses and redundancy are checked. Allocates; throws as F.
-  ReactionSolver(const Model& model, InertiaMethod method, const State& start,
-                 const ReactionOptions& options);
+  /// `start`: the state at which masses and redundancy are checked. Allocates; throws as
+  /// `make_formulation`.
+  ReactionSolver(Coordinates coordinates, const Model& model, InertiaMethod method,
+                 const State& start, const ReactionOptions& options);
   ReactionSolver(const ReactionSolver&) = delete;
   ReactionSolver& operator=(const ReactionSolver&) = delete;
 
@@ -67,7 +67,7 @@ class ReactionSolver {
   /// True if some coordinate is massless at the start.
   bool lacks_mass() const noexcept { return lacks_mass_; }
   /// At the last state, with its accelerations.
-  F& formulation() noexcept { return f_; }
+  Formulation& formulation() noexcept { return f_; }
 
   /// The names of outputs that are not unique at the start because of redundant constraints.
   const std::vector<std::string>& open_outputs() const noexcept { return open_; }
@@ -79,18 +79,16 @@ class ReactionSolver {
   void collect_wrenches() noexcept;
   void find_open_outputs(const State& start);
 
-  F f_;
+  std::unique_ptr<Formulation> own_;
+  Formulation& f_;  ///< *own_
   ReactionOptions options_;
   bool lacks_mass_ = false;
   bool has_W_ = false;  ///< factorised
-  std::optional<LeastReactions<F>> least_;
+  std::optional<LeastReactions> least_;
   VecX a_, lambda_, residual_, gamma_, delta_, work_, best_a_, best_lambda_;
   double force_error_ = 0.0;
   Reactions reactions_;
   std::vector<std::string> open_;
 };
-
-extern template class ReactionSolver<RelativeFormulation>;
-extern template class ReactionSolver<AbsoluteFormulation>;
 
 }  // namespace floatframe

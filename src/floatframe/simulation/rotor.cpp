@@ -153,8 +153,8 @@ Vec3 axis_in_body(RelativeFormulation& f, const Rotor& rotor) {
   else
     v[rotor.coordinate] = rotor.sign;
   f.velocities(v);
-  return (f.body_rotation(rotor.body).transpose() * f.body_angular_velocity(rotor.body))
-      .normalized();
+  const BodyKinematics& turning = f.motion().body(rotor.body);
+  return (turning.R_WB.transpose() * turning.w_WB).normalized();
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ class Run {
     if (watch_)
       steps_.set_edge_watch(
           {&*watch_, [](void* watch, const State& state, const VecX& reactions) noexcept {
-             static_cast<RunWatch<F>*>(watch)->edge(state, reactions);
+             static_cast<RunWatch*>(watch)->edge(state, reactions);
            }});
     prepare_states();
   }
@@ -92,7 +92,7 @@ class Run {
   bool begin() {
     if (options_.record) sample();
     sample_state(0);
-    if (joints_) joints_->follow(steps_.formulation(), steps_.state());
+    follow_joints();
     if (watch_) watch_->start(steps_.state());
     sample_health();
     return flush();
@@ -114,8 +114,7 @@ class Run {
   /// Fills the row begun by `sample_state`, after the step was monitored.
   void sample_health() noexcept {
     if (!state_row_ || !watch_) return;
-    watch_->health(steps_.state(), steps_.counters(),
-                   state_row_ + states_->layout().groups.back().first);
+    watch_->health(steps_.counters(), state_row_ + states_->layout().groups.back().first);
     state_row_ = nullptr;
   }
 
@@ -143,7 +142,7 @@ class Run {
     s.cpu += 1e-9 * static_cast<double>(taken);
     if (good) step_times_.add(taken);
     if (sampled) sample_state(k);
-    if (good && joints_) joints_->follow(steps_.formulation(), steps_.state());
+    if (good) follow_joints();
     if (good && watch_) {
       watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
       watch_->attempt(steps_.state(), steps_.last());
@@ -156,6 +155,12 @@ class Run {
     s.status = "failed";
     s.message = steps_.failure();
     return false;
+  }
+
+  void follow_joints() {
+    if (!joints_) return;
+    kinematics_at(steps_.formulation(), steps_.state());
+    joints_->follow(steps_.formulation().motion());
   }
 
   /// Between steps. Returns false if the data cannot be written.
@@ -255,14 +260,14 @@ class Run {
   Histogram step_times_;
   std::size_t rows_ = 0;           ///< in the table
   std::optional<RowBlock> block_;  ///< of output rows
-  std::optional<StateSampler<F>> states_;
+  std::optional<StateSampler> states_;
   long states_every_ = 1;  ///< interval of states in rows
   std::vector<Column> state_columns_;
   RowBlock::Sink state_sink_;
   std::optional<RowBlock> state_block_;  ///< of output states
   double* state_row_ = nullptr;          ///< its row without health columns yet
   std::optional<JointFollower> joints_;
-  std::optional<RunWatch<F>> watch_;
+  std::optional<RunWatch> watch_;
 };
 
 }  // namespace floatframe

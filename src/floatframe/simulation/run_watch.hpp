@@ -1,11 +1,12 @@
 #pragma once
-// Updates the energy balance and the range checks of a run in any formulation. Powers and phases
+// Updates the energy balance and the range checks of a run. Powers and phases
 // are evaluated after every step, deformations and spin at recorded instants, energies at some of
 // these (the kinetic energy costs as much as half an iteration). `start` and `step` do not allocate
 // and do not change the run, bit for bit.
 #include <vector>
 
-#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/formulation/formulation.hpp"
+#include "floatframe/integrator/step.hpp"
 #include "floatframe/simulation/branch_watch.hpp"
 #include "floatframe/simulation/energy_balance.hpp"
 #include "floatframe/simulation/health.hpp"
@@ -13,13 +14,12 @@
 
 namespace floatframe {
 
-template <class F>
 class RunWatch {
  public:
   /// `records`: number of rows that will be recorded.
-  RunWatch(F& formulation, double step, long records)
+  RunWatch(Formulation& formulation, double step, long records)
       : f_(formulation),
-        motion_(formulation, step),
+        watch_(formulation.model(), step),
         branches_(step, formulation.configurations()),
         every_(std::max(1L, records / energy_checks)) {
     double total = 0.0;
@@ -32,15 +32,16 @@ class RunWatch {
 
   /// The columns that `health` writes.
   std::vector<HealthColumn> health_columns() const {
-    return floatframe::health_columns(f_.model(), motion_.range());
+    return floatframe::health_columns(f_.model(), watch_.range());
   }
 
   /// At the start of the run; `lambda` is consistent with its accelerations.
   void start(const State& s) noexcept {
     evaluate(s);
-    balance_.start(s.t, flows(f_, s.v, s.lambda), energies(s), motion_.range().noise());
-    motion_.look(s);
-    motion_.start(s);
+    const SystemMotion& motion = f_.motion();
+    balance_.start(s.t, flows(s.lambda), energies(s), watch_.range().noise());
+    watch_.look(motion);
+    watch_.start(motion);
   }
 
   /// To be called after a step; `sampled`: outputs were evaluated at its end.
@@ -52,27 +53,29 @@ class RunWatch {
       else
         evaluate(s);
     }
-    balance_.advance(s.t, flows(f_, s.v, reactions));
-    if (full) motion_.follow(s);
+    const SystemMotion& motion = f_.motion();
+    balance_.advance(s.t, flows(reactions));
+    if (full) watch_.follow(motion);
     if (!sampled) return;
-    motion_.look(s);
+    watch_.look(motion);
     if (++records_ % every_ == 0) balance_.check(s.t, energies(s));
   }
 
   /// The health of the run (health.hpp) at a recorded instant, after `start` or `attempt`.
-  void health(const State& s, const StepCounters& counters, double* row) noexcept {
+  void health(const StepCounters& counters, double* row) noexcept {
     effort_.write(counters, row);
     EnergyBalance::Energies e;
-    e.kinetic = motion_.kinetic_energy(s);
-    add_stored(s, e);
+    const SystemMotion& motion = f_.motion();
+    e.kinetic = watch_.kinetic_energy(motion);
+    add_stored(motion, e);
     write_energies(e, balance_.work(), balance_.remainder(e), row + HealthEffort::columns);
-    motion_.deformations(s, row + health_of_system);
+    watch_.deformations(motion, row + health_of_system);
   }
 
   /// Before and after an edge at which a step was divided: powers jump there. The formulation is at
   /// this state, with its forces.
   void edge(const State& s, const VecX& reactions) noexcept {
-    balance_.advance(s.t, flows(f_, s.v, reactions));
+    balance_.advance(s.t, flows(reactions));
   }
 
   /// Also after a step: its last attempt.
@@ -85,7 +88,7 @@ class RunWatch {
   template <class Stream>
   void serialize(Stream& s) {
     balance_.serialize(s);
-    motion_.serialize(s);
+    watch_.serialize(s);
     branches_.serialize(s);
     effort_.serialize(s);
     s(records_);
@@ -100,7 +103,7 @@ class RunWatch {
     balance_.check(s.t, energies(s));
     out.energy.balanced = true;
     balance_.write(out.energy);
-    out.warnings = motion_.range().warnings(out.energy, spectral_radius, corners);
+    out.warnings = watch_.range().warnings(out.energy, spectral_radius, corners);
     if (branch) out.warnings.push_back(*branch);
   }
 
@@ -117,15 +120,19 @@ class RunWatch {
     f_.forces();
   }
 
+  FlowSample flows(const VecX& reactions) const noexcept {
+    return floatframe::flows(f_.motion(), f_.constraint_set(), reactions);
+  }
+
   EnergyBalance::Energies energies(const State& s) noexcept {
     EnergyBalance::Energies e;
     e.kinetic = f_.kinetic_energy(s.v);
-    add_stored(s, e);
+    const SystemMotion& motion = f_.motion();
+    add_stored(motion, e);
     for (std::size_t i = 0; i < f_.model().bodies.size(); ++i) {
       const Body& b = f_.model().bodies[i];
-      const int body = static_cast<int>(i);
-      const double fastest =
-          f_.body_velocity(body).norm() + f_.body_angular_velocity(body).norm() * b.length;
+      const BodyKinematics& m = motion.bodies[i];
+      const double fastest = m.v_WB.norm() + m.w_WB.norm() * b.length;
       e.motion += 0.5 * mass_[i] * fastest * fastest;
     }
     e.present = e.kinetic + e.elastic;
@@ -134,19 +141,19 @@ class RunWatch {
   }
 
   /// All energies except the kinetic one.
-  void add_stored(const State& s, EnergyBalance::Energies& e) const noexcept {
-    e.potential = e.gravity = f_.gravity_energy(s.q);
+  void add_stored(const SystemMotion& motion, EnergyBalance::Energies& e) const noexcept {
+    e.potential = e.gravity = f_.gravity_energy();
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
-      const double energy = f_.force(static_cast<int>(k)).energy;
+      const double energy = motion.forces[k].energy;
       e.potential += energy;
       (energy_category(f_.model().forces[k].type) == EnergyCategory::tyres ? e.tyres : e.springs) +=
           energy;
     }
-    e.elastic = f_.elastic_energy(s.q);
+    e.elastic = elastic_energy(motion);
   }
 
-  F& f_;
-  MotionWatch<F> motion_;
+  Formulation& f_;
+  MotionWatch watch_;
   BranchWatch branches_;
   EnergyBalance balance_;
   HealthEffort effort_;

@@ -39,10 +39,10 @@ class Runner {
       : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
     memory_.outputs.resize(f_.model().outputs.size());
     memory_.inputs.assign(f_.inputs().begin(), f_.inputs().end());
-    terms_ = output_terms(f_.model());
+    needs_ = needs_of_outputs(f_.model());
   }
   /// Source of the outputs of reactions; it must outlive this.
-  void set_reaction_solver(ReactionSolver<F>& solver) {
+  void set_reaction_solver(ReactionSolver& solver) {
     reactions_ = &solver;
     integrator_.keep_impulses();
   }
@@ -134,19 +134,19 @@ class Runner {
   void sample(double* row) noexcept {
     const Model& model = f_.model();
     kinematics_at(f_, state_);
-    if (terms_ == OutputTerms::forces)
-      f_.forces();
-    else
+    if (needs_.energies || needs_.reactions)
       f_.dynamics();
+    else
+      f_.forces();
     if (reactions_) {
       reactions_->solve(state_, f_.inputs(), f_.spring_angles(), f_.force_branches());
       reactions_->set_impulses(f_.constraint_set(), integrator_.impulses());
     }
     f_.set_accelerations(reactions_ ? reactions_->accelerations() : state_.a);
     *row++ = state_.t;
-    const OutputView view(f_, state_.t, state_.q, reactions_ ? &reactions_->reactions() : nullptr);
+    const SystemMotion& motion = f_.motion(needs_, reactions_ ? &reactions_->reactions() : nullptr);
     for (std::size_t k = 0; k < model.outputs.size(); ++k)
-      *row++ = output_value(view, model.outputs[k], memory_.outputs[k]);
+      *row++ = output_value(motion, model.outputs[k], memory_.outputs[k]);
   }
 
   double kinetic_energy() noexcept { return f_.kinetic_energy(state_.v); }
@@ -154,12 +154,13 @@ class Runner {
   double potential_energy() noexcept {
     kinematics_at(f_, state_);
     f_.forces();
-    double sum = f_.gravity_energy(state_.q);
+    double sum = f_.gravity_energy();
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k)
       sum += f_.force(static_cast<int>(k)).energy;
     return sum;
   }
-  double elastic_energy() noexcept { return f_.elastic_energy(state_.q); }
+  /// After `potential_energy`.
+  double elastic_energy() const noexcept { return floatframe::elastic_energy(f_.motion()); }
 
   /// The cause of the last failed step, as a sentence.
   std::string failure() const {
@@ -310,8 +311,8 @@ class Runner {
   double min_step_, asked_ = 0.0;
   StepAttempt last_;
   RunnerMemory memory_;
-  OutputTerms terms_ = OutputTerms::forces;
-  ReactionSolver<F>* reactions_ = nullptr;
+  MotionNeeds needs_;  ///< of the outputs
+  ReactionSolver* reactions_ = nullptr;
 };
 
 // Compiled once, in runner.cpp: all runs of a formulation use the same arithmetic.

@@ -75,7 +75,7 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   if (report == nullptr) return state;
   kinematics_at(f, 0.0, state.q, state.v);
   for (const LockedLoops& locked : f.model().hints.locked) report->notes.push_back(locked.sentence);
-  report_changes(f, state, start, *report);
+  report_changes(f.motion(), start, *report);
   report_redundancy(f, state, *report);
   return state;
 }

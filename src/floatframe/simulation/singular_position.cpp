@@ -59,7 +59,7 @@ SingularPosition singular_position(const RelativeFormulation& f, double nearly) 
     std::vector<Pose> poses;
     for (const int b : block.bodies) {
       bends = bends || model.bodies[b].modes() > 0;
-      poses.push_back({f.body_position(b), f.body_rotation(b)});
+      poses.push_back({f.motion().body(b).p_WB, f.motion().body(b).R_WB});
     }
     if (bends) continue;
     const Alignment drawn(model, block);

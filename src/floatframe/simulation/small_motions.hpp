@@ -85,8 +85,7 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
 }
 
 /// Difference between angular velocities and rates of rotation vectors, (2). Moves `f`.
-template <EquationsOfMotion F>
-MatX connection(F& f, const State& s) {
+inline MatX connection(Formulation& f, const State& s) {
   const Eigen::Index nv = f.velocities();
   MatX gamma = MatX::Zero(nv, nv);
   const double speed = nv > 0 ? s.v.lpNorm<Eigen::Infinity>() : 0.0;
@@ -129,8 +128,7 @@ inline VecX motion_steps(const Model& model, const VecX& scale) {
 }
 
 /// At t, q, v, a, lambda of the state (a: empty counts as zero), where `f` is afterwards.
-template <EquationsOfMotion F>
-SmallMotions small_motions(F& f, const State& s) {
+inline SmallMotions small_motions(Formulation& f, const State& s) {
   const Eigen::Index nv = f.velocities(), nc = f.constraints();
   const VecX a = s.a.size() == nv ? s.a : VecX::Zero(nv);
   // Memory for these matrices, their columns before the split, and derived matrices.

@@ -18,6 +18,7 @@ namespace {
 class OffsetGoal {
  public:
   OffsetGoal(RelativeFormulation& f, const std::map<std::string, StartOffset>& offsets) : f_(f) {
+    const SystemMotion& motion = f.motion();
     for (const auto& [name, offset] : offsets) {
       Target t;
       t.body = -1;
@@ -30,8 +31,8 @@ class OffsetGoal {
                                                    ": unknown body '" + name + "'" +
                                                    did_you_mean(name, known));
       }
-      t.position = f.body_position(t.body) + offset.translation;
-      t.rotation = rotation_exp(offset.rotation.value_or(Vec3::Zero())) * f.body_rotation(t.body);
+      t.position = motion.body(t.body).p_WB + offset.translation;
+      t.rotation = rotation_exp(offset.rotation.value_or(Vec3::Zero())) * motion.body(t.body).R_WB;
       t.must_turn = offset.rotation.has_value();
       targets_.push_back(t);
     }
@@ -46,11 +47,12 @@ class OffsetGoal {
   VecX missing(bool hold) const {
     VecX out(rows(hold));
     Eigen::Index at = 0;
+    const SystemMotion& motion = f_.motion();
     for (const Target& t : targets_) {
-      out.segment<3>(at) = t.position - f_.body_position(t.body);
+      out.segment<3>(at) = t.position - motion.body(t.body).p_WB;
       at += 3;
       if (!hold && !t.must_turn) continue;
-      const Mat3 turn = t.rotation * f_.body_rotation(t.body).transpose();
+      const Mat3 turn = t.rotation * motion.body(t.body).R_WB.transpose();
       out.segment<3>(at) = quaternion_log(Eigen::Quaterniond(turn));
       at += 3;
     }
@@ -62,11 +64,12 @@ class OffsetGoal {
     for (int j = 0; j < f_.velocities(); ++j) {
       f_.velocities(VecX::Unit(f_.velocities(), j));
       Eigen::Index at = 0;
+      const SystemMotion& motion = f_.motion();
       for (const Target& t : targets_) {
-        J.block<3, 1>(at, j) = f_.body_velocity(t.body);
+        J.block<3, 1>(at, j) = motion.body(t.body).v_WB;
         at += 3;
         if (!hold && !t.must_turn) continue;
-        J.block<3, 1>(at, j) = f_.body_angular_velocity(t.body);
+        J.block<3, 1>(at, j) = motion.body(t.body).w_WB;
         at += 3;
       }
     }

@@ -36,9 +36,9 @@ class Changes {
   explicit Changes(StartReport& report) : report_(report) {}
 
   void joint(const Model& model, const Joint& j, bool rate, const std::vector<double>& given,
-             const RelativeFormulation& f) {
-    const MarkerState& F = f.marker(j.frame_F);
-    const MarkerState& M = f.marker(j.frame_M);
+             const SystemMotion& motion) {
+    const MarkerState& F = motion.marker(j.frame_F);
+    const MarkerState& M = motion.marker(j.frame_M);
     for (std::size_t k = 0; k < given.size(); ++k) {
       const int component = static_cast<int>(k);
       double wanted = given[k];
@@ -77,10 +77,10 @@ class Changes {
 };
 
 /// Springs whose ends are made coincident (within 1e-9 m) by start values.
-void report_coinciding_ends(const RelativeFormulation& f, StartReport& report) {
-  for (const Force& force : f.model().forces)
+void report_coinciding_ends(const SystemMotion& motion, StartReport& report) {
+  for (const Force& force : motion.model.forces)
     if (force_kind(force.type).along_line &&
-        (f.marker(force.b).r - f.marker(force.a).r).norm() < 1e-9)
+        (motion.marker(force.b).r - motion.marker(force.a).r).norm() < 1e-9)
       report.notes.push_back(fmt::format(
           "the ends of force '{}' coincide at the start: it has no direction there, and acts along "
           "x until they part",
@@ -131,29 +131,25 @@ std::vector<double> joint_coordinates_in_range(const Joint& joint,
   return out;
 }
 
-void report_changes(const RelativeFormulation& f, const State& state, Start start,
-                    StartReport& report) {
-  const Model& model = f.model();
+void report_changes(const SystemMotion& motion, Start start, StartReport& report) {
+  const Model& model = motion.model;
   const bool balanced = start == Start::equilibrium;
   Changes changes(report);
   // An equilibrium is expected to change the given positions, except those that must be kept.
   for (const Joint& j : model.joints)
     if (!balanced || j.keep)
-      changes.joint(model, j, false, joint_coordinates_in_range(j, j.position), f);
+      changes.joint(model, j, false, joint_coordinates_in_range(j, j.position), motion);
   for (std::size_t i = 0; i < model.bodies.size() && !balanced; ++i) {
     const VecX& given = model.amplitudes[i];
-    VecX used(given.size());
-    for (int k = 0; k < given.size(); ++k) used[k] = f.amplitude(state.q, static_cast<int>(i), k);
-    if (given.size() > 0) changes.amplitudes(model.bodies[i].name, false, given, used);
+    if (given.size() > 0)
+      changes.amplitudes(model.bodies[i].name, false, given, motion.bodies[i].y);
   }
   const std::size_t positions = report.changes.size();
-  for (const Joint& j : model.joints) changes.joint(model, j, true, j.velocity, f);
+  for (const Joint& j : model.joints) changes.joint(model, j, true, j.velocity, motion);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const VecX& given = model.amplitude_rates[i];
-    VecX used(given.size());
-    for (int k = 0; k < given.size(); ++k)
-      used[k] = f.amplitude_rate(state.v, static_cast<int>(i), k);
-    if (given.size() > 0) changes.amplitudes(model.bodies[i].name, true, given, used);
+    if (given.size() > 0)
+      changes.amplitudes(model.bodies[i].name, true, given, motion.bodies[i].yd);
   }
   for (std::size_t k = 0; k < report.changes.size(); ++k)
     report.notes.push_back(
@@ -161,7 +157,7 @@ void report_changes(const RelativeFormulation& f, const State& state, Start star
                  balanced && k < positions
                      ? "keep: true holds no position where the start is an equilibrium, which"
                      : "closing the loops"));
-  report_coinciding_ends(f, report);
+  report_coinciding_ends(motion, report);
   report_rigid_tangents(model, report);
 }
 

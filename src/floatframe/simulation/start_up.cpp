@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
 
+#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/system_state.hpp"
@@ -47,47 +47,43 @@ const Model& movable(const Model& model) {
 
 }  // namespace
 
-template <class F>
-InitialisedModel<F>::InitialisedModel(const Model& given, const SimulationDescription& o)
+InitialisedModel::InitialisedModel(const Model& given, const SimulationDescription& o,
+                                   Coordinates coordinates)
     : given_(movable(built(given))),
       changed_(started_model(given, o)),
       inertia_(o.inertia),
-      f_(model(), inertia_),
+      f_(make_formulation(coordinates, model(), inertia_)),
       step_options_(floatframe::step_options(model(), o)),
       min_step_(o.min_step > 0.0 ? o.min_step : o.step / 1024.0) {
-  if constexpr (std::is_same_v<F, RelativeFormulation>) {
-    state_ = start_state(f_, o, &report_);
+  if (auto* relative = dynamic_cast<RelativeFormulation*>(f_.get())) {
+    state_ = start_state(*relative, o, &report_);
   } else {
     RelativeFormulation tree(model(), o.inertia);
     const State start = start_state(tree, o, &report_);
     state_.t = start.t;
-    f_.start_from(tree, start.q, start.v, state_.q, state_.v);
+    static_cast<AbsoluteFormulation&>(*f_).start_from(tree, start.q, start.v, state_.q, state_.v);
   }
   double& spectral_radius = step_options_.spectral_radius;
-  if (start_accelerations(f_, state_, step_options_.penalty_mass) && spectral_radius >= 1.0)
-    for (std::string& note : massless_notes(f_, state_, step_options_.penalty_mass)) {
+  if (start_accelerations(*f_, state_, step_options_.penalty_mass) && spectral_radius >= 1.0)
+    for (std::string& note : massless_notes(*f_, state_, step_options_.penalty_mass)) {
       spectral_radius = massless_spectral_radius;
       add_note(std::move(note));
     }
   note_linear_markers(model(), report_);
   for (std::string& note : doubtful_gauges(model())) add_note(std::move(note));
-  spring_angles_.assign(f_.spring_angles().begin(), f_.spring_angles().end());
+  spring_angles_.assign(f_->spring_angles().begin(), f_->spring_angles().end());
 }
 
-template <class F>
-InitialisedModel<F>::InitialisedModel(const InitialisedModel& found)
+InitialisedModel::InitialisedModel(const InitialisedModel& found)
     : given_(found.model()),
       inertia_(found.inertia_),
-      f_(model(), inertia_),
+      f_(make_formulation(found.f_->coordinates(), model(), inertia_)),
       state_(found.state_),
       spring_angles_(found.spring_angles_),
       report_(found.report_),
       step_options_(found.step_options_),
       min_step_(found.min_step_) {
-  f_.set_spring_angles(spring_angles_);
+  f_->set_spring_angles(spring_angles_);
 }
-
-template class InitialisedModel<RelativeFormulation>;
-template class InitialisedModel<AbsoluteFormulation>;
 
 }  // namespace floatframe

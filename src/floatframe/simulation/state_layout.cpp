@@ -5,18 +5,12 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
 namespace {
 
 /// Default limit of states of a run in which every output instant could be a state.
 constexpr long most_states = 20000;
-
-template <class F>
-constexpr bool in_joint_coordinates = requires(const F& f) {
-  f.tree();
-};
 
 void append_range(std::vector<int>& out, int first, int count) {
   for (int k = 0; k < count; ++k) out.push_back(first + k);
@@ -38,9 +32,8 @@ long states_every(const RecordDescription& record, long rows) noexcept {
   return record.every > 0 ? record.every : std::max(1L, (rows + most_states - 1) / most_states);
 }
 
-template <class F>
-StateSampler<F>::StateSampler(F& formulation, const RecordDescription& record,
-                              std::vector<HealthColumn> health)
+StateSampler::StateSampler(const Formulation& formulation, const RecordDescription& record,
+                           std::vector<HealthColumn> health)
     : f_(formulation) {
   keep_bodies(record);
   find_coordinates();
@@ -49,8 +42,7 @@ StateSampler<F>::StateSampler(F& formulation, const RecordDescription& record,
 }
 
 /// The named bodies, and in joint coordinates also all between them and the ground.
-template <class F>
-void StateSampler<F>::keep_bodies(const RecordDescription& record) {
+void StateSampler::keep_bodies(const RecordDescription& record) {
   const std::vector<Body>& bodies = f_.model().bodies;
   kept_.assign(bodies.size(), record.bodies.empty() ? 1 : 0);
   for (const std::string& name : record.bodies) {
@@ -62,41 +54,26 @@ void StateSampler<F>::keep_bodies(const RecordDescription& record) {
       throw InputError(ErrorCode::not_found, "simulation.record.states.bodies: unknown body '" +
                                                  name + "'" + did_you_mean(name, known));
     }
-    if constexpr (in_joint_coordinates<F>)
-      for (; i >= 0; i = f_.tree().body(i).parent) kept_[i] = 1;
-    else
-      kept_[i] = 1;
+    for (; i >= 0; i = f_.body_coordinates(i).parent) kept_[i] = 1;
   }
 }
 
-template <class F>
-void StateSampler<F>::find_coordinates() {
+void StateSampler::find_coordinates() {
   StateLayout& l = layout_;
   l.configurations = f_.configurations();
   l.velocities = f_.velocities();
-  int offset = 0;
   for (int i = 0; i < static_cast<int>(kept_.size()); ++i) {
-    if constexpr (in_joint_coordinates<F>) {
-      const TreeBody& b = f_.tree().body(i);
-      if (!kept_[i]) continue;
-      append_range(l.q, b.iq, b.iyq - b.iq);
-      append_range(l.q, b.iyq, b.nm);
-      append_range(l.v, b.iv, b.nj);
-      append_range(l.v, b.iy, b.nm);
-    } else {
-      offsets_.push_back(offset);
-      if (kept_[i]) append_range(l.q, offset, f_.body_size(i));
-      offset += f_.body_size(i);
-    }
+    if (!kept_[i]) continue;
+    const BodyCoordinates c = f_.body_coordinates(i);
+    append_range(l.q, c.q, c.q_count);
+    append_range(l.v, c.v, c.v_count);
   }
-  if constexpr (!in_joint_coordinates<F>) l.v = l.q;
   std::sort(l.q.begin(), l.q.end());
   std::sort(l.v.begin(), l.v.end());
   for (const int k : l.v) l.owners.push_back(f_.coordinate_owner(k));
 }
 
-template <class F>
-void StateSampler<F>::place_columns(const RecordDescription& record) {
+void StateSampler::place_columns(const RecordDescription& record) {
   StateLayout& l = layout_;
   const auto group = [&](const char* name, std::size_t count) {
     l.groups.push_back({name, l.columns, static_cast<int>(count)});
@@ -115,16 +92,10 @@ void StateSampler<F>::place_columns(const RecordDescription& record) {
     if (kept_[i]) {
       c.pose = pose;
       pose += 7;
-      int in_q = 0, in_v = 0;
-      if constexpr (in_joint_coordinates<F>) {
-        in_q = f_.tree().body(i).iyq;
-        in_v = f_.tree().body(i).iy;
-      } else {
-        in_q = in_v = offsets_[i] + 12;
-      }
       if (f_.model().bodies[i].modes() > 0) {
-        c.amplitudes = q + column_among(l.q, in_q);
-        c.rates = v + column_among(l.v, in_v);
+        const BodyCoordinates in = f_.body_coordinates(i);
+        c.amplitudes = q + column_among(l.q, in.y);
+        c.rates = v + column_among(l.v, in.yd);
       }
     }
     l.bodies.push_back(c);
@@ -132,8 +103,7 @@ void StateSampler<F>::place_columns(const RecordDescription& record) {
   if (!l.health.empty()) group(health_group, l.health.size());
 }
 
-template <class F>
-void StateSampler<F>::sample(const State& state, double* row) const noexcept {
+void StateSampler::sample(const State& state, double* row) const noexcept {
   const StateLayout& l = layout_;
   *row++ = state.t;
   for (const int k : l.q) *row++ = state.q[k];
@@ -142,22 +112,15 @@ void StateSampler<F>::sample(const State& state, double* row) const noexcept {
     for (const int k : l.v) *row++ = state.a[k];
   for (const double x : f_.spring_angles()) *row++ = x;
   for (const double x : f_.inputs()) *row++ = x;
+  const SystemMotion& motion = f_.motion();
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     if (!kept_[i]) continue;
-    const int body = static_cast<int>(i);
-    Vec3 p;
-    if constexpr (in_joint_coordinates<F>)
-      p = f_.body_position(body);
-    else
-      p = state.q.segment<3>(offsets_[i]);
-    const Eigen::Quaterniond turn(f_.body_rotation(body));
+    const BodyKinematics& b = motion.bodies[i];
+    const Eigen::Quaterniond turn(b.R_WB);
     const Eigen::Quaterniond unit = turn.normalized();
-    for (int k = 0; k < 3; ++k) *row++ = p[k];
+    for (int k = 0; k < 3; ++k) *row++ = b.p_WB[k];
     for (const double x : {unit.w(), unit.x(), unit.y(), unit.z()}) *row++ = x;
   }
 }
-
-template class StateSampler<RelativeFormulation>;
-template class StateSampler<AbsoluteFormulation>;
 
 }  // namespace floatframe

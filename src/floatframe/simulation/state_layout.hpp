@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/step.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -57,12 +58,11 @@ inline constexpr const char* health_group = "health";
 long states_every(const RecordDescription& record, long rows) noexcept;
 
 /// Writes the states of one formulation as rows.
-template <class F>
 class StateSampler {
  public:
   /// `health`: columns reserved for other writers. Throws InputError for a body that does not exist
   /// in the model.
-  StateSampler(F& formulation, const RecordDescription& record,
+  StateSampler(const Formulation& formulation, const RecordDescription& record,
                std::vector<HealthColumn> health = {});
 
   const StateLayout& layout() const noexcept { return layout_; }
@@ -74,10 +74,9 @@ class StateSampler {
   void find_coordinates();
   void place_columns(const RecordDescription& record);
 
-  F& f_;
+  const Formulation& f_;
   StateLayout layout_;
-  std::vector<char> kept_;    ///< bodies
-  std::vector<int> offsets_;  ///< absolute coordinates: the first of each body
+  std::vector<char> kept_;  ///< bodies
 };
 
 }  // namespace floatframe

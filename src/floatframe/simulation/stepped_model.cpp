@@ -26,8 +26,8 @@ std::string open_outputs_note(const std::vector<std::string>& names) {
 template <class F>
 SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& options,
                               const StepLimits& limits)
-    : start_(model, options),
-      f_(start_.formulation()),
+    : start_(model, options, F::coordinates_of),
+      f_(static_cast<F&>(start_.formulation())),
       step_options_(limited(start_.step_options(), limits)),
       min_step_(limits.min_step.value_or(start_.min_step())),
       runner_(f_, step_options_, min_step_),
@@ -45,7 +45,7 @@ SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& o
 template <class F>
 SteppedModel<F>::SteppedModel(const SteppedModel& found, double duration)
     : start_(found.start_),
-      f_(start_.formulation()),
+      f_(static_cast<F&>(start_.formulation())),
       step_options_(found.step_options_),
       min_step_(found.min_step_),
       runner_(f_, step_options_, min_step_),
@@ -76,8 +76,8 @@ void SteppedModel<F>::begin_at_start(bool locate_edges) {
 
 template <class F>
 void SteppedModel<F>::prepare_reactions() {
-  if (output_terms(model()) != OutputTerms::reactions) return;
-  reactions_.emplace(model(), start_.inertia(), start_.state(),
+  if (!needs_of_outputs(model()).reactions) return;
+  reactions_.emplace(f_.coordinates(), model(), start_.inertia(), start_.state(),
                      ReactionOptions{step_options_.penalty_mass, grid_.step(),
                                      !start_.report().redundant.empty()});
   runner_.set_reaction_solver(*reactions_);
@@ -107,26 +107,25 @@ Energies SteppedModel<F>::energies() noexcept {
 }
 
 /// `lost_mass` of the first body with a message.
-template <class F>
-std::string lost_masses(const Model& model, const F& f, const VecX& q) {
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    VecX y(model.bodies[i].modes());
-    for (int a = 0; a < y.size(); ++a) y[a] = f.amplitude(q, static_cast<int>(i), a);
-    if (std::string text = lost_mass(model.bodies[i], y); !text.empty()) return text;
-  }
+std::string lost_masses(const SystemMotion& motion) {
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i)
+    if (std::string text = lost_mass(motion.model.bodies[i], motion.bodies[i].y); !text.empty())
+      return text;
   return {};
 }
 
 template <class F>
 std::string SteppedModel<F>::failure() {
   const std::string text = runner_.failure();  // first: refers to the failed iteration
-  const std::string lost = lost_masses(model(), f_, runner_.state().q);
+  f_.positions(runner_.state().t, runner_.state().q);
+  const std::string lost = lost_masses(f_.motion());
   return text + (lost.empty() ? light_motion_note(f_, runner_.state()) : "; " + lost);
 }
 
 template <class F>
 SystemState SteppedModel<F>::system_state(JointFollower& joints) {
-  SystemState s = floatframe::system_state(f_, runner_.state(), joints);
+  kinematics_at(f_, runner_.state());
+  SystemState s = floatframe::system_state(f_.motion(), joints);
   place_bodies(model(), start_.inertia(), s);
   return s;
 }

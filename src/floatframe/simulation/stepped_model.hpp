@@ -101,12 +101,12 @@ class SteppedModel {
   void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void prepare_reactions();
 
-  InitialisedModel<F> start_;
+  InitialisedModel start_;
   F& f_;
   StepOptions step_options_;
   double min_step_;  ///< [s]
   Runner<F> runner_;
-  std::optional<ReactionSolver<F>> reactions_;  ///< if an output needs them
+  std::optional<ReactionSolver> reactions_;  ///< if an output needs them
   TimeGrid grid_;
   SteppedMemory first_;
 };

@@ -78,7 +78,7 @@ class Simulation::EngineOf final : public Simulation::Engine {
  private:
   void sample() noexcept {
     steps_.sample(row_.data());
-    joints_.follow_present(steps_.formulation(), steps_.state().t);
+    joints_.follow(steps_.formulation().motion());
   }
 
   SteppedModel<F> steps_;

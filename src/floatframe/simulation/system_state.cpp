@@ -6,6 +6,8 @@
 
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/redundancy.hpp"
@@ -70,24 +72,23 @@ void check_time(const SystemState& state, double step) {
                   state.time, step, step / digits, digits));
 }
 
-/// Compares poses and velocities of f with those stored in the state.
-void compare_bodies(const RelativeFormulation& f, const SystemState& state) {
-  for (std::size_t i = 0; i < f.model().bodies.size(); ++i) {
-    const int k = static_cast<int>(i);
-    const SystemState::Body& b = named(state.bodies, f.model().bodies[i].name);
+/// Compares poses and velocities of the bodies with those stored in the state.
+void compare_bodies(const SystemMotion& motion, const SystemState& state) {
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+    const BodyKinematics& m = motion.bodies[i];
+    const SystemState::Body& b = named(state.bodies, motion.model.bodies[i].name);
     const Eigen::Quaterniond kept(b.orientation[0], b.orientation[1], b.orientation[2],
                                   b.orientation[3]);
-    const double away = (f.body_position(k) - b.position).norm();
-    const double turned =
-        (f.body_rotation(k) - kept.normalized().toRotationMatrix()).cwiseAbs().maxCoeff();
-    const double v = (f.body_velocity(k) - b.velocity).norm();
-    const double w = (f.body_angular_velocity(k) - b.angular_velocity).norm();
+    const double away = (m.p_WB - b.position).norm();
+    const double turned = (m.R_WB - kept.normalized().toRotationMatrix()).cwiseAbs().maxCoeff();
+    const double v = (m.v_WB - b.velocity).norm();
+    const double w = (m.w_WB - b.angular_velocity).norm();
     constexpr double close = 1e-6;
     if (!(away <= close * (1.0 + b.position.norm())) || !(turned <= close) ||
         !(v <= close * (1.0 + b.velocity.norm())) ||
         !(w <= close * (1.0 + b.angular_velocity.norm())))
       refuse(
-          ErrorCode::contradiction, f.model(), state,
+          ErrorCode::contradiction, motion.model, state,
           fmt::format("the joints of the state put body '{}' {:.3g} m, {:.3g} rad, {:.3g} m/s and "
                       "{:.3g} rad/s away from where the state has it, expected no difference",
                       b.name, away, turned, v, w));
@@ -149,7 +150,7 @@ State start_state(RelativeFormulation& f, const SimulationDescription& o, StartR
     state.t = o.state->time;
     f.start(values, state.t, state.q, state.v);
     kinematics_at(f, state);
-    compare_bodies(f, *o.state);
+    compare_bodies(f.motion(), *o.state);
     close_loops(f, state.q, state.v, true, state.t, false);
     if (report != nullptr) report_redundancy(f, state, *report);
   } else {
@@ -168,6 +169,27 @@ JointFollower::JointFollower(const Model& model) {
     s.position.resize(n, 0.0);
     joints_.push_back(std::move(s));
   }
+}
+
+void JointFollower::follow(const SystemMotion& motion) {
+  const std::vector<Joint>& joints = motion.model.joints;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    SystemState::Joint& j = joints_[k];
+    const MarkerState& F = motion.marker(joints[k].frame_F);
+    const MarkerState& M = motion.marker(joints[k].frame_M);
+    for (std::size_t i = 0; i < j.position.size(); ++i) {
+      const int component = static_cast<int>(i);
+      const double rate = joint_velocity(joints[k], F, M, component);
+      const double turned = started_ ? 0.5 * (motion.t - time_) * (j.velocity[i] + rate) : 0.0;
+      const double expected = !started_ && joints[k].motion
+                                  ? evaluate(*joints[k].motion, motion.t).f
+                                  : j.position[i] + turned;
+      j.position[i] = joint_position(joints[k], F, M, component, expected);
+      j.velocity[i] = rate;
+    }
+  }
+  time_ = motion.t;
+  started_ = true;
 }
 
 std::size_t JointFollower::size() const noexcept {
@@ -200,15 +222,32 @@ void place_bodies(const Model& model, InertiaMethod inertia, SystemState& state)
   VecX q, v;
   f.start(values, state.time, q, v);
   kinematics_at(f, state.time, q, v);
+  const SystemMotion& motion = f.motion();
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    const int k = static_cast<int>(i);
+    const BodyKinematics& m = motion.bodies[i];
     SystemState::Body& b = state.bodies[i];
-    b.position = f.body_position(k);
-    const Eigen::Quaterniond r(f.body_rotation(k));
+    b.position = m.p_WB;
+    const Eigen::Quaterniond r(m.R_WB);
     b.orientation = {r.w(), r.x(), r.y(), r.z()};
-    b.velocity = f.body_velocity(k);
-    b.angular_velocity = f.body_angular_velocity(k);
+    b.velocity = m.v_WB;
+    b.angular_velocity = m.w_WB;
   }
+}
+
+SystemState system_state(const SystemMotion& motion, JointFollower& joints) {
+  joints.follow(motion);
+  SystemState s;
+  s.model = motion.model.name;
+  s.time = motion.t;
+  s.joints = joints.joints();
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+    SystemState::Body b;
+    b.name = motion.model.bodies[i].name;
+    b.amplitudes = motion.bodies[i].y;
+    b.amplitude_rates = motion.bodies[i].yd;
+    s.bodies.push_back(std::move(b));
+  }
+  return s;
 }
 
 }  // namespace floatframe

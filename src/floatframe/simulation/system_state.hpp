@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "floatframe/formulation/relative.hpp"
-#include "floatframe/integrator/augmented_lagrangian.hpp"
-#include "floatframe/math/so3.hpp"
-#include "floatframe/model/joint_measure.hpp"
+#include "floatframe/integrator/step.hpp"
 #include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/results.hpp"
 
@@ -30,33 +28,8 @@ class JointFollower {
  public:
   explicit JointFollower(const Model& model);
 
-  /// After a step: brings f to the state and updates the counts.
-  template <class F>
-  void follow(F& f, const State& state) {
-    kinematics_at(f, state);
-    follow_present(f, state.t);
-  }
-  /// At the present positions and velocities of f.
-  template <class F>
-  void follow_present(const F& f, double t) {
-    const std::vector<Joint>& joints = f.model().joints;
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-      SystemState::Joint& j = joints_[k];
-      const MarkerState& F_ = f.marker(joints[k].frame_F);
-      const MarkerState& M = f.marker(joints[k].frame_M);
-      for (std::size_t i = 0; i < j.position.size(); ++i) {
-        const int component = static_cast<int>(i);
-        const double rate = joint_velocity(joints[k], F_, M, component);
-        const double turned = started_ ? 0.5 * (t - time_) * (j.velocity[i] + rate) : 0.0;
-        const double expected = !started_ && joints[k].motion ? evaluate(*joints[k].motion, t).f
-                                                              : j.position[i] + turned;
-        j.position[i] = joint_position(joints[k], F_, M, component, expected);
-        j.velocity[i] = rate;
-      }
-    }
-    time_ = t;
-    started_ = true;
-  }
+  /// After a step.
+  void follow(const SystemMotion& motion);
   const std::vector<SystemState::Joint>& joints() const noexcept { return joints_; }
 
   /// Coordinates and rates of all joints one after the other, to be stored with their time.
@@ -75,27 +48,7 @@ class JointFollower {
 /// Poses and velocities of the bodies from the rest of a state.
 void place_bodies(const Model& model, InertiaMethod inertia, SystemState& state);
 
-/// The state of f at `state`, to which f is moved; poses are set by `place_bodies`.
-template <class F>
-SystemState system_state(F& f, const State& state, JointFollower& joints) {
-  joints.follow(f, state);
-  const Model& model = f.model();
-  SystemState s;
-  s.model = model.name;
-  s.time = state.t;
-  s.joints = joints.joints();
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    SystemState::Body b;
-    b.name = model.bodies[i].name;
-    const int modes = model.bodies[i].modes();
-    b.amplitudes = b.amplitude_rates = VecX::Zero(modes);
-    for (int m = 0; m < modes; ++m) {
-      b.amplitudes[m] = f.amplitude(state.q, static_cast<int>(i), m);
-      b.amplitude_rates[m] = f.amplitude_rate(state.v, static_cast<int>(i), m);
-    }
-    s.bodies.push_back(std::move(b));
-  }
-  return s;
-}
+/// The state of a motion, which `joints` follows; poses are set by `place_bodies`.
+SystemState system_state(const SystemMotion& motion, JointFollower& joints);
 
 }  // namespace floatframe

@@ -42,17 +42,17 @@ MatX TurningModel::Impl::motion_map(const SteadyTurning& s, double angle) const 
   for (int j = 0; j < nv; ++j) {
     const VecX unit = VecX::Unit(nv, j);
     f->velocities(unit);
+    const SystemMotion& motion = f->motion();
     Eigen::Index row = 0;
     for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-      const int k = static_cast<int>(i), nm = model.bodies[i].modes();
-      Vec3 v = f->body_velocity(k);
-      const Vec3 w = f->body_angular_velocity(k);
-      if (turning[i]) v += w.cross(f->body_rotation(k) * turning[i]->p_BP);
+      const BodyKinematics& b = motion.bodies[i];
+      const Eigen::Index nm = b.y.size();
+      Vec3 v = b.v_WB;
+      const Vec3& w = b.w_WB;
+      if (turning[i]) v += w.cross(b.R_WB * turning[i]->p_BP);
       W.block<3, 1>(row, j) = v;
       W.block<3, 1>(row + 3, j) = rotor.length * w;
-      VecX rates(nm);
-      for (int m = 0; m < nm; ++m) rates[m] = f->amplitude_rate(unit, k, m);
-      W.block(row + 6, j, nm, 1) = turning[i] ? VecX(D[i] * rates) : rates;
+      W.block(row + 6, j, nm, 1) = turning[i] ? VecX(D[i] * b.yd) : VecX(b.yd);
       row += 6 + nm;
     }
   }

@@ -23,20 +23,17 @@ Eigen::VectorXcd generalised(RelativeFormulation& f, const Model& model, const S
   for (int j = 0; j < nv; ++j) {
     const VecX unit = VecX::Unit(nv, j);
     f.velocities(unit);
+    const SystemMotion& motion = f.motion();
     for (const AxisForce& force : forces) {
       const Body& body = model.bodies[static_cast<std::size_t>(force.body)];
-      const TreeBody& b = f.tree().body(force.body);
+      const BodyKinematics& b = motion.body(force.body);
       Vec3 p = force.p_BP, rate = Vec3::Zero();
       if (force.node >= 0) {
         const ModalNode& n = body.data->nodes[static_cast<std::size_t>(force.node)];
-        VecX rates(b.nm);
-        for (int m = 0; m < b.nm; ++m) rates[m] = f.amplitude_rate(unit, force.body, m);
-        p = n.p + n.X * s.q.segment(b.iyq, b.nm);
-        rate = n.X * rates;
+        p = n.p + n.X * b.y;
+        rate = n.X * b.yd;
       }
-      const Mat3& R = f.body_rotation(force.body);
-      const Vec3 v =
-          f.body_velocity(force.body) + f.body_angular_velocity(force.body).cross(R * p) + R * rate;
+      const Vec3 v = b.v_WB + b.w_WB.cross(b.R_WB * p) + b.R_WB * rate;
       Q[j] += force.size * Complex(directions.col(0).dot(v), -directions.col(1).dot(v));
     }
   }
@@ -74,13 +71,13 @@ class OutputSlopes {
     s.a = s_.a + da;
     dynamics_at(f_, s);
     f_.set_accelerations(s.a);
-    const OutputView view(f_, s.t, s.q);
+    const SystemMotion& motion = f_.motion({.accelerations = true, .energies = true});
     VecX y(static_cast<Eigen::Index>(outputs_.size()));
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
       const Output& output = f_.model().outputs[static_cast<std::size_t>(outputs_[k])];
-      if (!followed_[k].started) output_value(view, output, followed_[k]);
+      if (!followed_[k].started) output_value(motion, output, followed_[k]);
       FollowedOutput last = followed_[k];
-      y[static_cast<Eigen::Index>(k)] = output_value(view, output, last);
+      y[static_cast<Eigen::Index>(k)] = output_value(motion, output, last);
     }
     return y;
   }

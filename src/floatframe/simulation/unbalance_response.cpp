@@ -105,7 +105,7 @@ void keep_outputs(TurningModel& turning, const std::vector<AxisForce>& forces, d
   const Model& model = turning.model();
   std::vector<char> bad;
   for (const int k : outputs)
-    bad.push_back(output_kind(model.outputs[k].type).terms == OutputTerms::reactions);
+    bad.push_back(output_kind(model.outputs[k].type).needs_of_motion.reactions);
   leave_out(model, outputs, bad, "since they need reactions", notes);
   if (speed == 0.0) return;
   const TurningResponse a = turning.response(speed, at_speed(forces, speed), outputs),

@@ -4,12 +4,15 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::acceleration>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::acceleration>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
-  return view.acceleration(output.marker)[output.component];
+  return motion.marker_accelerations[output.marker][output.component];
 }
 
-constinit const OutputKind acceleration_output = {
-    .about = "in world axes", .of = OutputOf::point, .components = world_axes, .unit = "m/s2"};
+constinit const OutputKind acceleration_output = {.about = "in world axes",
+                                                  .of = OutputOf::point,
+                                                  .components = world_axes,
+                                                  .unit = "m/s2",
+                                                  .needs_of_motion = {.accelerations = true}};
 
 }  // namespace floatframe

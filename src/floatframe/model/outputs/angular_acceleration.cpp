@@ -4,16 +4,17 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::angular_acceleration>(const OutputView& view,
+double output_value_of<OutputType::angular_acceleration>(const SystemMotion& motion,
                                                          const Output& output,
                                                          FollowedOutput&) noexcept {
-  return view.body_angular_acceleration(output.body)[output.component];
+  return motion.body(output.body).alpha_WB[output.component];
 }
 
-constinit const OutputKind angular_acceleration_output = {.about = "in world axes",
-                                                          .of = OutputOf::body,
-                                                          .components = world_axes,
-                                                          .unit = "rad/s2",
-                                                          .terms = OutputTerms::reactions};
+constinit const OutputKind angular_acceleration_output = {
+    .about = "in world axes",
+    .of = OutputOf::body,
+    .components = world_axes,
+    .unit = "rad/s2",
+    .needs_of_motion = {.accelerations = true, .reactions = true}};
 
 }  // namespace floatframe

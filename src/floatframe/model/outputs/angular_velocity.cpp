@@ -4,9 +4,10 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::angular_velocity>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::angular_velocity>(const SystemMotion& motion,
+                                                     const Output& output,
                                                      FollowedOutput&) noexcept {
-  return view.body_angular_velocity(output.body)[output.component];
+  return motion.body(output.body).w_WB[output.component];
 }
 
 constinit const OutputKind angular_velocity_output = {

@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::distance>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::distance>(const SystemMotion& motion, const Output& output,
                                              FollowedOutput&) noexcept {
-  return (view.marker(output.to).r - view.marker(output.marker).r).norm();
+  return (motion.marker(output.to).r - motion.marker(output.marker).r).norm();
 }
 
 constinit const OutputKind distance_output = {

@@ -4,12 +4,15 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::elastic_energy>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::elastic_energy>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput&) noexcept {
-  return view.elastic_energy(output.body);
+  return motion.body(output.body).elastic_energy;
 }
 
 constinit const OutputKind elastic_energy_output = {
-    .about = "energy of the deformation; of a rigid body zero", .of = OutputOf::body, .unit = "J"};
+    .about = "energy of the deformation; of a rigid body zero",
+    .of = OutputOf::body,
+    .unit = "J",
+    .needs_of_motion = {.energies = true}};
 
 }  // namespace floatframe

@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::force>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::force>(const SystemMotion& motion, const Output& output,
                                           FollowedOutput&) noexcept {
-  return view.force(output.force).force;
+  return motion.force(output.force).force;
 }
 
 constinit const OutputKind force_output = {

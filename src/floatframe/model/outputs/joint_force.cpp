@@ -4,12 +4,12 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::joint_force>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::joint_force>(const SystemMotion& motion, const Output& output,
                                                 FollowedOutput&) noexcept {
-  const Reactions& all = view.reactions();
+  const Reactions& all = *motion.reactions;
   const Reactions::Wrench& w = output.rod >= 0 ? all.rods[output.rod] : all.joints[output.joint];
   if (output.to < 0) return w.force[output.component];
-  return view.marker(output.to).R.col(output.component).dot(w.force);
+  return motion.marker(output.to).R.col(output.component).dot(w.force);
 }
 
 constinit const OutputKind joint_force_output = {
@@ -17,6 +17,6 @@ constinit const OutputKind joint_force_output = {
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N",
-    .terms = OutputTerms::reactions};
+    .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe

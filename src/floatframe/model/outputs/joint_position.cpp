@@ -25,16 +25,16 @@ const char* joint_position_unit(const Model& model, const Output& output) {
 }  // namespace
 
 template <>
-double output_value_of<OutputType::joint_position>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::joint_position>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput& last) noexcept {
-  const Joint& joint = view.model().joints[output.joint];
-  const MarkerState& F = view.marker(joint.frame_F);
-  const MarkerState& M = view.marker(joint.frame_M);
+  const Joint& joint = motion.model.joints[output.joint];
+  const MarkerState& F = motion.marker(joint.frame_F);
+  const MarkerState& M = motion.marker(joint.frame_M);
   const double rate = joint_velocity(joint, F, M, output.component);
   const double expected = last.started
-                              ? last.position + 0.5 * (view.time() - last.time) * (last.rate + rate)
-                              : start_position(joint, output.component, view.time());
-  last = {true, view.time(), joint_position(joint, F, M, output.component, expected), rate};
+                              ? last.position + 0.5 * (motion.t - last.time) * (last.rate + rate)
+                              : start_position(joint, output.component, motion.t);
+  last = {true, motion.t, joint_position(joint, F, M, output.component, expected), rate};
   return last.position;
 }
 

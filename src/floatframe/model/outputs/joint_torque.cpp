@@ -7,19 +7,19 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::joint_torque>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::joint_torque>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
-  const Model& model = view.model();
+  const Model& model = motion.model;
   const bool rod = output.rod >= 0;
-  const Reactions& all = view.reactions();
+  const Reactions& all = *motion.reactions;
   const Reactions::Wrench& w = rod ? all.rods[output.rod] : all.joints[output.joint];
   Vec3 torque = w.torque;
   if (output.marker >= 0) {
     const int own = rod ? model.rods[output.rod].b : model.joints[output.joint].frame_M;
-    torque += (view.marker(own).r - view.marker(output.marker).r).cross(w.force);
+    torque += (motion.marker(own).r - motion.marker(output.marker).r).cross(w.force);
   }
   if (output.to < 0) return torque[output.component];
-  return view.marker(output.to).R.col(output.component).dot(torque);
+  return motion.marker(output.to).R.col(output.component).dot(torque);
 }
 
 constinit const OutputKind joint_torque_output = {
@@ -27,6 +27,6 @@ constinit const OutputKind joint_torque_output = {
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N m",
-    .terms = OutputTerms::reactions};
+    .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe

@@ -14,10 +14,10 @@ const char* joint_velocity_unit(const Model& model, const Output& output) {
 }  // namespace
 
 template <>
-double output_value_of<OutputType::joint_velocity>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::joint_velocity>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput&) noexcept {
-  const Joint& joint = view.model().joints[output.joint];
-  return joint_velocity(joint, view.marker(joint.frame_F), view.marker(joint.frame_M),
+  const Joint& joint = motion.model.joints[output.joint];
+  return joint_velocity(joint, motion.marker(joint.frame_F), motion.marker(joint.frame_M),
                         output.component);
 }
 

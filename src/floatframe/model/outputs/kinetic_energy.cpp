@@ -4,15 +4,15 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::kinetic_energy>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::kinetic_energy>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput&) noexcept {
-  return view.kinetic_energy(output.body);
+  return motion.body(output.body).kinetic_energy;
 }
 
 constinit const OutputKind kinetic_energy_output = {
     .about = "kinetic energy, that of the modes included",
     .of = OutputOf::body,
     .unit = "J",
-    .terms = OutputTerms::inertia};
+    .needs_of_motion = {.energies = true}};
 
 }  // namespace floatframe

@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::length>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::length>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
-  return view.force(output.force).length;
+  return motion.force(output.force).length;
 }
 
 constinit const OutputKind length_output = {

@@ -4,15 +4,16 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::modal_acceleration>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::modal_acceleration>(const SystemMotion& motion,
+                                                       const Output& output,
                                                        FollowedOutput&) noexcept {
-  return view.amplitude_acceleration(output.body, output.component);
+  return motion.body(output.body).ydd[output.component];
 }
 
 constinit const OutputKind modal_acceleration_output = {
     .about = "second derivative of the amplitude of the mode",
     .of = OutputOf::mode,
     .unit = "1/s2",
-    .terms = OutputTerms::reactions};
+    .needs_of_motion = {.accelerations = true, .reactions = true}};
 
 }  // namespace floatframe

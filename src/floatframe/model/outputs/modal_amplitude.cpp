@@ -4,9 +4,10 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::modal_amplitude>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::modal_amplitude>(const SystemMotion& motion,
+                                                    const Output& output,
                                                     FollowedOutput&) noexcept {
-  return view.amplitude(output.body, output.component);
+  return motion.body(output.body).y[output.component];
 }
 
 constinit const OutputKind modal_amplitude_output = {

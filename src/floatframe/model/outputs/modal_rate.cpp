@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::modal_rate>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::modal_rate>(const SystemMotion& motion, const Output& output,
                                                FollowedOutput&) noexcept {
-  return view.amplitude_rate(output.body, output.component);
+  return motion.body(output.body).yd[output.component];
 }
 
 constinit const OutputKind modal_rate_output = {

@@ -14,9 +14,9 @@ const char* motion_force_unit(const Model& model, const Output& output) {
 }  // namespace
 
 template <>
-double output_value_of<OutputType::motion_force>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::motion_force>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
-  return view.reactions().motions[output.joint];
+  return motion.reactions->motions[output.joint];
 }
 
 constinit const OutputKind motion_force_output = {
@@ -24,6 +24,6 @@ constinit const OutputKind motion_force_output = {
     .of = OutputOf::motion,
     .unit = "N or N m",
     .unit_of = motion_force_unit,
-    .terms = OutputTerms::reactions};
+    .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe

@@ -6,16 +6,16 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::motion_power>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::motion_power>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
-  const Joint& joint = view.model().joints[output.joint];
-  return view.reactions().motions[output.joint] * evaluate(*joint.motion, view.time()).df;
+  const Joint& joint = motion.model.joints[output.joint];
+  return motion.reactions->motions[output.joint] * evaluate(*joint.motion, motion.t).df;
 }
 
 constinit const OutputKind motion_power_output = {
     .about = "power of the motor, positive into the system",
     .of = OutputOf::motion,
     .unit = "W",
-    .terms = OutputTerms::reactions};
+    .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe

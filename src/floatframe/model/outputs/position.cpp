@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::position>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::position>(const SystemMotion& motion, const Output& output,
                                              FollowedOutput&) noexcept {
-  return view.place(output.marker)[output.component];
+  return motion.place(output.marker)[output.component];
 }
 
 constinit const OutputKind position_output = {

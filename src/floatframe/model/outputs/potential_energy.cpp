@@ -4,14 +4,16 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::potential_energy>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::potential_energy>(const SystemMotion& motion,
+                                                     const Output& output,
                                                      FollowedOutput&) noexcept {
-  return view.gravity_energy(output.body);
+  return motion.body(output.body).gravity_energy;
 }
 
 constinit const OutputKind potential_energy_output = {
     .about = "energy in gravity, zero with the centre of mass at the height of the origin",
     .of = OutputOf::body,
-    .unit = "J"};
+    .unit = "J",
+    .needs_of_motion = {.energies = true}};
 
 }  // namespace floatframe

@@ -5,14 +5,14 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::power>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::power>(const SystemMotion& motion, const Output& output,
                                           FollowedOutput&) noexcept {
-  const Force& force = view.model().forces[output.force];
-  const WrenchRow& w = view.force(output.force).wrench;
-  const MarkerState& b = view.marker(force.b);
+  const Force& force = motion.model.forces[output.force];
+  const WrenchRow& w = motion.force(output.force).wrench;
+  const MarkerState& b = motion.marker(force.b);
   double power = w.Fb.dot(b.v) + w.Tb.dot(b.w);
   if (force.a < 0) return power;
-  const MarkerState& a = view.marker(force.a);
+  const MarkerState& a = motion.marker(force.a);
   power += w.Fa.dot(a.v) + w.Ta.dot(a.w);
   return power;
 }

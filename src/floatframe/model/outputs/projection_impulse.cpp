@@ -5,13 +5,14 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::projection_impulse>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::projection_impulse>(const SystemMotion& motion,
+                                                       const Output& output,
                                                        FollowedOutput&) noexcept {
-  const Reactions& all = view.reactions();
+  const Reactions& all = *motion.reactions;
   const Vec3& impulse =
       output.rod >= 0 ? all.rod_impulses[output.rod] : all.joint_impulses[output.joint];
   if (output.to < 0) return impulse[output.component];
-  return view.marker(output.to).R.col(output.component).dot(impulse);
+  return motion.marker(output.to).R.col(output.component).dot(impulse);
 }
 
 constinit const OutputKind projection_impulse_output = {
@@ -21,6 +22,6 @@ constinit const OutputKind projection_impulse_output = {
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N s",
-    .terms = OutputTerms::reactions};
+    .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe

@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::rate>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::rate>(const SystemMotion& motion, const Output& output,
                                          FollowedOutput&) noexcept {
-  return view.force(output.force).rate;
+  return motion.force(output.force).rate;
 }
 
 constinit const OutputKind rate_output = {

@@ -4,14 +4,14 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::rod_force>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::rod_force>(const SystemMotion& motion, const Output& output,
                                               FollowedOutput&) noexcept {
-  return view.reactions().tensions[output.rod];
+  return motion.reactions->tensions[output.rod];
 }
 
 constinit const OutputKind rod_force_output = {.about = "force in the rod, tension positive",
                                                .of = OutputOf::rod,
                                                .unit = "N",
-                                               .terms = OutputTerms::reactions};
+                                               .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe

@@ -6,10 +6,10 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::rotation>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::rotation>(const SystemMotion& motion, const Output& output,
                                              FollowedOutput&) noexcept {
-  const Mat3& design = view.model().bodies[output.body].X_WB.R;
-  return roll_pitch_yaw(view.body_rotation(output.body) * design.transpose())[output.component];
+  const Mat3& design = motion.model.bodies[output.body].X_WB.R;
+  return roll_pitch_yaw(motion.body(output.body).R_WB * design.transpose())[output.component];
 }
 
 constinit const OutputKind rotation_output = {

@@ -15,9 +15,9 @@ const char* section_unit(const Model&, const Output& output) {
 }  // namespace
 
 template <>
-double output_value_of<OutputType::section_force>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::section_force>(const SystemMotion& motion, const Output& output,
                                                   FollowedOutput&) noexcept {
-  return gauge_values(view, view.model().gauges[output.gauge])(output.component);
+  return gauge_values(motion, motion.model.gauges[output.gauge])(output.component);
 }
 
 constinit const OutputKind section_force_output = {
@@ -25,6 +25,7 @@ constinit const OutputKind section_force_output = {
     .of = OutputOf::gauge,
     .components = {"component", section_words},
     .unit = "N or N m",
-    .unit_of = section_unit};
+    .unit_of = section_unit,
+    .needs_of_motion = {.accelerations = true}};
 
 }  // namespace floatframe

@@ -6,14 +6,15 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::strain>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::strain>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
-  return gauge_values(view, view.model().gauges[output.gauge])(0);
+  return gauge_values(motion, motion.model.gauges[output.gauge])(0);
 }
 
 constinit const OutputKind strain_output = {
     .about = "along `direction` at a place of a flexible body, as a strain gauge reads it",
     .of = OutputOf::gauge,
-    .unit = "-"};
+    .unit = "-",
+    .needs_of_motion = {.accelerations = true}};
 
 }  // namespace floatframe

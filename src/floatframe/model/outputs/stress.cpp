@@ -16,9 +16,9 @@ constexpr const char* stress_words[] = {
 }  // namespace
 
 template <>
-double output_value_of<OutputType::stress>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::stress>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
-  const Vec6 s = gauge_values(view, view.model().gauges[output.gauge]);
+  const Vec6 s = gauge_values(motion, motion.model.gauges[output.gauge]);
   if (output.component < 6) return s(output.component);
   if (output.component == 6) return von_mises(s);
   const Vec3 p = principal_stresses(s);
@@ -30,6 +30,7 @@ constinit const OutputKind stress_output = {
     .about = "at a place of a flexible body, axes of its part",
     .of = OutputOf::gauge,
     .components = {"component", stress_words},
-    .unit = "Pa"};
+    .unit = "Pa",
+    .needs_of_motion = {.accelerations = true}};
 
 }  // namespace floatframe

@@ -4,9 +4,9 @@
 namespace floatframe {
 
 template <>
-double output_value_of<OutputType::velocity>(const OutputView& view, const Output& output,
+double output_value_of<OutputType::velocity>(const SystemMotion& motion, const Output& output,
                                              FollowedOutput&) noexcept {
-  return view.marker(output.marker).v[output.component];
+  return motion.marker(output.marker).v[output.component];
 }
 
 constinit const OutputKind velocity_output = {

@@ -1,0 +1,62 @@
+#include "floatframe/formulation/formulation.hpp"
+
+#include "floatframe/formulation/absolute.hpp"
+
+namespace floatframe {
+
+Formulation::Formulation(const Model& model, const std::vector<int>& constrained_joints)
+    : model_(model), constraint_set_(model, constrained_joints), force_set_(model), motion_(model) {
+  motion_.forces = force_set_.states().data();
+  motion_.bodies.reserve(model.bodies.size());
+}
+
+void Formulation::show_body(const Mat3& R_WB, const Vec3& w_WB, const VecX& y, const VecX& yd,
+                            const double* ydd) {
+  const auto view = [&](const double* data) { return VecX::ConstMapType(data, y.size()); };
+  motion_.bodies.push_back({R_WB, w_WB, view(y.data()), view(yd.data()), view(ydd)});
+}
+
+void Formulation::show_marker(const MarkerState& state, const LocalMarker& local) {
+  motion_.markers.push_back(&state);
+  local_markers_.push_back(&local);
+}
+
+const SystemMotion& Formulation::motion(MotionNeeds needs,
+                                        const Reactions* reactions) const noexcept {
+  motion_.t = time_;
+  motion_.reactions = reactions;
+  fill_poses(motion_);
+  if (needs.accelerations) fill_accelerations(motion_);
+  if (!needs.energies) return motion_;
+  for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
+    BodyKinematics& b = motion_.bodies[i];
+    const int body = static_cast<int>(i);
+    b.kinetic_energy = body_kinetic_energy(body);
+    b.gravity_energy = gravity_energy(body, b);
+    b.elastic_energy = elastic_energy(model_.bodies[i], b);
+  }
+  return motion_;
+}
+
+double Formulation::gravity_energy(int body, const BodyKinematics& b) const noexcept {
+  const BodyInertia& terms = inertia(body);
+  const Vec3 m_bar = terms.static_moment(b.y.data());
+  return -model_.gravity.dot(terms.data().m * b.p_WB + b.R_WB * m_bar);
+}
+
+double Formulation::gravity_energy() const noexcept {
+  fill_poses(motion_);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < motion_.bodies.size(); ++i)
+    sum += gravity_energy(static_cast<int>(i), motion_.bodies[i]);
+  return sum;
+}
+
+std::unique_ptr<Formulation> make_formulation(Coordinates coordinates, const Model& model,
+                                              InertiaMethod method) {
+  if (coordinates == Coordinates::relative)
+    return std::make_unique<RelativeFormulation>(model, method);
+  return std::make_unique<AbsoluteFormulation>(model, method);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,164 @@
+#pragma once
+// A formulation as everything but the integrator sees it: the equations of motion
+// (equations_of_motion.hpp) behind virtual functions, so that the start, linear systems, reactions,
+// watches and recording are compiled once; and the motion of the system, which is the same in all
+// coordinates. The integrator and its runner are templates over the classes that derive from it:
+// these are final, so that steps call them directly.
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "floatframe/formulation/body_inertia.hpp"
+#include "floatframe/formulation/constraint_set.hpp"
+#include "floatframe/formulation/counts.hpp"
+#include "floatframe/formulation/force_set.hpp"
+#include "floatframe/formulation/local_marker.hpp"
+#include "floatframe/math/independent_rows.hpp"
+#include "floatframe/model/system_motion.hpp"
+
+namespace floatframe {
+
+/// Places of a body's coordinates in the configuration q and the velocities v.
+struct BodyCoordinates {
+  int q = 0, q_count = 0, y = 0;   ///< the first one, their number, the first amplitude
+  int v = 0, v_count = 0, yd = 0;  ///< the same in v
+  int parent = -1;                 ///< the body whose motion they are relative to; -1: the ground
+};
+
+class Formulation {
+ public:
+  virtual ~Formulation() = default;
+  Formulation(const Formulation&) = delete;
+  Formulation& operator=(const Formulation&) = delete;
+
+  virtual Coordinates coordinates() const noexcept = 0;
+  const Model& model() const noexcept { return model_; }
+  const ConstraintSet& constraint_set() const noexcept { return constraint_set_; }
+
+  /// Values of `model().inputs`, constant until set again; at first their initial values.
+  void set_inputs(std::span<const double> values) noexcept { force_set_.set_inputs(values); }
+  std::span<const double> inputs() const noexcept { return force_set_.inputs(); }
+  /// Angles of the joint springs at the last evaluation (a number for each force): they determine
+  /// the turn of the next angle, so they are a part of the state that q does not contain.
+  std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
+  void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
+  /// Held branches of the laws of forces, and the side of a force whose law has branches at the
+  /// present positions and velocities (model/force_evaluation.hpp).
+  std::span<const std::int64_t> force_branches() const noexcept { return force_set_.branches(); }
+  void hold_force_branches(std::span<const std::int64_t> branches) noexcept {
+    force_set_.hold_branches(branches);
+  }
+  void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
+    force_set_.hold_branch(force, branch);
+  }
+  virtual ForceSide force_side(std::size_t force) const noexcept = 0;
+
+  // -- EquationsOfMotion
+
+  virtual int velocities() const noexcept = 0;
+  virtual int configurations() const noexcept = 0;
+  int constraints() const noexcept { return constraint_set_.count(); }
+  virtual void stepping(bool on, bool accepted = true) noexcept = 0;
+  virtual void positions(double t, const VecX& q) noexcept = 0;
+  virtual void velocities(const VecX& v) noexcept = 0;
+  virtual void dynamics() noexcept = 0;
+  virtual void forces() noexcept = 0;
+  virtual void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept = 0;
+  virtual int factorize(double mass, double damping, double s, double alpha,
+                        int slot = 0) noexcept = 0;
+  virtual int factorize_metric(double s, double penalty, int slot) noexcept = 0;
+  virtual double log_pivots(int slot) const noexcept = 0;
+  virtual void solve(VecX& b, int slot = 0) noexcept = 0;
+  virtual void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept = 0;
+  virtual void balance(VecX& lambda, VecX& r) noexcept = 0;
+  const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
+  virtual void constraint_rates(VecX& out) noexcept = 0;
+  virtual void constraint_accelerations(const VecX& a, VecX& out) noexcept = 0;
+  virtual void constraint_increments(const VecX& delta, VecX& out) noexcept = 0;
+  virtual void constraint_forces(const VecX& w, VecX& out) noexcept = 0;
+  const VecX& own_frequencies_squared() const noexcept { return omega2_; }
+  virtual void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept = 0;
+  virtual void settle(const VecX& q0, VecX& x) const noexcept = 0;
+  virtual void advance(VecX& x, const VecX& delta) const noexcept = 0;
+
+  // -- the motion, for everything that reads it
+
+  /// The motion at the present positions, velocities and forces. Bodies and what is needed beyond
+  /// them are filled by this call, so it is repeated after each move.
+  const SystemMotion& motion(MotionNeeds needs = {},
+                             const Reactions* reactions = nullptr) const noexcept;
+  /// Of the motion, at hand without filling it.
+  const MarkerState& marker(int i) const noexcept { return motion_.marker(i); }
+  const ForceState& force(int i) const noexcept { return motion_.force(i); }
+  /// The accelerations of `MotionNeeds::accelerations` (`residual` and `constraint_accelerations`
+  /// set them too).
+  virtual void set_accelerations(const VecX& a) noexcept = 0;
+  const LocalMarker& local_marker(int i) const noexcept { return *local_markers_[i]; }
+  /// At the present positions, of all bodies [J].
+  virtual double kinetic_energy(const VecX& v) noexcept = 0;
+  double gravity_energy() const noexcept;
+
+  // -- structure; load time
+
+  virtual BodyCoordinates body_coordinates(int body) const = 0;
+  /// "mode 2 of body 'arm'" or "joint 'hinge'", the owner of coordinate i.
+  virtual std::string coordinate_owner(int i) const = 0;
+  virtual CoordinateCounts counts() const = 0;
+  /// Phi_q at the present positions, sparse and dense.
+  virtual SparseRowMatrix constraint_rows() = 0;
+  MatX constraint_jacobian() { return MatX(constraint_rows()); }
+  /// Of the mass matrix, after `dynamics`.
+  virtual VecX mass_diagonal() const = 0;
+  /// Adds the wrenches of tree joints, which have no multipliers, after `residual`: of the parent
+  /// on the child, about the joint's point on the child, without that of a prescribed motion.
+  virtual void add_tree_wrenches(Reactions&) const noexcept {}
+
+ protected:
+  /// With constraints for these joints, for all rods and all prescribed motions. Allocates.
+  Formulation(const Model& model, const std::vector<int>& constrained_joints);
+  /// Adds a view of a body, a marker; in the order of the model.
+  void show_body(const Mat3& R_WB, const Vec3& w_WB, const VecX& y, const VecX& yd,
+                 const double* ydd);
+  void show_marker(const MarkerState& state, const LocalMarker& local);
+
+  const Model& model_;
+  ConstraintSet constraint_set_;
+  ForceSet force_set_;
+  double time_ = 0.0;
+  VecX omega2_;
+
+ private:
+  /// Positions and velocities of the bodies and the origin of the markers.
+  virtual void fill_poses(SystemMotion& motion) const noexcept = 0;
+  virtual void fill_accelerations(SystemMotion& motion) const noexcept = 0;
+  /// After `dynamics`.
+  virtual double body_kinetic_energy(int body) const noexcept = 0;
+  virtual const BodyInertia& inertia(int body) const noexcept = 0;
+  double gravity_energy(int body, const BodyKinematics& b) const noexcept;
+
+  mutable SystemMotion motion_;  ///< filled when it is asked for
+  std::vector<const LocalMarker*> local_markers_;
+};
+
+/// In these coordinates. Throws InputError if a body lacks the data `method` needs.
+std::unique_ptr<Formulation> make_formulation(Coordinates coordinates, const Model& model,
+                                              InertiaMethod method);
+
+/// One evaluation of the system up to its velocities; for a state: at its t, q, v.
+inline void kinematics_at(Formulation& f, double t, const VecX& q, const VecX& v) noexcept {
+  f.positions(t, q);
+  f.velocities(v);
+}
+template <class S>
+void kinematics_at(Formulation& f, const S& state) noexcept {
+  kinematics_at(f, state.t, state.q, state.v);
+}
+/// The same up to `dynamics`.
+template <class S>
+void dynamics_at(Formulation& f, const S& state) noexcept {
+  kinematics_at(f, state);
+  f.dynamics();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,31 @@
+#include "floatframe/model/system_motion.hpp"
+
+namespace floatframe {
+
+double elastic_energy(const Body& body, const BodyKinematics& motion) noexcept {
+  const MatX& K = body.data->K;
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < motion.y.size(); ++k)
+    sum += 0.5 * motion.y[k] * K.col(k).dot(motion.y);
+  return sum;
+}
+
+double elastic_energy(const SystemMotion& motion) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i)
+    sum += elastic_energy(motion.model.bodies[i], motion.bodies[i]);
+  return sum;
+}
+
+double modal_damping_power(const SystemMotion& motion) noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
+    const VecX::ConstMapType& rate = motion.bodies[i].yd;
+    const MatX& D = motion.model.bodies[i].data->D;
+    for (Eigen::Index k = 0; k < rate.size(); ++k)
+      for (Eigen::Index l = 0; l < rate.size(); ++l) sum += rate[k] * D(l, k) * rate[l];
+  }
+  return sum;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,74 @@
+#pragma once
+// The motion of the system at one instant, in world axes: what outputs, watches, reactions,
+// recording, export and questions about mass read, in any formulation. It is a view of what the
+// formulation holds (`Formulation::motion`), valid until the formulation moves; what is not at hand
+// there is filled only if a reader needs it (`MotionNeeds`). Step time: no heap, noexcept.
+#include <vector>
+
+#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/marker_state.hpp"
+#include "floatframe/model/model.hpp"
+#include "floatframe/model/reactions.hpp"
+
+namespace floatframe {
+
+/// What a reader needs in addition to poses, velocities and forces.
+struct MotionNeeds {
+  bool accelerations = false;  ///< of bodies, modes and markers, after `set_accelerations`
+  bool energies = false;       ///< of the bodies, after `dynamics`
+  bool reactions = false;      ///< and accelerations that satisfy the equations of motion
+
+  friend MotionNeeds operator|(MotionNeeds a, MotionNeeds b) noexcept {
+    return {a.accelerations || b.accelerations, a.energies || b.energies,
+            a.reactions || b.reactions};
+  }
+};
+
+/// The frame of a body and its modal amplitudes.
+struct BodyKinematics {
+  // Held by the formulation.
+  const Mat3& R_WB;
+  const Vec3& w_WB;                   ///< angular velocity [rad/s]
+  Eigen::Map<const VecX> y, yd, ydd;  ///< amplitudes, rates, accelerations
+  // Filled.
+  Vec3 p_WB = Vec3::Zero();      ///< [m]
+  Vec3 v_WB = Vec3::Zero();      ///< of the origin [m/s]
+  Vec3 a_WB = Vec3::Zero();      ///< of the origin [m/s2]
+  Vec3 alpha_WB = Vec3::Zero();  ///< angular acceleration [rad/s2]
+  double kinetic_energy = 0.0;   ///< [J]
+  double gravity_energy = 0.0;   ///< zero at the origin of the world [J]
+  double elastic_energy = 0.0;   ///< [J]
+};
+
+struct SystemMotion {
+  const Model& model;
+  double t = 0.0;              ///< [s]
+  Vec3 origin = Vec3::Zero();  ///< positions of markers are measured from this point [m]
+  std::vector<BodyKinematics> bodies;
+  std::vector<const MarkerState*> markers;
+  std::vector<Vec3> marker_accelerations;  ///< of the points [m/s2]
+  const ForceState* forces = nullptr;      ///< one for each force
+  const Reactions* reactions = nullptr;    ///< if an output needs them
+
+  explicit SystemMotion(const Model& m) : model(m), marker_accelerations(m.markers.size()) {}
+  SystemMotion(const SystemMotion&) = delete;
+  SystemMotion& operator=(const SystemMotion&) = delete;
+
+  const BodyKinematics& body(int i) const noexcept { return bodies[static_cast<std::size_t>(i)]; }
+  const MarkerState& marker(int i) const noexcept { return *markers[static_cast<std::size_t>(i)]; }
+  /// Position of a marker in the world [m].
+  Vec3 place(int i) const noexcept { return marker(i).r + origin; }
+  const ForceState& force(int i) const noexcept { return forces[i]; }
+  /// The marker a of a force, b if it has none.
+  const MarkerState& first_marker(const Force& f) const noexcept {
+    return marker(f.a >= 0 ? f.a : f.b);
+  }
+};
+
+/// Of the modes of a body, and of all bodies [J].
+double elastic_energy(const Body& body, const BodyKinematics& motion) noexcept;
+double elastic_energy(const SystemMotion& motion) noexcept;
+/// Power that modal damping dissipates [W].
+double modal_damping_power(const SystemMotion& motion) noexcept;
+
+}  // namespace floatframe
