@@ -161,7 +161,7 @@ TEST(BadNastran, Matrices) {
        "*                      1               2 3.000000000D+06\n"
        "DMIG*   KAAX                           1               0\n"
        "*                      1               0 1.000000000D+00\n",
-       "arm.pch: out_of_range"},
+       "arm.pch:8: out_of_range"},
       {"*                      1               2 3.000000000D+06\n", "", "arm.pch:10: damaged"},
       {"DMIG*   MAAX                           1               2",
        "DMIG*   MAAX                           1               3", "arm.pch:11: not_found"},

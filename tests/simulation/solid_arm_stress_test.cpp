@@ -42,7 +42,6 @@ Instant hardest_moment(const Model& model, int body, const BodyStress& stress) {
   SteppedModel<RelativeFormulation> steps(model, options, {.duration = 8.0});
   std::vector<double> row(model.outputs.size() + 1);
   Instant found;
-  const auto nm = static_cast<int>(stress.modes.cols());
   for (int k = 0; steps.state().t < 7.9995; ++k) {
     if (!steps.advance()) {
       ADD_FAILURE() << "the run fails at " << steps.state().t;
