@@ -282,6 +282,11 @@ class Info(unittest.TestCase):
         self.assertEqual(facts["possible_interfaces"], ["node:20", "set:FOOT"])
         self.pasted(facts["command"], UNITS="m-kg-s")
 
+    def test_all_amplitudes_of_a_superelement(self):
+        shutil.copy(DECKS / "superelement_with_modes.pch", self.folder)
+        facts = json.loads(self.expect(0, "info", "superelement_with_modes.pch", "--json").stdout)
+        self.assertIn(" --modes 8", facts["command"])
+
 
 if __name__ == "__main__":
     unittest.main()

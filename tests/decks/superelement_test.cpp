@@ -290,6 +290,16 @@ TEST(Superelement, CardsThatAreNotReadAreListed) {
   EXPECT_EQ(count_with(read_fe_file(folder / "arm.pch").notes, "ignored: CONM2 (1), SPC1 (1)"), 1);
 }
 
+// A mass that another file replaces is not called ignored.
+TEST(Superelement, MatricesOfAnotherFile) {
+  const std::string file = fe_data("superelement_with_modes.pch").string();
+  FeReadOptions options;
+  options.mass = file;
+  const FeModel model = read_fe_file(file, options);
+  EXPECT_EQ(MatX(model.matrices->M), MatX(with_modes().matrices->M));
+  EXPECT_EQ(count_with(model.notes, "MAAX"), 0);
+}
+
 // Files that a format does not read are refused, whether they exist or not.
 TEST(Superelement, FilesOfOtherFormats) {
   const auto refused = [](const char* file, std::filesystem::path FeReadOptions::*option) {

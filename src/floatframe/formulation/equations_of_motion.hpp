@@ -40,7 +40,8 @@
 // order that satisfies these requirements; the results of an evaluation do not depend on earlier
 // ones except for the turns counted by angles of springs (`stepping`).
 //
-// All of it runs in steps: noexcept, free of allocation, exceptions and virtual functions.
+// All of it runs in steps: noexcept, free of allocation and exceptions. The classes are final, so
+// that a step calls no virtual function.
 #include <concepts>
 
 #include "floatframe/math/types.hpp"

@@ -39,7 +39,8 @@ class RunWatch {
   void start(const State& s) noexcept {
     evaluate(s);
     const SystemMotion& motion = f_.motion();
-    balance_.start(s.t, flows(s.lambda), energies(s), watch_.range().noise());
+    balance_.start(s.t, flows(motion, f_.constraint_set(), s.lambda), energies(s),
+                   watch_.range().noise());
     watch_.look(motion);
     watch_.start(motion);
   }
@@ -54,7 +55,7 @@ class RunWatch {
         evaluate(s);
     }
     const SystemMotion& motion = f_.motion();
-    balance_.advance(s.t, flows(reactions));
+    balance_.advance(s.t, flows(motion, f_.constraint_set(), reactions));
     if (full) watch_.follow(motion);
     if (!sampled) return;
     watch_.look(motion);
@@ -75,7 +76,7 @@ class RunWatch {
   /// Before and after an edge at which a step was divided: powers jump there. The formulation is at
   /// this state, with its forces.
   void edge(const State& s, const VecX& reactions) noexcept {
-    balance_.advance(s.t, flows(reactions));
+    balance_.advance(s.t, flows(f_.motion(), f_.constraint_set(), reactions));
   }
 
   /// Also after a step: its last attempt.
@@ -118,10 +119,6 @@ class RunWatch {
   void evaluate(const State& s) noexcept {
     kinematics_at(f_, s);
     f_.forces();
-  }
-
-  FlowSample flows(const VecX& reactions) const noexcept {
-    return floatframe::flows(f_.motion(), f_.constraint_set(), reactions);
   }
 
   EnergyBalance::Energies energies(const State& s) noexcept {
