@@ -22,10 +22,10 @@ int node_index(std::int64_t k, std::size_t nodes, const std::string& where) {
 
 void add_block(FeModel& model, const Block& block) {
   const auto& [word, connectivity, material, section, reference] = block;
-  Element element;
+  FeElement element;
   bool known = false;
-  for (const ElementType type : element_types)
-    if (word == element_type_name(type)) {
+  for (const FeElementType type : fe_element_types)
+    if (word == fe_element_name(type)) {
       element.type = type;
       known = true;
     }
@@ -79,7 +79,7 @@ void bind_mesh(nb::module_& m) {
       .def_prop_ro("elements", [](const FeModel& model) { return model.elements.size(); });
   m.def("make_mesh", make_mesh);
   m.def("element_words", [] {
-    return std::vector<std::string>(std::begin(element_words), std::end(element_words));
+    return std::vector<std::string>(std::begin(fe_element_words), std::end(fe_element_words));
   });
 }
 

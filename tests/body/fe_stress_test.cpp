@@ -74,7 +74,7 @@ TEST(FeStress, MaterialsAreNotMixed) {
 
 /// A plate of 2 x 2 quadrilaterals or 8 triangles in the axes R, distorted inside; some elements
 /// are numbered the other way round.
-FeModel plate(ElementType type, const Mat3& R, bool turned) {
+FeModel plate(FeElementType type, const Mat3& R, bool turned) {
   FeModel model;
   model.materials = {{.young = 2e11, .poisson = 0.3, .density = 7800.0}};
   model.shells = {{.thickness = 0.02}};
@@ -85,7 +85,7 @@ FeModel plate(ElementType type, const Mat3& R, bool turned) {
       model.positions.emplace_back(R * p);
     }
   const auto add = [&](std::vector<int> nodes) {
-    Element e;
+    FeElement e;
     e.type = type;
     if (turned && model.elements.size() % 2 == 1) std::reverse(nodes.begin(), nodes.end());
     std::copy(nodes.begin(), nodes.end(), e.nodes.begin());
@@ -94,7 +94,7 @@ FeModel plate(ElementType type, const Mat3& R, bool turned) {
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       const int a = 3 * i + j, b = a + 3, c = a + 4, d = a + 1;
-      if (type == ElementType::quad4) {
+      if (type == FeElementType::quad4) {
         add({a, b, c, d});
       } else {
         add({a, b, c});
@@ -107,7 +107,7 @@ FeModel plate(ElementType type, const Mat3& R, bool turned) {
 // Membrane strains and curvatures that are constant, and bending in the plane of rectangles.
 TEST(FeStress, SidesOfShells) {
   const Mat3 R = rotation_exp(Vec3(0.3, -0.7, 0.5));
-  for (const ElementType type : {ElementType::tri3, ElementType::quad4})
+  for (const FeElementType type : {FeElementType::tri3, FeElementType::quad4})
     for (const bool turned : {false, true}) {
       const FeModel model = plate(type, R, turned);
       StressFields fields;
@@ -157,11 +157,11 @@ TEST(FeStress, SidesOfShells) {
 
 /// Two plates that meet at a right angle: nothing is averaged over the edge.
 TEST(FeStress, EdgesOfShellsAreKept) {
-  FeModel model = plate(ElementType::quad4, Mat3::Identity(), false);
+  FeModel model = plate(FeElementType::quad4, Mat3::Identity(), false);
   for (int j = 0; j < 3; ++j) model.positions.emplace_back(1.0, 0.5 * j, 0.5);
   for (int j = 0; j < 2; ++j) {
-    Element e;
-    e.type = ElementType::quad4;
+    FeElement e;
+    e.type = FeElementType::quad4;
     const std::array<int, 4> nodes{6 + j, 9 + j, 10 + j, 7 + j};
     std::copy(nodes.begin(), nodes.end(), e.nodes.begin());
     model.elements.push_back(e);
@@ -178,8 +178,8 @@ TEST(FeStress, SectionForcesAndOuterPointsOfBeams) {
   model.sections = {BeamSection::rectangle(0.03, 0.05)};
   const double L = 0.8, E = 2e11, G = 8e10;
   model.positions = {Vec3::Zero(), R * Vec3(L, 0, 0)};
-  Element e;
-  e.type = ElementType::beam2;
+  FeElement e;
+  e.type = FeElementType::beam2;
   e.nodes = {0, 1};
   e.reference = R * Vec3(0.3, 1.0, 0.0);
   model.elements = {e};

@@ -17,8 +17,8 @@ TEST(LayupStress, OfThePlyAtTheNode) {
     for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 1}, {0, 1}})
       model.positions.emplace_back(x, y, 0.5 * k);
   for (int k = 0; k < 2; ++k) {
-    Element e;
-    e.type = ElementType::hex8;
+    FeElement e;
+    e.type = FeElementType::hex8;
     for (int a = 0; a < 8; ++a) e.nodes[a] = 4 * k + a;
     e.layup = 0;
     model.elements.push_back(e);

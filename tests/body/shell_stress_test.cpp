@@ -31,7 +31,7 @@ MatX sides_of(const FeModel& model, const VecX& u) {
   return out;
 }
 
-const ElementType shell_types[] = {ElementType::tri3, ElementType::quad4};
+const FeElementType shell_types[] = {FeElementType::tri3, FeElementType::quad4};
 
 // Square plate a = 2, uniform load q, nu = 0.3, a quarter with n x n elements. Timoshenko,
 // Woinowsky-Krieger, Theory of Plates and Shells, tables 8 and 35: moment in the middle
@@ -40,7 +40,7 @@ TEST(ShellStress, PlateInBending) {
   const double a = 2.0, t = 0.01, q = 1000.0;
   const Material material{2e11, 0.3, 1.0};
   const int n = 16;
-  for (const ElementType type : shell_types)
+  for (const FeElementType type : shell_types)
     for (const bool clamped : {false, true}) {
       const FeModel model = sheet(
           type, n, n, [&](double x, double y) { return Vec3(0.5 * a * x, 0.5 * a * y, 0.0); },
@@ -61,7 +61,7 @@ TEST(ShellStress, PlateInBending) {
       const double middle = sides(0, 0) / unit;  // the top is stretched
       const double edge = sides(12 * n, 0) / unit;
       std::printf("[ figure ] plate, %s, %s: middle %.5f, edge %.5f (times 6 q a^2 / t^2)\n",
-                  type == ElementType::tri3 ? "tri3" : "quad4",
+                  type == FeElementType::tri3 ? "tri3" : "quad4",
                   clamped ? "clamped" : "simply supported", middle, edge);
       EXPECT_NEAR(middle / (clamped ? 0.0231 : 0.0479), 1.0, 0.02);
       if (clamped) {
@@ -76,7 +76,7 @@ TEST(ShellStress, PlateOfMidsideShells) {
   const double a = 2.0, t = 0.01, q = 1000.0;
   const Material material{2e11, 0.3, 1.0};
   const int n = 16;
-  for (const ElementType type : {ElementType::tri6, ElementType::quad8}) {
+  for (const FeElementType type : {FeElementType::tri6, FeElementType::quad8}) {
     const MidsideSheet s = midside_sheet(
         type, n / 2, n / 2, [&](double x, double y) { return Vec3(0.5 * a * x, 0.5 * a * y, 0.0); },
         material, t);
@@ -94,7 +94,7 @@ TEST(ShellStress, PlateOfMidsideShells) {
     const double middle = sides(12 * s.node.at({0, 0}), 0) / unit;
     const double edge = sides(12 * s.node.at({n, 0}), 0) / unit;
     std::printf("[ figure ] plate, %s, clamped: middle %.5f, edge %.5f (times 6 q a^2 / t^2)\n",
-                element_type_name(type), middle, edge);
+                fe_element_name(type), middle, edge);
     EXPECT_NEAR(middle / 0.0231, 1.0, 0.02);
     EXPECT_NEAR(edge / -0.0513, 1.0, 0.02);
   }
@@ -105,7 +105,7 @@ TEST(ShellStress, PlateOfMidsideShells) {
 TEST(ShellStress, ScordelisLoRoofCarriesItsWeight) {
   const Material material{4.32e8, 0.0, 1.0};
   const double R = 25.0, L = 50.0, t = 0.25, half = 40.0 * std::numbers::pi / 180.0;
-  for (const ElementType type : shell_types) {
+  for (const FeElementType type : shell_types) {
     const int n = 24;
     const FeModel model = sheet(
         type, n, n,
@@ -124,7 +124,7 @@ TEST(ShellStress, ScordelisLoRoofCarriesItsWeight) {
     for (int k = 0; k < model.nodes(); ++k) down(6 * k + 2) = -90.0 / t;
     const MatX sides = sides_of(model, solve(model, held, system.M * down));
     // At the border of a mesh of triangles the stress is of first order: the next column.
-    const int i = type == ElementType::tri3 ? 1 : 0;
+    const int i = type == FeElementType::tri3 ? 1 : 0;
     double force = 0.0, absolute = 0.0, moment = 0.0;
     for (int j = 0; j <= n; ++j) {
       const int node = (n + 1) * j + i;
@@ -139,7 +139,7 @@ TEST(ShellStress, ScordelisLoRoofCarriesItsWeight) {
     std::printf(
         "[ figure ] Scordelis-Lo, %s: moment %.4f of that of the weight, force %.4f of the "
         "sum of its parts\n",
-        type == ElementType::tri3 ? "tri3" : "quad4", moment / expected, force / absolute);
+        type == FeElementType::tri3 ? "tri3" : "quad4", moment / expected, force / absolute);
     EXPECT_NEAR(moment / expected, 1.0, 0.01);
     EXPECT_NEAR(force / absolute, 0.0, 0.01);
   }

@@ -110,7 +110,7 @@ TEST(AbaqusSprings, Rods) {
              "*ELEMENT, TYPE=T3D2, ELSET=T\n8, 5, 6\n*SOLID SECTION, ELSET=T, MATERIAL=A\n"
              "1e-4\n");
   ASSERT_EQ(model.elements.size(), 2u);
-  EXPECT_EQ(model.elements[1].type, ElementType::rod2);
+  EXPECT_EQ(model.elements[1].type, FeElementType::rod2);
   const MatX K = assemble(model).K;
   EXPECT_NEAR(K(12, 15) / (-2e11 * 1e-4 / 2.0), 1.0, 1e-14);
   // Without a section they are lines of the mesh.

@@ -25,7 +25,7 @@ double volume_of_faces(const FeModel& model) {
   // Divergence theorem over all faces of all elements, flat triangles between corners: inner faces
   // cancel.
   double six = 0.0;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     for (const FaceNodes& face : element_faces(e.type)) {
       const auto p = [&](int k) { return model.positions[e.nodes[face.nodes[k]]]; };
       for (int k = 2; k < face.corners; ++k) six += p(0).dot(p(k - 1).cross(p(k)));
@@ -41,7 +41,7 @@ TEST(Abaqus, CoarseArmHasTheNodesElementsAndSetsOfItsMesh) {
   EXPECT_EQ(model.nodes(), 5687);
   ASSERT_EQ(model.elements.size(), 2785u);
   EXPECT_TRUE(std::all_of(model.elements.begin(), model.elements.end(),
-                          [](const Element& e) { return e.type == ElementType::tet10; }));
+                          [](const FeElement& e) { return e.type == FeElementType::tet10; }));
   EXPECT_EQ(model.node_sets.at("BUSH_F").size(), 130u);
   EXPECT_EQ(model.node_sets.at("BUSH_R").size(), 130u);
   EXPECT_EQ(model.node_sets.at("BALL").size(), 130u);
@@ -133,7 +133,7 @@ TEST(Abaqus, CouplingsToSurfacesBecomeSpiders) {
     // The weights are areas: their sum is the area of the flat faces.
     double area = 0.0;
     for (const ElementFace& f : model.surfaces.at("S_" + name)) {
-      const Element& e = model.elements[f.element];
+      const FeElement& e = model.elements[f.element];
       const FaceNodes& face = element_faces(e.type)[f.face];
       const auto p = [&](std::size_t k) { return model.positions[e.nodes[face.nodes[k]]]; };
       area += 0.5 * (p(1) - p(0)).cross(p(2) - p(0)).norm();
@@ -147,7 +147,7 @@ TEST(Abaqus, CouplingsToSurfacesBecomeSpiders) {
 TEST(Abaqus, BeamDecks) {
   const FeModel b31 = read_fe_file(folder + "beam_b31_free.inp");
   ASSERT_EQ(b31.elements.size(), 40u);
-  EXPECT_EQ(b31.elements[0].type, ElementType::beam2);
+  EXPECT_EQ(b31.elements[0].type, FeElementType::beam2);
   ASSERT_EQ(b31.sections.size(), 1u);
   EXPECT_NEAR(b31.sections[0].A, 4e-4, 1e-18);
   EXPECT_NEAR(b31.sections[0].Iy, 0.02 * 0.02 * 0.02 * 0.02 / 12.0, 1e-22);
@@ -155,9 +155,9 @@ TEST(Abaqus, BeamDecks) {
   for (const char* name : {"b32", "b32r"}) {
     const FeModel model = read_fe_file(folder + "beam_" + name + "_free.inp");
     ASSERT_EQ(model.elements.size(), 20u);
-    EXPECT_EQ(model.elements[0].type, ElementType::beam3);
+    EXPECT_EQ(model.elements[0].type, FeElementType::beam3);
     // End, middle, end.
-    const Element& e = model.elements[0];
+    const FeElement& e = model.elements[0];
     EXPECT_NEAR(model.positions[e.nodes[1]].x(), 0.025, 1e-12);
     EXPECT_NEAR(model.positions[e.nodes[2]].x(), 0.05, 1e-12);
   }
@@ -168,7 +168,7 @@ TEST(Abaqus, BeamDecks) {
 
 TEST(Abaqus, BrickDecks) {
   for (const auto& [name, type] :
-       {std::pair{"c3d20", ElementType::hex20}, std::pair{"c3d20r", ElementType::hex20r}}) {
+       {std::pair{"c3d20", FeElementType::hex20}, std::pair{"c3d20r", FeElementType::hex20r}}) {
     const FeModel model = read_fe_file(folder + "beam_" + name + "_free.inp");
     EXPECT_EQ(model.nodes(), 1521);
     ASSERT_EQ(model.elements.size(), 200u);
@@ -305,8 +305,8 @@ TEST(Abaqus, SectionsOfBeamsAndShells) {
       "*ELEMENT, TYPE=S4R, ELSET=E\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=S3, ELSET=E\n2, 1, 2, 3\n"
       "*SHELL SECTION, ELSET=E, MATERIAL=M\n.75, 5\n");
   ASSERT_EQ(shell.elements.size(), 2u);
-  EXPECT_EQ(shell.elements[0].type, ElementType::quad4);
-  EXPECT_EQ(shell.elements[1].type, ElementType::tri3);
+  EXPECT_EQ(shell.elements[0].type, FeElementType::quad4);
+  EXPECT_EQ(shell.elements[1].type, FeElementType::tri3);
   EXPECT_EQ(shell.shells.at(0).thickness, 0.75);
 }
 

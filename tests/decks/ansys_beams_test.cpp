@@ -178,7 +178,7 @@ TEST(AnsysBeamShapes, Pipes) {
   };
   const FeModel m = pipe("20,3,16");
   ASSERT_EQ(m.elements.size(), 2u);
-  EXPECT_EQ(m.elements[1].type, ElementType::beam3);
+  EXPECT_EQ(m.elements[1].type, FeElementType::beam3);
   const BeamSection& s = m.sections.at(0);
   const double pi = std::numbers::pi;
   EXPECT_NEAR(s.A, pi * (100 - 49), 1e-10);

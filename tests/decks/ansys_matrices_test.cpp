@@ -178,7 +178,7 @@ TEST(AnsysLayers, OfOneMaterial) {
     ASSERT_EQ(m.elements.size(), 1u);
     EXPECT_EQ(m.materials.at(m.elements[0].material).young, 7e4);
     EXPECT_EQ(m.elements[0].layup, -1);
-    EXPECT_EQ(m.elements[0].type, ElementType::hex8i);
+    EXPECT_EQ(m.elements[0].type, FeElementType::hex8i);
   }
 }
 
@@ -194,7 +194,7 @@ TEST(AnsysLayers, OfSeveralMaterials) {
   struct Kind {
     const char* type;
     std::string nodes;
-    ElementType element;
+    FeElementType element;
   };
   const std::string corners =
       "N,1\nN,2,2\nN,3,2,1\nN,4,0,1\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n";
@@ -205,17 +205,17 @@ TEST(AnsysLayers, OfSeveralMaterials) {
       "EN,1,1,2,3,4,5,6,7,8\nEMORE,9,10,11,12,13,14,15,16\n"
       "EMORE,17,18,19,20\n";
   for (const Kind& kind :
-       {Kind{"ET,1,185\nKEYOPT,1,3,1\n", "E,1,2,3,4,5,6,7,8\n", ElementType::hex8i},
-        Kind{"ET,1,185\nKEYOPT,1,3,1\n", "E,1,2,3,3,5,6,7,7\n", ElementType::wedge6},
-        Kind{"ET,1,190\n", "E,1,2,3,4,5,6,7,8\n", ElementType::hex8i},
-        Kind{"ET,1,186\nKEYOPT,1,3,1\n", middles + all, ElementType::hex20r},
-        Kind{"ET,1,186\nKEYOPT,1,3,1\nKEYOPT,1,2,1\n", middles + all, ElementType::hex20}}) {
+       {Kind{"ET,1,185\nKEYOPT,1,3,1\n", "E,1,2,3,4,5,6,7,8\n", FeElementType::hex8i},
+        Kind{"ET,1,185\nKEYOPT,1,3,1\n", "E,1,2,3,3,5,6,7,7\n", FeElementType::wedge6},
+        Kind{"ET,1,190\n", "E,1,2,3,4,5,6,7,8\n", FeElementType::hex8i},
+        Kind{"ET,1,186\nKEYOPT,1,3,1\n", middles + all, FeElementType::hex20r},
+        Kind{"ET,1,186\nKEYOPT,1,3,1\nKEYOPT,1,2,1\n", middles + all, FeElementType::hex20}}) {
     for (const bool turned : {false, true}) {
       const FeModel m =
           ansys_of(kind.type + corners + layer_materials + layers_of_three +
                    (turned ? "LOCAL,11,0,0,0,0,90\nCSYS,0\nESYS,11\n" : "") + kind.nodes);
       ASSERT_EQ(m.elements.size(), 1u);
-      const Element& e = m.elements[0];
+      const FeElement& e = m.elements[0];
       EXPECT_EQ(e.type, kind.element);
       ASSERT_EQ(e.layup, 0);
       EXPECT_EQ(m.notes.at(0),
@@ -232,7 +232,7 @@ TEST(AnsysLayers, OfSeveralMaterials) {
       ASSERT_NO_THROW(validate(m));
       // The block is 1 thick, so the plies are halves of what the section says.
       const double mass =
-          (kind.element == ElementType::wedge6 ? 1.0 : 2.0) * (0.5 * 1.6e-9 + 0.5 * 7.85e-9);
+          (kind.element == FeElementType::wedge6 ? 1.0 : 2.0) * (0.5 * 1.6e-9 + 0.5 * 7.85e-9);
       EXPECT_NEAR(volume_times_density(m), mass, 1e-12 * mass);
       // Axis 1 of the first ply: x, or y of the turned system, and 30 degrees.
       const NodalPly at = element_kernel(e.type).nodal_ply(gather(m, e), 0);

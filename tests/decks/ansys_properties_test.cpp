@@ -142,7 +142,7 @@ TEST(AnsysShells, Laminates) {
                "     0.200000,         0,    90.000000,         3\n"
                "SECCONTROL,0,0,0,2e-9,1,1,1\nE,1,2,3,4\n" +
                cdb_ply + "MP,EX,2,7e4\nMP,PRXY,2,.33\nMP,DENS,2,2.7e-9\n");
-  ASSERT_EQ(m.elements.at(0).type, ElementType::quad4);
+  ASSERT_EQ(m.elements.at(0).type, FeElementType::quad4);
   const ShellSection& s = m.shells.at(0);
   EXPECT_NEAR(s.thickness, 0.45, 1e-15);
   EXPECT_NEAR(s.offset, 0.225, 1e-15);
@@ -188,7 +188,7 @@ TEST(AnsysShells, DirectionsSectionsAndConstants) {
   ASSERT_EQ(m.elements.size(), 5u);
   const double mean = std::atan2(0.5 * t, 1.0);
   EXPECT_NEAR(m.elements[0].angle, mean + 25 * degree, 1e-15);
-  EXPECT_EQ(m.elements[1].type, ElementType::tri3);
+  EXPECT_EQ(m.elements[1].type, FeElementType::tri3);
   EXPECT_NEAR(m.elements[1].angle, 25 * degree, 1e-15);
   EXPECT_NEAR(m.orientations.at(m.elements[1].orientation).axes(1, 0), std::sin(40 * degree),
               1e-15);
@@ -199,9 +199,9 @@ TEST(AnsysShells, DirectionsSectionsAndConstants) {
   EXPECT_EQ(thin.bending_factor, 2.0);
   EXPECT_EQ(thin.mass, 5e-9);
   EXPECT_NEAR(m.elements[2].angle, 10 * degree, 1e-15);
-  EXPECT_EQ(m.elements[3].type, ElementType::quad8);
+  EXPECT_EQ(m.elements[3].type, FeElementType::quad8);
   EXPECT_EQ(m.shells[m.elements[3].section].thickness, 0.4);
-  EXPECT_EQ(m.elements[4].type, ElementType::tri6);
+  EXPECT_EQ(m.elements[4].type, FeElementType::tri6);
   EXPECT_EQ(m.elements[4].nodes[5], 7);
 }
 
@@ -228,7 +228,7 @@ TEST(AnsysBeams, SectionsAndOrientation) {
   EXPECT_NEAR(section(0).Iz, 3 * 8 / 12.0, 1e-15);
   EXPECT_NEAR(section(0).Iy, 2 * 27 / 12.0, 1e-15);
   EXPECT_NEAR(section(0).shear_y, 5.0, 1e-15);
-  EXPECT_EQ(m.elements[3].type, ElementType::beam3);
+  EXPECT_EQ(m.elements[3].type, FeElementType::beam3);
   EXPECT_EQ(m.elements[3].nodes[1], 2);
   EXPECT_NEAR(section(3).A, 3 * std::numbers::pi, 1e-14);
   EXPECT_NEAR(section(3).Iy, (16 - 1) * std::numbers::pi / 4, 1e-14);
@@ -249,7 +249,7 @@ TEST(AnsysBeams, SectionsAndOrientation) {
   EXPECT_NEAR(section(5).shear_z, 10 / 1.2, 1e-14);
   EXPECT_NEAR(section(5).shear_y, 10 / 1.5, 1e-14);
   EXPECT_NEAR(m.materials[m.elements[5].material].density, 2 * 7.85e-9, 1e-22);
-  EXPECT_EQ(m.elements[6].type, ElementType::rod2);
+  EXPECT_EQ(m.elements[6].type, FeElementType::rod2);
   EXPECT_EQ(section(6).A, 6.0);
   EXPECT_EQ(section(7).A, 7.0);
 }

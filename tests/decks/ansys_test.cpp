@@ -15,16 +15,17 @@ namespace floatframe::test {
 namespace {
 
 /// The nodes of an element as a brick of ANSYS lists them, with its repetitions.
-std::vector<int> as_brick(const FeModel& m, const Element& e) {
-  static const std::map<ElementType, std::vector<int>> order = {
-      {ElementType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
-      {ElementType::wedge6, {0, 1, 2, 2, 3, 4, 5, 5}},
-      {ElementType::pyramid5, {0, 1, 2, 3, 4, 4, 4, 4}},
-      {ElementType::tet4, {0, 1, 2, 2, 3, 3, 3, 3}},
-      {ElementType::hex20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}},
-      {ElementType::wedge15, {0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 2, 8, 9, 10, 5, 11, 12, 13, 14, 14}},
-      {ElementType::pyramid13, {0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 4, 4, 4, 4, 9, 10, 11, 12}},
-      {ElementType::tet10, {0, 1, 2, 2, 3, 3, 3, 3, 4, 5, 2, 6, 3, 3, 3, 3, 7, 8, 9, 9}}};
+std::vector<int> as_brick(const FeModel& m, const FeElement& e) {
+  static const std::map<FeElementType, std::vector<int>> order = {
+      {FeElementType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}},
+      {FeElementType::wedge6, {0, 1, 2, 2, 3, 4, 5, 5}},
+      {FeElementType::pyramid5, {0, 1, 2, 3, 4, 4, 4, 4}},
+      {FeElementType::tet4, {0, 1, 2, 2, 3, 3, 3, 3}},
+      {FeElementType::hex20,
+       {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}},
+      {FeElementType::wedge15, {0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 2, 8, 9, 10, 5, 11, 12, 13, 14, 14}},
+      {FeElementType::pyramid13, {0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 4, 4, 4, 4, 9, 10, 11, 12}},
+      {FeElementType::tet10, {0, 1, 2, 2, 3, 3, 3, 3, 4, 5, 2, 6, 3, 3, 3, 3, 7, 8, 9, 9}}};
   std::vector<int> nodes;
   for (const int k : order.at(e.type)) nodes.push_back(m.node_ids[e.nodes[k]]);
   return nodes;
@@ -38,12 +39,12 @@ TEST(Ansys, SameMeshAsFromGmsh) {
     FeModel mesh = read_gmsh(std::string(FLOATFRAME_TEST_DATA) + "/fe/" + name, options);
     const SparseMatrix K = assemble_stiffness(mesh), M = assemble_mass(mesh, false, 3);
     std::vector<CdbElement> elements;
-    for (const Element& e : mesh.elements) {
+    for (const FeElement& e : mesh.elements) {
       CdbElement c;
       c.id = e.id;
       c.nodes = as_brick(mesh, e);
       // Tetrahedra and bricks of second order with all their nodes.
-      if (e.type == ElementType::tet10) {
+      if (e.type == FeElementType::tet10) {
         c.nodes.clear();
         for (int k = 0; k < 10; ++k) c.nodes.push_back(mesh.node_ids[e.nodes[k]]);
         c.type = 2;
@@ -83,7 +84,7 @@ TEST(Ansys, SameMeshAsFromGmsh) {
 }
 
 /// One element of each kind on the unit cube; corners and middles of its edges.
-FeModel one_element(ElementType type) {
+FeModel one_element(FeElementType type) {
   FeModel m;
   const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                      {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
@@ -91,19 +92,19 @@ FeModel one_element(ElementType type) {
   std::vector<int> places;
   E edges;
   switch (type) {
-    case ElementType::hex8:
-    case ElementType::hex20:
+    case FeElementType::hex8:
+    case FeElementType::hex20:
       places = {0, 1, 2, 3, 4, 5, 6, 7};
       edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
       break;
-    case ElementType::wedge6:
-    case ElementType::wedge15:
+    case FeElementType::wedge6:
+    case FeElementType::wedge15:
       places = {0, 1, 2, 4, 5, 6};
       edges = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
       break;
-    case ElementType::pyramid5:
-    case ElementType::pyramid13:
+    case FeElementType::pyramid5:
+    case FeElementType::pyramid13:
       places = {0, 1, 2, 3, 4};
       edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
       break;
@@ -111,7 +112,7 @@ FeModel one_element(ElementType type) {
       places = {0, 1, 2, 4};
       edges = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
   }
-  Element e;
+  FeElement e;
   e.type = type;
   e.id = 7;
   for (const int k : places) m.positions.push_back(corners[k]);
@@ -128,17 +129,17 @@ FeModel one_element(ElementType type) {
 }
 
 TEST(Ansys, RepeatedNodesMakeWedgesPyramidsAndTetrahedra) {
-  for (const auto& [type, number] : {std::pair{ElementType::hex8, 185},
-                                     {ElementType::wedge6, 185},
-                                     {ElementType::pyramid5, 185},
-                                     {ElementType::tet4, 185},
-                                     {ElementType::hex8, 45},
-                                     {ElementType::hex20, 186},
-                                     {ElementType::wedge15, 186},
-                                     {ElementType::pyramid13, 186},
-                                     {ElementType::tet10, 186},
-                                     {ElementType::wedge15, 95}}) {
-    SCOPED_TRACE(fmt::format("{} of SOLID{}", element_type_name(type), number));
+  for (const auto& [type, number] : {std::pair{FeElementType::hex8, 185},
+                                     {FeElementType::wedge6, 185},
+                                     {FeElementType::pyramid5, 185},
+                                     {FeElementType::tet4, 185},
+                                     {FeElementType::hex8, 45},
+                                     {FeElementType::hex20, 186},
+                                     {FeElementType::wedge15, 186},
+                                     {FeElementType::pyramid13, 186},
+                                     {FeElementType::tet10, 186},
+                                     {FeElementType::wedge15, 95}}) {
+    SCOPED_TRACE(fmt::format("{} of SOLID{}", fe_element_name(type), number));
     const FeModel one = one_element(type);
     const int option = number == 45 ? 1 : number == 186 ? 2 : 11;
     const int value = number == 95 ? 0 : 1;
@@ -156,8 +157,9 @@ TEST(Ansys, RepeatedNodesMakeWedgesPyramidsAndTetrahedra) {
 }
 
 TEST(Ansys, OptionsOfBricks) {
-  const FeModel eight = one_element(ElementType::hex8), twenty = one_element(ElementType::hex20);
-  using T = ElementType;
+  const FeModel eight = one_element(FeElementType::hex8),
+                twenty = one_element(FeElementType::hex20);
+  using T = FeElementType;
   for (const auto& [number, option, value, expected] : {std::tuple{185, 2, 0, T::hex8},
                                                         {185, 2, 1, T::hex8r},
                                                         {185, 2, 2, T::hex8i},
@@ -181,7 +183,7 @@ TEST(Ansys, OptionsOfBricks) {
 /// An edge without its node is straight: of a brick of 20 nodes of which all are left out the
 /// stiffness is that of the brick of 8.
 TEST(Ansys, EdgesWithoutMidNodeAreStraight) {
-  const FeModel twenty = one_element(ElementType::hex20);
+  const FeModel twenty = one_element(FeElementType::hex20);
   std::vector<int> nodes = as_brick(twenty, twenty.elements[0]);
   const auto read = [&](const std::vector<int>& list) {
     return ansys_of("ET,1,186\nKEYOPT,1,2,1\n" + cdb_nodes(twenty, true) +
@@ -189,12 +191,12 @@ TEST(Ansys, EdgesWithoutMidNodeAreStraight) {
   };
   std::vector<int> none = nodes;
   std::fill(none.begin() + 8, none.end(), 0);
-  EXPECT_EQ(read(none).elements[0].type, ElementType::hex8);
+  EXPECT_EQ(read(none).elements[0].type, FeElementType::hex8);
   none.resize(8);
-  EXPECT_EQ(read(none).elements[0].type, ElementType::hex8);
+  EXPECT_EQ(read(none).elements[0].type, FeElementType::hex8);
   nodes[9] = nodes[19] = 0;
   const FeModel m = read(nodes);
-  EXPECT_EQ(m.elements[0].type, ElementType::hex20);
+  EXPECT_EQ(m.elements[0].type, FeElementType::hex20);
   ASSERT_EQ(m.nodes(), 22);
   EXPECT_EQ(m.node_ids[20], 31);
   EXPECT_EQ(m.positions[20], Vec3(1, 0.5, 0));
@@ -221,8 +223,8 @@ TEST(Ansys, WhatUsersWrite) {
       "acel,0,9.81\nf,1,fx,100\nd,1,all\nd,2,ux,0,,,,uy\nd,all,uz\nfini\n/eof\nNONSENSE\n");
   ASSERT_EQ(m.elements.size(), 3u);
   EXPECT_EQ(m.elements[0].id, 1);
-  EXPECT_EQ(m.elements[0].type, ElementType::hex8r);
-  EXPECT_EQ(m.elements[1].type, ElementType::tet4);
+  EXPECT_EQ(m.elements[0].type, FeElementType::hex8r);
+  EXPECT_EQ(m.elements[1].type, FeElementType::tet4);
   EXPECT_EQ(m.elements[2].id, 12);
   EXPECT_EQ(m.materials[0].young, 2.1e5);
   ASSERT_EQ(m.supports.size(), 2u);
@@ -232,7 +234,7 @@ TEST(Ansys, WhatUsersWrite) {
 }
 
 TEST(Ansys, ElementsOfLoadsAndMeshesAreLeftOut) {
-  const FeModel one = one_element(ElementType::hex8);
+  const FeModel one = one_element(FeElementType::hex8);
   std::vector<CdbElement> elements = {{7, 1, 1, 1, 1, 0, as_brick(one, one.elements[0])},
                                       {8, 2, 1, 1, 1, 0, {11, 12, 13, 14}}};
   const FeModel m = ansys_of(

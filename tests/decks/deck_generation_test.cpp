@@ -44,13 +44,13 @@ void expect_equal_by_number(const FeModel& a, const FeModel& b) {
   }
   ASSERT_EQ(a.elements.size(), b.elements.size());
   std::map<int, std::vector<int>> nodes;
-  const auto of = [](const FeModel& m, const Element& e) {
+  const auto of = [](const FeModel& m, const FeElement& e) {
     std::vector<int> out;
     for (int k = 0; k < 8; ++k) out.push_back(m.node_ids[e.nodes[k]]);
     return out;
   };
-  for (const Element& e : a.elements) nodes[e.id] = of(a, e);
-  for (const Element& e : b.elements) EXPECT_EQ(nodes[e.id], of(b, e)) << e.id;
+  for (const FeElement& e : a.elements) nodes[e.id] = of(a, e);
+  for (const FeElement& e : b.elements) EXPECT_EQ(nodes[e.id], of(b, e)) << e.id;
 }
 
 TEST(DeckGeneration, LinesRowsAndLayers) {
@@ -137,7 +137,7 @@ TEST(DeckGeneration, ElementsWithTemperatures) {
       "2, "
       "3, 4\n");
   ASSERT_EQ(model.elements.size(), 1u);
-  EXPECT_EQ(model.elements[0].type, ElementType::tet4);
+  EXPECT_EQ(model.elements[0].type, FeElementType::tet4);
   EXPECT_TRUE(contains(model.notes, "C3D4T are read without their temperatures"));
 }
 

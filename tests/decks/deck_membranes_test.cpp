@@ -40,8 +40,8 @@ TEST(DeckMembranes, StretchedStrip) {
   const std::string section = "*MEMBRANE SECTION, ELSET=FOIL, MATERIAL=AL\n.002\n";
   const FeModel m = foil_deck(foil(section));
   ASSERT_EQ(m.elements.size(), 3u);
-  EXPECT_EQ(m.elements[0].type, ElementType::membrane4s);
-  EXPECT_EQ(m.elements[1].type, ElementType::membrane3);
+  EXPECT_EQ(m.elements[0].type, FeElementType::membrane4s);
+  EXPECT_EQ(m.elements[1].type, FeElementType::membrane3);
   EXPECT_NEAR(stretched(m, foil_poisson), foil_young * foil_thickness * .5, 1e-12 * foil_young);
   const FeSystem system = assemble(m);
   EXPECT_EQ(system.size(), 18);
@@ -89,9 +89,9 @@ TEST(DeckMembranes, ElementsAndThicknessOfNodes) {
       "NALL, .002\n9, .005\n");
   ASSERT_EQ(m.elements.size(), 3u);  // those without a section are a skin
   EXPECT_EQ(m.node_sets.at("SKIN").size(), 8u);
-  EXPECT_EQ(m.elements[0].type, ElementType::membrane8r);
-  EXPECT_EQ(m.elements[1].type, ElementType::membrane6);
-  EXPECT_EQ(m.elements[2].type, ElementType::membrane4);
+  EXPECT_EQ(m.elements[0].type, FeElementType::membrane8r);
+  EXPECT_EQ(m.elements[1].type, FeElementType::membrane6);
+  EXPECT_EQ(m.elements[2].type, FeElementType::membrane4);
   const auto thickness = [&](std::size_t e) {
     return m.shells[static_cast<std::size_t>(m.elements[e].section)].thickness;
   };

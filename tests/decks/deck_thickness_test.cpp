@@ -72,7 +72,7 @@ TEST(NodalThickness, OfPartsWithSeveralInstances) {
                "*END ASSEMBLY\n" +
                part.substr(material, section - material));
   ASSERT_EQ(m.elements.size(), 6u);
-  for (const Element& e : m.elements) EXPECT_EQ(m.shells[e.section].thickness, 0.4);
+  for (const FeElement& e : m.elements) EXPECT_EQ(m.shells[e.section].thickness, 0.4);
 }
 
 TEST(NodalThickness, InvalidThicknessesAreErrors) {

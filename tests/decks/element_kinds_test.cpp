@@ -113,8 +113,8 @@ TEST(ElementKinds, ShellsWithMiddles) {
                              "CQUAD8,1,1,1,2,3,4,5,6\n,7,8\nCTRIA6,2,1,1,2,3,5,6,9\n"
                              "CQUAD8,3,1,1,2,3,4\nCQUADR,4,1,1,2,3,4\nCTRIAR,5,1,1,2,3\n");
   ASSERT_EQ(m.elements.size(), 5u);
-  const ElementType types[] = {ElementType::quad8, ElementType::tri6, ElementType::quad4,
-                               ElementType::quad4, ElementType::tri3};
+  const FeElementType types[] = {FeElementType::quad8, FeElementType::tri6, FeElementType::quad4,
+                                 FeElementType::quad4, FeElementType::tri3};
   for (std::size_t e = 0; e < 5; ++e) EXPECT_EQ(m.elements[e].type, types[e]) << e;
   EXPECT_EQ(m.elements[0].nodes[7], 7);
   EXPECT_EQ(m.elements[1].nodes[5], 8);
@@ -127,8 +127,8 @@ TEST(ElementKinds, ShellsWithMiddles) {
       "*ELEMENT, TYPE=S8R, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
       "*ELEMENT, TYPE=STRI65, ELSET=E\n2, 1, 2, 3, 5, 6, 9\n" +
       steel_deck + "*SHELL SECTION, ELSET=E, MATERIAL=M\n.1\n");
-  EXPECT_EQ(s8.elements[0].type, ElementType::quad8);
-  EXPECT_EQ(s8.elements[1].type, ElementType::tri6);
+  EXPECT_EQ(s8.elements[0].type, FeElementType::quad8);
+  EXPECT_EQ(s8.elements[1].type, FeElementType::tri6);
 }
 
 // The middles of the edges lie where the order of the nodes says, in either format.
@@ -138,7 +138,7 @@ TEST(ElementKinds, Pyramids) {
   const int gmsh_edges[8][2] = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}};
   const auto check = [&](const FeModel& m) {
     ASSERT_EQ(m.elements.size(), 1u);
-    ASSERT_EQ(m.elements[0].type, ElementType::pyramid13);
+    ASSERT_EQ(m.elements[0].type, FeElementType::pyramid13);
     const auto at = [&](int i) { return m.positions[m.elements[0].nodes[i]]; };
     for (int e = 0; e < 8; ++e)
       EXPECT_EQ(at(5 + e), Vec3(0.5 * (at(edges[e][0]) + at(edges[e][1])))) << e;

@@ -30,7 +30,7 @@ const std::string nastran_mesh =
 /// As both programs would have them with consistent mass.
 void expect_same(FeModel a, FeModel b) {
   for (FeModel* m : {&a, &b})
-    for (Element& e : m->elements) e.mass_form = MassForm::consistent;
+    for (FeElement& e : m->elements) e.mass_form = MassForm::consistent;
   const FeSystem x = assemble(a), y = assemble(b);
   EXPECT_LT((x.K - y.K).norm(), 1e-10 * x.K.norm());
   EXPECT_LT((x.M - y.M).norm(), 1e-12 * x.M.norm());

@@ -18,11 +18,11 @@ namespace floatframe::test {
 namespace {
 
 /// One element of a type, bent out of shape; numbers of nodes and elements as a user might have.
-FeModel single_element(ElementType type) {
+FeModel single_element(FeElementType type) {
   FeModel model;
   model.materials = {steel};
   model.material_names = {"STEEL"};
-  Element e;
+  FeElement e;
   e.type = type;
   e.id = 70;
   const ElementKernel& kernel = element_kernel(type);
@@ -53,7 +53,7 @@ FeModel single_element(ElementType type) {
   }
   model.positions = corners;
   model.positions.resize(static_cast<std::size_t>(kernel.nodes));
-  if (type == ElementType::beam3) {
+  if (type == FeElementType::beam3) {
     model.positions[2] = corners[1];
     model.positions[1] = 0.5 * (corners[0] + corners[1]);
   } else if (has_shell_section(type)) {
@@ -76,9 +76,9 @@ FeModel single_element(ElementType type) {
 }
 
 TEST(MeshWriter, DecksOfEveryElement) {
-  for (const ElementType type : element_types) {
-    SCOPED_TRACE(element_type_name(type));
-    if (type == ElementType::shear4) continue;  // CalculiX has none
+  for (const FeElementType type : fe_element_types) {
+    SCOPED_TRACE(fe_element_name(type));
+    if (type == FeElementType::shear4) continue;  // CalculiX has none
     const FeModel model = single_element(type);
     if (is_membrane(type)) {
       const std::string text = written(model, ".inp").bytes;
@@ -86,7 +86,7 @@ TEST(MeshWriter, DecksOfEveryElement) {
       EXPECT_TRUE(contains(text, "*MEMBRANE SECTION, ELSET=SECTION_1, MATERIAL=STEEL\n0.02\n"));
     }
     const FeModel again = there_and_back(model, ".inp");
-    if (type == ElementType::pyramid5 || type == ElementType::pyramid13) {
+    if (type == FeElementType::pyramid5 || type == FeElementType::pyramid13) {
       // A brick with one upper node has the volume of the pyramid.
       ASSERT_EQ(again.elements.size(), 1u);
       EXPECT_NEAR(corner_volume(again), corner_volume(model), 1e-12);
@@ -102,15 +102,15 @@ TEST(MeshWriter, DecksOfEveryElement) {
       EXPECT_NEAR(again.shells[0].offset, model.shells[0].offset, 1e-15);
     }
     // Shear of 2-node beams and of shells is the choice of whoever reads.
-    if (element_kernel(type).family == ElementFamily::solid || type == ElementType::beam3 ||
+    if (element_kernel(type).family == ElementFamily::solid || type == FeElementType::beam3 ||
         is_membrane(type))
       expect_same_system(model, again);
   }
 }
 
 TEST(MeshWriter, GmshMeshesOfEveryElement) {
-  for (const ElementType type : element_types) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : fe_element_types) {
+    SCOPED_TRACE(fe_element_name(type));
     const FeModel model = single_element(type);
     if (element_kernel(type).family != ElementFamily::solid) {
       const std::string text = written(model, ".msh").bytes;
@@ -132,7 +132,7 @@ TEST(MeshWriter, ArmKeepsItsSetsInEveryFormat) {
   expect_same_mesh(arm, mesh, 0.0);  // shortest digits
   FeModel steel_arm = arm;
   steel_arm.materials = {steel};
-  for (Element& e : steel_arm.elements) e.material = 0;
+  for (FeElement& e : steel_arm.elements) e.material = 0;
   const FeModel deck = there_and_back(steel_arm, ".inp");
   expect_same_mesh(arm, deck, 1e-10);
   for (const auto& [set, nodes] : arm.node_sets) {
@@ -173,7 +173,7 @@ FeModel bricks_with(Spider::Kind kind) {
     model.positions.push_back(Vec3(k / 4, k % 2, k / 2 % 2) * 0.1 +
                               Vec3(0.003 * k, 0.01 * std::sin(k), 0.001 * k * k));
   for (const int a : {0, 4})
-    add_element(model, ElementType::hex8, {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3});
+    add_element(model, FeElementType::hex8, {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3});
   model.positions.emplace_back(0.4, 0.06, 0.04);
   model.masses = {{12, 1.5, Mat3::Zero()}, {2, 0.3, Mat3::Zero()}};
   add_spider(model, 12, {8, 9, 10, 11}, kind).name = "FLANGE";
@@ -222,13 +222,13 @@ TEST(MeshWriter, LossesAreNoted) {
 }
 
 TEST(MeshWriter, PipesAndIncompatibleModes) {
-  FeModel pipe = single_element(ElementType::beam3);
+  FeModel pipe = single_element(FeElementType::beam3);
   pipe.sections[0] = BeamSection::hollow_round(0.04, 0.03);
   EXPECT_TRUE(contains(written(pipe, ".inp").bytes, "*ELEMENT, TYPE=B32R\n"));
-  EXPECT_TRUE(contains(written_notes(single_element(ElementType::rod2), ".inp"),
+  EXPECT_TRUE(contains(written_notes(single_element(FeElementType::rod2), ".inp"),
                        "1 element are rods: what CalculiX makes of them bends by itself, with low "
                        "frequencies of its own, and is clamped to beams at their nodes\n"));
-  EXPECT_TRUE(contains(written_notes(single_element(ElementType::hex8i), ".inp"),
+  EXPECT_TRUE(contains(written_notes(single_element(FeElementType::hex8i), ".inp"),
                        "1 element of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these "
                        "modes mass, its frequencies are lower, by some percent where the mesh is "
                        "coarse\n"));
@@ -263,7 +263,7 @@ TEST(MeshWriter, NamesThatOtherProgramsCannotRead) {
 
 TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {
   const auto refusal = [](FeModel model) { return error_of([&] { written(model, ".inp"); }); };
-  FeModel shell = single_element(ElementType::quad4);
+  FeModel shell = single_element(FeElementType::quad4);
   shell.shells[0].plies = {{0, 0.01, 0.0}, {0, 0.01, 0.5}};
   EXPECT_EQ(refusal(shell), "unsupported");
   for (int k = 1; k < 30; ++k) {
@@ -271,16 +271,16 @@ TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {
     shell.elements.back().id += k;
   }
   EXPECT_EQ(refusal(shell), "unsupported");
-  FeModel solid = single_element(ElementType::hex20);
+  FeModel solid = single_element(FeElementType::hex20);
   solid.layups = {{{{0, 1.0, 0.0}, {0, 1.0, 0.5}}}};
   solid.elements[0].layup = 0;
   EXPECT_EQ(refusal(solid), "unsupported");
-  FeModel beam = single_element(ElementType::beam2);
+  FeModel beam = single_element(FeElementType::beam2);
   beam.sections[0] = BeamSection::solid_round(0.01);
   EXPECT_EQ(refusal(beam), "unsupported");
   beam.sections[0].outline = BeamSection::Outline::unknown;
   EXPECT_EQ(refusal(beam), "unsupported");
-  FeModel bare = single_element(ElementType::tet4);
+  FeModel bare = single_element(FeElementType::tet4);
   bare.materials.clear();
   EXPECT_EQ(refusal(bare), "incomplete");
   EXPECT_EQ(error_of([] { mesh_format_of("part.stl"); }), "part.stl: wrong_file");

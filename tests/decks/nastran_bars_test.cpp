@@ -269,7 +269,7 @@ TEST(NastranBars, BarsWithoutSomeOfTheirStiffness) {
       const MatX x = assemble(a).K, y = assemble(b).K;
       ASSERT_EQ(x.rows(), y.rows());
       EXPECT_LT((x - y).norm(), 1e-11 * y.norm()) << weak;
-      EXPECT_EQ(a.elements.at(1).type, ElementType::rod2);
+      EXPECT_EQ(a.elements.at(1).type, FeElementType::rod2);
     }
   }
   // Alone: a supported beam of two, 48 EI/l^3; rotations are condensed.

@@ -23,8 +23,8 @@ std::string membrane_strip(const std::string& property) {
 TEST(NastranMembranes, StretchedStrip) {
   const FeModel m = valid_bdf(membrane_strip("PSHELL,1,1,.002,,,,,.6\n"));
   ASSERT_EQ(m.elements.size(), 3u);
-  EXPECT_EQ(m.elements[0].type, ElementType::membrane4s);
-  EXPECT_EQ(m.elements[1].type, ElementType::membrane3);
+  EXPECT_EQ(m.elements[0].type, FeElementType::membrane4s);
+  EXPECT_EQ(m.elements[1].type, FeElementType::membrane3);
   const FeSystem system = assemble(m);
   EXPECT_EQ(system.size(), 18);  // no rotations
   VecX u = VecX::Zero(18), z = u;
@@ -47,7 +47,7 @@ TEST(NastranMembranes, StretchedStrip) {
 // As a pre-processor punches blank materials.
 TEST(NastranMembranes, MaterialZeroIsBlank) {
   const FeModel m = valid_bdf(membrane_strip("PSHELL,1,1,.002,0,,0,,,\n,,,0\n"));
-  EXPECT_EQ(m.elements[0].type, ElementType::membrane4s);
+  EXPECT_EQ(m.elements[0].type, FeElementType::membrane4s);
   const FeModel plate = valid_bdf(membrane_strip("PSHELL,1,1,.002,1,,1,,,\n,,,0\n"));
   EXPECT_EQ(element_kernel(plate.elements[0].type).dofs_per_node, 6);
 }
@@ -55,7 +55,7 @@ TEST(NastranMembranes, MaterialZeroIsBlank) {
 // Equal plies at 0 and 90 degrees: the same as a sheet of their mean stiffness.
 TEST(NastranMembranes, Plies) {
   const FeModel m = valid_bdf(membrane_strip("PCOMP,1,,,,,,,MEM\n,1,.001,0.,,1,.001,90.\n"));
-  EXPECT_EQ(m.elements[0].type, ElementType::membrane4s);
+  EXPECT_EQ(m.elements[0].type, FeElementType::membrane4s);
   const FeSystem plies = assemble(m),
                  plain = assemble(valid_bdf(membrane_strip("PSHELL,1,1,.002\n")));
   EXPECT_LT(MatX(plies.K - plain.K).norm(), 1e-12 * MatX(plain.K).norm());
@@ -70,8 +70,8 @@ TEST(NastranMembranes, NodesOnEdges) {
       "GRID,10,,0.,0.,1.\nGRID,11,,0.,.5,.5\nGRID,12,,0.,0.,.5\n"
       "CQUAD8,1,1,1,2,3,4,5,6,+\n+,7,8\nCTRIA6,2,1,1,4,10,8,11,12\n"
       "PSHELL,1,1,.002\nMAT1,1,7.+10,,.25,2700.\n");
-  EXPECT_EQ(m.elements[0].type, ElementType::membrane8);
-  EXPECT_EQ(m.elements[1].type, ElementType::membrane6);
+  EXPECT_EQ(m.elements[0].type, FeElementType::membrane8);
+  EXPECT_EQ(m.elements[1].type, FeElementType::membrane6);
   for (const std::string& note : m.notes) EXPECT_FALSE(contains(note, "triangles"));
 }
 

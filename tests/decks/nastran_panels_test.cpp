@@ -106,8 +106,8 @@ TEST(NastranPanels, RodsAlongTheEdges) {
   const FeModel m = valid_bdf(panel(",.5,1.,20."));
   ASSERT_EQ(m.elements.size(), 5u);
   for (int k = 0; k < 4; ++k) {
-    const Element& rod = m.elements[static_cast<std::size_t>(k)];
-    EXPECT_EQ(rod.type, ElementType::rod2);
+    const FeElement& rod = m.elements[static_cast<std::size_t>(k)];
+    EXPECT_EQ(rod.type, FeElementType::rod2);
     EXPECT_EQ(rod.nodes[0], k);
     EXPECT_EQ(rod.nodes[1], (k + 1) % 4);
     EXPECT_NEAR(m.sections[static_cast<std::size_t>(rod.section)].A,

@@ -234,8 +234,8 @@ TEST(Nastran, MaterialsBarsAndShells) {
   EXPECT_NEAR(section(4).A, 0.03 * 0.05 - 0.024 * 0.046, 1e-16);
   EXPECT_NEAR(section(4).Iz, (0.03 * std::pow(0.05, 3) - 0.024 * std::pow(0.046, 3)) / 12, 1e-20);
   EXPECT_NEAR(section(5).J, std::numbers::pi * std::pow(0.02, 4) / 32, 1e-20);
-  EXPECT_EQ(m.elements[6].type, ElementType::quad4);
-  EXPECT_EQ(m.elements[7].type, ElementType::tri3);
+  EXPECT_EQ(m.elements[6].type, FeElementType::quad4);
+  EXPECT_EQ(m.elements[7].type, FeElementType::tri3);
   ASSERT_EQ(m.shells.size(), 1u);
   EXPECT_EQ(m.shells[0].thickness, 0.002);
 }
@@ -246,11 +246,11 @@ TEST(Nastran, HexahedraAsNastranIntegratesThem) {
       "GRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
       "CHEXA,1,1,1,2,3,4,5,6\n,7,8\n";
   const std::string material = "MAT1,1,1.,,0.,1.\n";
-  EXPECT_EQ(bulk_model(nodes + "PSOLID,1,1\n" + material).elements[0].type, ElementType::hex8i);
+  EXPECT_EQ(bulk_model(nodes + "PSOLID,1,1\n" + material).elements[0].type, FeElementType::hex8i);
   EXPECT_EQ(bulk_model(nodes + "PSOLID,1,1,,TWO,,FULL\n" + material).elements[0].type,
-            ElementType::hex8);
+            FeElementType::hex8);
   // A mesh alone is as that of other formats.
-  EXPECT_EQ(bulk_model(nodes).elements[0].type, ElementType::hex8);
+  EXPECT_EQ(bulk_model(nodes).elements[0].type, FeElementType::hex8);
   EXPECT_EQ(bulk_model(nodes).elements[0].material, -1);
   FeReadOptions options;
   options.material = Material{1.0, 0.3, 2.0};

@@ -146,7 +146,7 @@ double twist_energy_ratio(const FeModel& m) {
 /// Nodes at which shells have a turn of their own.
 std::size_t stiffened_nodes(const FeModel& m) {
   std::set<int> nodes;
-  for (const Element& e : m.elements)
+  for (const FeElement& e : m.elements)
     for (std::size_t a = 0; a < 4; ++a)
       if (((e.own_drilling >> a) & 1u) != 0) nodes.insert(e.nodes[a]);
   return nodes.size();

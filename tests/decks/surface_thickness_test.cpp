@@ -41,10 +41,10 @@ FeModel strip(bool quadratic) {
     return it->second;
   };
   const auto add = [&](std::vector<std::pair<int, int>> corners, int section) {
-    Element e;
+    FeElement e;
     const std::size_t n = corners.size();
-    e.type = n == 3 ? (quadratic ? ElementType::tri6 : ElementType::tri3)
-                    : (quadratic ? ElementType::quad8 : ElementType::quad4);
+    e.type = n == 3 ? (quadratic ? FeElementType::tri6 : FeElementType::tri3)
+                    : (quadratic ? FeElementType::quad8 : FeElementType::quad4);
     for (std::size_t k = 0; k < n; ++k) {
       const auto [i, j] = corners[k];
       const auto [p, q] = corners[(k + 1) % n];
@@ -70,9 +70,9 @@ std::string unv_of_shells(const FeModel& m) {
     text += fmt::format("{} 1 1 11\n{:.17g} {:.17g} {:.17g}\n", m.node_ids[i], m.positions[i].x(),
                         m.positions[i].y(), m.positions[i].z());
   text += "    -1\n    -1\n  2412\n";
-  for (const Element& e : m.elements) {
-    const bool quadratic = e.type == ElementType::tri6 || e.type == ElementType::quad8;
-    const bool triangle = e.type == ElementType::tri6 || e.type == ElementType::tri3;
+  for (const FeElement& e : m.elements) {
+    const bool quadratic = e.type == FeElementType::tri6 || e.type == FeElementType::quad8;
+    const bool triangle = e.type == FeElementType::tri6 || e.type == FeElementType::tri3;
     const int corners = triangle ? 3 : 4, type = (triangle ? 91 : 94) + (quadratic ? 1 : 0);
     text += fmt::format("{} {} 1 1 7 {}\n", e.id, type, quadratic ? 2 * corners : corners);
     for (int k = 0; k < corners; ++k) {
@@ -185,7 +185,7 @@ TEST(SurfaceThickness, FacesOfSolidsStaySkinsUnlessNamed) {
   const std::string text = gmsh2("3\n1 4 2 7 1 1 2 4 6\n2 2 2 3 1 2 1 4\n3 3 2 2 1 1 2 3 4\n");
   const FeModel all = parse_gmsh(text, "a.msh", options_of({{"", 1.0}}));
   ASSERT_EQ(all.elements.size(), 2u);
-  EXPECT_EQ(all.elements[1].type, ElementType::quad4);
+  EXPECT_EQ(all.elements[1].type, FeElementType::quad4);
   EXPECT_EQ(all.node_sets.at("LID").size(), 3u);
   EXPECT_EQ(all.element_sets.count("LID"), 0u);
   const auto has_skins = [](const FeModel& m) {
@@ -197,7 +197,7 @@ TEST(SurfaceThickness, FacesOfSolidsStaySkinsUnlessNamed) {
   const FeModel coated = parse_gmsh(text, "a.msh", options_of({{"LID", 0.5}}));
   EXPECT_EQ(has_skins(coated), 1);
   ASSERT_EQ(coated.elements.size(), 2u);
-  EXPECT_EQ(coated.elements[1].type, ElementType::tri3);
+  EXPECT_EQ(coated.elements[1].type, FeElementType::tri3);
   EXPECT_EQ(coated.shells[coated.elements[1].section].thickness, 0.5);
   // The same in a universal file: the skin and the flange after the solid.
   const std::string unv =
@@ -207,7 +207,7 @@ TEST(SurfaceThickness, FacesOfSolidsStaySkinsUnlessNamed) {
       "1 2 3 4\n    -1\n";
   const FeModel u = read_unv_text(unv, options_of({{"", 1.0}}));
   ASSERT_EQ(u.elements.size(), 2u);
-  EXPECT_EQ(u.elements[1].type, ElementType::quad4);
+  EXPECT_EQ(u.elements[1].type, FeElementType::quad4);
   EXPECT_EQ(u.notes.back(),
             "a.unv: 1 shells, beams and rods are taken as skins and edges: they make node sets and "
             "have no stiffness and no mass");

@@ -25,13 +25,13 @@ std::string unv_dataset(int number, const std::string& content) {
 }
 
 /// Corners and middles of edges in the order in which the format goes round an element.
-std::vector<int> unv_walk(ElementType type) {
+std::vector<int> unv_walk(FeElementType type) {
   switch (type) {
-    case ElementType::hex20:
+    case FeElementType::hex20:
       return {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15};
-    case ElementType::wedge15:
+    case FeElementType::wedge15:
       return {0, 6, 1, 7, 2, 8, 12, 13, 14, 3, 9, 4, 10, 5, 11};
-    case ElementType::tet10:
+    case FeElementType::tet10:
       return {0, 4, 1, 5, 2, 6, 7, 8, 9, 3};
     default:
       return {};
@@ -48,9 +48,11 @@ std::string unv_text(const FeModel& m, bool old) {
     std::replace(line.begin(), line.end(), 'E', 'D');
     nodes += line;
   }
-  for (const Element& e : m.elements) {
+  for (const FeElement& e : m.elements) {
     const std::vector<int> walk = unv_walk(e.type);
-    const int type = e.type == ElementType::hex20 ? 116 : e.type == ElementType::tet10 ? 118 : 113;
+    const int type = e.type == FeElementType::hex20   ? 116
+                     : e.type == FeElementType::tet10 ? 118
+                                                      : 113;
     elements +=
         old ? fmt::format("{:10}{:10}{:10}{:10}{:10}{:10}{:10}{:10}", e.id, type, 1, 2, 1, 7, 7,
                           walk.size())

@@ -76,8 +76,8 @@ TEST(WrittenKnots, TurnsOfNodesWhereBeamsMeetAreKept) {
 TEST(WrittenKnots, BeamsOnShellsAreNoted) {
   FeModel model = KnottedFrames{}.read();
   EXPECT_FALSE(contains(written_notes(model, ".inp"), "beams and shells share"));
-  Element plate = model.elements[0];
-  plate.type = ElementType::tri3;
+  FeElement plate = model.elements[0];
+  plate.type = FeElementType::tri3;
   plate.nodes = {0, 12, 24};
   plate.section = 0;
   plate.id = 900;
@@ -127,7 +127,7 @@ FeModel coupled_bricks(unsigned mask) {
   for (int k = 0; k < 12; ++k)
     model.positions.push_back(0.1 * Vec3(k % 2, k / 2 % 2, static_cast<double>(k / 4)));
   for (const int a : {0, 4})
-    add_element(model, ElementType::hex8, {a, a + 1, a + 3, a + 2, a + 4, a + 5, a + 7, a + 6});
+    add_element(model, FeElementType::hex8, {a, a + 1, a + 3, a + 2, a + 4, a + 5, a + 7, a + 6});
   model.positions.emplace_back(0.04, 0.06, 0.25);
   add_spider(model, 12, {8, 9, 10, 11}).mask = mask;
   return model;

@@ -13,11 +13,11 @@ namespace {
 constexpr int elements = 12;
 
 /// A row of nodes along x from the origin, one metre long.
-FeModel row(ElementType type, const BeamSection& section, const Vec3& x) {
+FeModel row(FeElementType type, const BeamSection& section, const Vec3& x) {
   FeModel model;
   model.materials = {steel};
   model.sections = {section};
-  const int step = type == ElementType::beam2 ? 1 : 2;
+  const int step = type == FeElementType::beam2 ? 1 : 2;
   for (int k = 0; k <= elements; ++k) model.positions.push_back(x * k / elements);
   for (int k = 0; k < elements; k += step)
     add_element(model, type, {k, k + 1, k + 2}).reference = Vec3(0.3, -1.0, 0.2);
@@ -35,7 +35,7 @@ const Vec3 up = axis_of_row.cross(side);
 double at(int node) { return static_cast<double>(node) / elements; }
 
 TEST(BeamStressStiffness, TensionOnSlopes) {
-  for (const ElementType type : {ElementType::beam2, ElementType::beam3}) {
+  for (const FeElementType type : {FeElementType::beam2, FeElementType::beam3}) {
     const FeModel model = row(type, BeamSection::solid_round(0.02), axis_of_row);
     // w = s^2 across a bar with a strain of one.
     NodalShapes mode = shapes(1), pulled = shapes(1);
@@ -52,7 +52,7 @@ TEST(BeamStressStiffness, TensionOnSlopes) {
 
 // Fibres beside the axis of a twisted bar are longer: N (Iy + Iz)/A int rx'^2 dx.
 TEST(BeamStressStiffness, TensionOnTheTwist) {
-  for (const ElementType type : {ElementType::beam2, ElementType::beam3}) {
+  for (const FeElementType type : {FeElementType::beam2, FeElementType::beam3}) {
     const FeModel model = row(type, BeamSection::rectangle(0.02, 0.05), axis_of_row);
     NodalShapes mode = shapes(1), pulled = shapes(1);
     for (int k = 0; k <= elements; ++k) {
@@ -81,7 +81,7 @@ TEST(BeamStressStiffness, TorqueOnTheTwistOfSecondOrder) {
   const double e = 1e-3;
   const double twist = twist_of_a_helix(e, e) / (e * e);  // of v = s^2, w = s^3
   EXPECT_NEAR(twist, 1.0, 1e-4);                          // 1/2 int v' w'' - w' v'' ds
-  for (const ElementType type : {ElementType::beam2, ElementType::beam3}) {
+  for (const FeElementType type : {FeElementType::beam2, FeElementType::beam3}) {
     BeamSection section = BeamSection::rectangle(0.02, 0.05);
     for (const double shear : {0.0, 0.6}) {
       section.shear_y = section.shear_z = shear * section.A;
@@ -100,7 +100,7 @@ TEST(BeamStressStiffness, TorqueOnTheTwistOfSecondOrder) {
           shares_of_stress_stiffness(model, mode, twisted, Integration::exact);
       // A torque of G J: its work on the twist of second order is -1/2 u^T K u.
       const double torque = steel.shear() * section.J;
-      const double exact = type == ElementType::beam2 && shear > 0.0 ? 5e-3 : 1e-9;
+      const double exact = type == FeElementType::beam2 && shear > 0.0 ? 5e-3 : 1e-9;
       EXPECT_NEAR(K.twist(1, 0), -torque * twist, (exact + 1e-4) * torque);
       EXPECT_NEAR(K.twist(0, 0), 0.0, exact * torque);
       EXPECT_NEAR(K.twist(2, 0), 0.0, exact * torque);

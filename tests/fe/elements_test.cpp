@@ -27,7 +27,7 @@ bool wedge(const ElementKernel& kernel) { return corners_of(kernel) == 6; }
 bool pyramid(const ElementKernel& kernel) { return corners_of(kernel) == 5; }
 
 /// Corners moved at random, straight edges.
-ElementInput distorted(ElementType type, Random& random) {
+ElementInput distorted(FeElementType type, Random& random) {
   const ElementKernel& kernel = element_kernel(type);
   const Vec3 hex[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
@@ -57,7 +57,7 @@ ElementInput distorted(ElementType type, Random& random) {
       in.p[face.nodes[i]] = 0.5 * (at(from) + at(to));
     }
   }
-  if (type == ElementType::beam3) in.p[1] = 0.5 * (in.p[0] + in.p[2]);
+  if (type == FeElementType::beam3) in.p[1] = 0.5 * (in.p[0] + in.p[2]);
   in.material = {2e11, 0.3, 7500.0};
   in.section = {1e-3, 2e-7, 5e-7, 4e-7};
   in.shell.thickness = 0.02;
@@ -81,7 +81,7 @@ double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (b - a).dot((c - a).cross(d - a)) / 6.0;
 }
 
-double volume(ElementInput in, ElementType type) {
+double volume(ElementInput in, FeElementType type) {
   const ElementKernel& kernel = element_kernel(type);
   const auto area = [&](std::size_t i, std::size_t j, std::size_t k) {
     return 0.5 * (in.p[j] - in.p[i]).cross(in.p[k] - in.p[i]).norm();
@@ -93,14 +93,14 @@ double volume(ElementInput in, ElementType type) {
     return 0.5 * (area(a, b, c) + area(a, c, d) + area(a, b, d) + area(b, c, d));
   };
   const double h = in.shell.thickness;
-  if (type == ElementType::tri3 || type == ElementType::tri6) return h * area(0, 1, 2);
+  if (type == FeElementType::tri3 || type == FeElementType::tri6) return h * area(0, 1, 2);
   if (is_membrane(type) && kernel.nodes % 3 == 0) return h * area(0, 1, 2);
-  if (type == ElementType::quad4 || type == ElementType::shear4 || is_membrane(type))
+  if (type == FeElementType::quad4 || type == FeElementType::shear4 || is_membrane(type))
     return h * quadrilateral(0, 1, 2, 3);
-  if (type == ElementType::quad8) in.p[8].setZero();
-  for (int a = 0; a < 8 && type == ElementType::quad8; ++a)
+  if (type == FeElementType::quad8) in.p[8].setZero();
+  for (int a = 0; a < 8 && type == FeElementType::quad8; ++a)
     in.p[8] += (a < 4 ? -0.25 : 0.5) * in.p[a];
-  if (type == ElementType::quad8)
+  if (type == FeElementType::quad8)
     return h * (quadrilateral(0, 4, 8, 7) + quadrilateral(4, 1, 5, 8) + quadrilateral(8, 5, 2, 6) +
                 quadrilateral(7, 8, 6, 3));
   if (corners_of(kernel) == 4) return tetrahedron(in.p[0], in.p[1], in.p[2], in.p[3]);
@@ -122,9 +122,9 @@ double volume(ElementInput in, ElementType type) {
 
 TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
   Random random(1);
-  for (const ElementType type : element_types) {
+  for (const FeElementType type : fe_element_types) {
     const ElementKernel& kernel = element_kernel(type);
-    SCOPED_TRACE(element_type_name(type));
+    SCOPED_TRACE(fe_element_name(type));
     for (int i = 0; i < 5; ++i) {
       const ElementInput in = distorted(type, random);
       ASSERT_EQ(kernel.error(in), "");
@@ -136,12 +136,12 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
       EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.maxCoeff());
       EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 2e-12 * K.cwiseAbs().maxCoeff());
       // 8 points of 6 strains leave a reduced brick six zero-energy modes of its own.
-      const int zero = type == ElementType::hex20r       ? 12
-                       : is_rod(type)                    ? 5
-                       : is_panel(type)                  ? 11
-                       : type == ElementType::membrane8r ? 12
-                       : is_membrane(type)               ? kernel.nodes + 3
-                                                         : 6;
+      const int zero = type == FeElementType::hex20r       ? 12
+                       : is_rod(type)                      ? 5
+                       : is_panel(type)                    ? 11
+                       : type == FeElementType::membrane8r ? 12
+                       : is_membrane(type)                 ? kernel.nodes + 3
+                                                           : 6;
       const VecX lambda = symmetric_eigenvalues(K);
       EXPECT_GT(lambda(zero), 1e-9 * K.maxCoeff());
       EXPECT_GT(lambda(0), -1e-12 * K.maxCoeff());
@@ -167,10 +167,10 @@ VecX linear_field(const ElementInput& in, int nodes, const Mat3& G, Vec6& strain
 
 TEST(Elements, ConstantStrainIsExact) {
   Random random(2);
-  for (const ElementType type : element_types) {
+  for (const FeElementType type : fe_element_types) {
     const ElementKernel& kernel = element_kernel(type);
     if (!solid(kernel)) continue;
-    SCOPED_TRACE(element_type_name(type));
+    SCOPED_TRACE(fe_element_name(type));
     const ElementInput in = distorted(type, random);
     Vec6 strain;
     const VecX u = linear_field(in, kernel.nodes, random.matrix(3, 3), strain);
@@ -189,7 +189,8 @@ TEST(Elements, ConstantStrainIsExact) {
 // follows a linear field. The node in the middle must be in equilibrium.
 TEST(Elements, PatchTestOfBricks) {
   Random random(12);
-  for (const ElementType type : {ElementType::hex8, ElementType::hex8i, ElementType::hex8r}) {
+  for (const FeElementType type :
+       {FeElementType::hex8, FeElementType::hex8i, FeElementType::hex8r}) {
     FeModel model;
     model.materials = {{2e11, 0.3, 7500.0}};
     for (int k = 0; k < 27; ++k) {
@@ -207,7 +208,7 @@ TEST(Elements, PatchTestOfBricks) {
       u.segment<3>(3 * k) = G * model.positions[k];
     }
     const VecX f = system.K * u;
-    EXPECT_LT(f.segment<3>(39).norm(), 1e-12 * f.norm()) << element_type_name(type);
+    EXPECT_LT(f.segment<3>(39).norm(), 1e-12 * f.norm()) << fe_element_name(type);
     EXPECT_GT(f.segment<3>(0).norm(), 1e-3 * f.norm());
   }
 }
@@ -252,10 +253,10 @@ FacePoint on_face(const ElementInput& in, const FaceNodes& f, double x, double y
 /// Mass of a curved element against a rule of many points on the parent domain.
 TEST(Elements, MassOfCurvedElementsIsExact) {
   Random random(5);
-  for (const ElementType type : element_types) {
+  for (const FeElementType type : fe_element_types) {
     const ElementKernel& kernel = element_kernel(type);
     if (!solid(kernel) || kernel.nodes < 10) continue;
-    SCOPED_TRACE(element_type_name(type));
+    SCOPED_TRACE(fe_element_name(type));
     ElementInput in = distorted(type, random);
     for (int a = corners_of(kernel); a < kernel.nodes; ++a) {
       in.p[a] += random.vec3(0.02);
@@ -284,9 +285,9 @@ TEST(Elements, MassOfCurvedElementsIsExact) {
 // Faces close the element, each edge met once in either sense, and the edges at a corner are those
 // of the faces.
 TEST(Elements, FacesAndCornersFitTogether) {
-  for (const ElementType type : element_types) {
+  for (const FeElementType type : fe_element_types) {
     const ElementKernel& kernel = element_kernel(type);
-    SCOPED_TRACE(element_type_name(type));
+    SCOPED_TRACE(fe_element_name(type));
     EXPECT_EQ(kernel.shape.faces.empty(), is_beam(type) || is_rod(type));
     std::multiset<std::pair<int, int>> edges;
     for (const FaceNodes& f : kernel.shape.faces) {
@@ -308,8 +309,8 @@ TEST(Elements, DistortedBrickMassIsExact) {
   // Against 5 x 5 x 5 Gauss points by splitting nothing: moments of the mass up to second order,
   // from a refined rule.
   Random random(3);
-  const ElementKernel& kernel = element_kernel(ElementType::hex8);
-  const ElementInput in = distorted(ElementType::hex8, random);
+  const ElementKernel& kernel = element_kernel(FeElementType::hex8);
+  const ElementInput in = distorted(FeElementType::hex8, random);
   MatX M;
   kernel.scalar_mass(in, M);
   const double x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,

@@ -178,9 +178,9 @@ TEST(PointModels, ElementsWithRotaryInertiaAreExact) {
   model.elements.pop_back();
   model.shells = {{0.01}};
   model.positions.emplace_back(0.4, 0.2, 0.1);
-  add_element(model, ElementType::tri3, {12, 13, 14});
+  add_element(model, FeElementType::tri3, {12, 13, 14});
   model.positions.emplace_back(0.35, 0.04, 0.06);
-  add_element(model, ElementType::beam3, {12, 15, 13});
+  add_element(model, FeElementType::beam3, {12, 15, 13});
   validate(model);
   const FeSystem system = assemble(model);
   const PointModel points = point_model(model, system);

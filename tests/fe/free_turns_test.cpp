@@ -210,14 +210,14 @@ TEST(FreeTurns, AStraightBarIsARod) {
   FeModel bar = bar_block();
   bar.materials.push_back({2.1e11, 0.3, 0.0});
   bar.sections = {BeamSection::solid_round(0.02)};
-  Element e;
-  e.type = ElementType::beam2;
+  FeElement e;
+  e.type = FeElementType::beam2;
   e.nodes[0] = a;
   e.nodes[1] = b;
   e.material = 1;
   FeModel rod = bar;
   bar.elements.push_back(e);
-  e.type = ElementType::rod2;
+  e.type = FeElementType::rod2;
   rod.elements.push_back(e);
   const FeModel with = tied(bar);
   ASSERT_EQ(with.equations.size(), 1u);

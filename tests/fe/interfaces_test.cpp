@@ -31,8 +31,8 @@ FeModel tube() {
   for (int l = 0; l < 4; ++l) {
     for (int r = 0; r < 2; ++r) {
       for (int a = 0; a < 16; ++a) {
-        Element e;
-        e.type = ElementType::hex8;
+        FeElement e;
+        e.type = FeElementType::hex8;
         e.id = static_cast<int>(model.elements.size()) + 1;
         for (int k = 0; k < 2; ++k) {
           const std::size_t at = 4 * k;
@@ -159,7 +159,7 @@ TEST(Interfaces, OneNode) {
   EXPECT_EQ(refusal(model, d), "wrong_value");
   FeModel rods = tube();
   rods.sections = {BeamSection::solid_round(0.01)};
-  add_element(rods, ElementType::rod2, {0, 240});
+  add_element(rods, FeElementType::rod2, {0, 240});
   NodeChoice end = number;
   end.number = 999;
   EXPECT_EQ(refusal(rods, interface(end)), "wrong_value");
@@ -169,7 +169,7 @@ TEST(Interfaces, OneNode) {
   EXPECT_EQ(model.node_names[4], "BUSH");
   // The end of a beam has six degrees of freedom of its own.
   model.sections = {BeamSection::solid_round(0.01)};
-  add_element(model, ElementType::beam2, {0, 240}).reference = Vec3::UnitY();
+  add_element(model, FeElementType::beam2, {0, 240}).reference = Vec3::UnitY();
   number.number = 999;
   d = interface(number);
   d.name = "END";

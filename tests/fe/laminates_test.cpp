@@ -16,7 +16,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr ElementType shell_types[] = {ElementType::tri3, ElementType::quad4};
+constexpr FeElementType shell_types[] = {FeElementType::tri3, FeElementType::quad4};
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// Carbon and epoxy.
@@ -79,7 +79,7 @@ ShellSection section_of(const std::vector<Layer>& layers, double offset) {
 }
 
 /// A strip in the xy plane with an uneven mesh, whose axis 1 is turned from x.
-FeModel strip(ElementType type, const ShellSection& section, double axis, Random& random) {
+FeModel strip(FeElementType type, const ShellSection& section, double axis, Random& random) {
   FeModel model = sheet(
       type, 4, 3, [](double x, double y) { return Vec3(0.4 * x, 0.1 * y, 0); },
       anisotropic_material(lamina_elasticity(carbon), true, 1600.0), 0.001);
@@ -91,7 +91,7 @@ FeModel strip(ElementType type, const ShellSection& section, double axis, Random
   Orientation o;
   o.axes = Eigen::AngleAxisd(axis, Vec3::UnitZ()).toRotationMatrix();
   model.orientations = {o};
-  for (Element& e : model.elements) e.orientation = 0;
+  for (FeElement& e : model.elements) e.orientation = 0;
   return model;
 }
 
@@ -131,10 +131,10 @@ std::vector<Case> cases() {
 // the ends give them back.
 TEST(Laminates, StripsUnderTensionBendingAndTwist) {
   Random random(5);
-  for (const ElementType type : shell_types)
+  for (const FeElementType type : shell_types)
     for (const Case& c : cases())
       for (int load = 0; load < 6; ++load) {
-        SCOPED_TRACE(std::string(element_type_name(type)) + ", " + c.name + ", load " +
+        SCOPED_TRACE(std::string(fe_element_name(type)) + ", " + c.name + ", load " +
                      std::to_string(load));
         const double axis = 0.3;
         FeModel model = strip(type, section_of(c.layers, c.offset), axis, random);
@@ -173,15 +173,15 @@ TEST(Laminates, StripsUnderTensionBendingAndTwist) {
 // Stress of the outer plies from the same fields.
 TEST(Laminates, StressOfTheOuterPlies) {
   Random random(6);
-  for (const ElementType type : shell_types)
+  for (const FeElementType type : shell_types)
     for (const Case& c : cases()) {
-      SCOPED_TRACE(std::string(element_type_name(type)) + ", " + c.name);
+      SCOPED_TRACE(std::string(fe_element_name(type)) + ", " + c.name);
       const double axis = -0.4;
       const FeModel model = strip(type, section_of(c.layers, c.offset), axis, random);
       const Vec6 ek = random.matrix(6, 1);
       const VecX u = constant_field(model, ek);
       const double t = model.shells[0].thickness;
-      for (const Element& e : model.elements) {
+      for (const FeElement& e : model.elements) {
         const ElementKernel& kernel = element_kernel(e.type);
         MatX S;
         kernel.layer_stresses(gather(model, e), S);
@@ -207,7 +207,7 @@ TEST(Laminates, StressOfTheOuterPlies) {
 TEST(Laminates, RigidMotionsAndMass) {
   Random random(7);
   const double t = 0.01, offset = 0.02, nonstructural = 3.0;
-  for (const ElementType type : shell_types) {
+  for (const FeElementType type : shell_types) {
     FeModel model = strip(type, section_of({{t, 0.1}, {t, 0.7}}, offset), 0.2, random);
     model.materials.push_back(model.materials[0]);
     model.materials[1].density = 4000.0;
@@ -262,7 +262,7 @@ TEST(Laminates, RigidMotionsAndMass) {
 TEST(Laminates, OfOneMaterialAreThatMaterial) {
   Random random(8);
   const Material alloy{7e10, 0.33, 2700.0};
-  for (const ElementType type : shell_types) {
+  for (const FeElementType type : shell_types) {
     FeModel one = strip(type, {.thickness = 0.004}, 0.0, random);
     one.materials = {alloy};
     FeModel many = one, named = one, matrix = one;
@@ -292,7 +292,7 @@ TEST(Laminates, BendInTheirPlaneWithoutLocking) {
   const double L = 1.0, b = 0.05, t = 0.004;
   Random random(9);
   FeModel model = sheet(
-      ElementType::quad4, 10, 1, [&](double x, double y) { return Vec3(L * x, b * y, 0); },
+      FeElementType::quad4, 10, 1, [&](double x, double y) { return Vec3(L * x, b * y, 0); },
       anisotropic_material(lamina_elasticity(carbon), true, 1600.0), t);
   VecX f = VecX::Zero(6 * model.nodes());
   f(6 * 10) = 100.0 / b;  // a couple
@@ -305,7 +305,7 @@ TEST(Laminates, BendInTheirPlaneWithoutLocking) {
 TEST(Laminates, FaultySections) {
   Random random(10);
   const auto error = [&](const auto& change) {
-    FeModel model = strip(ElementType::quad4, section_of({{0.001, 0}, {0.001, 1}}, 0), 0, random);
+    FeModel model = strip(FeElementType::quad4, section_of({{0.001, 0}, {0.001, 1}}, 0), 0, random);
     change(model);
     return error_of([&] { validate(model); });
   };

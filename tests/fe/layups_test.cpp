@@ -16,12 +16,12 @@
 namespace floatframe::test {
 namespace {
 
-constexpr ElementType layered_types[] = {ElementType::hex8,   ElementType::hex8i,
-                                         ElementType::hex20,  ElementType::hex20r,
-                                         ElementType::wedge6, ElementType::wedge15};
+constexpr FeElementType layered_types[] = {FeElementType::hex8,   FeElementType::hex8i,
+                                           FeElementType::hex20,  FeElementType::hex20r,
+                                           FeElementType::wedge6, FeElementType::wedge15};
 
 /// The functions that the shape functions of a type are made of, x^i y^j t^k.
-std::vector<std::array<int, 3>> monomials(ElementType type) {
+std::vector<std::array<int, 3>> monomials(FeElementType type) {
   std::vector<std::array<int, 3>> out;
   const bool quadratic = element_kernel(type).nodes > 8;
   for (int k = 0; k < 3; ++k)
@@ -38,7 +38,7 @@ std::vector<std::array<int, 3>> monomials(ElementType type) {
   return out;
 }
 
-VecX monomials_at(ElementType type, const Vec3& xi) {
+VecX monomials_at(FeElementType type, const Vec3& xi) {
   const auto list = monomials(type);
   VecX f(list.size());
   for (std::size_t m = 0; m < list.size(); ++m)
@@ -47,7 +47,7 @@ VecX monomials_at(ElementType type, const Vec3& xi) {
 }
 
 /// Row a: shape functions at place a.
-MatX shapes_at(ElementType type, const std::vector<Vec3>& places) {
+MatX shapes_at(FeElementType type, const std::vector<Vec3>& places) {
   const std::vector<Vec3> nodes = natural_nodes(type);
   const auto size = static_cast<Eigen::Index>(nodes.size());
   MatX V(size, size), at(places.size(), size);
@@ -60,12 +60,12 @@ const Material ply_material = anisotropic_material(elasticity_of(fibres), false,
 const Material core{7e10, 0.33, 2700.0};
 
 /// A parallelepiped, or, sheared in no direction, a block.
-FeModel layered_element(ElementType type, const Mat3& A) {
+FeModel layered_element(FeElementType type, const Mat3& A) {
   FeModel model;
   model.materials = {ply_material, core};
   model.material_names = {"PLY", "CORE"};
   model.layups = {{{{0, 0.2, 0.5}, {1, 0.5, 0.0}, {0, 0.1, -0.9}}}};
-  Element e;
+  FeElement e;
   e.type = type;
   e.layup = 0;
   for (const Vec3& xi : natural_nodes(type)) {
@@ -84,10 +84,10 @@ Mat3 sheared(Random& random) {
 
 TEST(Layups, AStackOfOnePlyEachThatFollowsTheWhole) {
   Random random(3);
-  for (const ElementType type : layered_types) {
-    if (type == ElementType::hex8i) continue;  // modes of its own
+  for (const FeElementType type : layered_types) {
+    if (type == FeElementType::hex8i) continue;  // modes of its own
     for (const bool oriented : {false, true}) {
-      SCOPED_TRACE(element_type_name(type));
+      SCOPED_TRACE(fe_element_name(type));
       const Mat3 A = sheared(random);
       FeModel model = layered_element(type, A);
       Orientation o;
@@ -137,9 +137,9 @@ TEST(Layups, AStackOfOnePlyEachThatFollowsTheWhole) {
 
 TEST(Layups, PliesOfOneMaterialAreThatMaterial) {
   Random random(5);
-  for (const ElementType type : layered_types) {
-    if (type == ElementType::hex20r) continue;  // two points a ply are more than two
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : layered_types) {
+    if (type == FeElementType::hex20r) continue;  // two points a ply are more than two
+    SCOPED_TRACE(fe_element_name(type));
     for (const int material : {0, 1}) {
       FeModel model = layered_element(type, sheared(random));
       for (ShellPly& ply : model.layups[0].plies) ply.material = material, ply.angle = 0.0;
@@ -150,7 +150,7 @@ TEST(Layups, PliesOfOneMaterialAreThatMaterial) {
       const Vec3 n = J.col(0).cross(J.col(1)).normalized(), x = J.col(0).normalized();
       o.axes << x, n.cross(x), n;
       model.orientations = {o};
-      Element plain = model.elements[0];
+      FeElement plain = model.elements[0];
       plain.layup = -1;
       plain.material = material;
       plain.orientation = 0;
@@ -171,8 +171,9 @@ TEST(Layups, LaminateTheory) {
   c.nu13 = c.nu23 = 0.0;
   const double lx = 0.7, ly = 0.4, t = 0.04;
   Random random(8);
-  for (const ElementType type : {ElementType::hex8i, ElementType::hex20, ElementType::hex20r}) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type :
+       {FeElementType::hex8i, FeElementType::hex20, FeElementType::hex20r}) {
+    SCOPED_TRACE(fe_element_name(type));
     FeModel model =
         layered_element(type, Vec3(0.5 * lx, 0.5 * ly, 0.5 * t).asDiagonal().toDenseMatrix());
     model.materials[0] = anisotropic_material(elasticity_of(c), false, 1600.0);
@@ -231,8 +232,8 @@ TEST(Layups, OneElementOrOneForEachPly) {
 
 TEST(Layups, MassVolumeStress) {
   Random random(9);
-  for (const ElementType type : layered_types) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : layered_types) {
+    SCOPED_TRACE(fe_element_name(type));
     const Mat3 A = sheared(random);
     FeModel model = layered_element(type, A);
     model.layups[0].plies = {{0, 3.0, 0.0}, {1, 1.0, 0.0}};
@@ -260,7 +261,7 @@ TEST(Layups, MassVolumeStress) {
       EXPECT_EQ(at.ply, upper ? 1 : 0);
       EXPECT_LT((at.D - (upper ? D_1 : D_0)).norm(), 1e-12 * D_0.norm());
     }
-    if (type == ElementType::hex8i) continue;  // its thickness strain differs from ply to ply
+    if (type == FeElementType::hex8i) continue;  // its thickness strain differs from ply to ply
     std::vector<StressedPoint> points;
     kernel.stressed_points(in, points);
     Vec6 sum = Vec6::Zero();
@@ -271,7 +272,7 @@ TEST(Layups, MassVolumeStress) {
 }
 
 TEST(Layups, RefusedLayups) {
-  const FeModel good = layered_element(ElementType::hex8, Mat3::Identity());
+  const FeModel good = layered_element(FeElementType::hex8, Mat3::Identity());
   const auto error = [&](const auto& change) {
     FeModel model = good;
     change(model);
@@ -289,7 +290,7 @@ TEST(Layups, RefusedLayups) {
   EXPECT_EQ(error([&](FeModel& m) { ply(m).thickness = 0.0; }), "wrong_value");
   EXPECT_EQ(error([&](FeModel& m) { ply(m).angle = std::nan(""); }), "wrong_value");
   EXPECT_EQ(error([](FeModel& m) { m.elements[0].layup = 1; }), "geometry");
-  EXPECT_EQ(error([](FeModel& m) { m.elements[0].type = ElementType::hex8r; }), "geometry");
+  EXPECT_EQ(error([](FeModel& m) { m.elements[0].type = FeElementType::hex8r; }), "geometry");
   EXPECT_EQ(error([](FeModel& m) {
               m.orientations.emplace_back();
               m.orientations[0].axes << 0, 0, -1, 0, 1, 0, 1, 0, 0;

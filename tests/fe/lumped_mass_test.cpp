@@ -17,7 +17,7 @@ namespace floatframe::test {
 namespace {
 
 FeModel lumped(FeModel model, MassForm form = MassForm::lumped) {
-  for (Element& e : model.elements) e.mass_form = form;
+  for (FeElement& e : model.elements) e.mass_form = form;
   return model;
 }
 
@@ -28,8 +28,8 @@ TEST(LumpedMass, Solids) {
   for (Vec3& p : bricks.positions) p += 0.1 * Vec3(p.y() * p.z(), p.x() * p.y(), p.x() * p.z());
   for (const FeModel& model :
        {bricks, hex20_of(bricks), tets_of(bricks, false), tets_of(bricks, true)}) {
-    const ElementType type = model.elements[0].type;
-    SCOPED_TRACE(element_type_name(type));
+    const FeElementType type = model.elements[0].type;
+    SCOPED_TRACE(fe_element_name(type));
     const MatX M = assemble_scalar_mass(model), D = assemble_scalar_mass(lumped(model));
     EXPECT_NEAR(D.sum() / M.sum(), 1.0, 1e-13);
     EXPECT_EQ((D - MatX(D.diagonal().asDiagonal())).norm(), 0.0);
@@ -54,7 +54,7 @@ TEST(LumpedMass, DispersionOfABar) {
   model.sections = {BeamSection::rectangle(0.02, 0.03)};
   for (int k = 0; k <= n; ++k) model.positions.emplace_back(h * k, 0, 0);
   for (int k = 0; k < n; ++k)
-    add_element(model, ElementType::beam2, {k, k + 1}).mass_form =
+    add_element(model, FeElementType::beam2, {k, k + 1}).mass_form =
         MassForm::lumped_without_rotation;
   validate(model);
   const FeSystem system = assemble(model);

@@ -16,13 +16,13 @@
 namespace floatframe::test {
 namespace {
 
-constexpr ElementType membranes[] = {ElementType::membrane3,  ElementType::membrane4,
-                                     ElementType::membrane4s, ElementType::membrane6,
-                                     ElementType::membrane8,  ElementType::membrane8r};
+constexpr FeElementType membranes[] = {FeElementType::membrane3,  FeElementType::membrane4,
+                                       FeElementType::membrane4s, FeElementType::membrane6,
+                                       FeElementType::membrane8,  FeElementType::membrane8r};
 constexpr double E_mod = 7e10, nu = 0.3, t = 0.002, rho = 2700.0;
 
 /// A mesh of n x n cells over [0, a] x [0, b], inner corners moved; nodes on edges in their middle.
-FeModel membrane_sheet(ElementType type, int n, double a, double b, double moved, const Mat3& R) {
+FeModel membrane_sheet(FeElementType type, int n, double a, double b, double moved, const Mat3& R) {
   FeModel model;
   model.materials = {{E_mod, nu, rho}};
   model.shells = {{.thickness = t}};
@@ -50,7 +50,7 @@ FeModel membrane_sheet(ElementType type, int n, double a, double b, double moved
   for (int j = 0; j < m; j += step)
     for (int i = 0; i < m; i += step) {
       const int s = step, h = 1;
-      Element e;
+      FeElement e;
       e.type = type;
       const auto add = [&](std::initializer_list<int> nodes) {
         std::copy(nodes.begin(), nodes.end(), e.nodes.begin());
@@ -58,10 +58,10 @@ FeModel membrane_sheet(ElementType type, int n, double a, double b, double moved
       };
       const int c[4] = {at(i, j), at(i + s, j), at(i + s, j + s), at(i, j + s)};
       const int q[4] = {at(i + h, j), at(i + s, j + h), at(i + h, j + s), at(i, j + h)};
-      if (type == ElementType::membrane3) {
+      if (type == FeElementType::membrane3) {
         add({c[0], c[1], c[2]});
         add({c[0], c[2], c[3]});
-      } else if (type == ElementType::membrane6) {
+      } else if (type == FeElementType::membrane6) {
         add({c[0], c[1], c[2], q[0], q[1], at(i + h, j + h)});
         add({c[0], c[2], c[3], at(i + h, j + h), q[2], q[3]});
       } else {
@@ -91,8 +91,8 @@ Mat3 plane_matrix(double young, double poisson) {
 TEST(Membranes, PatchTest) {
   Random random(7);
   const double a = 1.2, b = .9;
-  for (const ElementType type : membranes) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : membranes) {
+    SCOPED_TRACE(fe_element_name(type));
     const Mat3 R = random.rotation();
     const FeModel model = membrane_sheet(type, 3, a, b, .08, R);
     validate(model);
@@ -117,7 +117,7 @@ TEST(Membranes, PatchTest) {
     S = (R * S * R.transpose()).eval();
     Vec6 expected;
     expected << S(0, 0), S(1, 1), S(2, 2), S(0, 1), S(1, 2), S(2, 0);
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       const ElementKernel& kernel = element_kernel(e.type);
       MatX B;
       kernel.layer_stresses(gather(model, e), B);
@@ -141,7 +141,7 @@ TEST(Membranes, PatchTest) {
 // (1 - nu)/2 (L/h)^2/(1 - nu^2).
 TEST(Membranes, BentInTheirPlane) {
   const double L = .3, h = .1, beam = E_mod * t * h * h * h / 12 * L;
-  const auto energy = [&](ElementType type) {
+  const auto energy = [&](FeElementType type) {
     FeModel model = membrane_sheet(type, 1, L, h, 0.0, Mat3::Identity());
     const FeSystem system = assemble(model);
     const VecX u = membrane_field(model, system, Mat3::Identity(), [&](const Vec3& p) {
@@ -150,12 +150,12 @@ TEST(Membranes, BentInTheirPlane) {
     });
     return u.dot(system.K * u) / beam;
   };
-  EXPECT_NEAR(energy(ElementType::membrane8), 1.0, 1e-12);
-  EXPECT_NEAR(energy(ElementType::membrane6), 1.0, 1e-12);
-  EXPECT_NEAR(energy(ElementType::membrane8r), 1.0, 1e-12);
-  EXPECT_NEAR(energy(ElementType::membrane4s), 1 / (1 - nu * nu), 1e-12);
-  EXPECT_NEAR(energy(ElementType::membrane4), (1 + .5 * (1 - nu) * L * L / (h * h)) / (1 - nu * nu),
-              1e-12);
+  EXPECT_NEAR(energy(FeElementType::membrane8), 1.0, 1e-12);
+  EXPECT_NEAR(energy(FeElementType::membrane6), 1.0, 1e-12);
+  EXPECT_NEAR(energy(FeElementType::membrane8r), 1.0, 1e-12);
+  EXPECT_NEAR(energy(FeElementType::membrane4s), 1 / (1 - nu * nu), 1e-12);
+  EXPECT_NEAR(energy(FeElementType::membrane4),
+              (1 + .5 * (1 - nu) * L * L / (h * h)) / (1 - nu * nu), 1e-12);
 }
 
 // A ply at an angle: N = A e with A turned as a tensor, on a sheet that lies anyhow.
@@ -164,13 +164,13 @@ TEST(Membranes, PliesTurnWithTheirAngle) {
   const Material ply = anisotropic_material(
       lamina_elasticity({.E1 = 1.4e11, .E2 = 1e10, .nu12 = .3, .G12 = 5e9, .G13 = 5e9, .G23 = 5e9}),
       true, 1600.0);
-  for (const ElementType type : membranes) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : membranes) {
+    SCOPED_TRACE(fe_element_name(type));
     FeModel model = membrane_sheet(type, 2, 1.0, 1.0, .05, Mat3::Identity());
     model.materials = {ply};
     model.shells = {{.thickness = t, .plies = {{0, .5 * t, angle}, {0, .5 * t, angle}}}};
     model.orientations = {{}};
-    for (Element& e : model.elements) e.orientation = 0;
+    for (FeElement& e : model.elements) e.orientation = 0;
     validate(model);
     const FeSystem system = assemble(model);
     // Stretched along the fibres, with no other strain: E1/(1 - nu12 nu21) t.
@@ -184,8 +184,8 @@ TEST(Membranes, PliesTurnWithTheirAngle) {
 // A sheet under tension N resists motions across it: energy N/2 (dw/dx)^2 of a slope.
 TEST(Membranes, TensionStiffensThemAcross) {
   const double a = 1.2, b = .9, e = 1e-3;
-  for (const ElementType type : membranes) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : membranes) {
+    SCOPED_TRACE(fe_element_name(type));
     const FeModel model = membrane_sheet(type, 2, a, b, .05, Mat3::Identity());
     NodalShapes load, mode;
     load.U = load.Theta = mode.U = mode.Theta = MatX::Zero(3 * model.nodes(), 1);
@@ -200,27 +200,29 @@ TEST(Membranes, TensionStiffensThemAcross) {
 }
 
 TEST(Membranes, ErrorsNameTheElement) {
-  const auto error = [](ElementType type, const std::function<void(FeModel&)>& change) {
+  const auto error = [](FeElementType type, const std::function<void(FeModel&)>& change) {
     FeModel model = membrane_sheet(type, 1, 1.0, 1.0, 0.0, Mat3::Identity());
     model.elements.resize(1);
     change(model);
     return error_of([&] { validate(model); });
   };
-  EXPECT_EQ(error(ElementType::membrane4, [](FeModel& m) { m.shells[0].offset = .1; }), "geometry");
-  EXPECT_EQ(error(ElementType::membrane4s, [](FeModel& m) { m.shells[0].thickness = 0; }),
+  EXPECT_EQ(error(FeElementType::membrane4, [](FeModel& m) { m.shells[0].offset = .1; }),
             "geometry");
-  EXPECT_EQ(error(ElementType::membrane4,
+  EXPECT_EQ(error(FeElementType::membrane4s, [](FeModel& m) { m.shells[0].thickness = 0; }),
+            "geometry");
+  EXPECT_EQ(error(FeElementType::membrane4,
                   [](FeModel& m) { std::swap(m.elements[0].nodes[1], m.elements[0].nodes[2]); }),
             "geometry");
-  EXPECT_EQ(error(ElementType::membrane8,
+  EXPECT_EQ(error(FeElementType::membrane8,
                   [](FeModel& m) { std::swap(m.elements[0].nodes[5], m.elements[0].nodes[7]); }),
             "geometry");
-  EXPECT_EQ(error(ElementType::membrane3, [](FeModel& m) { m.positions[3] = m.positions[0] / 2; }),
-            "geometry");
+  EXPECT_EQ(
+      error(FeElementType::membrane3, [](FeModel& m) { m.positions[3] = m.positions[0] / 2; }),
+      "geometry");
 }
 
 TEST(Membranes, NodesThatNothingHoldsAcross) {
-  FeModel model = membrane_sheet(ElementType::membrane4, 2, 1.0, 1.0, 0.0, Mat3::Identity());
+  FeModel model = membrane_sheet(FeElementType::membrane4, 2, 1.0, 1.0, 0.0, Mat3::Identity());
   EXPECT_EQ(flat_nodes(model),
             "the part is a mechanism: 9 nodes are on membranes or shear panels of one plane and on "
             "nothing else, which do not resist motions across it, first node 0; other programs "
@@ -229,8 +231,8 @@ TEST(Membranes, NodesThatNothingHoldsAcross) {
   // A roof has no such nodes along its ridge.
   for (Vec3& p : model.positions) p(2) = std::abs(p(0) - .5);
   EXPECT_TRUE(contains(flat_nodes(model), "6 nodes"));
-  Element rod;
-  rod.type = ElementType::rod2;
+  FeElement rod;
+  rod.type = FeElementType::rod2;
   rod.nodes = {0, 9};
   model.positions.emplace_back(0, 0, -1);
   model.sections = {{}};

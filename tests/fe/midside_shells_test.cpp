@@ -12,7 +12,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr ElementType with_middles[] = {ElementType::tri6, ElementType::quad8};
+constexpr FeElementType with_middles[] = {FeElementType::tri6, FeElementType::quad8};
 
 // Constant membrane strain and constant curvature of an irregular patch, whose nodes on edges are
 // off their middles too.
@@ -20,7 +20,7 @@ TEST(MidsideShells, PatchTests) {
   const Material steel{2e11, 0.3, 7850};
   Random random(5);
   const Mat3 R = random.rotation();
-  for (const ElementType type : with_middles) {
+  for (const FeElementType type : with_middles) {
     MidsideSheet s = midside_sheet(
         type, 3, 3, [](double x, double y) { return Vec3(x, 0.8 * y, 0); }, steel, 0.01);
     FeModel& model = s.model;
@@ -51,7 +51,7 @@ TEST(MidsideShells, PatchTests) {
 }
 
 /// Middle of a simply supported square plate under pressure over q a^4/D; a quarter, n x n.
-double plate_middle(ElementType type, int n) {
+double plate_middle(FeElementType type, int n) {
   const Material material{2e11, 0.3, 7850};
   const double a = 1.0, h = 0.005;
   const MidsideSheet s = midside_sheet(
@@ -75,11 +75,11 @@ double plate_middle(ElementType type, int n) {
 }
 
 TEST(MidsideShells, SupportedPlate) {
-  for (const ElementType type : with_middles) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : with_middles) {
+    SCOPED_TRACE(fe_element_name(type));
     const double exact = 0.00406235;  // Timoshenko, Woinowsky-Krieger (1959), table 8
     const double e4 = plate_middle(type, 4) / exact - 1, e8 = plate_middle(type, 8) / exact - 1;
-    RecordProperty(element_type_name(type), std::to_string(e4) + " " + std::to_string(e8));
+    RecordProperty(fe_element_name(type), std::to_string(e4) + " " + std::to_string(e8));
     EXPECT_LT(std::abs(e4), 0.004);
     EXPECT_LT(std::abs(e8), 0.001);
     EXPECT_LT(std::abs(e8 / e4), 0.35);  // a quarter; tri6 is below 4e-4 already
@@ -87,7 +87,7 @@ TEST(MidsideShells, SupportedPlate) {
 }
 
 /// Middle of the free edge of the roof of Scordelis and Lo, a quarter with n x n cells.
-double roof(ElementType type, int n) {
+double roof(FeElementType type, int n) {
   const Material material{4.32e8, 0.0, 1.0};
   const MidsideSheet s = midside_sheet(
       type, n, n,
@@ -111,10 +111,10 @@ double roof(ElementType type, int n) {
 
 // The same as the shells of their corners with twice as many of them.
 TEST(MidsideShells, ScordelisLoRoof) {
-  for (const ElementType type : with_middles) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type : with_middles) {
+    SCOPED_TRACE(fe_element_name(type));
     const double w4 = roof(type, 4), w8 = roof(type, 8);
-    RecordProperty(element_type_name(type), std::to_string(w4) + " " + std::to_string(w8));
+    RecordProperty(fe_element_name(type), std::to_string(w4) + " " + std::to_string(w8));
     EXPECT_NEAR(w4 / 0.3024, 1.0, 0.009);
     EXPECT_NEAR(w8 / 0.3024, 1.0, 0.0075);
   }

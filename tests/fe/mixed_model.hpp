@@ -19,11 +19,11 @@ inline FeModel mixed_model(Spider::Kind kind) {
   }
   for (int k = 0; k < 2; ++k) {
     const int a = 4 * k;
-    add_element(model, ElementType::hex8, {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3});
+    add_element(model, FeElementType::hex8, {a, a + 4, a + 5, a + 1, a + 2, a + 6, a + 7, a + 3});
   }
   model.positions.emplace_back(0.25, 0.06, 0.04);  // 12: reference
   model.positions.emplace_back(0.45, 0.03, 0.07);  // 13: end of the beam
-  add_element(model, ElementType::beam2, {12, 13});
+  add_element(model, FeElementType::beam2, {12, 13});
   Mat3 J;
   J << 3, 0.2, 0.1, 0.2, 4, -0.3, 0.1, -0.3, 5;
   model.masses.push_back({13, 1.5, J * 1e-2});

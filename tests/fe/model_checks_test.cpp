@@ -20,7 +20,7 @@ const std::string deck_folder = FLOATFRAME_TEST_DATA "/fe/";
 
 /// n x n x n unit bricks, each divided into two wedges, or five tetrahedra, or left alone; as they
 /// would come from a file: node k of the file is number k + 1, its elements begin in line 11.
-FeModel block(ElementType type, int n) {
+FeModel block(FeElementType type, int n) {
   FeModel model;
   model.files = {"block.inp"};
   model.materials = {{2e11, 0.3, 7800}};
@@ -35,7 +35,7 @@ FeModel block(ElementType type, int n) {
     const int corner[8] = {a,         a + 1,         a + 1 + m,         a + m,
                            a + m * m, a + 1 + m * m, a + 1 + m + m * m, a + m + m * m};
     const auto add = [&](std::initializer_list<int> local) {
-      Element e;
+      FeElement e;
       e.type = type;
       e.id = static_cast<int>(model.elements.size()) + 1;
       e.source = {0, 10 + e.id};
@@ -43,10 +43,10 @@ FeModel block(ElementType type, int n) {
       for (const int l : local) e.nodes[i++] = corner[l];
       model.elements.push_back(e);
     };
-    if (type == ElementType::wedge6) {
+    if (type == FeElementType::wedge6) {
       add({0, 1, 2, 4, 5, 6});
       add({0, 2, 3, 4, 6, 7});
-    } else if (type == ElementType::tet4) {  // six about the diagonal 0-6: faces of cells match
+    } else if (type == FeElementType::tet4) {  // six about the diagonal 0-6: faces of cells match
       add({0, 1, 2, 6});
       add({0, 2, 3, 6});
       add({0, 3, 7, 6});
@@ -65,7 +65,7 @@ std::string errors(const FeModel& model) {
 }
 
 TEST(Validation, NamesElementsOfTheFile) {
-  FeModel model = block(ElementType::hex8, 2);
+  FeModel model = block(FeElementType::hex8, 2);
   EXPECT_EQ(errors(model), "no error");
   std::swap(model.elements[3].nodes[0], model.elements[3].nodes[4]);
   model.elements[5].material = 4;
@@ -77,16 +77,16 @@ TEST(Validation, NamesElementsOfTheFile) {
 }
 
 TEST(Validation, TypesOutOfTheList) {
-  FeModel model = block(ElementType::hex8, 1);
-  model.elements[0].type = static_cast<ElementType>(1000);
+  FeModel model = block(FeElementType::hex8, 1);
+  model.elements[0].type = static_cast<FeElementType>(1000);
   EXPECT_THROW(validate(model), InputError);
-  model.elements[0].type = static_cast<ElementType>(-1);
+  model.elements[0].type = static_cast<FeElementType>(-1);
   EXPECT_THROW(validate(model), InputError);
 }
 
 TEST(Validation, TwentyOfAKind) {
-  FeModel model = block(ElementType::tet4, 2);
-  for (Element& e : model.elements) std::swap(e.nodes[0], e.nodes[1]);
+  FeModel model = block(FeElementType::tet4, 2);
+  for (FeElement& e : model.elements) std::swap(e.nodes[0], e.nodes[1]);
   const std::string all = errors(model);
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 20);
   EXPECT_TRUE(all.starts_with("block.inp:11: geometry\n")) << all;
@@ -96,7 +96,7 @@ TEST(Validation, TwentyOfAKind) {
 }
 
 TEST(Validation, SpidersSetsAndMatrices) {
-  FeModel model = block(ElementType::hex8, 1);
+  FeModel model = block(FeElementType::hex8, 1);
   Spider s;
   s.name = "A";
   s.source = {0, 40};
@@ -111,7 +111,7 @@ TEST(Validation, SpidersSetsAndMatrices) {
   EXPECT_EQ(errors(model),
             "contradiction\nblock.inp:40: duplicate\nblock.inp:40: wrong_count\n"
             "block.inp:40: out_of_range\nmissing\nnot_found\nnot_found\nexclusive");
-  model = block(ElementType::hex8, 1);
+  model = block(FeElementType::hex8, 1);
   model.elements.clear();
   model.matrices.emplace();
   model.matrices->K.resize(2, 2);
@@ -122,7 +122,7 @@ TEST(Validation, SpidersSetsAndMatrices) {
 }
 
 TEST(Warnings, SuspiciousValues) {
-  FeModel model = block(ElementType::hex8, 2);
+  FeModel model = block(FeElementType::hex8, 2);
   EXPECT_TRUE(model_warnings(model).empty());
   EXPECT_EQ(corner_quality(model, model.elements[0]), 1.0);
   model.positions.emplace_back(5, 5, 5);
@@ -147,7 +147,7 @@ TEST(Warnings, SuspiciousValues) {
       "1 node is in no element, mass or constraint (as those that only orient beams): node 77");
   EXPECT_EQ(unreferenced_nodes(model), std::vector<int>{27});
   // Slender elements.
-  model = block(ElementType::wedge6, 1);
+  model = block(FeElementType::wedge6, 1);
   for (Vec3& p : model.positions) p(2) *= 30.0;
   EXPECT_EQ(model_warnings(model),
             std::vector<std::string>{
@@ -159,8 +159,8 @@ TEST(Warnings, QualityOfRegularAndCurvedElements) {
   FeModel model;
   model.positions = {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)};
   std::swap(model.positions[1], model.positions[2]);
-  Element e;
-  e.type = ElementType::tet4;
+  FeElement e;
+  e.type = FeElementType::tet4;
   e.nodes = {0, 1, 2, 3};
   const double q = corner_quality(model, e);
   EXPECT_NEAR(std::abs(q), 1.0, 1e-14);
@@ -185,11 +185,12 @@ double enclosed_volume(const FeModel& model, const Surface& s) {
 }
 
 TEST(Surfaces, EncloseTheVolumeWithOutwardNormals) {
-  for (const ElementType type : {ElementType::hex8, ElementType::wedge6, ElementType::tet4}) {
+  for (const FeElementType type :
+       {FeElementType::hex8, FeElementType::wedge6, FeElementType::tet4}) {
     const FeModel model = block(type, 3);
     EXPECT_EQ(errors(model), "no error");
     const Surface s = outer_surface(model);
-    EXPECT_NEAR(enclosed_volume(model, s), 27.0, 1e-12) << element_type_name(type);
+    EXPECT_NEAR(enclosed_volume(model, s), 27.0, 1e-12) << fe_element_name(type);
     EXPECT_EQ(s.triangles.size(), 6u * 9u * 2u);
     EXPECT_EQ(s.nodes.size(), 56u);
   }
@@ -211,9 +212,9 @@ TEST(Surfaces, EncloseTheVolumeWithOutwardNormals) {
 TEST(Surfaces, LinesOfBeams) {
   FeModel model;
   for (int k = 0; k < 5; ++k) model.positions.emplace_back(k, 0, 0);
-  Element two, three;
+  FeElement two, three;
   two.nodes = {1, 2};
-  three.type = ElementType::beam3;
+  three.type = FeElementType::beam3;
   three.nodes = {2, 3, 4};
   model.elements = {two, three};
   const Surface s = outer_surface(model);
@@ -224,7 +225,8 @@ TEST(Surfaces, LinesOfBeams) {
 // One brick, bent: hex8 answers with shear that is not there, hex8i and hex8r do not.
 TEST(Solids, BendingOfOneBrick) {
   const double expected = 1.0 / 12.0;  // E I / L for E = 1, L = 1, nu = 0: energy per angle^2 ...
-  for (const ElementType type : {ElementType::hex8, ElementType::hex8i, ElementType::hex8r}) {
+  for (const FeElementType type :
+       {FeElementType::hex8, FeElementType::hex8i, FeElementType::hex8r}) {
     FeModel model = block(type, 1);
     model.materials[0] = {1.0, 0.0, 1.0};
     // Ends turn by +-1/2 about y: u = (x - 1/2) (z - 1/2); the brick may bow.
@@ -235,10 +237,10 @@ TEST(Solids, BendingOfOneBrick) {
       u.segment<3>(3 * k) = Vec3(p(0) * p(2), 0, 0);
     }
     const double energy = u.dot(system.K * u);
-    if (type == ElementType::hex8) {
+    if (type == FeElementType::hex8) {
       EXPECT_NEAR(energy, expected * 1.5, 1e-12);  // the shear G gamma^2 = 1/2 x^2
     } else {
-      EXPECT_NEAR(energy, expected, 1e-12) << element_type_name(type);
+      EXPECT_NEAR(energy, expected, 1e-12) << fe_element_name(type);
     }
   }
 }

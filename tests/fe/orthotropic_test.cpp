@@ -31,7 +31,7 @@ Mat6 turned_tensor(const Mat6& D, const Mat3& R) {
 }
 
 /// An element of its own with corners moved at random, and an orientation.
-ElementInput skewed(ElementType type, Random& random) {
+ElementInput skewed(FeElementType type, Random& random) {
   const ElementKernel& kernel = element_kernel(type);
   ElementInput in;
   const std::vector<Vec3> corners = natural_corners(type);
@@ -77,10 +77,10 @@ TEST(Orthotropic, ConstantsGiveTheCompliance) {
 // and so is the stress at the nodes and where stress stiffness takes it.
 TEST(Orthotropic, UniaxialStressAlongATurnedAxis) {
   Random random(4);
-  for (const ElementType type : element_types) {
+  for (const FeElementType type : fe_element_types) {
     const ElementKernel& kernel = element_kernel(type);
     if (kernel.family != ElementFamily::solid || kernel.nodes == 5 || kernel.nodes == 13) continue;
-    SCOPED_TRACE(element_type_name(type));
+    SCOPED_TRACE(fe_element_name(type));
     const ElementInput in = skewed(type, random);
     ASSERT_EQ(kernel.error(in), "");
     const Mat3& R = in.orientation->axes;
@@ -112,7 +112,7 @@ TEST(Orthotropic, UniaxialStressAlongATurnedAxis) {
 // The matrix of an isotropic material is that material, whatever its axes.
 TEST(Orthotropic, IsotropicMatrixIsTheMaterial) {
   Random random(5);
-  for (const ElementType type : element_types) {
+  for (const FeElementType type : fe_element_types) {
     const ElementKernel& kernel = element_kernel(type);
     if (kernel.family != ElementFamily::solid || kernel.nodes == 5 || kernel.nodes == 13) continue;
     ElementInput in = skewed(type, random);
@@ -122,7 +122,7 @@ TEST(Orthotropic, IsotropicMatrixIsTheMaterial) {
     kernel.stiffness(in, turned);
     in.material = {2e11, 0.3, 7850.0};
     kernel.stiffness(in, plain);
-    EXPECT_LT((turned - plain).norm(), 1e-12 * plain.norm()) << element_type_name(type);
+    EXPECT_LT((turned - plain).norm(), 1e-12 * plain.norm()) << fe_element_name(type);
   }
 }
 

@@ -10,13 +10,13 @@ namespace {
 const Mat3 drilled_axes = rotation_exp(Vec3(0.3, 0.9, -0.5));
 
 /// Irregular, flat, in a plane of its own.
-ElementInput drilled_shell(ElementType type, unsigned own) {
+ElementInput drilled_shell(FeElementType type, unsigned own) {
   ElementInput in;
   in.material.young = 2e11;
   in.material.poisson = 0.3;
   in.shell.thickness = 0.02;
   in.own_drilling = own;
-  const bool triangle = type == ElementType::tri3 || type == ElementType::tri6;
+  const bool triangle = type == FeElementType::tri3 || type == FeElementType::tri6;
   const std::vector<Vec3> corners =
       triangle
           ? std::vector<Vec3>{{0.0, 0.0, 0.0}, {1.0, 0.2, 0.0}, {0.3, 0.9, 0.0}}
@@ -29,17 +29,17 @@ ElementInput drilled_shell(ElementType type, unsigned own) {
   return in;
 }
 
-MatX drilled_stiffness(ElementType type, unsigned own) {
+MatX drilled_stiffness(FeElementType type, unsigned own) {
   MatX K;
   element_kernel(type).stiffness(drilled_shell(type, own), K);
   return K;
 }
 
-const ElementType drilled_types[] = {ElementType::tri3, ElementType::quad4, ElementType::tri6,
-                                     ElementType::quad8};
+const FeElementType drilled_types[] = {FeElementType::tri3, FeElementType::quad4,
+                                       FeElementType::tri6, FeElementType::quad8};
 
 TEST(OwnDrilling, TheTurnOfTheNodeDoesNothing) {
-  for (const ElementType type : drilled_types) {
+  for (const FeElementType type : drilled_types) {
     const int nodes = element_kernel(type).nodes;
     const MatX free = drilled_stiffness(type, 0), own = drilled_stiffness(type, 0b101);
     for (const int a : {0, 1, 2}) {
@@ -56,7 +56,7 @@ TEST(OwnDrilling, TheTurnOfTheNodeDoesNothing) {
 
 /// Constant strain and curvature: what an element without own turns has, it has with them.
 TEST(OwnDrilling, ConstantStrainAndCurvatureAreThoseOfTheElement) {
-  for (const ElementType type : drilled_types) {
+  for (const FeElementType type : drilled_types) {
     const int nodes = element_kernel(type).nodes;
     const ElementInput in = drilled_shell(type, 0);
     for (int field = 0; field < 6; ++field) {
@@ -85,7 +85,7 @@ TEST(OwnDrilling, ConstantStrainAndCurvatureAreThoseOfTheElement) {
 
 /// The stress of an element is that of its own turns: with any turn of the node the same.
 TEST(OwnDrilling, StressIsThatOfTheElement) {
-  for (const ElementType type : drilled_types) {
+  for (const FeElementType type : drilled_types) {
     const int nodes = element_kernel(type).nodes;
     MatX S;
     element_kernel(type).layer_stresses(drilled_shell(type, 0b10), S);

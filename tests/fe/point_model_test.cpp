@@ -23,7 +23,7 @@ FeModel bent_row(int n, const BeamSection& section) {
   for (int k = 0; k <= n; ++k)
     model.positions.emplace_back(0.2 * k, 0.01 * k * k, 0.1 * std::sin(0.7 * k));
   for (int k = 0; k < n; ++k)
-    add_element(model, ElementType::beam2, {k, k + 1}).reference = Vec3(0.1, 0.3 * k, 1.0);
+    add_element(model, FeElementType::beam2, {k, k + 1}).reference = Vec3(0.1, 0.3 * k, 1.0);
   return model;
 }
 
@@ -77,8 +77,8 @@ FeModel shells_with_offset() {
   model.shells = {{0.01}};
   model.shells[0].offset = 0.004;
   model.positions = {{0, 0, 0}, {0.2, 0, 0.01}, {0.22, 0.1, 0}, {0, 0.12, 0}, {0.4, 0.05, 0.02}};
-  add_element(model, ElementType::quad4, {0, 1, 2, 3});
-  add_element(model, ElementType::tri3, {1, 4, 2});
+  add_element(model, FeElementType::quad4, {0, 1, 2, 3});
+  add_element(model, FeElementType::tri3, {1, 4, 2});
   return model;
 }
 
@@ -132,7 +132,7 @@ TEST(PointModels, HoldTheMassOfEveryElement) {
   FeModel curved = bent_row(4, flat());
   curved.elements.resize(2);
   for (int k = 0; k < 2; ++k) {
-    curved.elements[k].type = ElementType::beam3;
+    curved.elements[k].type = FeElementType::beam3;
     curved.elements[k].nodes = {2 * k, 2 * k + 1, 2 * k + 2};
   }
   expect_mass_of_system(curved);

@@ -27,14 +27,14 @@ FeModel pyramids_of(const FeModel& bricks, bool middles) {
     if (fresh) model.positions.push_back(0.5 * (model.positions[a] + model.positions[b]));
     return it->second;
   };
-  for (const Element& brick : bricks.elements) {
+  for (const FeElement& brick : bricks.elements) {
     Vec3 centre = Vec3::Zero();
     for (int a = 0; a < 8; ++a) centre += bricks.positions[brick.nodes[a]] / 8;
     const int apex = model.nodes();
     model.positions.push_back(centre);
-    for (const FaceNodes& face : element_kernel(ElementType::hex8).shape.faces) {
-      Element e;
-      e.type = middles ? ElementType::pyramid13 : ElementType::pyramid5;
+    for (const FaceNodes& face : element_kernel(FeElementType::hex8).shape.faces) {
+      FeElement e;
+      e.type = middles ? FeElementType::pyramid13 : FeElementType::pyramid5;
       // Faces run anticlockwise seen from outside, the base seen from the apex.
       for (int i = 0; i < 4; ++i) e.nodes[i] = brick.nodes[face.nodes[3 - i]];
       e.nodes[4] = apex;
@@ -63,14 +63,14 @@ TEST(Pyramids, PatchTest) {
     const VecX f = system.K * u;
     std::set<int> outside;
     std::map<std::vector<int>, int> faces;
-    for (const Element& e : model.elements)
+    for (const FeElement& e : model.elements)
       for (const FaceNodes& face : element_kernel(e.type).shape.faces) {
         std::vector<int> key;
         for (int i = 0; i < face.corners; ++i) key.push_back(e.nodes[face.nodes[i]]);
         std::sort(key.begin(), key.end());
         ++faces[key];
       }
-    for (const Element& e : model.elements)
+    for (const FeElement& e : model.elements)
       for (const FaceNodes& face : element_kernel(e.type).shape.faces) {
         std::vector<int> key;
         for (int i = 0; i < face.corners; ++i) key.push_back(e.nodes[face.nodes[i]]);

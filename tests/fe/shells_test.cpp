@@ -13,7 +13,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr ElementType kinds[] = {ElementType::tri3, ElementType::quad4};
+constexpr FeElementType kinds[] = {FeElementType::tri3, FeElementType::quad4};
 
 // Constant membrane strain, and constant curvature: an irregular patch held on its edge reproduces
 // both at the node inside.
@@ -21,7 +21,7 @@ TEST(Shells, PatchTests) {
   const Material steel{2e11, 0.3, 7850};
   Random random(3);
   const Mat3 R = random.rotation();
-  for (const ElementType type : kinds) {
+  for (const FeElementType type : kinds) {
     FeModel model = sheet(
         type, 3, 3, [](double x, double y) { return Vec3(x, 0.8 * y, 0); }, steel, 0.01);
     for (const int inner : {5, 6, 9, 10}) {
@@ -43,7 +43,7 @@ TEST(Shells, PatchTests) {
       for (int i = 0; i < 32; ++i) u->segment<3>(3 * i) = (R * u->segment<3>(3 * i)).eval();
       const VecX f = assemble(model).K * *u;
       for (const int inner : {5, 6, 9, 10}) {
-        EXPECT_LT(f.segment<6>(6 * inner).norm(), 1e-10 * f.norm()) << element_type_name(type);
+        EXPECT_LT(f.segment<6>(6 * inner).norm(), 1e-10 * f.norm()) << fe_element_name(type);
       }
     }
   }
@@ -54,7 +54,7 @@ TEST(Shells, PatchTests) {
 TEST(Shells, CantileverInItsPlaneAndAcross) {
   const Material material{2e11, 0.0, 7850};
   const double L = 1.0, b = 0.05, h = 0.01;
-  for (const ElementType type : kinds) {
+  for (const FeElementType type : kinds) {
     const int n = 10;
     FeModel model = sheet(
         type, n, 1, [&](double x, double y) { return Vec3(L * x, b * y, 0); }, material, h);
@@ -69,8 +69,8 @@ TEST(Shells, CantileverInItsPlaneAndAcross) {
     const double in_plane =
         100.0 * L * L * L / (3 * E * h * b * b * b / 12) + 100.0 * L / (5.0 / 6.0 * E / 2 * b * h);
     const double across = 1.0 * L * L * L / (3 * E * b * h * h * h / 12);
-    EXPECT_NEAR(u(6 * n + 1) / in_plane, 1.0, 0.01) << element_type_name(type);
-    EXPECT_NEAR(u(6 * n + 2) / across, 1.0, 1e-3) << element_type_name(type);
+    EXPECT_NEAR(u(6 * n + 1) / in_plane, 1.0, 0.01) << fe_element_name(type);
+    EXPECT_NEAR(u(6 * n + 2) / across, 1.0, 1e-3) << fe_element_name(type);
   }
 }
 
@@ -79,7 +79,7 @@ TEST(Shells, CantileverInItsPlaneAndAcross) {
 // a quarter with n x n elements.
 TEST(Shells, ScordelisLoRoof) {
   const Material material{4.32e8, 0.0, 1.0};
-  for (const ElementType type : kinds) {
+  for (const FeElementType type : kinds) {
     double result[2] = {};
     for (int level = 0; level < 2; ++level) {
       const int n = 8 << level;
@@ -104,8 +104,8 @@ TEST(Shells, ScordelisLoRoof) {
       const VecX u = solve(model, held, system.M * down);
       result[level] = -u(6 * (n + 1) * n + 2);
     }
-    EXPECT_NEAR(result[0] / 0.3024, 1.0, 0.01) << element_type_name(type);
-    EXPECT_NEAR(result[1] / 0.3024, 1.0, 0.008) << element_type_name(type);
+    EXPECT_NEAR(result[0] / 0.3024, 1.0, 0.01) << fe_element_name(type);
+    EXPECT_NEAR(result[1] / 0.3024, 1.0, 0.008) << fe_element_name(type);
   }
 }
 
@@ -113,7 +113,7 @@ TEST(Shells, ScordelisLoRoof) {
 // forces: 1.8248e-5 under the force (Belytschko et al. 1985); an eighth with n x n elements.
 TEST(Shells, PinchedCylinder) {
   const Material material{3e6, 0.3, 1.0};
-  for (const ElementType type : kinds) {
+  for (const FeElementType type : kinds) {
     const int n = 20;
     const FeModel model = sheet(
         type, n, n,
@@ -134,7 +134,7 @@ TEST(Shells, PinchedCylinder) {
     VecX f = VecX::Zero(6 * model.nodes());
     f(2) = -0.25;
     const VecX u = solve(model, held, f);
-    EXPECT_NEAR(-u(2) / 1.8248e-5, 1.0, 0.012) << element_type_name(type);
+    EXPECT_NEAR(-u(2) / 1.8248e-5, 1.0, 0.012) << fe_element_name(type);
   }
 }
 
@@ -150,7 +150,7 @@ TEST(Beam3, CantileverAndQuarterRing) {
     model.sections = {section};
     for (int k = 0; k <= 2 * elements; ++k) model.positions.push_back(at(0.5 * k / elements));
     for (int k = 0; k < elements; ++k)
-      add_element(model, ElementType::beam3, {2 * k, 2 * k + 1, 2 * k + 2}).reference =
+      add_element(model, FeElementType::beam3, {2 * k, 2 * k + 1, 2 * k + 2}).reference =
           Vec3::UnitY();
     validate(model);
     return model;

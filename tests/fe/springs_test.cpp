@@ -218,7 +218,7 @@ FeModel rods(std::vector<Vec3> places, const std::vector<std::pair<int, int>>& p
   model.positions = std::move(places);
   model.materials = {{2.1e11, 0.3, 7800.0}};
   model.sections = {{2e-4, 0, 0, 0}};
-  for (const auto& [a, b] : pairs) add_element(model, ElementType::rod2, {a, b});
+  for (const auto& [a, b] : pairs) add_element(model, FeElementType::rod2, {a, b});
   return model;
 }
 
@@ -237,7 +237,7 @@ TEST(Rods, RowOfRods) {
   validate(model);
   EXPECT_NEAR(volume_times_density(model), n * m, 1e-12);
   for (const bool lumped : {false, true}) {
-    for (Element& e : model.elements)
+    for (FeElement& e : model.elements)
       e.mass_form = lumped ? MassForm::lumped : MassForm::consistent;
     const FeSystem system = assemble(model);
     const VecX lambda = free_eigenvalues(system);

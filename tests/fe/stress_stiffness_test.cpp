@@ -47,16 +47,16 @@ TEST(StressStiffness, UniformStressInSolids) {
   for (Vec3& p : bricks.positions) p += 0.1 * Vec3(p.y() * p.z(), p.x() * p.y(), p.x() * p.z());
   std::vector<FeModel> meshes = {bricks, hex20_of(bricks), tets_of(bricks, false),
                                  tets_of(bricks, true)};
-  for (const ElementType type : {ElementType::hex8i, ElementType::hex8r}) {
+  for (const FeElementType type : {FeElementType::hex8i, FeElementType::hex8r}) {
     meshes.push_back(bricks);
-    for (Element& e : meshes.back().elements) e.type = type;
+    for (FeElement& e : meshes.back().elements) e.type = type;
   }
   Mat3 A, B, C;
   A << 1, 2, 3, -1, 0.5, 2, 0.3, -2, 1.2;
   B << 0.2, 1, -3, 2, 0.1, 0.7, 1.5, 1, -1;
   C << 1, -0.4, 0.2, 0.8, -0.5, 2, 0.1, 0.9, 3;
   for (const FeModel& model : meshes) {
-    SCOPED_TRACE(element_type_name(model.elements[0].type));
+    SCOPED_TRACE(fe_element_name(model.elements[0].type));
     const NodalShapes modes = linear_fields(model, {A, B});
     const NodalShapes cases = linear_fields(model, {C, 2.0 * A});
     const MatX K = stress_stiffness(model, modes, cases);
@@ -73,9 +73,9 @@ TEST(StressStiffness, UniformStressInSolids) {
 
 /// 4 pi^2 D / b^2 of a square plate with simple supports under a force along x: the error of
 /// Rayleigh's quotient with the deflection under a pressure sin sin.
-double buckling_error(int n, ElementType type) {
+double buckling_error(int n, FeElementType type) {
   constexpr double b = 0.5, t = 0.005;
-  const bool middles = type == ElementType::tri6 || type == ElementType::quad8;
+  const bool middles = type == FeElementType::tri6 || type == FeElementType::quad8;
   const auto place = [](double x, double y) { return Vec3(b * x, b * y, 0); };
   const FeModel model = middles ? midside_sheet(type, n / 2, n / 2, place, steel, t).model
                                 : sheet(type, n, n, place, steel, t);
@@ -107,14 +107,14 @@ double buckling_error(int n, ElementType type) {
 }
 
 TEST(StressStiffness, BucklingOfAPlate) {
-  for (const ElementType type :
-       {ElementType::quad4, ElementType::tri3, ElementType::quad8, ElementType::tri6}) {
-    SCOPED_TRACE(element_type_name(type));
+  for (const FeElementType type :
+       {FeElementType::quad4, FeElementType::tri3, FeElementType::quad8, FeElementType::tri6}) {
+    SCOPED_TRACE(fe_element_name(type));
     const double coarse = buckling_error(8, type), fine = buckling_error(16, type);
-    RecordProperty(element_type_name(type), std::to_string(coarse) + " " + std::to_string(fine));
+    RecordProperty(fe_element_name(type), std::to_string(coarse) + " " + std::to_string(fine));
     EXPECT_LT(std::abs(coarse), 0.005);
     EXPECT_LT(std::abs(fine), 0.001);
-    if (type == ElementType::quad4 || type == ElementType::quad8) {
+    if (type == FeElementType::quad4 || type == FeElementType::quad8) {
       EXPECT_NEAR(coarse / fine, 4.0, 1.0);
     }
   }
@@ -129,7 +129,7 @@ struct Block {
   /// int F S grad N dV, F = 1 + grad u, S = D E.
   VecX forces(const VecX& u) const {
     VecX f = VecX::Zero(u.size());
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       Mat3 J;
       for (int i = 0; i < 3; ++i)
         J.col(i) = model.positions[e.nodes[i + 1]] - model.positions[e.nodes[0]];

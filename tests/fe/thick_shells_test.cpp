@@ -13,14 +13,14 @@ namespace floatframe::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr ElementType all_shells[] = {ElementType::tri3, ElementType::quad4, ElementType::tri6,
-                                      ElementType::quad8};
+constexpr FeElementType all_shells[] = {FeElementType::tri3, FeElementType::quad4,
+                                        FeElementType::tri6, FeElementType::quad8};
 
 /// A sheet of corners or with nodes on its edges, of n x n cells between corners or middles.
 template <class Map>
-MidsideSheet any_sheet(ElementType type, int n, const Map& map, const Material& m, double h) {
+MidsideSheet any_sheet(FeElementType type, int n, const Map& map, const Material& m, double h) {
   MidsideSheet s;
-  if (type == ElementType::tri6 || type == ElementType::quad8) {
+  if (type == FeElementType::tri6 || type == FeElementType::quad8) {
     s = midside_sheet(type, n / 2, n / 2, map, m, h);
   } else {
     s.model = sheet(type, n, n, map, m, h);
@@ -35,8 +35,8 @@ MidsideSheet any_sheet(ElementType type, int n, const Map& map, const Material& 
 TEST(ThickShells, ConstantCurvature) {
   const Material steel{2e11, 0.3, 7850};
   for (const double h : {0.001, 0.1, 2.0})
-    for (const ElementType type : all_shells) {
-      SCOPED_TRACE(element_type_name(type));
+    for (const FeElementType type : all_shells) {
+      SCOPED_TRACE(fe_element_name(type));
       Random random(6);
       MidsideSheet s = any_sheet(
           type, 6, [](double x, double y) { return Vec3(x, 0.8 * y, 0); }, steel, h);
@@ -74,7 +74,7 @@ double navier(const Material& m, double a, double h) {
   return w;
 }
 
-double middle(ElementType type, int n, double h, const Material& m) {
+double middle(FeElementType type, int n, double h, const Material& m) {
   const MidsideSheet s = any_sheet(
       type, n, [](double x, double y) { return Vec3(0.5 * x, 0.5 * y, 0); }, m, h);
   std::vector<Held> held;
@@ -97,11 +97,11 @@ double middle(ElementType type, int n, double h, const Material& m) {
 TEST(ThickShells, SupportedPlate) {
   const Material m{2e11, 0.3, 7850};
   for (const double h : {0.001, 0.05, 0.2})
-    for (const ElementType type : all_shells) {
-      SCOPED_TRACE(std::string(element_type_name(type)) + " " + std::to_string(h));
+    for (const FeElementType type : all_shells) {
+      SCOPED_TRACE(std::string(fe_element_name(type)) + " " + std::to_string(h));
       const double exact = navier(m, 1.0, h);
       const double e8 = middle(type, 8, h, m) / exact - 1, e16 = middle(type, 16, h, m) / exact - 1;
-      RecordProperty(element_type_name(type) + std::to_string(h),
+      RecordProperty(fe_element_name(type) + std::to_string(h),
                      std::to_string(e8) + " " + std::to_string(e16));
       EXPECT_LT(std::abs(e8), 0.01);
       EXPECT_LT(std::abs(e16), 0.0025);

@@ -23,7 +23,7 @@ FeModel stubby(int elements, double L) {
   model.sections[0].shear_z = 0.5 * model.sections[0].A;
   for (int k = 0; k <= elements; ++k) model.positions.emplace_back(L * k / elements, 0, 0);
   for (int k = 0; k < elements; ++k)
-    add_element(model, ElementType::beam2, {k, k + 1}).reference = Vec3::UnitY();
+    add_element(model, FeElementType::beam2, {k, k + 1}).reference = Vec3::UnitY();
   validate(model);
   return model;
 }
@@ -58,7 +58,7 @@ TEST(Timoshenko, LinearShapesAsAbaqusHasThem) {
     BeamSection& s = model.sections[0];
     s.slenderness = 0.25;
     MatX K;
-    element_kernel(ElementType::beam2).stiffness(gather(model, model.elements[0]), K);
+    element_kernel(FeElementType::beam2).stiffness(gather(model, model.elements[0]), K);
     for (const bool z : {false, true}) {
       const double E = 2e11, I = z ? s.Iy : s.Iz, sign = z ? -1.0 : 1.0;
       const double S = model.materials[0].shear() * (z ? s.shear_z : s.shear_y) /
@@ -131,7 +131,7 @@ double buckling_load(const FeModel& model, bool z) {
   const FeSystem system = assemble(model);
   MatX Kg = MatX::Zero(system.size(), system.size());
   std::vector<StressedPoint> points;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementInput in = gather(model, e);
     element_kernel(e.type).stressed_points(in, points);
     VecX u = VecX::Zero(12);

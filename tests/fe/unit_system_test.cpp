@@ -85,17 +85,17 @@ TEST(ElementFaces, EncloseTheElement) {
   const Pairs hex_edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                         {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   struct Case {
-    ElementType type;
+    FeElementType type;
     const std::vector<Vec3>* corners;
     const Pairs* edges;
     double volume;
   };
-  for (const Case& c : {Case{ElementType::tet4, &tet, nullptr, 1.0 / 6.0},
-                        Case{ElementType::tet10, &tet, &tet_edges, 1.0 / 6.0},
-                        Case{ElementType::wedge6, &wedge, nullptr, 0.5},
-                        Case{ElementType::wedge15, &wedge, &wedge_edges, 0.5},
-                        Case{ElementType::hex8, &hex, nullptr, 1.0},
-                        Case{ElementType::hex20r, &hex, &hex_edges, 1.0}}) {
+  for (const Case& c : {Case{FeElementType::tet4, &tet, nullptr, 1.0 / 6.0},
+                        Case{FeElementType::tet10, &tet, &tet_edges, 1.0 / 6.0},
+                        Case{FeElementType::wedge6, &wedge, nullptr, 0.5},
+                        Case{FeElementType::wedge15, &wedge, &wedge_edges, 0.5},
+                        Case{FeElementType::hex8, &hex, nullptr, 1.0},
+                        Case{FeElementType::hex20r, &hex, &hex_edges, 1.0}}) {
     std::vector<Vec3> p = *c.corners;
     if (c.edges != nullptr) {
       for (const auto& [a, b] : *c.edges) p.push_back(0.5 * (p[a] + p[b]));

@@ -21,7 +21,7 @@ TEST(Gmsh, ArmFromEveryVersion) {
   const FeModel ascii = read_fe_file(data("aarm_coarse.msh.gz"));
   EXPECT_EQ(ascii.nodes(), 5687);
   EXPECT_EQ(ascii.elements.size(), 2785u);
-  for (const Element& e : ascii.elements) ASSERT_EQ(e.type, ElementType::tet10);
+  for (const FeElement& e : ascii.elements) ASSERT_EQ(e.type, FeElementType::tet10);
   EXPECT_EQ(ascii.node_ids[1000], 1001);
   EXPECT_LT((ascii.positions[5] - Vec3(130.8405194677116, 20.07485989988453, 9)).norm(), 1e-14);
   // Sizes of the sets as in the deck that was written from the same mesh.
@@ -56,8 +56,8 @@ TEST(Gmsh, BricksAndWedgesOfSecondOrder) {
   EXPECT_EQ(ascii.elements.size(), 12u);
   EXPECT_EQ(ascii.element_sets.at("BRICKS").size(), 4u);
   EXPECT_EQ(ascii.element_sets.at("WEDGES").size(), 8u);
-  EXPECT_EQ(ascii.elements[0].type, ElementType::hex20);
-  EXPECT_EQ(ascii.elements[11].type, ElementType::wedge15);
+  EXPECT_EQ(ascii.elements[0].type, FeElementType::hex20);
+  EXPECT_EQ(ascii.elements[11].type, FeElementType::wedge15);
   expect_midside_nodes_near_edges(ascii);
   EXPECT_NEAR(corner_volume(ascii), 1.0, 1e-12);
   const std::vector<int>& end = ascii.node_sets.at("END");

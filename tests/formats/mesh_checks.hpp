@@ -14,7 +14,7 @@ inline std::set<int> as_set(const std::vector<int>& list) { return {list.begin()
 /// Volume of the elements with straight edges: divergence theorem over their faces.
 inline double corner_volume(const FeModel& model) {
   double volume = 0.0;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const auto p = [&](const FaceNodes& f, int k) {
       const int local = f.nodes[k];
       return model.positions[e.nodes[local]];
@@ -31,7 +31,7 @@ inline double corner_volume(const FeModel& model) {
 /// The order of the mid-side nodes: each is near the middle of its edge.
 inline void expect_midside_nodes_near_edges(const FeModel& model) {
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
-    const Element& e = model.elements[i];
+    const FeElement& e = model.elements[i];
     for (const FaceNodes& f : element_faces(e.type)) {
       for (int k = 0; k < f.count - f.corners; ++k) {
         const auto p = [&](int index) {

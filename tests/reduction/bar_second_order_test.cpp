@@ -103,7 +103,7 @@ TEST(BarSecondOrder, EulerLoad) {
 }
 
 /// int v'^T w'' - w'^T v'' dx of an element, its symmetric part.
-MatX twist_of(const Mat3& T, double l, const Element& e, const MatX& X) {
+MatX twist_of(const Mat3& T, double l, const FeElement& e, const MatX& X) {
   MatX v(4, X.cols()), w(4, X.cols());
   for (int k = 0; k < 2; ++k) {
     const MatX u = T.transpose() * X.middleRows<3>(6 * e.nodes[k]);
@@ -140,7 +140,7 @@ MatX loaded(const FeModel& model, const MatX& X, const std::vector<int>& held, c
   }
   const VecX u = ldlt_solve(K, load);
   MatX out = MatX::Zero(X.cols(), X.cols());
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementInput in = gather(model, e);
     const double l = (in.p[1] - in.p[0]).norm();
     const Mat3 T = beam_axes(in);

@@ -45,7 +45,7 @@ struct TurnedSections {
     constexpr int parts = 20;
     Mat3 R = Mat3::Identity();
     Vec3 t = Vec3::UnitX();
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       const ElementInput in = gather(model, e);
       const BentBeam beam(in, e, X);
       const Vec3 own =

@@ -66,7 +66,7 @@ TEST(FreeTurnsOfParts, StraightBeamsAreReduced) {
   FeModel model = beam();
   const auto [a, b] = two_nodes(model);
   model.sections = {BeamSection::solid_round(0.01)};
-  add_element(model, ElementType::beam2, {a, b});
+  add_element(model, FeElementType::beam2, {a, b});
   const ReducedPart part = reduce_part(model, both_ends(8));
   EXPECT_LT(part.health.rigid_residual, 1e-12);
   ASSERT_TRUE(part.health.rigid_eigenvalues.has_value());

@@ -31,7 +31,7 @@ void check_layered(const FeModel& model) {
 
 TEST(LayeredParts, Laminate) {
   FeModel model = sheet(
-      ElementType::quad4, 12, 4, [](double x, double y) { return Vec3(0.4 * x, 0.1 * y, 0); },
+      FeElementType::quad4, 12, 4, [](double x, double y) { return Vec3(0.4 * x, 0.1 * y, 0); },
       anisotropic_material(lamina_elasticity(fibres), true, fibres_density), 0.001);
   model.shells[0] = {.thickness = 0.003, .offset = 0.01};
   model.shells[0].plies = {{0, 0.001, 0.0}, {0, 0.002, 1.2}};
@@ -48,7 +48,7 @@ TEST(LayeredParts, OrthotropicSolid) {
   Orientation o;
   o.axes = Eigen::AngleAxisd(0.4, Vec3::UnitZ()).toRotationMatrix();
   model.orientations = {o};
-  for (Element& e : model.elements) e.orientation = 0;
+  for (FeElement& e : model.elements) e.orientation = 0;
   check_layered(model);
 }
 

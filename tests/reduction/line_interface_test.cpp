@@ -83,7 +83,7 @@ TEST(LineInterface, OnTheEdgeOfShells) {
   for (int i = 0; i < nx; ++i)
     for (int s = 0; s < ns; ++s) {
       const int a = i * (ns + 1) + s;
-      add_element(model, ElementType::quad4, {a, a + ns + 1, a + ns + 2, a + 1});
+      add_element(model, FeElementType::quad4, {a, a + ns + 1, a + ns + 2, a + 1});
     }
   PartOptions options = both_ends(4);
   options.interfaces = {bore("ROOT"), bore("TOP")};

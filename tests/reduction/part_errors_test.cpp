@@ -39,7 +39,7 @@ TEST(PartErrors, Codes) {
   const FeModel other = brick_beam(1, 1, 1, 0.01, 0.01);
   const int first = loose.nodes();
   for (const Vec3& p : other.positions) loose.positions.push_back(p + Vec3(0, 0.5, 0));
-  Element e = other.elements[0];
+  FeElement e = other.elements[0];
   for (std::size_t a = 0; a < 8; ++a) e.nodes[a] += first;
   loose.elements.push_back(e);
   EXPECT_EQ(refusal(loose, both_ends()), "singular");
@@ -93,7 +93,7 @@ TEST(PartErrors, MechanismsOfTwoElementsNameNodes) {
     for (const Vec3& shift : {Vec3(1, 0, 1), Vec3(1, 1, 1)}) {
       FeModel model = brick_beam(1, 1, 1, size, size);
       const int first = model.nodes();
-      Element other = model.elements[0];
+      FeElement other = model.elements[0];
       for (int& node : other.nodes) {
         const Vec3 p = model.positions[node] + size * shift;
         int same = -1;

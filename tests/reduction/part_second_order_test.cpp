@@ -203,7 +203,7 @@ TEST(PartSecondOrder, MirrorsCommute) {
   const Mat3 P = Vec3(1.0, 1.0, -1.0).asDiagonal();
   FeModel other = model;
   for (Vec3& p : other.positions) p = P * p;
-  for (Element& e : other.elements) {
+  for (FeElement& e : other.elements) {
     std::swap(e.nodes[1], e.nodes[2]);
     std::swap(e.nodes[4], e.nodes[6]);
     std::swap(e.nodes[8], e.nodes[9]);

@@ -43,7 +43,7 @@ FeModel rotor(bool straight) {
     model.positions.emplace_back(0.2 * k, straight ? 0.0 : 0.02 * k * k,
                                  straight ? 0.0 : 0.1 * std::sin(0.7 * k));
   for (int k = 0; k < n; ++k)
-    add_element(model, ElementType::beam2, {k, k + 1}).reference =
+    add_element(model, FeElementType::beam2, {k, k + 1}).reference =
         Vec3(0.1, straight ? 0.2 : 0.3 * k, 1.0);
   Mat3 J;
   J << 3, 0.2, 0.1, 0.2, 4, -0.3, 0.1, -0.3, 5;
@@ -81,7 +81,7 @@ class ExactPart {
                 const std::vector<MatX>& twist) const {
     double T = 0.0;
     const double h = 1e-4 / std::max(ydot.norm(), 1e-12) * y.norm();
-    for (const Element& e : model_.elements) {
+    for (const FeElement& e : model_.elements) {
       const ElementInput in = gather(model_, e);
       static const LineRule rule = gauss_jacobi(6, 0);
       const double L = (in.p[1] - in.p[0]).norm();
@@ -113,7 +113,7 @@ class ExactPart {
     return m;
   }
 
-  Motion station(const Element& e, const ElementInput& in, double s, const VecX& y,
+  Motion station(const FeElement& e, const ElementInput& in, double s, const VecX& y,
                  const std::vector<MatX>& twist) const {
     const double L = (in.p[1] - in.p[0]).norm();
     const Mat3 A = beam_axes(in);
@@ -276,7 +276,7 @@ TEST(PartTurning, ProjectionDataHoldTheSame) {
   // A beam between arms of two nodes: its sections are fixed to both.
   add_spider(model, 2, {model.nodes()});
   model.positions.push_back(model.positions[2] + Vec3(0.0, -0.1, 0.12));
-  Element beside = model.elements[0];
+  FeElement beside = model.elements[0];
   beside.nodes = {5, model.nodes() - 1};
   model.elements.push_back(beside);
   const FlexibleBody body = reduce_part(model, all_nodes(model, 6)).body;

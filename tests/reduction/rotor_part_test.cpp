@@ -27,7 +27,7 @@ FeModel overhung(bool with_shear, MassForm form) {
   if (with_shear) s.shear_y = s.shear_z = 0.9 * s.A;
   for (int k = 0; k <= shaft_elements; ++k) model.positions.emplace_back(0.1 * k, 0.0, 0.0);
   for (int k = 0; k < shaft_elements; ++k)
-    add_element(model, ElementType::beam2, {k, k + 1}).mass_form = form;
+    add_element(model, FeElementType::beam2, {k, k + 1}).mass_form = form;
   model.masses.push_back({3, 20.0, disc(0.3, 0.16)});
   add_spider(model, shaft_elements, {model.nodes()});
   model.positions.emplace_back(0.67, 0.0, 0.0);
@@ -72,7 +72,7 @@ void add_gyroscopic(double polar, const MatX& theta, MatX& G) {
 MatX gyroscopic(const FeModel& model, const FeSystem& system) {
   MatX G = MatX::Zero(system.size(), system.size());
   std::vector<MassStation> stations;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementInput in = gather(model, e);
     if (e.mass_form == MassForm::lumped) {
       const BeamSection& s = in.section;

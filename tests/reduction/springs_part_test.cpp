@@ -21,7 +21,7 @@ void add_row(FeModel& model, double x, int cubes, double size) {
       model.positions.emplace_back(x + size * i, size * (j == 1 || j == 2), size * (j / 2));
   for (int i = 0; i < cubes; ++i) {
     const int a = first + 4 * i, b = a + 4;
-    add_element(model, ElementType::hex8i, {a, b, b + 1, a + 1, a + 3, b + 3, b + 2, a + 2});
+    add_element(model, FeElementType::hex8i, {a, b, b + 1, a + 1, a + 3, b + 3, b + 2, a + 2});
   }
 }
 

@@ -19,7 +19,7 @@ StressedPart front_arm() {
   FeModel model = read_fe_file(FLOATFRAME_EXAMPLES "/iltis_solid/front_arm.msh.gz");
   to_si(model, *find_unit_system("mm-t-s"));
   model.materials = {{.young = 2e11, .poisson = 0.3, .density = 7850.0}};
-  for (Element& e : model.elements) e.material = 0;
+  for (FeElement& e : model.elements) e.material = 0;
   PartOptions options;
   options.interfaces = {bore("HINGE", Vec3::Zero()), bore("BALL", Vec3(0, 0.313, -0.073)),
                         bore("SHOCK", Vec3(0.075, 0.241, -0.061))};

@@ -9,8 +9,9 @@
 
 namespace floatframe::test {
 
-inline Element& add_element(FeModel& model, ElementType type, const std::array<int, 20>& nodes) {
-  Element& e = model.elements.emplace_back();
+inline FeElement& add_element(FeModel& model, FeElementType type,
+                              const std::array<int, 20>& nodes) {
+  FeElement& e = model.elements.emplace_back();
   e.type = type;
   e.nodes = nodes;
   return e;

@@ -22,7 +22,7 @@ inline FeModel steel_part(const std::string& file, const std::string& units) {
   FeModel model = read_fe_file(fe_data(file));
   to_si(model, *find_unit_system(units));
   model.materials = {steel};
-  for (Element& e : model.elements) e.material = 0;
+  for (FeElement& e : model.elements) e.material = 0;
   return model;
 }
 
@@ -83,7 +83,7 @@ inline FeModel brick_beam(int nx, int ny, int nz, double length, double width) {
     for (int j = 0; j < ny; ++j)
       for (int k = 0; k < nz; ++k) {
         add_element(
-            model, ElementType::hex8,
+            model, FeElementType::hex8,
             {at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1),
              at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)});
       }

@@ -13,8 +13,8 @@ struct MidsideSheet {
 
 /// n x m cells as quad8 or as pairs of tri6.
 template <class Map>
-MidsideSheet midside_sheet(ElementType type, int n, int m, const Map& map, const Material& material,
-                           double thickness) {
+MidsideSheet midside_sheet(FeElementType type, int n, int m, const Map& map,
+                           const Material& material, double thickness) {
   MidsideSheet s;
   s.model.materials = {material};
   s.model.shells = {{thickness}};
@@ -27,7 +27,7 @@ MidsideSheet midside_sheet(ElementType type, int n, int m, const Map& map, const
     for (int i = 0; i < 2 * n; i += 2) {
       const int a = at(i, j), b = at(i + 2, j), c = at(i + 2, j + 2), d = at(i, j + 2);
       const int ab = at(i + 1, j), bc = at(i + 2, j + 1), cd = at(i + 1, j + 2), da = at(i, j + 1);
-      if (type == ElementType::quad8) {
+      if (type == FeElementType::quad8) {
         add_element(s.model, type, {a, b, c, d, ab, bc, cd, da});
       } else {
         const int ac = at(i + 1, j + 1);

@@ -30,8 +30,8 @@ inline FeModel hex20_of(FeModel model) {
   constexpr int edge[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   Middles middle(model);
-  for (Element& e : model.elements) {
-    e.type = ElementType::hex20;
+  for (FeElement& e : model.elements) {
+    e.type = FeElementType::hex20;
     for (int k = 0; k < 12; ++k) e.nodes[8 + k] = middle(e.nodes[edge[k][0]], e.nodes[edge[k][1]]);
   }
   return model;
@@ -41,13 +41,13 @@ inline FeModel hex20_of(FeModel model) {
 inline FeModel tets_of(FeModel model, bool quadratic) {
   constexpr int path[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
   constexpr int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
-  const std::vector<Element> bricks = std::move(model.elements);
+  const std::vector<FeElement> bricks = std::move(model.elements);
   model.elements.clear();
   Middles middle(model);
-  for (const Element& brick : bricks)
+  for (const FeElement& brick : bricks)
     for (const auto& [b, c] : path) {
-      Element e = brick;
-      e.type = quadratic ? ElementType::tet10 : ElementType::tet4;
+      FeElement e = brick;
+      e.type = quadratic ? FeElementType::tet10 : FeElementType::tet4;
       e.nodes = {brick.nodes[0], brick.nodes[b], brick.nodes[c], brick.nodes[6]};
       for (int k = 0; k < 6 && quadratic; ++k)
         e.nodes[4 + k] = middle(e.nodes[edge[k][0]], e.nodes[edge[k][1]]);

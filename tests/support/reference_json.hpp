@@ -72,13 +72,13 @@ inline FeModel to_model(const Json& j) {
   model.node_names.resize(model.positions.size());
   model.materials.push_back({j["E"], j["nu"], j["rho"]});
   for (const Json& e : j["elements"]) {
-    Element element;
+    FeElement element;
     const std::string type = e["type"];
-    element.type = type == "tet4"   ? ElementType::tet4
-                   : type == "hex8" ? ElementType::hex8
-                                    : ElementType::beam2;
+    element.type = type == "tet4"   ? FeElementType::tet4
+                   : type == "hex8" ? FeElementType::hex8
+                                    : FeElementType::beam2;
     for (std::size_t k = 0; k < e["nodes"].size(); ++k) element.nodes[k] = e["nodes"][k];
-    if (element.type == ElementType::beam2) {
+    if (element.type == FeElementType::beam2) {
       element.section = static_cast<int>(model.sections.size());
       element.reference = to_vec3(e["vref"]);
       model.sections.push_back({e["A"], e["Iy"], e["Iz"], e["J"]});

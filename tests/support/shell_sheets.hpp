@@ -38,7 +38,7 @@ inline VecX solve(const FeModel& model, const std::vector<Held>& held, const Vec
 
 /// n x m cells of a mapped square, as quad4 or as pairs of tri3. Node i + (n + 1) j.
 template <class Map>
-FeModel sheet(ElementType type, int n, int m, const Map& map, const Material& material,
+FeModel sheet(FeElementType type, int n, int m, const Map& map, const Material& material,
               double thickness) {
   FeModel model;
   model.materials = {material};
@@ -51,7 +51,7 @@ FeModel sheet(ElementType type, int n, int m, const Map& map, const Material& ma
   for (int j = 0; j < m; ++j) {
     for (int i = 0; i < n; ++i) {
       const int a = i + (n + 1) * j, b = a + 1, d = a + n + 1, c = d + 1;
-      if (type == ElementType::quad4) {
+      if (type == FeElementType::quad4) {
         add_element(model, type, {a, b, c, d});
       } else {
         add_element(model, type, {a, b, c});

@@ -21,8 +21,8 @@ inline constexpr EngineeringConstants fibres{.E1 = 1.4e11,
                                              .G23 = 3e9};
 inline constexpr double fibres_density = 1600.0;
 
-inline bool is_wedge(ElementType type) {
-  return type == ElementType::wedge6 || type == ElementType::wedge15;
+inline bool is_wedge(FeElementType type) {
+  return type == FeElementType::wedge6 || type == FeElementType::wedge15;
 }
 
 /// Nodes on edges in their middles; the corners of bricks, wedges and tetrahedra come first.
@@ -35,7 +35,7 @@ void set_middles(const ElementKernel& kernel, Places& p) {
 }
 
 /// Natural coordinates of the corners.
-inline std::vector<Vec3> natural_corners(ElementType type) {
+inline std::vector<Vec3> natural_corners(FeElementType type) {
   const Vec3 brick[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                          {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   const Vec3 wedge[6] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
@@ -47,7 +47,7 @@ inline std::vector<Vec3> natural_corners(ElementType type) {
 }
 
 /// Natural coordinates of the nodes.
-inline std::vector<Vec3> natural_nodes(ElementType type) {
+inline std::vector<Vec3> natural_nodes(FeElementType type) {
   std::vector<Vec3> out = natural_corners(type);
   out.resize(element_kernel(type).nodes, Vec3::Zero());
   set_middles(element_kernel(type), out);

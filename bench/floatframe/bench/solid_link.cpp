@@ -21,8 +21,8 @@ FeModel solid_link(int across, int along) {
   for (int i = 0; i < along; ++i) {
     for (int j = 0; j < across; ++j) {
       for (int k = 0; k < across; ++k) {
-        Element brick;
-        brick.type = ElementType::hex8;
+        FeElement brick;
+        brick.type = FeElementType::hex8;
         brick.nodes = {node(i, j, k),
                        node(i + 1, j, k),
                        node(i + 1, j + 1, k),
@@ -42,8 +42,8 @@ FeModel solid_link(int across, int along) {
     model.node_names.emplace_back(face == 0 ? "start" : "end");
     for (int j = 0; j < n; ++j) {
       for (int k = 0; k < n; ++k) {
-        Element ray;
-        ray.type = ElementType::beam2;
+        FeElement ray;
+        ray.type = FeElementType::beam2;
         ray.nodes = {centre, node(face, j, k)};
         ray.material = 1;
         ray.reference = Vec3::UnitX();

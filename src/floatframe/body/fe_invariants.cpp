@@ -82,7 +82,7 @@ int rows_per_node(const FeModel& model, const MatX& X) {
                                                std::to_string(6 * n));
 }
 
-void add_isoparametric(const FeModel& model, const Element& element, const MatX& X, int rows,
+void add_isoparametric(const FeModel& model, const FeElement& element, const MatX& X, int rows,
                        MatX& mass, MatX& Z, Gram& gram) {
   const ElementKernel& kernel = element_kernel(element.type);
   scalar_mass_matrix(kernel, gather(model, element), mass);
@@ -120,7 +120,7 @@ std::array<GaussPoint, gauss_points> gauss() {
   return points;
 }
 
-void add_hermite_beam(const FeModel& model, const Element& element, const MatX& X,
+void add_hermite_beam(const FeModel& model, const FeElement& element, const MatX& X,
                       bool section_inertia, VecX& z, Gram& gram) {
   static const std::array<GaussPoint, gauss_points> points = gauss();
   const ElementInput in = gather(model, element);
@@ -174,7 +174,7 @@ InertiaInvariants invariants_isoparametric(const FeModel& model, const MatX& X) 
   const int rows = rows_per_node(model, X);
   Gram gram(nm);
   MatX mass, Z;
-  for (const Element& element : model.elements) {
+  for (const FeElement& element : model.elements) {
     add_isoparametric(model, element, X, rows, mass, Z, gram);
   }
   VecX z(gram.width());
@@ -196,8 +196,8 @@ InertiaInvariants invariants_hermite(const FeModel& model, const MatX& X, bool s
   Gram gram(nm);
   MatX mass, Z;
   VecX z(gram.width());
-  for (const Element& element : model.elements) {
-    if (element.type == ElementType::beam2) {
+  for (const FeElement& element : model.elements) {
+    if (element.type == FeElementType::beam2) {
       add_hermite_beam(model, element, X, section_inertia, z, gram);
     } else {
       add_isoparametric(model, element, X, rows, mass, Z, gram);

@@ -78,7 +78,7 @@ int StressRecovery::number_of(int node) const {
   return model_.node_ids.empty() ? node + 1 : model_.node_ids[node];
 }
 
-int StressRecovery::group_of(const Element& element, int ply) {
+int StressRecovery::group_of(const FeElement& element, int ply) {
   const ElementFamily family = element_kernel(element.type).family;
   const int material =
       ply < 0 ? element.material : model_.layups[element.layup].plies[ply].material;
@@ -98,7 +98,7 @@ int StressRecovery::group_of(const Element& element, int ply) {
 }
 
 void StressRecovery::add_solid(int e, const std::vector<int>& point_of) {
-  const Element& element = model_.elements[e];
+  const FeElement& element = model_.elements[e];
   const ElementKernel& kernel = element_kernel(element.type);
   ElementInput in;  // of an element of plies
   int group = -1;
@@ -130,7 +130,7 @@ void StressRecovery::add_solid(int e, const std::vector<int>& point_of) {
 }
 
 void StressRecovery::add_shell(int e, const std::vector<int>& point_of) {
-  const Element& element = model_.elements[e];
+  const FeElement& element = model_.elements[e];
   const int nodes = element_kernel(element.type).nodes;
   const int group = group_of(element);
   const Vec3 normal = shell_normal(gather(model_, element), nodes);
@@ -166,7 +166,7 @@ void StressRecovery::add_shell(int e, const std::vector<int>& point_of) {
 }
 
 void StressRecovery::add_beam(int e) {
-  const Element& element = model_.elements[e];
+  const FeElement& element = model_.elements[e];
   const int nodes = element_kernel(element.type).nodes;
   const int group = group_of(element);
   const ElementInput in = gather(model_, element);
@@ -190,7 +190,7 @@ void StressRecovery::add_beam(int e) {
 }
 
 void StressRecovery::recover_surface(int e, const StressFields& fields, MatX& sum) const {
-  const Element& element = model_.elements[e];
+  const FeElement& element = model_.elements[e];
   const ElementKernel& kernel = element_kernel(element.type);
   const ElementInput in = gather(model_, element);
   MatX B, q;
@@ -217,7 +217,7 @@ void StressRecovery::recover_surface(int e, const StressFields& fields, MatX& su
 }
 
 void StressRecovery::recover_beam(int e, const StressFields& fields, Recovered& out) const {
-  const Element& element = model_.elements[e];
+  const FeElement& element = model_.elements[e];
   const ElementKernel& kernel = element_kernel(element.type);
   const ElementInput in = gather(model_, element);
   MatX K, M, q, a;

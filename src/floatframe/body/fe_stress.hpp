@@ -47,7 +47,7 @@ class StressRecovery {
   };
   int number_of(int node) const;
   /// `ply`: of a solid's layup; -1: it has none.
-  int group_of(const Element& element, int ply = -1);
+  int group_of(const FeElement& element, int ply = -1);
   void add_shell(int e, const std::vector<int>& point_of);
   void add_solid(int e, const std::vector<int>& point_of);
   void add_beam(int e);

@@ -8,7 +8,7 @@
 
 namespace floatframe {
 
-inline std::span<const int> nodes_of_element(const Element& e) {
+inline std::span<const int> nodes_of_element(const FeElement& e) {
   return {e.nodes.data(), static_cast<std::size_t>(element_nodes(e.type))};
 }
 
@@ -16,7 +16,7 @@ inline std::span<const int> nodes_of_element(const Element& e) {
 template <class Condition>
 std::vector<char> nodes_of_elements(const FeModel& model, Condition is_of_kind) {
   std::vector<char> out(model.positions.size(), 0);
-  for (const Element& e : model.elements)
+  for (const FeElement& e : model.elements)
     if (is_of_kind(e))
       for (const int node : nodes_of_element(e)) out[node] = 1;
   return out;

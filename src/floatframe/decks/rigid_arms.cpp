@@ -52,7 +52,7 @@ Spider& add_rigid_spider(FeModel& model, int reference, std::string name, const 
 
 std::vector<char> nodes_with_rotations(const FeModel& model) {
   std::vector<char> rotates(model.positions.size(), 0);
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int k = 0; k < kernel.nodes; ++k)
       if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
@@ -84,7 +84,7 @@ std::vector<BeamOnNodes> RigidArms::beams(const FeModel& model) const {
   std::iota(at.begin(), at.end(), 0);
   for (const Arm& a : arms_) at[a.end] = a.node;
   std::vector<BeamOnNodes> out;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     if (!is_beam(e.type)) continue;
     BeamOnNodes beam;
     const BeamSection& section = model.sections[e.section];

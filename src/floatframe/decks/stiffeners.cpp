@@ -16,7 +16,7 @@ namespace {
 /// resists the turn about the normal of the others.
 constexpr double smooth = 0.93969262;  // 20 degrees
 
-bool has_node(const Element& e, int node) {
+bool has_node(const FeElement& e, int node) {
   const std::span<const int> nodes = nodes_of_element(e);
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
@@ -98,7 +98,7 @@ void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> be
     if (nodes.shells(k).empty() || !nodes.is_one(k)) continue;
     ++count;
     for (const int shell : nodes.shells(k)) {
-      Element& e = model.elements[shell];
+      FeElement& e = model.elements[shell];
       const std::span<const int> of_shell = nodes_of_element(e);
       for (std::size_t a = 0; a < of_shell.size(); ++a)
         if (of_shell[a] == k) e.own_drilling |= 1u << a;

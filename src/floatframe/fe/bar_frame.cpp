@@ -118,8 +118,8 @@ class FrameBuilder {
     for (int k = 1; k <= bar.elements; ++k) {
       const double s = static_cast<double>(k) / bar.elements;
       nodes.push_back(k == bar.elements ? end_node(bar, bar.to) : new_node(a + s * (b - a), ""));
-      Element element;
-      element.type = ElementType::beam2;
+      FeElement element;
+      element.type = FeElementType::beam2;
       element.nodes[0] = nodes[k - 1];
       element.nodes[1] = nodes[k];
       element.section = section;

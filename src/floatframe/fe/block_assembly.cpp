@@ -21,7 +21,7 @@ class NodeGroups {
   std::size_t size() const { return model_.elements.size() + blocks_.size(); }
   std::span<const int> operator[](std::size_t group) const {
     if (group >= model_.elements.size()) return blocks_[group - model_.elements.size()];
-    const Element& e = model_.elements[group];
+    const FeElement& e = model_.elements[group];
     return {e.nodes.data(), static_cast<std::size_t>(element_kernel(e.type).nodes)};
   }
 

@@ -56,7 +56,7 @@ NodalShapes linear_loads(const FeModel& model, ElementMass mass, Integration int
   out.U = MatX::Zero(3 * model.nodes(), linear_load_cases);
   out.Theta = MatX::Zero(3 * model.nodes(), linear_load_cases);
   MatX M, fields;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     const ElementInput input = gather(model, e, integration);
     const int d = kernel.dofs_per_node;

@@ -315,7 +315,7 @@ std::vector<int> dofs_without_springs(const FeModel& model) {
   };
   if (model.matrices)
     for (const Dof& d : model.matrices->dofs) need(d.node, d.axis < 3 ? 3 : 6);
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int a = 0; a < kernel.nodes; ++a) need(e.nodes[a], kernel.dofs_per_node);
   }

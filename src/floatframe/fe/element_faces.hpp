@@ -7,9 +7,9 @@
 
 namespace floatframe {
 
-std::span<const FaceNodes> element_faces(ElementType type) noexcept;
+std::span<const FaceNodes> element_faces(FeElementType type) noexcept;
 
 /// Nodes of an element: 2 for beam2, ... 20 for hex20.
-int element_nodes(ElementType type) noexcept;
+int element_nodes(FeElementType type) noexcept;
 
 }  // namespace floatframe

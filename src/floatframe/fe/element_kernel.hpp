@@ -91,24 +91,28 @@ struct ElementKernel {
   ElementShape shape = {};
 };
 
-const ElementKernel& element_kernel(ElementType type) noexcept;
+const ElementKernel& element_kernel(FeElementType type) noexcept;
 
-inline ElementFamily family_of(ElementType type) noexcept { return element_kernel(type).family; }
-inline bool is_beam(ElementType type) noexcept { return family_of(type) == ElementFamily::beam; }
-inline bool is_rod(ElementType type) noexcept { return family_of(type) == ElementFamily::rod; }
-inline bool is_shell(ElementType type) noexcept { return family_of(type) == ElementFamily::shell; }
-inline bool is_panel(ElementType type) noexcept { return family_of(type) == ElementFamily::panel; }
-inline bool is_membrane(ElementType type) noexcept {
+inline ElementFamily family_of(FeElementType type) noexcept { return element_kernel(type).family; }
+inline bool is_beam(FeElementType type) noexcept { return family_of(type) == ElementFamily::beam; }
+inline bool is_rod(FeElementType type) noexcept { return family_of(type) == ElementFamily::rod; }
+inline bool is_shell(FeElementType type) noexcept {
+  return family_of(type) == ElementFamily::shell;
+}
+inline bool is_panel(FeElementType type) noexcept {
+  return family_of(type) == ElementFamily::panel;
+}
+inline bool is_membrane(FeElementType type) noexcept {
   return family_of(type) == ElementFamily::membrane;
 }
 /// The section is in FeModel::shells.
-inline bool has_shell_section(ElementType type) noexcept {
+inline bool has_shell_section(FeElementType type) noexcept {
   return is_shell(type) || is_panel(type) || is_membrane(type);
 }
 /// For a shell or membrane.
 ShellLayers layers_of(const ElementInput& in);
 
-ElementInput gather(const FeModel& model, const Element& element,
+ElementInput gather(const FeModel& model, const FeElement& element,
                     Integration integration = Integration::exact);
 
 /// Local axes of a beam: columns x (from node 1 to node 2), y (in the plane of x and the
@@ -139,7 +143,7 @@ void mass_of_translations(const ElementInput& in, bool, MatX& out) {
 Mat6 elasticity_at(const ElementInput& in, const Vec3& p);
 
 #define FLOATFRAME_KERNEL(name) extern const ElementKernel name##_kernel;
-FLOATFRAME_ELEMENTS(FLOATFRAME_KERNEL)
+FLOATFRAME_FE_ELEMENTS(FLOATFRAME_KERNEL)
 #undef FLOATFRAME_KERNEL
 
 }  // namespace floatframe

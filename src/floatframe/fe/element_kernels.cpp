@@ -7,22 +7,22 @@ namespace floatframe {
 namespace {
 
 #define FLOATFRAME_KERNEL(name) &name##_kernel,
-constexpr const ElementKernel* kernel_list[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_KERNEL)};
+constexpr const ElementKernel* kernel_list[] = {FLOATFRAME_FE_ELEMENTS(FLOATFRAME_KERNEL)};
 #undef FLOATFRAME_KERNEL
 
 }  // namespace
 
-const ElementKernel& element_kernel(ElementType type) noexcept {
+const ElementKernel& element_kernel(FeElementType type) noexcept {
   return *kernel_list[index_of(type)];
 }
 
-std::span<const FaceNodes> element_faces(ElementType type) noexcept {
+std::span<const FaceNodes> element_faces(FeElementType type) noexcept {
   return element_kernel(type).shape.faces;
 }
 
-int element_nodes(ElementType type) noexcept { return element_kernel(type).nodes; }
+int element_nodes(FeElementType type) noexcept { return element_kernel(type).nodes; }
 
-ElementInput gather(const FeModel& model, const Element& element, Integration integration) {
+ElementInput gather(const FeModel& model, const FeElement& element, Integration integration) {
   ElementInput input;
   input.integration = integration;
   const ElementKernel& kernel = element_kernel(element.type);

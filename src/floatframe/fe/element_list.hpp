@@ -1,5 +1,5 @@
 #pragma once
-// All finite elements. One entry is the enumerator of ElementType, the word of messages and the
+// All finite elements. One entry is the enumerator of FeElementType, the word of messages and the
 // name of the ElementKernel `<name>_kernel` in a source file of fe/elements. Other code iterates
 // over this list.
 //
@@ -7,7 +7,7 @@
 #include "floatframe/core/enum_index.hpp"
 
 // clang-format off
-#define FLOATFRAME_ELEMENTS(entry)                                                          \
+#define FLOATFRAME_FE_ELEMENTS(entry)                                                          \
   entry(beam2)    /* 2-node beam, exact for loads at its ends; with shear if its section has */ \
   entry(beam3)    /* 3-node Timoshenko beam: end, middle, end */                            \
   entry(rod2)     /* 2-node rod: axial force only */                                        \
@@ -38,19 +38,19 @@
 namespace floatframe {
 
 #define FLOATFRAME_ENUMERATOR(name) name,
-enum class ElementType { FLOATFRAME_ELEMENTS(FLOATFRAME_ENUMERATOR) };
+enum class FeElementType { FLOATFRAME_FE_ELEMENTS(FLOATFRAME_ENUMERATOR) };
 #undef FLOATFRAME_ENUMERATOR
 
-#define FLOATFRAME_ENUMERATOR(name) ElementType::name,
-inline constexpr ElementType element_types[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_ENUMERATOR)};
+#define FLOATFRAME_ENUMERATOR(name) FeElementType::name,
+inline constexpr FeElementType fe_element_types[] = {FLOATFRAME_FE_ELEMENTS(FLOATFRAME_ENUMERATOR)};
 #undef FLOATFRAME_ENUMERATOR
 
 #define FLOATFRAME_WORD(name) #name,
-inline constexpr const char* element_words[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_WORD)};
+inline constexpr const char* fe_element_words[] = {FLOATFRAME_FE_ELEMENTS(FLOATFRAME_WORD)};
 #undef FLOATFRAME_WORD
 
-constexpr const char* element_type_name(ElementType type) noexcept {
-  return element_words[index_of(type)];
+constexpr const char* fe_element_name(FeElementType type) noexcept {
+  return fe_element_words[index_of(type)];
 }
 
 }  // namespace floatframe

@@ -47,7 +47,7 @@ int FeModel::places() const noexcept {
 
 bool FeModel::has_beams() const noexcept {
   return std::any_of(elements.begin(), elements.end(),
-                     [](const Element& e) { return element_kernel(e.type).dofs_per_node == 6; });
+                     [](const FeElement& e) { return element_kernel(e.type).dofs_per_node == 6; });
 }
 
 int FeModel::find_node(const std::string& name) const noexcept {
@@ -62,9 +62,9 @@ std::string FeModel::node_label(int node) const {
 }
 
 std::string FeModel::element_label(int element) const {
-  const Element& e = elements[element];
+  const FeElement& e = elements[element];
   if (!e.name.empty()) return e.name;
-  return "element " + std::to_string(e.id > 0 ? e.id : element) + " (" + element_type_name(e.type) +
+  return "element " + std::to_string(e.id > 0 ? e.id : element) + " (" + fe_element_name(e.type) +
          ")";
 }
 
@@ -82,7 +82,7 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-void scatter(const Element& element, const ElementKernel& kernel, int dofs_per_node,
+void scatter(const FeElement& element, const ElementKernel& kernel, int dofs_per_node,
              const MatX& matrix, Triplets& triplets) {
   const int d = kernel.dofs_per_node;
   const auto row = [&](int i) { return element.nodes[i / d] * dofs_per_node + i % d; };
@@ -99,7 +99,7 @@ SparseMatrix assemble_stiffness(const FeModel& model) {
   const int d = model.dofs_per_node();
   Triplets triplets;
   MatX matrix;
-  for (const Element& element : model.elements) {
+  for (const FeElement& element : model.elements) {
     const ElementKernel& kernel = element_kernel(element.type);
     kernel.stiffness(gather(model, element), matrix);
     scatter(element, kernel, d, matrix, triplets);
@@ -121,7 +121,7 @@ SparseMatrix assemble_stiffness(const FeModel& model) {
 SparseMatrix assemble_mass(const FeModel& model, bool section_inertia, int d) {
   Triplets triplets;
   MatX matrix;
-  for (const Element& element : model.elements) {
+  for (const FeElement& element : model.elements) {
     const ElementKernel& kernel = element_kernel(element.type);
     mass_matrix(kernel, gather(model, element), section_inertia, matrix);
     scatter(element, kernel, d, matrix, triplets);
@@ -143,7 +143,7 @@ SparseMatrix assemble_mass(const FeModel& model, bool section_inertia, int d) {
 SparseRows assemble_scalar_mass(const FeModel& model) {
   Triplets triplets;
   MatX matrix;
-  for (const Element& element : model.elements) {
+  for (const FeElement& element : model.elements) {
     const ElementKernel& kernel = element_kernel(element.type);
     scalar_mass_matrix(kernel, gather(model, element), matrix);
     for (int i = 0; i < kernel.nodes; ++i) {

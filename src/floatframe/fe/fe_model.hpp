@@ -89,8 +89,8 @@ struct BeamSection {
   static BeamSection rectangle(double width, double height);
 };
 
-struct Element {
-  ElementType type = ElementType::beam2;
+struct FeElement {
+  FeElementType type = FeElementType::beam2;
   std::array<int, 20> nodes{};  ///< only the first ones are used, depending on the type
   int material = 0;
   int section = 0;  ///< beams, rods: in FeModel::sections; shells: in FeModel::shells
@@ -231,7 +231,7 @@ struct FeModel {
   std::vector<ShellSection> shells;
   std::vector<Layup> layups;
   std::vector<Orientation> orientations;
-  std::vector<Element> elements;
+  std::vector<FeElement> elements;
   std::vector<PointMass> masses;
   std::vector<Spring> springs;
 

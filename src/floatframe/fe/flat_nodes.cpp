@@ -26,7 +26,7 @@ std::string flat_nodes(const FeModel& model) {
   const auto hold = [&](int node) {
     if (node >= 0) held[node].setIdentity();
   };
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     const bool surface = is_membrane(e.type) || is_panel(e.type);
     if (!surface && !is_rod(e.type)) {

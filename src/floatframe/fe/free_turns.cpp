@@ -60,7 +60,7 @@ class TurningGroups {
   }
 
   void join_nodes() {
-    for (const Element& e : model_.elements)
+    for (const FeElement& e : model_.elements)
       if (is_beam(e.type))
         for (int a = 1; a < element_nodes(e.type); ++a) joined_.join(e.nodes[a], e.nodes[0]);
     for (const Spider& s : model_.spiders) {
@@ -72,7 +72,7 @@ class TurningGroups {
 
   void gather_elements() {
     for (std::size_t i = 0; i < model_.elements.size(); ++i) {
-      const Element& e = model_.elements[i];
+      const FeElement& e = model_.elements[i];
       const bool beam = is_beam(e.type), shell = !beam && element_kernel(e.type).dofs_per_node == 6;
       for (int a = 0; a < element_nodes(e.type); ++a) {
         add_point(e.nodes[a]);
@@ -157,7 +157,7 @@ Eigen::SelfAdjointEigenSolver<Mat3> spread(const FeModel& model, const std::vect
 std::vector<std::vector<int>> elements_at(const FeModel& model) {
   std::vector<std::vector<int>> out(model.positions.size());
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
-    const Element& e = model.elements[i];
+    const FeElement& e = model.elements[i];
     if (element_kernel(e.type).dofs_per_node != 3) continue;
     for (int a = 0; a < element_nodes(e.type); ++a) out[e.nodes[a]].push_back(static_cast<int>(i));
   }
@@ -180,7 +180,7 @@ bool find_holder(const FeModel& model, const std::vector<std::vector<int>>& elem
   for (const int node : group.points) {
     std::vector<int> around;
     for (const int e : elements[node]) {
-      const Element& element = model.elements[e];
+      const FeElement& element = model.elements[e];
       for (int a = 0; a < element_nodes(element.type); ++a)
         if (!carried(element.nodes[a])) around.push_back(element.nodes[a]);
     }
@@ -263,7 +263,7 @@ std::vector<FreeTurn> line_turns(const FeModel& model) {
     std::vector<int> line = s.nodes;
     ascending_once(line);
     const auto on_line = [&](int k) { return std::binary_search(line.begin(), line.end(), k); };
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       const auto *first = e.nodes.data(), *last = first + element_nodes(e.type);
       if (std::any_of(first, last, on_line)) turn.around.insert(turn.around.end(), first, last);
     }

@@ -39,7 +39,7 @@ SparseMatrix mass_of(const FeModel& model, const DofTable& table, Integration in
                      Skip&& skip) {
   BlockAssembly assembly(model, table);
   MatX matrix;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     if (skip(e)) continue;
     const ElementKernel& kernel = element_kernel(e.type);
     const ElementInput input = gather(model, e, integration);
@@ -63,7 +63,7 @@ SparseMatrix full_stiffness(const FeModel& model, const DofTable& table, Integra
   const std::vector<SpringBlock> springs = spring_system(model, table).blocks;
   BlockAssembly assembly(model, table, springs);
   MatX matrix;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     kernel.stiffness(gather(model, e, integration), matrix);
     assembly.add(e.nodes.data(), kernel.nodes, kernel.dofs_per_node, matrix);
@@ -79,7 +79,7 @@ SparseMatrix full_stiffness(const FeModel& model, const DofTable& table, Integra
 }
 
 SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration integration) {
-  return mass_of(model, table, integration, [](const Element&) { return false; });
+  return mass_of(model, table, integration, [](const FeElement&) { return false; });
 }
 
 SparseMatrix mass_without_stations(const FeModel& model, const DofTable& table,
@@ -87,7 +87,7 @@ SparseMatrix mass_without_stations(const FeModel& model, const DofTable& table,
   return mass_of(model, table, integration, has_mass_stations);
 }
 
-bool has_mass_stations(const Element& element) noexcept {
+bool has_mass_stations(const FeElement& element) noexcept {
   return element.mass_form == MassForm::consistent &&
          element_kernel(element.type).mass_stations != nullptr;
 }

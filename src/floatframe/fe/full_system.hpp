@@ -12,6 +12,6 @@ SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration 
 SparseMatrix mass_without_stations(const FeModel& model, const DofTable& table,
                                    Integration integration);
 /// Is the element a sum of stations (ElementKernel::mass_stations)?
-bool has_mass_stations(const Element& element) noexcept;
+bool has_mass_stations(const FeElement& element) noexcept;
 
 }  // namespace floatframe

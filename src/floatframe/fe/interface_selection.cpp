@@ -53,14 +53,14 @@ std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
     }
   } else if (const auto* elements = find_set(model.element_sets, name)) {
     for (const int e : *elements) {
-      const Element& element = model.elements[e];
+      const FeElement& element = model.elements[e];
       const int count = element_kernel(element.type).nodes;
       nodes.insert(nodes.end(), element.nodes.begin(), element.nodes.begin() + count);
     }
     ascending(nodes);
   } else if (const auto* surface = find_set(model.surfaces, name)) {
     for (const ElementFace& f : *surface) {
-      const Element& element = model.elements[f.element];
+      const FeElement& element = model.elements[f.element];
       const FaceNodes& face = element_faces(element.type)[f.face];
       for (int i = 0; i < face.count; ++i) {
         const int a = face.nodes[i];
@@ -246,7 +246,7 @@ void name_node(FeModel& model, int node, const std::string& name) {
 /// Elements of a node without rotations; bars without a torsion constant are rods and springs.
 const char* elements_without_rotations(const FeModel& model, int node) {
   bool rods = false, solids = false, membranes = false;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     if (std::find(e.nodes.begin(), e.nodes.begin() + element_nodes(e.type), node) ==
         e.nodes.begin() + element_nodes(e.type))
       continue;

@@ -41,7 +41,7 @@ std::vector<Mat3> rotary(const ElementKernel& kernel, const ElementInput& in) {
 
 }  // namespace
 
-bool quadratic(ElementType type) noexcept { return has_mid_nodes(element_kernel(type)); }
+bool quadratic(FeElementType type) noexcept { return has_mid_nodes(element_kernel(type)); }
 
 void scalar_mass_matrix(const ElementKernel& kernel, const ElementInput& in, MatX& out) {
   if (in.mass_form == MassForm::consistent) return kernel.scalar_mass(in, out);

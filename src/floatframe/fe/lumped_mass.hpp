@@ -19,6 +19,6 @@ void mass_matrix(const ElementKernel& kernel, const ElementInput& in, bool secti
 void scalar_mass_matrix(const ElementKernel& kernel, const ElementInput& in, MatX& out);
 
 /// Does the element have nodes on its edges?
-bool quadratic(ElementType type) noexcept;
+bool quadratic(FeElementType type) noexcept;
 
 }  // namespace floatframe

@@ -23,7 +23,7 @@ struct Edge {
   int a, b, middle;  ///< local nodes; -1: no middle node
 };
 
-std::vector<Edge> edges_of(ElementType type) {
+std::vector<Edge> edges_of(FeElementType type) {
   std::vector<Edge> edges;
   for (const FaceNodes& f : element_faces(type)) {
     for (int i = 0; i < f.corners; ++i) {
@@ -38,22 +38,22 @@ std::vector<Edge> edges_of(ElementType type) {
   return edges;
 }
 
-const std::vector<Edge>& edges(ElementType type) {
+const std::vector<Edge>& edges(FeElementType type) {
   static const std::vector<std::vector<Edge>> all = [] {
     std::vector<std::vector<Edge>> made;
-    for (const ElementType t : element_types) made.push_back(edges_of(t));
+    for (const FeElementType t : fe_element_types) made.push_back(edges_of(t));
     return made;
   }();
   return all[index_of(type)];
 }
 
-Vec3 position_of(const FeModel& model, const Element& e, int local) {
+Vec3 position_of(const FeModel& model, const FeElement& e, int local) {
   const int node = e.nodes[local];
   return model.positions[node];
 }
 
 /// Direction of the edge from corner a to b at a.
-Vec3 tangent(const FeModel& model, const Element& e, int a, int b) {
+Vec3 tangent(const FeModel& model, const FeElement& e, int a, int b) {
   for (const Edge& edge : edges(e.type)) {
     if (!((edge.a == a && edge.b == b) || (edge.a == b && edge.b == a))) continue;
     if (edge.middle < 0) break;
@@ -82,7 +82,7 @@ void warn(const FeModel& model, std::vector<std::pair<double, int>> found, bool 
 double integral(const FeModel& model, bool density) {
   double sum = 0.0;
   MatX scalar;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     ElementInput in = gather(model, e);
     if (!density) {
       in.material.density = 1.0;
@@ -126,7 +126,7 @@ void warn_duplicates(const FeModel& model, std::vector<std::string>& out) {
 
 }  // namespace
 
-double corner_quality(const FeModel& model, const Element& e) {
+double corner_quality(const FeModel& model, const FeElement& e) {
   const auto& [faces, corners, regular] = element_kernel(e.type).shape;
   double worst = 1.0;
   for (std::size_t c = 0; c < corners.size(); ++c) {
@@ -140,7 +140,7 @@ double corner_quality(const FeModel& model, const Element& e) {
   return worst;
 }
 
-double aspect_ratio(const FeModel& model, const Element& e) {
+double aspect_ratio(const FeModel& model, const FeElement& e) {
   double shortest = INFINITY, longest = 0.0;
   for (const Edge& edge : edges(e.type)) {
     const double length = (position_of(model, e, edge.a) - position_of(model, e, edge.b)).norm();
@@ -183,7 +183,7 @@ std::vector<int> unreferenced_nodes(const FeModel& model) {
 std::vector<std::string> model_warnings(const FeModel& model) {
   std::vector<std::string> out = shape_warnings(model);
   std::vector<int> elements(model.materials.size(), 0);
-  for (const Element& e : model.elements) ++elements[e.material];
+  for (const FeElement& e : model.elements) ++elements[e.material];
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
     if (elements[i] == 0 || model.materials[i].density > 0.0) continue;
     const bool has_name = i < model.material_names.size() && !model.material_names[i].empty();

@@ -11,9 +11,9 @@ namespace floatframe {
 /// Quality of a solid's shape at its worst corner: the Jacobian over the lengths of the three edges
 /// there (their tangents), divided by its value in the regular element. 1: regular; 0: flat;
 /// negative: inverted there. Shells and beams: 1.
-double corner_quality(const FeModel& model, const Element& element);
+double corner_quality(const FeModel& model, const FeElement& element);
 /// Longest over shortest edge (straight); 1 for beams.
-double aspect_ratio(const FeModel& model, const Element& element);
+double aspect_ratio(const FeModel& model, const FeElement& element);
 
 /// Badly shaped elements with their numbers, worst first: corner quality below 0.01, aspect ratio
 /// above 20. At most one sentence of each kind, listing five elements.

@@ -67,7 +67,7 @@ struct PointMasses {
 /// accuracy at any size; a power of two, so that a part about 1 m large has arms of 1 m.
 double arm_length(const FeModel& model) {
   Eigen::AlignedBox3d box;
-  for (const Element& e : model.elements)
+  for (const FeElement& e : model.elements)
     for (int a = 0; a < element_kernel(e.type).nodes; ++a) box.extend(model.positions[e.nodes[a]]);
   if (box.isEmpty())
     for (const Vec3& p : model.positions) box.extend(p);
@@ -133,7 +133,7 @@ class Turning {
         leaders_(rigid_leaders(model, system)),
         rotation_(model.positions.size(), -1),
         strained_(model.positions.size(), 0) {
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       const ElementKernel& kernel = element_kernel(e.type);
       for (int a = 0; kernel.dofs_per_node == 3 && a < kernel.nodes; ++a) strained_[e.nodes[a]] = 1;
     }
@@ -149,7 +149,7 @@ class Turning {
     }
     return rotation;
   }
-  int rotation_of(const MassStation& station, const Element& e) {
+  int rotation_of(const MassStation& station, const FeElement& e) {
     const int rotation = new_rotation();
     for (Eigen::Index k = 0; k < station.shares.size(); ++k) {
       const int node = e.nodes[static_cast<std::size_t>(k)];
@@ -229,7 +229,7 @@ class PointBuilder {
     return static_cast<int>(positions_.size()) - 1;
   }
   void add_arms_of_nodes(const std::vector<int>& extra, const std::vector<char>& heavy);
-  void add_station(const MassStation& station, const Element& e);
+  void add_station(const MassStation& station, const FeElement& e);
 
   const FeModel& model_;
   const FeSystem& system_;
@@ -285,14 +285,14 @@ void PointBuilder::add_arms_of_nodes(const std::vector<int>& extra,
 
 void PointBuilder::add_stations(Integration integration) {
   std::vector<MassStation> stations;
-  for (const Element& e : model_.elements) {
+  for (const FeElement& e : model_.elements) {
     if (!has_mass_stations(e)) continue;
     element_kernel(e.type).mass_stations(gather(model_, e, integration), stations);
     for (const MassStation& station : stations) add_station(station, e);
   }
 }
 
-void PointBuilder::add_station(const MassStation& station, const Element& e) {
+void PointBuilder::add_station(const MassStation& station, const FeElement& e) {
   Vec3 p = Vec3::Zero();
   for (Eigen::Index k = 0; k < station.shares.size(); ++k)
     p += station.shares(k) * model_.positions[e.nodes[static_cast<std::size_t>(k)]];

@@ -19,7 +19,7 @@ template <class Use>
 void each_element(const FeModel& model, const MatX& U, const MatX& Theta, Integration integration,
                   Use&& use) {
   MatX Ke, q, f;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     const ElementInput in = gather(model, e, integration);
     kernel.stiffness(in, Ke);
@@ -91,7 +91,7 @@ void with_digits_hint(const FeModel& model, const std::function<void()>& factor)
     factor();
   } catch (const InputError& error) {
     const auto beams = std::count_if(model.elements.begin(), model.elements.end(),
-                                     [](const Element& e) { return is_beam(e.type); });
+                                     [](const FeElement& e) { return is_beam(e.type); });
     if (beams < many_beams) throw;
     std::vector<ErrorEntry> errors = error.errors();
     for (ErrorEntry& entry : errors)

@@ -7,8 +7,8 @@
 
 namespace floatframe {
 
-void element_displacements(const Element& e, const ElementKernel& kernel, const NodalShapes& shapes,
-                           MatX& q) {
+void element_displacements(const FeElement& e, const ElementKernel& kernel,
+                           const NodalShapes& shapes, MatX& q) {
   const int d = kernel.dofs_per_node;
   q.resize(d * kernel.nodes, shapes.U.cols());
   for (int k = 0; k < kernel.nodes; ++k) {
@@ -25,7 +25,7 @@ StressStiffness shares_of_stress_stiffness(const FeModel& model, const NodalShap
   std::optional<PairProducts> twist;  // taken only where there are beams
   MatX q, w, g, stress;
   std::vector<StressedPoint> points;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     kernel.stressed_points(gather(model, e, integration), points);
     element_displacements(e, kernel, modes, q);

@@ -21,8 +21,8 @@ struct NodalShapes {
 
 struct ElementKernel;
 /// Of the nodes of an element, one row per degree of freedom.
-void element_displacements(const Element& e, const ElementKernel& kernel, const NodalShapes& shapes,
-                           MatX& q);
+void element_displacements(const FeElement& e, const ElementKernel& kernel,
+                           const NodalShapes& shapes, MatX& q);
 
 /// One column per case: the lower half of X^T K_sigma X, row by row. Zero for models given by
 /// matrices, which have no elements.

@@ -16,7 +16,7 @@ struct Candidate {
   int element, face;
 };
 
-void divide(const Element& element, const FaceNodes& face, std::vector<Triangle>& out) {
+void divide(const FeElement& element, const FaceNodes& face, std::vector<Triangle>& out) {
   constexpr Triangle tri3[] = {{0, 1, 2}};
   constexpr Triangle tri6[] = {{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}};
   constexpr Triangle quad4[] = {{0, 1, 2}, {0, 2, 3}};
@@ -38,7 +38,7 @@ Surface outer_surface(const FeModel& model) {
   std::vector<Candidate> candidates;
   Surface surface;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const Element& element = model.elements[e];
+    const FeElement& element = model.elements[e];
     const std::span<const FaceNodes> faces = element_faces(element.type);
     if (is_beam(element.type) || is_rod(element.type)) {
       const int count = element_kernel(element.type).nodes;
@@ -72,7 +72,7 @@ Surface outer_surface(const FeModel& model) {
     return std::tie(a.element, a.face) < std::tie(b.element, b.face);
   });
   for (const Candidate& c : outer) {
-    const Element& element = model.elements[c.element];
+    const FeElement& element = model.elements[c.element];
     divide(element, element_faces(element.type)[c.face], surface.triangles);
   }
 

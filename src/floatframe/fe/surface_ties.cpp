@@ -153,7 +153,7 @@ std::vector<Face> gather_faces(const FeModel& model, const std::vector<ElementFa
   std::vector<Face> faces;
   faces.reserve(list.size());
   for (const ElementFace& item : list) {
-    const Element& element = model.elements[item.element];
+    const FeElement& element = model.elements[item.element];
     const FaceNodes& local = element_faces(element.type)[item.face];
     Face f{local.count, local.corners};
     for (int i = 0; i < f.count; ++i) f.nodes[i] = element.nodes[local.nodes[i]];
@@ -243,7 +243,7 @@ TiedNodes add_surface_tie(FeModel& model, const SurfaceTie& tie, std::vector<cha
     }
   }
   std::vector<char> turns(model.positions.size(), 0);  // nodes with rotations
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int i = 0; kernel.dofs_per_node == 6 && i < kernel.nodes; ++i) turns[e.nodes[i]] = 1;
   }

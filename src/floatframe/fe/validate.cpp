@@ -84,7 +84,7 @@ void check_layers(const FeModel& model, LimitedErrors& errors) {
 }
 
 /// Errors in the combination of an element with its material; empty if there is none.
-std::string material_misfit(const FeModel& model, const Element& element) {
+std::string material_misfit(const FeModel& model, const FeElement& element) {
   if (!in_range(element.orientation + 1, model.orientations.size() + 1))
     return fmt::format(": there is no orientation {}", element.orientation);
   const Material& material = model.materials[element.material];
@@ -107,7 +107,7 @@ std::string material_misfit(const FeModel& model, const Element& element) {
 /// The code below looks up kernels by the type.
 void check_types(const FeModel& model, LimitedErrors& errors) {
   for (int e = 0; e < static_cast<int>(model.elements.size()); ++e)
-    if (index_of(model.elements[e].type) >= std::size(element_types))
+    if (index_of(model.elements[e].type) >= std::size(fe_element_types))
       errors.add(ErrorCode::not_found, "elements", model.mark(model.elements[e].source),
                  "element {} has a type that is not in the list of elements", e + 1);
   errors.throw_if_any();
@@ -116,7 +116,7 @@ void check_types(const FeModel& model, LimitedErrors& errors) {
 void check_elements(const FeModel& model, LimitedErrors& errors) {
   const bool valid_so_far = errors.empty();
   for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
-    const Element& element = model.elements[e];
+    const FeElement& element = model.elements[e];
     const ElementKernel& kernel = element_kernel(element.type);
     const auto add = [&](ErrorCode code, const char* kind, const std::string& text) {
       errors.add(code, kind, model.mark(element.source), model.element_label(e) + text);
@@ -173,7 +173,7 @@ std::vector<char> nodes_with_rotations(const FeModel& model) {
   const auto mark = [&](int node) {
     if (in_range(node, with.size())) with[node] = 1;
   };
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int a = 0; a < kernel.nodes && kernel.dofs_per_node == 6; ++a) mark(e.nodes[a]);
   }

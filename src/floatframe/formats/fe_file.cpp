@@ -138,7 +138,7 @@ void choose(const FeReadOptions& options, FeModel& model) {
     for (ShellSection& s : model.shells)
       s.shear = options.shell_shear == ShellShear::all ? 5.0 / 6.0 * s.thickness : 0.0;
   if (options.mass_form != MassChoice::by_format)
-    for (Element& e : model.elements)
+    for (FeElement& e : model.elements)
       e.mass_form =
           options.mass_form == MassChoice::lumped ? MassForm::lumped : MassForm::consistent;
   if (options.grounded_springs == GroundedSprings::ignore)
@@ -166,7 +166,7 @@ void names_as_utf8(FeModel& model) {
   for (std::string& note : model.notes) note = utf8_text(note);
   for (Spider& spider : model.spiders) spider.name = utf8_text(spider.name);
   for (Spring& spring : model.springs) spring.name = utf8_text(spring.name);
-  for (Element& element : model.elements)
+  for (FeElement& element : model.elements)
     if (!element.name.empty()) element.name = utf8_text(element.name);
 }
 

@@ -31,7 +31,7 @@ SurfaceThickness::Corners SurfaceThickness::key(std::span<const int> corners) {
   return out;
 }
 
-void SurfaceThickness::add_solid(ElementType type, std::span<const int> nodes) {
+void SurfaceThickness::add_solid(FeElementType type, std::span<const int> nodes) {
   if (others_ < 0) return;
   for (const FaceNodes& face : element_faces(type)) {
     std::array<int, 4> corners{};

@@ -25,7 +25,7 @@ class SurfaceThickness {
   int others() const noexcept { return others_; }
 
   /// To be called for all solids before the surfaces.
-  void add_solid(ElementType type, std::span<const int> nodes);
+  void add_solid(FeElementType type, std::span<const int> nodes);
 
   struct Choice {
     int section = -1;   ///< -1: a skin

@@ -172,7 +172,7 @@ void set_section(const SectionDescription& section, BodyShape::Bar& bar) {
 /// elements, whose nodes are those of the body.
 BodyShape bar_shape(const FrameDescription& frame, const FeModel& model) {
   BodyShape out;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     BodyShape::Bar bar;
     bar.from = e.nodes[0];
     bar.to = e.nodes[1];

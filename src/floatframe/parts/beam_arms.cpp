@@ -13,7 +13,7 @@ std::vector<char> beam_arms(const FeModel& model) {
   std::vector<char> out(model.spiders.size(), 0);
   if (model.spiders.empty() || model.generated_nodes.empty()) return out;
   std::set<std::pair<int, int>> bars;  // file and line
-  for (const Element& e : model.elements)
+  for (const FeElement& e : model.elements)
     if ((is_beam(e.type) || is_rod(e.type)) && e.source.line > 0)
       bars.emplace(e.source.file, e.source.line);
   std::set<int> ends;

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Masses of the plies of a solid: its mass in proportion to thickness times density of each ply.
-void share_plies(const FeModel& model, const Element& element, double mass, FeFacts& out) {
+void share_plies(const FeModel& model, const FeElement& element, double mass, FeFacts& out) {
   const std::vector<ShellPly>& plies = model.layups[element.layup].plies;
   const auto weight = [&](const ShellPly& ply) {
     return ply.thickness * model.materials[ply.material].density;
@@ -38,7 +38,8 @@ void share_plies(const FeModel& model, const Element& element, double mass, FeFa
 
 /// Masses of the materials of one element: shares by the thickness of plies, and the nonstructural
 /// mass of its section.
-void share(const FeModel& model, const Element& element, double volume, double mass, FeFacts& out) {
+void share(const FeModel& model, const FeElement& element, double volume, double mass,
+           FeFacts& out) {
   if (element.layup >= 0) return share_plies(model, element, mass, out);
   const ShellSection* shell =
       has_shell_section(element.type) ? &model.shells[element.section] : nullptr;
@@ -58,7 +59,8 @@ void share(const FeModel& model, const Element& element, double volume, double m
 }
 
 /// The message of a reduction; empty if the element is valid.
-std::string element_error(const FeModel& model, const Element& element, const ElementInput& input) {
+std::string element_error(const FeModel& model, const FeElement& element,
+                          const ElementInput& input) {
   const auto last = element.nodes.begin() + element_nodes(element.type);
   for (auto node = element.nodes.begin(); node != last; ++node)
     if (std::find(element.nodes.begin(), node, *node) != node)
@@ -78,7 +80,7 @@ void measure(FeModel model, FeFacts& out) {
   };
   MatX M;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    Element& element = model.elements[e];
+    FeElement& element = model.elements[e];
     const int material = element.material;
     if (!in_range(material)) element.material = 0;
     const ElementInput input = gather(model, element);
@@ -115,7 +117,7 @@ void sets(const FeModel& model, FeFacts& out) {
   for (const auto& [name, elements] : model.element_sets) {
     std::set<int> nodes;
     for (const int e : elements) {
-      const Element& element = model.elements[e];
+      const FeElement& element = model.elements[e];
       for (int k = 0; k < element_nodes(element.type); ++k) nodes.insert(element.nodes[k]);
     }
     add(name, "elements", elements.size(), nodes);
@@ -123,7 +125,7 @@ void sets(const FeModel& model, FeFacts& out) {
   for (const auto& [name, faces] : model.surfaces) {
     std::set<int> nodes;
     for (const ElementFace& f : faces) {
-      const Element& element = model.elements[f.element];
+      const FeElement& element = model.elements[f.element];
       const auto all = element_faces(element.type);
       if (f.face < 0 || f.face >= static_cast<int>(all.size())) continue;
       const FaceNodes& face = all[f.face];
@@ -202,7 +204,7 @@ FeFacts fe_facts(const PartJob& job, const FeModel& model) {
   FeFacts out;
   out.nodes = model.places();
   std::map<std::string, int> types;
-  for (const Element& e : model.elements) ++types[element_type_name(e.type)];
+  for (const FeElement& e : model.elements) ++types[fe_element_name(e.type)];
   out.elements.assign(types.begin(), types.end());
   out.point_masses = static_cast<int>(model.masses.size());
   out.springs = static_cast<int>(model.springs.size());

@@ -170,7 +170,7 @@ class Trial {
 
   /// `turning`: by beams or shells.
   bool is_used_by_elements(int node, bool turning) const {
-    return std::any_of(model_.elements.begin(), model_.elements.end(), [&](const Element& e) {
+    return std::any_of(model_.elements.begin(), model_.elements.end(), [&](const FeElement& e) {
       if (turning && !is_beam(e.type) && !is_shell(e.type)) return false;
       const auto last = e.nodes.begin() + element_nodes(e.type);
       return std::find(e.nodes.begin(), last, node) != last;

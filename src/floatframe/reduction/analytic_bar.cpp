@@ -53,16 +53,16 @@ ModeSet analytic_bar_modes(const FeModel& model, int dynamic_per_plane) {
     throw InputError(ErrorCode::unsupported,
                      "analytic shapes need a single straight bar without point masses");
   }
-  const Element& first = model.elements.front();
+  const FeElement& first = model.elements.front();
   const ElementInput in = gather(model, first);
   const BeamSection section = in.section;
   const Vec3 start = in.p[0];
   const Vec3 axis = (in.p[1] - in.p[0]).normalized();
   double L = 0.0;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const Element& element = model.elements[e];
+    const FeElement& element = model.elements[e];
     const int index = static_cast<int>(e);
-    if (element.type != ElementType::beam2) {
+    if (element.type != FeElementType::beam2) {
       throw InputError(ErrorCode::unsupported, "analytic shapes need beams, but " +
                                                    model.element_label(index) + " is none");
     }

@@ -19,7 +19,7 @@ struct Chain {
   int first_element = 0;
 };
 
-bool continues(const FeModel& model, const Element& a, const Element& b) {
+bool continues(const FeModel& model, const FeElement& a, const FeElement& b) {
   const ElementInput x = gather(model, a), y = gather(model, b);
   const Vec3 dx = x.p[1] - x.p[0], dy = y.p[1] - y.p[0];
   const BeamSection &s = x.section, &t = y.section;
@@ -32,13 +32,13 @@ bool continues(const FeModel& model, const Element& a, const Element& b) {
 /// Rows of equal elements in a line; a node of the `special` ones ends a row.
 std::vector<Chain> chains_of(const FeModel& model, std::vector<char> special) {
   std::vector<int> uses(model.positions.size(), 0);
-  for (const Element& e : model.elements)
+  for (const FeElement& e : model.elements)
     for (int a = 0; a < 2; ++a) ++uses[e.nodes[a]];
   for (std::size_t k = 0; k < uses.size(); ++k)
     if (uses[k] != 2) special[k] = 1;
   std::vector<Chain> chains;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const Element& element = model.elements[e];
+    const FeElement& element = model.elements[e];
     const bool on =
         e > 0 && special[element.nodes[0]] == 0 && continues(model, model.elements[e - 1], element);
     if (!on) chains.push_back({{element.nodes[0]}, static_cast<int>(e)});
@@ -89,8 +89,8 @@ std::optional<BarChains> BarChains::make(const FeModel& model, const SparseMatri
   const std::size_t n = model.elements.size();
   if (n <= few_elements || model.dofs_per_node() != 6 || !model.springs.empty())
     return std::nullopt;
-  for (const Element& e : model.elements)
-    if (e.type != ElementType::beam2) return std::nullopt;
+  for (const FeElement& e : model.elements)
+    if (e.type != FeElementType::beam2) return std::nullopt;
   std::vector<char> kept(model.positions.size(), 0);
   for (const auto* list : {&boundary, &zero})
     for (const int dof : *list) kept[dof / 6] = 1;
@@ -125,7 +125,7 @@ BarChains::BarChains(const FeModel& model, const SparseMatrix& K, const SparseMa
     for (int i = 0; i < 6; ++i)
       entries.emplace_back(6 * old_of[c] + i, 6 * static_cast<int>(c) + i, 1.0);
   for (const Chain& chain : chains_of(model, kept)) {
-    Element beam = model.elements[chain.first_element];
+    FeElement beam = model.elements[chain.first_element];
     const std::size_t n = chain.nodes.size() - 1;
     beam.nodes[0] = new_of[chain.nodes.front()];
     beam.nodes[1] = new_of[chain.nodes.back()];

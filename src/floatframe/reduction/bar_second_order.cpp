@@ -47,7 +47,7 @@ std::shared_ptr<SecondOrder> turning_of(const FeModel& model, const MatX& X,
       add_turning(moments_of(p), X.middleRows<3>(6 * p.node + 3), *out);
   if (!sections_turn(options)) return out;
   static const LineRule rule = gauss_jacobi(5, 0);
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementInput in = gather(model, e);
     const BentBeam beam(in, e, X);
     const Mat3 P = section_moments(in, beam.T);
@@ -118,7 +118,7 @@ MatX load_rows(const FeModel& model, const ReductionOptions& options) {
   };
   for (const PointMass& p : model.masses) turn(p.node, moments_of(p));
   if (!options.section_inertia) return rows;
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementInput in = gather(model, e);
     const Mat3 P = 0.5 * (in.p[1] - in.p[0]).norm() * section_moments(in, beam_axes(in));
     for (int k = 0; k < 2; ++k) turn(e.nodes[k], P);
@@ -200,8 +200,8 @@ BarSecondOrder bar_second_order(const FeModel& model, const MatX& X,
   BarSecondOrder out;
   const Eigen::Index nm = X.cols();
   if (nm == 0 || model.elements.empty() || X.rows() != 6 * model.nodes()) return out;
-  for (const Element& e : model.elements)
-    if (e.type != ElementType::beam2) return out;
+  for (const FeElement& e : model.elements)
+    if (e.type != FeElementType::beam2) return out;
   const std::shared_ptr<SecondOrder> turning = turning_of(model, X, options);
   out.turning = turning;
   const std::vector<int> held = held_dofs(model, X, options);
@@ -244,7 +244,7 @@ BarSecondOrder bar_second_order(const FeModel& model, const MatX& X,
   add_pairs(shortened, pairs, *second_order);
   add_pairs(twisted, pairs, turning ? *turning : *second_order);
   if (options.mass_model != MassModel::isoparametric)
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       const ElementInput in = gather(model, e);
       const BentBeam beam(in, e, X);
       add_shortening_inside(in, beam, *second_order);

@@ -58,7 +58,7 @@ std::shared_ptr<const BodyStress> bar_stress(const FeModel& model, const MatX& X
   if (X.cols() == 0 || X.rows() != 6 * model.nodes() || model.elements.empty() ||
       model.elements.size() > many_bars)
     return nullptr;
-  for (const Element& e : model.elements)
+  for (const FeElement& e : model.elements)
     if (!is_beam(e.type)) return nullptr;
   const ElementMass mass = mass_of(options);
   const StressRecovery recovery(model, {}, mass);

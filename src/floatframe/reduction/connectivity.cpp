@@ -33,7 +33,7 @@ class Pieces {
 
 Pieces pieces_of(const FeModel& model) {
   Pieces pieces(model.nodes());
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     for (int a = 0; a < element_nodes(e.type); ++a) pieces.tie(e.nodes[0], e.nodes[a]);
   }
   for (const PointMass& m : model.masses) pieces.use(m.node);

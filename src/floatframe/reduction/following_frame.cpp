@@ -47,7 +47,7 @@ void add_twist(const BentBeam& beam, const ModePair* pairs, Eigen::Index count,
 
 }  // namespace
 
-BentBeam::BentBeam(const ElementInput& in, const Element& e, const MatX& X)
+BentBeam::BentBeam(const ElementInput& in, const FeElement& e, const MatX& X)
     : L((in.p[1] - in.p[0]).norm()), T(beam_axes(in)), q(12, X.cols()) {
   for (int a = 0; a < 4; ++a)
     q.middleRows<3>(3 * a) = T.transpose() * X.middleRows<3>(6 * e.nodes[a / 2] + 3 * (a % 2));
@@ -171,7 +171,7 @@ MatX FollowingFrame::follow(Strain strain, const std::vector<ModePair>& pairs, s
     return out;
   }
   for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-    const Element& element = model_.elements[e];
+    const FeElement& element = model_.elements[e];
     const ElementInput in = gather(model_, element);
     const double L = (in.p[1] - in.p[0]).norm();
     const Material& m = in.material;

@@ -32,7 +32,7 @@ struct BentBeam {
   Eigen::Matrix<double, 12, Eigen::Dynamic> q;  ///< displacements of the ends, local axes
 
   /// X: six rows per node.
-  BentBeam(const ElementInput& in, const Element& e, const MatX& X);
+  BentBeam(const ElementInput& in, const FeElement& e, const MatX& X);
   /// Rows rx, -w', v' at s = x/L.
   Mat3X rotation(double s) const;
   /// Rows -w'', v''.

@@ -76,7 +76,7 @@ void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& 
                  Integration integration) {
   const Eigen::Index first = basis.first_normal, count = basis.frequencies.size();
   const bool beams = std::any_of(model.elements.begin(), model.elements.end(),
-                                 [](const Element& e) { return is_beam(e.type); });
+                                 [](const FeElement& e) { return is_beam(e.type); });
   if (count == 0 || !beams) return;
   const MatX X = basis.X.middleCols(first, count);
   const std::vector<std::string> names(basis.names.begin() + first,

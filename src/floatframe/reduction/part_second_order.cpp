@@ -110,7 +110,7 @@ class ForcesOnFollowers {
   void add_elements(const NodalShapes& cases, Integration integration) {
     F_ = MatX::Zero(3 * count_, cases.U.cols());
     MatX K, w;
-    for (const Element& e : model_.elements) {
+    for (const FeElement& e : model_.elements) {
       const ElementKernel& kernel = element_kernel(e.type);
       const auto nodes = std::span(e.nodes).first(static_cast<std::size_t>(kernel.nodes));
       if (std::none_of(nodes.begin(), nodes.end(), [&](int k) { return place_[k] >= 0; })) continue;

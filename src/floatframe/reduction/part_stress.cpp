@@ -20,7 +20,7 @@ std::vector<char> doubtful_nodes(const FeModel& model) {
     for (const int k : s.nodes) marked[k] = 1;
     marked[s.reference] = 1;
   }
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     if (kernel.family == ElementFamily::beam || kernel.family == ElementFamily::rod) continue;
     bool near = false;

@@ -107,8 +107,8 @@ std::vector<InterfaceDofs> interfaces_of(const FeModel& model, const ReductionOp
 FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
                     SecondOrderOf second_order) {
   validate(model);
-  for (const Element& e : model.elements) {
-    const bool shear = e.type == ElementType::beam2 && model.sections[e.section].has_shear();
+  for (const FeElement& e : model.elements) {
+    const bool shear = e.type == FeElementType::beam2 && model.sections[e.section].has_shear();
     if (shear || e.mass_form != MassForm::consistent)
       throw InputError(
           ErrorCode::unsupported,

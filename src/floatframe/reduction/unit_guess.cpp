@@ -30,7 +30,7 @@ Numbers numbers_of(const FeModel& model, double mass) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : model.positions) box.extend(p);
   x.size = box.isEmpty() ? 0.0 : box.diagonal().norm();
-  for (const Element& e : model.elements) {
+  for (const FeElement& e : model.elements) {
     const Material& m = model.materials[e.material];
     if (m.density == 0.0) continue;
     x.density = m.density;

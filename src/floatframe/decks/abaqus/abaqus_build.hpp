@@ -179,7 +179,7 @@ struct AbaqusBuild {
 
 /// Elements of a section in the model.
 struct AbaqusProperties {
-  Element like;              ///< material, section, reference and orientation
+  FeElement like;            ///< material, section, reference and orientation
   bool directional = false;  ///< shells: not isotropic in the plane
 };
 
@@ -202,11 +202,11 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
                         int material);
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
-                           const AbaqusProperties& p, Element& e);
+                           const AbaqusProperties& p, FeElement& e);
 /// Direction 1 of a beam towards the additional node of its element, if any; its ends at the
 /// centroid of its section, as separate nodes.
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
-                      Element& e);
+                      FeElement& e);
 /// An error for each section with elements along its direction 1.
 void report_abaqus_directions(AbaqusBuild& build);
 
@@ -215,7 +215,7 @@ class AbaqusNodalThickness {
  public:
   explicit AbaqusNodalThickness(AbaqusBuild& build);
   /// Gives the element a section of its thickness.
-  void apply(const AbaqusSection& section, Element& e);
+  void apply(const AbaqusSection& section, FeElement& e);
   void notes();
 
  private:

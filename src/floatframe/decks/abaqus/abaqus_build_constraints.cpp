@@ -75,7 +75,7 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   }
   const FeModel& model = build.model;
   for (const ElementFace& f : model.surfaces.at(name)) {
-    const Element& element = model.elements[f.element];
+    const FeElement& element = model.elements[f.element];
     const FaceNodes& face = element_faces(element.type)[f.face];
     std::vector<Vec3> corners;
     for (int k = 0; k < face.corners; ++k)

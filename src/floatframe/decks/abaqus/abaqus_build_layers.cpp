@@ -199,7 +199,7 @@ void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const 
 }
 
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
-                           const AbaqusProperties& p, Element& e) {
+                           const AbaqusProperties& p, FeElement& e) {
   if (!is_abaqus_sheet(section.family) || !p.directional) return;
   std::vector<Vec3> corners;
   for (const int node : nodes_of_element(e)) corners.push_back(build.model.positions[node]);

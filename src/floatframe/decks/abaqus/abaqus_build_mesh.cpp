@@ -189,9 +189,9 @@ void no_section(AbaqusBuild& build, const AbaqusElement& element) {
 }
 
 /// Null if one of its nodes is missing.
-std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
-                                  const AbaqusProperties& p) {
-  Element result = p.like;
+std::optional<FeElement> element_of(AbaqusBuild& build, const AbaqusElement& element,
+                                    const AbaqusProperties& p) {
+  FeElement result = p.like;
   result.type = element.type->type;
   result.id = element.id;
   result.source = element.at;

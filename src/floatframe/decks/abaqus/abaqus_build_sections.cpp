@@ -119,7 +119,7 @@ void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
 }
 
 /// Direction 1 towards the further node of the element.
-void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& e) {
+void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, FeElement& e) {
   const int further = build.node_of(deck, deck.type->nodes);
   if (further < 0) return;
   const FeModel& m = build.model;
@@ -298,7 +298,7 @@ void report_abaqus_directions(AbaqusBuild& build) {
 }
 
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
-                      Element& e) {
+                      FeElement& e) {
   if (section.family != AbaqusType::Family::beam) return;
   if (deck.directed) direct_abaqus_beam(build, deck, e);
   const int nodes = element_kernel(e.type).nodes;

@@ -38,8 +38,8 @@ struct AbaqusType {
   std::string name;
   Family family;
   int nodes;
-  ElementType type = ElementType::beam2;  ///< of solids, shells and beams
-  const char* remark = nullptr;           ///< how it is read if that differs
+  FeElementType type = FeElementType::beam2;  ///< of solids, shells and beams
+  const char* remark = nullptr;               ///< how it is read if that differs
 };
 
 /// Shells and membranes: their sections have a thickness.

@@ -124,9 +124,9 @@ void as_in_home_program(AbaqusBuild& build) {
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const int index = build.element_index[e];
     if (index < 0) continue;
-    Element& element = model.elements[index];
+    FeElement& element = model.elements[index];
     const AbaqusType& type = *c.elements[e].type;
-    const bool cubic = element.type == ElementType::beam2 && !shears(type);
+    const bool cubic = element.type == FeElementType::beam2 && !shears(type);
     if (of_abaqus && !quadratic(element.type) && !cubic) element.mass_form = MassForm::lumped;
     if (shears(type)) continue;
     if (is_beam(element.type) && model.sections[element.section].has_shear())
@@ -140,10 +140,10 @@ void as_in_home_program(AbaqusBuild& build) {
 }
 
 void note_mass_of_unclear_dialect(AbaqusBuild& build) {
-  const std::vector<Element>& elements = build.model.elements;
+  const std::vector<FeElement>& elements = build.model.elements;
   if (build.content.sections.empty() || build.dialect() != DeckDialect::by_content ||
       std::all_of(elements.begin(), elements.end(),
-                  [](const Element& e) { return quadratic(e.type); }))
+                  [](const FeElement& e) { return quadratic(e.type); }))
     return;
   build.model.notes.push_back(
       "the mass of all elements is consistent, as in CalculiX; Abaqus lumps that of elements of "

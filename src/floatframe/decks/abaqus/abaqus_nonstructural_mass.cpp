@@ -99,7 +99,7 @@ class SmearedMass {
       const int index = b_.element_index[e];
       const AbaqusElement& deck = b_.content.elements[e];
       if (index < 0 && is_abaqus_point(deck.type->family)) continue;
-      const ElementType type = index < 0 ? ElementType::beam2 : m_.elements[index].type;
+      const FeElementType type = index < 0 ? FeElementType::beam2 : m_.elements[index].type;
       std::string why;
       if (index < 0)
         why = "has no section here";
@@ -119,7 +119,7 @@ class SmearedMass {
     return list;
   }
 
-  bool missing_density(const Element& e) const {
+  bool missing_density(const FeElement& e) const {
     if (m_.without_density.contains(e.material)) return true;
     if (!has_shell_section(e.type)) return false;
     for (const ShellPly& ply : m_.shells[e.section].plies)
@@ -131,7 +131,7 @@ class SmearedMass {
     Size& s = size_[index];
     if (s.known) return s;
     s.known = true;
-    const Element& e = m_.elements[index];
+    const FeElement& e = m_.elements[index];
     const ElementKernel& kernel = element_kernel(e.type);
     ElementInput in = gather(m_, e);
     const bool sheet = has_shell_section(e.type);
@@ -151,7 +151,7 @@ class SmearedMass {
     return s;
   }
 
-  void give(Element& e, double more) {
+  void give(FeElement& e, double more) {
     if (has_shell_section(e.type)) {
       e.section = changed_copy(m_.shells, e.section, sections_, {e.section, more},
                                [&](ShellSection& s) { s.mass += more; });

@@ -207,7 +207,7 @@ AbaqusNodalThickness::AbaqusNodalThickness(AbaqusBuild& build) : b_(build) {
     for (const int node : build.nodes.resolve(t.where)) at_node_[node] = t.value;
 }
 
-void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
+void AbaqusNodalThickness::apply(const AbaqusSection& section, FeElement& e) {
   if (!section.nodal_thickness) return;
   used_ = true;
   const int nodes = element_kernel(e.type).nodes;

@@ -40,7 +40,7 @@ std::vector<int> nodes_of_surface(AbaqusBuild& build, const AbaqusSurface& surfa
   std::vector<int> nodes;
   std::unordered_set<int> known;
   for (const ElementFace& f : build.model.surfaces.at(name)) {
-    const Element& element = build.model.elements[f.element];
+    const FeElement& element = build.model.elements[f.element];
     const FaceNodes& face = element_faces(element.type)[f.face];
     for (int k = 0; k < face.count; ++k)
       if (const int node = element.nodes[face.nodes[k]]; known.insert(node).second)

@@ -113,11 +113,11 @@ struct AnsysBuild {
 void build_ansys_elements(AnsysBuild& build);
 // Elements of those families, false with an error; `nodes`: indices in the order of the deck.
 void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
-                       Element& element);
+                       FeElement& element);
 /// Of solids.
 bool ansys_has_layers(const AnsysBuild& build, const AnsysElement& e, const AnsysType& type);
 bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
-                        Element& element);
+                        FeElement& element);
 /// BEAM and PIPE sections; none with an error.
 std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSection& section,
                                             const AnsysElement& e);

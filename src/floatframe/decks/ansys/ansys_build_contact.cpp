@@ -193,7 +193,7 @@ class ContactBuilder {
   std::vector<ElementFace> faces_of(const ContactPair& p) {
     if (faces_.empty()) {
       for (std::size_t e = 0; e < b_.model.elements.size(); ++e) {
-        const Element& element = b_.model.elements[e];
+        const FeElement& element = b_.model.elements[e];
         const auto faces = element_faces(element.type);
         for (std::size_t f = 0; f < faces.size(); ++f) {
           const int count = faces[f].count, corners = count > 4 ? count / 2 : count;

@@ -71,7 +71,7 @@ int add_section(FeModel& model, const BeamSection& s) {
   return static_cast<int>(model.sections.size()) - 1;
 }
 
-bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& element) {
+bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, FeElement& element) {
   BeamSection s;
   double mass = 0.0;
   bool one_way = false;
@@ -93,14 +93,14 @@ bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& e
         ErrorCode::missing, e,
         "neither its section {} (SECTYPE,{},LINK) nor its real constants {} give an area above 0",
         e.section, e.section, e.real);
-  element.type = ElementType::rod2;
+  element.type = FeElementType::rod2;
   element.material = b.material(e.material, e, mass / s.A);
   element.section = add_section(b.model, s);
   return true;
 }
 
 bool build_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
-                const std::vector<int>& nodes, Element& element) {
+                const std::vector<int>& nodes, FeElement& element) {
   const AnsysFamily family = ansys_library_element(type.number)->family;
   const std::size_t count = family == AnsysFamily::beam3 ? 3 : 2;
   if (nodes.size() < count || std::any_of(nodes.begin(), nodes.begin() + static_cast<int>(count),
@@ -114,7 +114,7 @@ bool build_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
   if (family == AnsysFamily::rod) return rod(b, e, type, element);
   const auto beam = beam_section_of(b, e, type);
   if (!beam) return false;
-  element.type = family == AnsysFamily::beam3 ? ElementType::beam3 : ElementType::beam2;
+  element.type = family == AnsysFamily::beam3 ? FeElementType::beam3 : FeElementType::beam2;
   if (family == AnsysFamily::beam3) {  // ends, middle there; end, middle, end here
     element.nodes[1] = nodes[2];
     element.nodes[2] = nodes[1];
@@ -171,7 +171,7 @@ class AnsysElementBuilder {
         library.family == F::brick || library.family == F::brick20 || library.family == F::tet;
     if (!line && !solid && library.family != F::shell) return;
     if (!b_.nodes_of(e, nodes_)) return;
-    Element element;
+    FeElement element;
     element.id = e.id;
     element.source = e.at;
     if (line ? !build_line(b_, e, *type, nodes_, element) : !volume(e, *type, library, element))
@@ -183,7 +183,7 @@ class AnsysElementBuilder {
 
   /// Solids and shells.
   bool volume(const AnsysElement& e, const AnsysType& type, const AnsysLibraryElement& library,
-              Element& element) {
+              FeElement& element) {
     if (static_cast<int>(nodes_.size()) > library.nodes &&
         std::any_of(nodes_.begin() + library.nodes, nodes_.end(), [](int n) { return n >= 0; }))
       return b_.error(ErrorCode::wrong_count, e, "it has {} nodes, at most {} are expected",
@@ -208,7 +208,7 @@ class AnsysElementBuilder {
 
   /// An edge without its mid-side node is straight: a generated node there moves as the mean of
   /// the ends.
-  void middles(const AnsysElement& e, const AnsysShape& shape, Element& element) {
+  void middles(const AnsysElement& e, const AnsysShape& shape, FeElement& element) {
     const std::span<const shape::Edge> edges = edges_of(shape.type);
     const int corners = shape.count - static_cast<int>(edges.size());
     for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -227,20 +227,20 @@ class AnsysElementBuilder {
     }
   }
 
-  static std::span<const shape::Edge> edges_of(ElementType type) {
+  static std::span<const shape::Edge> edges_of(FeElementType type) {
     switch (type) {
-      case ElementType::tet10:
+      case FeElementType::tet10:
         return shape::tet_edges;
-      case ElementType::hex20:
-      case ElementType::hex20r:
+      case FeElementType::hex20:
+      case FeElementType::hex20r:
         return shape::hex_edges;
-      case ElementType::wedge15:
+      case FeElementType::wedge15:
         return shape::wedge_edges;
-      case ElementType::pyramid13:
+      case FeElementType::pyramid13:
         return shape::pyramid_edges;
-      case ElementType::tri6:
+      case FeElementType::tri6:
         return shape::tri_edges;
-      case ElementType::quad8:
+      case FeElementType::quad8:
         return shape::quad_edges;
       default:
         return {};
@@ -254,7 +254,7 @@ class AnsysElementBuilder {
       b_.file_note("{} edges without their mid-side node are kept straight, by equations",
                    middles_.size());
     const auto layered = std::count_if(b_.model.elements.begin(), b_.model.elements.end(),
-                                       [](const Element& e) { return e.layup >= 0; });
+                                       [](const FeElement& e) { return e.layup >= 0; });
     if (layered > 0)
       b_.file_note(
           "{} solids have layers: each layer has the points of its element here, in ANSYS as many "

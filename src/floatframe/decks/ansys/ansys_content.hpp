@@ -52,7 +52,7 @@ struct AnsysType {
 
 /// An element of FeModel: which of the nodes of the ANSYS element it has, in its own order.
 struct AnsysShape {
-  ElementType type = ElementType::hex8;
+  FeElementType type = FeElementType::hex8;
   std::array<int, 20> nodes{};
   int count = 0;
 };

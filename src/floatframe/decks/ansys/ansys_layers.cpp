@@ -28,7 +28,7 @@ std::vector<std::vector<double>> layers_of(const AnsysSection& section) {
 }
 
 /// Is axis 1 far enough from the normal of a face with these corners? `normal`: its name.
-bool axis_in_face(AnsysBuild& b, const AnsysElement& e, const Element& element,
+bool axis_in_face(AnsysBuild& b, const AnsysElement& e, const FeElement& element,
                   const std::vector<Vec3>& corners, const char* normal) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : corners) middle += x / static_cast<double>(corners.size());
@@ -41,7 +41,7 @@ bool axis_in_face(AnsysBuild& b, const AnsysElement& e, const Element& element,
 
 class AnsysShell {
  public:
-  AnsysShell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type, Element& element)
+  AnsysShell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type, FeElement& element)
       : b_(build), e_(e), type_(type), element_(element) {}
 
   void build() {
@@ -174,7 +174,8 @@ class AnsysShell {
       element_.angle = 0.0;
       return;
     }
-    const bool triangle = element_.type == ElementType::tri3 || element_.type == ElementType::tri6;
+    const bool triangle =
+        element_.type == FeElementType::tri3 || element_.type == FeElementType::tri6;
     std::vector<Vec3> p;
     for (int k = 0; k < (triangle ? 3 : 4); ++k) p.push_back(b_.model.positions[element_.nodes[k]]);
     if (e_.system != 0) {
@@ -190,7 +191,7 @@ class AnsysShell {
   AnsysBuild& b_;
   const AnsysElement& e_;
   const AnsysType& type_;
-  Element& element_;
+  FeElement& element_;
   const bool thin_ = type_.number == 63;
 };
 
@@ -251,7 +252,7 @@ int layup_of(AnsysBuild& b, const AnsysElement& e) {
 }
 
 /// The corners of the face halfway between the lowest and the highest layer.
-std::vector<Vec3> middle_face(const FeModel& model, const Element& element) {
+std::vector<Vec3> middle_face(const FeModel& model, const FeElement& element) {
   const std::size_t side = element_kernel(element.type).shape.neighbours.size() / 2;
   std::vector<Vec3> corners;
   for (std::size_t k = 0; k < side; ++k)
@@ -263,7 +264,7 @@ std::vector<Vec3> middle_face(const FeModel& model, const Element& element) {
 }  // namespace
 
 void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
-                       Element& element) {
+                       FeElement& element) {
   AnsysShell(build, e, type, element).build();
 }
 
@@ -273,7 +274,7 @@ bool ansys_has_layers(const AnsysBuild& b, const AnsysElement& e, const AnsysTyp
 }
 
 bool build_ansys_layers(AnsysBuild& b, const AnsysElement& e, const AnsysType& type,
-                        Element& element) {
+                        FeElement& element) {
   const int layup = layup_of(b, e);
   if (layup < 0) return false;
   const std::vector<ShellPly>& plies = b.model.layups[layup].plies;
@@ -282,8 +283,8 @@ bool build_ansys_layers(AnsysBuild& b, const AnsysElement& e, const AnsysType& t
     return ply.material == plies.front().material;
   });
   // Layers of SOLID185 have enhanced strains for any KEYOPT(2).
-  const bool brick = element.type == ElementType::hex8 || element.type == ElementType::hex8r;
-  if (brick && type.number == 185) element.type = ElementType::hex8i;
+  const bool brick = element.type == FeElementType::hex8 || element.type == FeElementType::hex8r;
+  if (brick && type.number == 185) element.type = FeElementType::hex8i;
   if (uniform && !b.model.materials[element.material].elasticity) return true;
   if (element_kernel(element.type).nodal_ply == nullptr)
     return b.error(ErrorCode::unsupported, e,

@@ -7,7 +7,7 @@ namespace floatframe {
 namespace {
 
 using F = AnsysFamily;
-using T = ElementType;
+using T = FeElementType;
 
 constexpr AnsysLibraryElement ansys_library[] = {
     {4, "BEAM4", F::beam2, 2},        {8, "LINK8", F::rod, 2},

@@ -24,7 +24,7 @@ class Springs {
   Springs(CalculixText& deck, CalculixEquations& equations)
       : deck_(deck),
         equations_(equations),
-        in_elements_(nodes_of_elements(deck.model, [](const Element&) { return true; })) {
+        in_elements_(nodes_of_elements(deck.model, [](const FeElement&) { return true; })) {
     for (const PointMass& m : deck.model.masses)
       if (m.mass != 0.0) in_elements_[m.node] = 1;
     for (const Spider& s : deck.model.spiders) in_elements_[s.reference] = 1;

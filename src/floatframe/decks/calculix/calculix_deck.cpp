@@ -10,8 +10,8 @@
 namespace floatframe {
 namespace {
 
-std::string calculix_type(ElementType type) {
-  using Type = ElementType;
+std::string calculix_type(FeElementType type) {
+  using Type = FeElementType;
   static const std::map<Type, const char*> names = {
       {Type::beam2, "B31"},      {Type::beam3, "B32"},        {Type::rod2, "T3D2"},
       {Type::tri3, "S3"},        {Type::tri6, "S6"},          {Type::quad4, "S4"},
@@ -25,16 +25,16 @@ std::string calculix_type(ElementType type) {
   return names.at(type);
 }
 
-bool is_pyramid(ElementType type) {
-  return type == ElementType::pyramid5 || type == ElementType::pyramid13;
+bool is_pyramid(FeElementType type) {
+  return type == FeElementType::pyramid5 || type == FeElementType::pyramid13;
 }
 
 /// Nodes as written: pyramids are bricks whose upper face is one node.
-std::vector<int> deck_nodes(const CalculixText& deck, const Element& e) {
+std::vector<int> deck_nodes(const CalculixText& deck, const FeElement& e) {
   std::vector<int> order;
-  if (e.type == ElementType::pyramid5) {
+  if (e.type == FeElementType::pyramid5) {
     order = {0, 1, 2, 3, 4, 4, 4, 4};
-  } else if (e.type == ElementType::pyramid13) {
+  } else if (e.type == FeElementType::pyramid13) {
     order = {0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
   } else {
     order.resize(nodes_of_element(e).size());
@@ -54,12 +54,12 @@ void add_nodes(CalculixText& deck) {
 }
 
 void add_elements(CalculixText& deck) {
-  const std::vector<Element>& elements = deck.model.elements;
+  const std::vector<FeElement>& elements = deck.model.elements;
   std::string last;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     // CalculiX has pipes in B32R only.
     const auto s = static_cast<std::size_t>(elements[e].section);
-    const bool pipe = elements[e].type == ElementType::beam3 && s < deck.model.sections.size() &&
+    const bool pipe = elements[e].type == FeElementType::beam3 && s < deck.model.sections.size() &&
                       deck.model.sections[s].bore > 0.0;
     const std::string type = pipe ? "B32R" : calculix_type(elements[e].type);
     if (type != last) deck.add("*ELEMENT, TYPE={}\n", type);
@@ -72,23 +72,23 @@ void add_elements(CalculixText& deck) {
 
 /// Kinds of elements, and their treatment by CalculiX.
 void note_habits(CalculixText& deck) {
-  static constexpr std::pair<bool (*)(const Element&), const char*> habits[] = {
-      {[](const Element& e) { return is_pyramid(e.type); },
+  static constexpr std::pair<bool (*)(const FeElement&), const char*> habits[] = {
+      {[](const FeElement& e) { return is_pyramid(e.type); },
        "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node"},
-      {[](const Element& e) { return e.mass_form != MassForm::consistent; },
+      {[](const FeElement& e) { return e.mass_form != MassForm::consistent; },
        "of lumped mass: CalculiX takes consistent mass"},
-      {[](const Element& e) {
+      {[](const FeElement& e) {
          return is_beam(e.type) || is_shell(e.type) || is_rod(e.type) || is_membrane(e.type);
        },
        "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
        "integration points (B32, S8, not B32R, S8R), its frequencies differ"},
-      {[](const Element& e) { return is_rod(e.type); },
+      {[](const FeElement& e) { return is_rod(e.type); },
        "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, "
        "and is clamped to beams at their nodes"},
-      {[](const Element& e) { return e.type == ElementType::hex8i; },
+      {[](const FeElement& e) { return e.type == FeElementType::hex8i; },
        "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
        "frequencies are lower, by some percent where the mesh is coarse"}};
-  const std::vector<Element>& elements = deck.model.elements;
+  const std::vector<FeElement>& elements = deck.model.elements;
   for (const auto& [is_of_kind, what] : habits)
     if (const long count = std::count_if(elements.begin(), elements.end(), is_of_kind); count > 0)
       deck.note("{} {}", plural(count, "element"), what);
@@ -96,16 +96,16 @@ void note_habits(CalculixText& deck) {
 
 /// 1 for each node of a beam.
 std::vector<char> nodes_of_beams(const FeModel& model) {
-  return nodes_of_elements(model, [](const Element& e) { return is_beam(e.type); });
+  return nodes_of_elements(model, [](const FeElement& e) { return is_beam(e.type); });
 }
 
 /// CalculiX 2.20 joins the expansions of rods and beams in all directions only if
 /// the element with the smallest number at their node is a beam; else some become detached. Such
 /// rods get numbers above all others.
 void number_rods_after_beams(CalculixText& deck) {
-  const std::vector<Element>& elements = deck.model.elements;
+  const std::vector<FeElement>& elements = deck.model.elements;
   const std::vector<char> bends = nodes_of_beams(deck.model);
-  const auto any_node = [&](const Element& e) {
+  const auto any_node = [&](const FeElement& e) {
     const std::span<const int> nodes = nodes_of_element(e);
     return std::any_of(nodes.begin(), nodes.end(), [&](int n) { return bends[n] != 0; });
   };
@@ -129,7 +129,7 @@ void number_rods_after_beams(CalculixText& deck) {
 void note_beams_on_shells(CalculixText& deck) {
   const std::vector<char> beams = nodes_of_beams(deck.model);
   std::vector<char> both =
-      nodes_of_elements(deck.model, [](const Element& e) { return is_shell(e.type); });
+      nodes_of_elements(deck.model, [](const FeElement& e) { return is_shell(e.type); });
   for (std::size_t n = 0; n < both.size(); ++n) both[n] &= beams[n];
   const auto first = std::find(both.begin(), both.end(), 1);
   if (first == both.end()) return;
@@ -160,7 +160,7 @@ void add_sets(CalculixText& deck) {
   for (const auto& [name, faces] : deck.model.surfaces) {
     std::string lines;
     for (const ElementFace& f : faces) {
-      const ElementType type = deck.model.elements[f.element].type;
+      const FeElementType type = deck.model.elements[f.element].type;
       if (element_kernel(type).family == ElementFamily::solid && !is_pyramid(type))
         lines += fmt::format("{}, S{}\n", deck.element(f.element), f.face + 1);
       else

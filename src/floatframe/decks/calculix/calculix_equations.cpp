@@ -27,7 +27,7 @@ struct BeamEnd {
 
 BeamEnd beam_end(const CalculixText& deck, std::size_t element, int k) {
   const FeModel& model = deck.model;
-  const Element& e = model.elements[element];
+  const FeElement& e = model.elements[element];
   const BeamSection& section = model.sections[e.section];
   const int count = element_nodes(e.type);
   std::array<Vec3, 3> at{};
@@ -59,7 +59,7 @@ std::set<int> knots_of(const CalculixText& deck) {
   std::map<int, std::vector<BeamEnd>> ends;  // by nodes
   std::set<int> others;
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
-    const Element& e = model.elements[i];
+    const FeElement& e = model.elements[i];
     const bool beam = is_beam(e.type) && e.section >= 0 &&
                       static_cast<std::size_t>(e.section) < model.sections.size();
     for (int k = 0; k < element_nodes(e.type); ++k) {
@@ -86,7 +86,7 @@ std::set<int> knots_of(const CalculixText& deck) {
 std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
   const FeModel& model = deck.model;
   const std::vector<char> bends = nodes_of_elements(
-      model, [](const Element& e) { return element_kernel(e.type).dofs_per_node == 6; });
+      model, [](const FeElement& e) { return element_kernel(e.type).dofs_per_node == 6; });
   std::vector<int> out(model.positions.size(), 0);
   for (const Spider& s : model.spiders)
     if (s.rotation_node >= 0) out[s.reference] = deck.node(s.rotation_node);
@@ -181,7 +181,7 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
 void CalculixEquations::add_dependences() {
   // All motions of nodes of elements have stiffness or mass.
   const std::vector<char> in_elements =
-      nodes_of_elements(deck_.model, [](const Element&) { return true; });
+      nodes_of_elements(deck_.model, [](const FeElement&) { return true; });
   std::vector<std::string> held;
   for (int node = 0; node < deck_.model.nodes(); ++node)
     for (int axis = 0; axis < table_.count(node); ++axis) {

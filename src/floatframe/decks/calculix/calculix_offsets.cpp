@@ -76,7 +76,7 @@ class ArmEnds {
     for (const Support& s : model_.supports) leave_out(s.node);
     for (const auto& [name, nodes] : model_.node_sets)
       for (const int node : nodes) leave_out(node);
-    for (const Element& e : model_.elements)
+    for (const FeElement& e : model_.elements)
       if (!is_beam(e.type))
         for (const int node : nodes_of_element(e)) leave_out(node);
   }
@@ -86,7 +86,7 @@ class ArmEnds {
 };
 
 /// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms differ.
-std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
+std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const FeElement& e,
                                                      const ArmEnds& ends) {
   if (e.section < 0 || static_cast<std::size_t>(e.section) >= model.sections.size())
     return std::nullopt;
@@ -116,8 +116,8 @@ std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const
 }
 
 /// Beams that CalculiX would treat as one line, whose normals it averages.
-bool along_each_other(const FeModel& model, const Element& a, const Element& b) {
-  const auto axis = [&](const Element& e) {
+bool along_each_other(const FeModel& model, const FeElement& a, const FeElement& b) {
+  const auto axis = [&](const FeElement& e) {
     const std::span<const int> nodes = nodes_of_element(e);
     return Vec3(model.positions[nodes.back()] - model.positions[nodes.front()]).normalized();
   };
@@ -130,7 +130,7 @@ class ArmNodes {
  public:
   explicit ArmNodes(const FeModel& model)
       : model_(model),
-        taken_(nodes_of_elements(model, [](const Element& e) { return !is_beam(e.type); })) {
+        taken_(nodes_of_elements(model, [](const FeElement& e) { return !is_beam(e.type); })) {
     for (const PointMass& m : model.masses) taken_[m.node] = 1;
     for (const Spring& s : model.springs)
       for (const int node : s.nodes)
@@ -162,12 +162,12 @@ class ArmNodes {
 
 /// Does a beam in the same line meet it with another arm?
 bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
-                       const std::map<int, std::vector<int>>& beams_at, const Element& e) {
+                       const std::map<int, std::vector<int>>& beams_at, const FeElement& e) {
   for (const int node : nodes_of_element(e)) {
     const auto at = beams_at.find(ends.foot(node));
     if (at == beams_at.end()) continue;
     for (const int i : at->second) {
-      const Element& other = model.elements[i];
+      const FeElement& other = model.elements[i];
       const std::span<const int> nodes = nodes_of_element(other);
       if (std::find(nodes.begin(), nodes.end(), node) == nodes.end() &&
           along_each_other(model, e, other))
@@ -188,7 +188,7 @@ void drop_unsupported_offsets(const FeModel& model, ArmEnds& ends) {
   bool changed = true;
   while (changed) {
     changed = false;
-    for (const Element& e : model.elements) {
+    for (const FeElement& e : model.elements) {
       if (!is_beam(e.type)) continue;
       const std::span<const int> at = nodes_of_element(e);
       if (std::none_of(at.begin(), at.end(), [&](int n) { return ends(n) >= 0; })) continue;
@@ -208,7 +208,7 @@ std::optional<OffsetBeams> offset_beams(const FeModel& model) {
   ArmEnds ends(model);
   drop_unsupported_offsets(model, ends);
   std::set<int> moved;
-  for (const Element& e : model.elements)
+  for (const FeElement& e : model.elements)
     if (is_beam(e.type))
       for (const int n : nodes_of_element(e))
         if (ends(n) >= 0) moved.insert(n);
@@ -218,7 +218,7 @@ std::optional<OffsetBeams> offset_beams(const FeModel& model) {
   out.left_out.assign(model.positions.size(), 0);
   for (const int end : moved) out.left_out[end] = 1;
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
-    Element& e = out.model.elements[i];
+    FeElement& e = out.model.elements[i];
     if (!is_beam(e.type)) continue;
     bool beside = false;
     for (int k = 0; k < element_nodes(e.type); ++k) {

@@ -42,7 +42,7 @@ class SectionWriter {
           "the file has no material, which a deck needs: give one (--material E,NU,RHO)");
     std::map<SectionKey, std::vector<int>> sets;
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-      const Element& element = model_.elements[e];
+      const FeElement& element = model_.elements[e];
       if (!writable(element, static_cast<int>(e))) continue;
       sets[key_of(element, static_cast<int>(e))].push_back(deck_.element(e));
     }
@@ -65,14 +65,14 @@ class SectionWriter {
   /// The first element of each reason, and how many more there are.
   void say_refused() {
     for (const auto& [what, elements] : refused_) {
-      const Element& first = model_.elements[elements.first];
+      const FeElement& first = model_.elements[elements.first];
       const std::string more = plural(elements.more, "more element", "more elements");
       deck_.error(first.source, "{} {}{}", model_.element_label(elements.first), what,
                   elements.more == 0 ? "" : "; the same holds for " + more);
     }
   }
 
-  bool writable(const Element& e, int index) {
+  bool writable(const FeElement& e, int index) {
     const auto in = [](int i, const auto& list) {
       return i >= 0 && static_cast<std::size_t>(i) < list.size();
     };
@@ -99,7 +99,7 @@ class SectionWriter {
     return false;
   }
 
-  std::string shell_error(const Element& e) const {
+  std::string shell_error(const FeElement& e) const {
     const ShellSection& s = shell(e.section);
     if (!s.plies.empty() || s.bending >= 0 || s.bending_factor != 1.0 || !s.coupling.isZero(0.0))
       return "has layers or bending of its own, which are not written as a CalculiX deck (.vtu and "
@@ -111,13 +111,13 @@ class SectionWriter {
     return "";
   }
 
-  std::string beam_error(const Element& e) const {
+  std::string beam_error(const FeElement& e) const {
     if (material(e.material).elasticity) return "is a beam of a material with axes";
     switch (beam(e.section).outline) {
       case BeamSection::Outline::rectangle:
         return "";
       case BeamSection::Outline::round:
-        return e.type == ElementType::beam3
+        return e.type == FeElementType::beam3
                    ? ""
                    : "is round, and CalculiX has round sections in 3-node beams only";
       case BeamSection::Outline::unknown:
@@ -127,7 +127,7 @@ class SectionWriter {
            "I, J), of which CalculiX makes no beams as they are here (.vtu and .msh show the mesh)";
   }
 
-  SectionKey key_of(const Element& e, int index) const {
+  SectionKey key_of(const FeElement& e, int index) const {
     SectionKey key{.family = element_kernel(e.type).family, .material = e.material};
     if (key.family != ElementFamily::solid) key.section = e.section;
     if (key.family == ElementFamily::beam)

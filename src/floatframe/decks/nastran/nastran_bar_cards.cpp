@@ -34,7 +34,7 @@ void bar_axes(NastranFields& f, char* axes) {
   for (std::size_t i = 0; i < word.size(); ++i) axes[i] = word[i];
 }
 
-NastranElement line_element(NastranFields& f, ElementType type) {
+NastranElement line_element(NastranFields& f, FeElementType type) {
   auto e = f.entity<NastranElement>("the number of the element");
   e.type = type;
   e.count = 2;
@@ -42,7 +42,7 @@ NastranElement line_element(NastranFields& f, ElementType type) {
 }
 
 void read_nastran_bar(NastranFields& f, NastranContent& c) {
-  NastranElement e = line_element(f, ElementType::beam2);
+  NastranElement e = line_element(f, FeElementType::beam2);
   e.default_property = f.blank(1);
   e.property = f.label(1, "the property", e.id);
   e.nodes[0] = f.label(2, "node GA");
@@ -76,7 +76,7 @@ void read_nastran_bar_default(NastranFields& f, NastranContent& c) {
 
 /// A CONROD has a separate property, with a number that no card has.
 void read_nastran_rod(NastranFields& f, NastranContent& c) {
-  NastranElement e = line_element(f, ElementType::rod2);
+  NastranElement e = line_element(f, FeElementType::rod2);
   const bool own = f.name() == "CONROD";
   const std::size_t first = own ? 1 : 2;
   if (!own) e.property = f.label(1, "the property", e.id);
@@ -168,12 +168,12 @@ bool find_nastran_bar_axes(NastranBuild& build, const NastranEntity& bar, const 
   return T.squaredNorm() > 2.5 || bar_without_axes(build, bar);  // a column without length is zero
 }
 
-bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {
+bool NastranBars::place(const NastranElement& e, double turn, bool bends, FeElement& element) {
   static const NastranBarEnds plain;
   const NastranBarEnds& ends = e.ends < 0 ? plain : b_.content.bar_ends[e.ends];
   const int node[2] = {element.nodes[0], element.nodes[1]};
   const Vec3 p[2] = {b_.model.positions[node[0]], b_.model.positions[node[1]]};
-  if (element.type != ElementType::rod2) {
+  if (element.type != FeElementType::rod2) {
     const bool pinned = (ends.pins[0] | ends.pins[1]) != 0;
     const bool offset = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
     bars_.push_back({{node[0], node[1], -1}, offset, bends && !pinned});
@@ -194,7 +194,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
   element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);
   unsigned pins[2] = {ends.pins[0], ends.pins[1]};
   without_double_releases(pins[0], pins[1]);
-  const bool rod = element.type == ElementType::rod2;
+  const bool rod = element.type == FeElementType::rod2;
   if (rod) pins[0] &= 7u, pins[1] &= 7u;
   for (int k = 0; k < 2; ++k) {
     if (pins[k] == 0 && arm[k].isZero(0.0)) continue;
@@ -217,7 +217,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
 void NastranBars::finish() {
   free_drilling_at_stiffeners(b_.model, bars_);
   std::vector<char> dofs(b_.model.positions.size(), 0);
-  for (const Element& e : b_.model.elements) {
+  for (const FeElement& e : b_.model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int k = 0; k < kernel.nodes; ++k) {
       char& d = dofs[e.nodes[k]];
@@ -274,7 +274,7 @@ std::string weak_nastran_bar_note(const NastranProperty& p) {
                            : "");
 }
 
-void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& s,
+void add_nastran_bending(NastranBuild& build, const FeElement& rod, const BeamSection& s,
                          double shear_modulus, const NastranEntity& bar) {
   FeModel& model = build.model;
   const Vec3 d = model.positions[rod.nodes[1]] - model.positions[rod.nodes[0]];

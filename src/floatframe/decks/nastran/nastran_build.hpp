@@ -161,8 +161,8 @@ ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
 /// Notes of shells that are read as others.
 void note_nastran_shells(NastranBuild& build);
 /// Axes of the material of an element whose section and material are known.
-void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result);
-void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
+void orient_nastran_shell(NastranBuild& build, const NastranElement& e, FeElement& result);
+void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, FeElement& result);
 /// Materials of the model by their numbers.
 class NastranMaterials {
  public:
@@ -202,7 +202,7 @@ std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build);
 bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
 std::string weak_nastran_bar_note(const NastranProperty& p);
 /// Springs that bend as the beam does; the rod has its material and reference vector.
-void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& section,
+void add_nastran_bending(NastranBuild& build, const FeElement& rod, const BeamSection& section,
                          double shear_modulus, const NastranEntity& bar);
 /// Columns x along the bar, y in the plane of x and v; zero where there is no direction.
 Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v);
@@ -215,7 +215,7 @@ class NastranBars {
   explicit NastranBars(NastranBuild& build) : b_(build) {}
   /// The element has its nodes, and is a rod if it does not bend; `turn`: of the principal axes of
   /// its section; `bends`: across both axes.
-  bool place(const NastranElement& e, double turn, bool bends, Element& element);
+  bool place(const NastranElement& e, double turn, bool bends, FeElement& element);
   void finish();
 
  private:

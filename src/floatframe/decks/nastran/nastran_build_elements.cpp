@@ -31,7 +31,7 @@ class ElementBuilder {
         b_.error(ErrorCode::duplicate, e,
                  "this element number is in the file twice, first in line {}", it->second.line);
       if (mesh_only_ &&
-          (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
+          (e.surface || e.type == FeElementType::beam2 || e.type == FeElementType::rod2)) {
         skin(e);
       } else {
         element(e);
@@ -62,11 +62,11 @@ class ElementBuilder {
 
   /// The cards that its property may be; the first is expected.
   static std::array<std::string_view, 3> property_cards(const NastranElement& e) {
-    if (e.type == ElementType::shear4) return {"PSHEAR"};
+    if (e.type == FeElementType::shear4) return {"PSHEAR"};
     if (e.surface) return {"PSHELL", "PCOMP", "PCOMPG"};
     if (e.card == "CBAR") return {"PBAR", "PBARL"};
     if (e.card == "CBEAM") return {"PBEAM", "PBEAML"};
-    if (e.type == ElementType::rod2) return {e.card == "CTUBE" ? "PTUBE" : "PROD", "CONROD"};
+    if (e.type == FeElementType::rod2) return {e.card == "CTUBE" ? "PTUBE" : "PROD", "CONROD"};
     return {"PSOLID"};
   }
 
@@ -86,7 +86,7 @@ class ElementBuilder {
   }
 
   void element(const NastranElement& e) {
-    Element result;
+    FeElement result;
     result.type = e.type;
     result.id = e.id;
     result.source = e.at;
@@ -100,7 +100,7 @@ class ElementBuilder {
     }
     const NastranProperty* const p = property(e);
     if (p == nullptr) return;
-    if (e.type == ElementType::shear4) {
+    if (e.type == FeElementType::shear4) {
       result.material = materials_.index(*p, density_of(p->nonstructural, p->thickness));
       result.section = shell(e, *p, p->thickness);
       edge_rods(*p, result);
@@ -115,8 +115,8 @@ class ElementBuilder {
           materials_.index(*p, p->plies.empty() ? density_of(p->nonstructural, t) : 0.0);
       result.section = shell(e, *p, t);
       orient_nastran_shell(b_, e, result);
-    } else if (e.type == ElementType::beam2 || e.type == ElementType::rod2) {
-      const bool beam = e.type == ElementType::beam2;
+    } else if (e.type == FeElementType::beam2 || e.type == FeElementType::rod2) {
+      const bool beam = e.type == FeElementType::beam2;
       if (!p->stations.empty()) return tapered(e, *p, result);
       if (beam && is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
         return weak(e, *p, result);
@@ -126,12 +126,12 @@ class ElementBuilder {
     } else {
       result.material = materials_.index(*p, 0.0);
       orient_nastran_solid(b_, *p, result);
-      if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
+      if (e.type == FeElementType::hex8 && !p->full_integration) result.type = FeElementType::hex8i;
     }
     add(e, result);
   }
 
-  void add(const NastranElement& e, const Element& result) {
+  void add(const NastranElement& e, const FeElement& result) {
     if (e.property > 0)  // a CONROD has none
       for (const std::string& name : set_names(e.property))
         b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
@@ -139,11 +139,11 @@ class ElementBuilder {
   }
 
   /// A bar without some of its stiffness: a rod, and springs where it bends.
-  void weak(const NastranElement& e, const NastranProperty& p, Element& result) {
+  void weak(const NastranElement& e, const NastranProperty& p, FeElement& result) {
     const bool bends = p.section.Iy > 0.0 || p.section.Iz > 0.0;
-    if (!bends) result.type = ElementType::rod2;
+    if (!bends) result.type = FeElementType::rod2;
     if (!bars_.place(e, bends ? p.turn : 0.0, false, result)) return;
-    result.type = ElementType::rod2;
+    result.type = FeElementType::rod2;
     result.material = materials_.index(p, p.nonstructural / p.section.A);
     result.section = section(e, p, p.section, false);
     if (weak_.insert(e.property).second)
@@ -155,7 +155,7 @@ class ElementBuilder {
   }
 
   /// A chain of beams of constant section between the ends of a tapered one.
-  void tapered(const NastranElement& e, const NastranProperty& p, Element& whole) {
+  void tapered(const NastranElement& e, const NastranProperty& p, FeElement& whole) {
     if (!bars_.place(e, 0.0, true, whole)) return;
     const std::vector<NastranPiece>& pieces = tapers_.at(e.property);
     const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
@@ -164,7 +164,7 @@ class ElementBuilder {
     int last = whole.nodes[0];
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const NastranPiece& piece = pieces[k];
-      Element part = whole;
+      FeElement part = whole;
       part.nodes[0] = last;
       if (k + 1 < pieces.size())
         part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, e.label());
@@ -176,16 +176,16 @@ class ElementBuilder {
     }
   }
 
-  static ElementType membrane_of(ElementType shell) {
+  static FeElementType membrane_of(FeElementType shell) {
     switch (shell) {
-      case ElementType::tri3:
-        return ElementType::membrane3;
-      case ElementType::quad4:  // its shear is that of the middle in Nastran too
-        return ElementType::membrane4s;
-      case ElementType::tri6:
-        return ElementType::membrane6;
+      case FeElementType::tri3:
+        return FeElementType::membrane3;
+      case FeElementType::quad4:  // its shear is that of the middle in Nastran too
+        return FeElementType::membrane4s;
+      case FeElementType::tri6:
+        return FeElementType::membrane6;
       default:
-        return ElementType::membrane8;
+        return FeElementType::membrane8;
     }
   }
 
@@ -226,7 +226,7 @@ class ElementBuilder {
                "it has thicknesses of its corners, and its property {} is a {}", p.id, p.card);
       return p.thickness;
     }
-    const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
+    const int corners = e.type == FeElementType::tri3 || e.type == FeElementType::tri6 ? 3 : 4;
     double sum = 0.0, least = 1e300, most = 0.0;
     for (int k = 0; k < corners; ++k) {
       const double own = e.corner_thickness[k];
@@ -250,7 +250,7 @@ class ElementBuilder {
     if (!fresh) return it->second;
     must_be_positive(p, "the thickness", t);
     ShellSection section;
-    if (e.type == ElementType::shear4) {
+    if (e.type == FeElementType::shear4) {
       section.shear = t * materials_.own_shear(p.material);
     } else {
       section = nastran_shell_section(b_, e, p, [&](int id) {
@@ -266,15 +266,15 @@ class ElementBuilder {
 
   /// For a panel: F1 along the edges 12 and 34, F2 along the others; without mass. Up to 1.01 a
   /// factor is a fraction of the panel, above a width in thicknesses.
-  void edge_rods(const NastranProperty& p, const Element& panel) {
+  void edge_rods(const NastranProperty& p, const FeElement& panel) {
     const auto at = [&](int k) { return b_.model.positions[panel.nodes[k % 4]]; };
     const double area = 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
     for (int k = 0; k < 4; ++k) {
       const double factor = p.edge_factors[k % 2], t = p.thickness;
       const double along = (at(k + 1) - at(k)).norm() + (at(k + 3) - at(k + 2)).norm();
       if (factor == 0.0 || !(along > 0.0)) continue;
-      Element rod;
-      rod.type = ElementType::rod2;
+      FeElement rod;
+      rod.type = FeElementType::rod2;
       rod.source = panel.source;
       rod.nodes[0] = panel.nodes[k];
       rod.nodes[1] = panel.nodes[(k + 1) % 4];

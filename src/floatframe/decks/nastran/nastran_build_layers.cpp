@@ -69,7 +69,7 @@ ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
   return s;
 }
 
-void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result) {
+void orient_nastran_shell(NastranBuild& build, const NastranElement& e, FeElement& result) {
   const ShellSection& section = build.model.shells[result.section];
   if (is_plain(section, build.model.materials[result.material])) return;
   result.angle = e.theta;
@@ -82,7 +82,7 @@ void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element&
         e.material_system);
 }
 
-void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result) {
+void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, FeElement& result) {
   if (!build.model.materials[result.material].elasticity || p.material_system == 0) return;
   if (p.material_system < 0)
     return build.source.error(
@@ -96,19 +96,19 @@ void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element
 void note_nastran_shells(NastranBuild& build) {
   struct Kind {
     std::string_view card;
-    ElementType type;
+    FeElementType type;
     const char* text;
     bool bends = false;  // only for shells
     NastranCount count = {};
   };
   Kind kinds[] = {
-      {"CTRIA6", ElementType::tri6, "CTRIA6 elements are four flat triangles each", true},
-      {"CQUAD8", ElementType::quad8, "CQUAD8 elements are flat triangles between all their nodes",
+      {"CTRIA6", FeElementType::tri6, "CTRIA6 elements are four flat triangles each", true},
+      {"CQUAD8", FeElementType::quad8, "CQUAD8 elements are flat triangles between all their nodes",
        true},
-      {"CTRIA6", ElementType::tri3, "CTRIA6 elements without mid-side nodes are read as CTRIA3"},
-      {"CQUAD8", ElementType::quad4, "CQUAD8 elements without mid-side nodes are read as CQUAD4"},
-      {"CTRIAR", ElementType::tri3, "CTRIAR elements are read as CTRIA3"},
-      {"CQUADR", ElementType::quad4, "CQUADR elements are read as CQUAD4"}};
+      {"CTRIA6", FeElementType::tri3, "CTRIA6 elements without mid-side nodes are read as CTRIA3"},
+      {"CQUAD8", FeElementType::quad4, "CQUAD8 elements without mid-side nodes are read as CQUAD4"},
+      {"CTRIAR", FeElementType::tri3, "CTRIAR elements are read as CTRIA3"},
+      {"CQUADR", FeElementType::quad4, "CQUADR elements are read as CQUAD4"}};
   const auto membrane = [&](const NastranElement& e) {
     const auto property = build.content.properties.find(e.property);
     return property != build.content.properties.end() && property->second.membrane;

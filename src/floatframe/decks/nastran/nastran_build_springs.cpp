@@ -184,8 +184,8 @@ void build_nastran_springs(NastranBuild& build) { SpringBuilder(build).build(); 
 
 void build_nastran_torsion(NastranBuild& build) {
   FeModel& model = build.model;
-  for (const Element& e : model.elements) {
-    if (e.type != ElementType::rod2) continue;
+  for (const FeElement& e : model.elements) {
+    if (e.type != FeElementType::rod2) continue;
     const double J = model.sections[e.section].J;
     const Vec3 d = model.positions[e.nodes[1]] - model.positions[e.nodes[0]];
     if (!(J > 0.0) || !(d.norm() > 0.0)) continue;

@@ -79,9 +79,9 @@ struct NastranBarDefault {
 };
 
 struct NastranElement : NastranEntity {
-  ElementType type = ElementType::tet4;
+  FeElementType type = FeElementType::tet4;
   int property = 0;
-  std::array<int, 20> nodes{};  ///< in the order of ElementType
+  std::array<int, 20> nodes{};  ///< in the order of FeElementType
   int count = 0;
   bool surface = false;          ///< a triangle or quadrilateral
   bool other = false;            ///< surface with a part of its mid-side nodes: only a skin

@@ -112,7 +112,7 @@ void check_nastran_scalar_masses(NastranBuild& build) {
 // their own axis, unless PARAM COUPMASS is positive.
 void nastran_mass_forms(NastranBuild& build) {
   if (build.content.properties.empty() || build.content.coupled_mass) return;
-  for (Element& e : build.model.elements) e.mass_form = MassForm::lumped_without_rotation;
+  for (FeElement& e : build.model.elements) e.mass_form = MassForm::lumped_without_rotation;
 }
 
 }  // namespace floatframe

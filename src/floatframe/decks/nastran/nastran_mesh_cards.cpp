@@ -49,15 +49,15 @@ NastranElement mesh_element(NastranFields& f) {
 struct SolidCard {
   std::string_view name;
   std::size_t corners, all;
-  ElementType linear, quadratic;
+  FeElementType linear, quadratic;
   std::size_t uprights;  ///< vertical edges between the corners of two faces
 };
 
 constexpr SolidCard solid_cards[] = {
-    {"CTETRA", 4, 10, ElementType::tet4, ElementType::tet10, 0},
-    {"CHEXA", 8, 20, ElementType::hex8, ElementType::hex20, 4},
-    {"CPYRAM", 5, 13, ElementType::pyramid5, ElementType::pyramid13, 0},  // CPYRA of OptiStruct
-    {"CPENTA", 6, 15, ElementType::wedge6, ElementType::wedge15, 3}};
+    {"CTETRA", 4, 10, FeElementType::tet4, FeElementType::tet10, 0},
+    {"CHEXA", 8, 20, FeElementType::hex8, FeElementType::hex20, 4},
+    {"CPYRAM", 5, 13, FeElementType::pyramid5, FeElementType::pyramid13, 0},  // CPYRA of OptiStruct
+    {"CPENTA", 6, 15, FeElementType::wedge6, FeElementType::wedge15, 3}};
 
 void read_nastran_solid(NastranFields& f, NastranContent& c) {
   const SolidCard& card =
@@ -90,16 +90,16 @@ struct SurfaceCard {
   std::size_t corners;
   bool midside;
   std::size_t axes, flag;  ///< fields of THETA and TFLAG
-  ElementType linear, quadratic;
+  FeElementType linear, quadratic;
 };
 
 constexpr SurfaceCard surface_cards[] = {
-    {"CTRIA3", 3, false, 5, 9, ElementType::tri3, ElementType::tri3},
-    {"CQUAD4", 4, false, 6, 9, ElementType::quad4, ElementType::quad4},
-    {"CTRIA6", 3, true, 8, 13, ElementType::tri3, ElementType::tri6},
-    {"CQUAD8", 4, true, 14, 16, ElementType::quad4, ElementType::quad8},
-    {"CTRIAR", 3, false, 5, 9, ElementType::tri3, ElementType::tri3},
-    {"CQUADR", 4, false, 6, 9, ElementType::quad4, ElementType::quad4}};
+    {"CTRIA3", 3, false, 5, 9, FeElementType::tri3, FeElementType::tri3},
+    {"CQUAD4", 4, false, 6, 9, FeElementType::quad4, FeElementType::quad4},
+    {"CTRIA6", 3, true, 8, 13, FeElementType::tri3, FeElementType::tri6},
+    {"CQUAD8", 4, true, 14, 16, FeElementType::quad4, FeElementType::quad8},
+    {"CTRIAR", 3, false, 5, 9, FeElementType::tri3, FeElementType::tri3},
+    {"CQUADR", 4, false, 6, 9, FeElementType::quad4, FeElementType::quad4}};
 
 /// THETA or MCID, ZOFFS, then T1 to T4, which with TFLAG 1 are factors of that of the property.
 void read_shell_fields(NastranFields& f, const SurfaceCard& card, NastranElement& e) {
@@ -141,7 +141,7 @@ void read_nastran_surface(NastranFields& f, NastranContent& c) {
 void read_nastran_panel(NastranFields& f, NastranContent& c) {
   NastranElement e = mesh_element(f);
   e.surface = true;
-  e.type = ElementType::shear4;
+  e.type = FeElementType::shear4;
   for (std::size_t k = 0; k < 4; ++k) e.nodes[e.count++] = f.label(2 + k, "a node");
   c.elements.push_back(std::move(e));
 }

@@ -20,9 +20,9 @@ void note_damping(NastranFields& f, std::size_t i, NastranContent& c) {
 bool is_there(const NastranFields& f, std::size_t i) { return !f.blank(i) && f.text(i) != "0"; }
 
 /// With its property, or a direct value: CELAS2, CELAS4, CMASS2, CMASS4.
-template <class Element>
-Element scalar_element(NastranFields& f, const char* value) {
-  auto e = f.entity<Element>("the number of the element");
+template <class FeElement>
+FeElement scalar_element(NastranFields& f, const char* value) {
+  auto e = f.entity<FeElement>("the number of the element");
   if (f.name().ends_with('2') || f.name().ends_with('4'))
     e.value = f.real(1, value);
   else

@@ -142,7 +142,7 @@ std::map<int, std::vector<NastranPiece>> nastran_tapers(NastranBuild& build) {
   double wanted = 0.0;
   for (const NastranElement& e : c.elements) {
     const auto it = c.properties.find(e.property);
-    if (e.type != ElementType::beam2 || it == c.properties.end() || it->second.stations.empty())
+    if (e.type != FeElementType::beam2 || it == c.properties.end() || it->second.stations.empty())
       continue;
     ++beams[e.property];
     const std::vector<NastranStation>& s = it->second.stations;

@@ -135,7 +135,7 @@ class UnvBuild {
         continue;
       }
       if (section < 0 && !gather(e, nodes)) continue;
-      Element element;
+      FeElement element;
       element.type = *e.type->element;
       element.section = std::max(section, 0);
       for (std::size_t k = 0; k < nodes.size(); ++k) element.nodes[k] = nodes[e.type->order[k]];

@@ -244,7 +244,7 @@ const std::map<int, void (UnvParser::*)()> UnvParser::datasets = {
     {164, &UnvParser::read_units},
 };
 
-using U = ElementType;
+using U = FeElementType;
 
 constexpr std::array<int, 20> as_in_unv = {0, 1, 2, 3, 4, 5, 6, 7};
 

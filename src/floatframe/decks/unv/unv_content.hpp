@@ -29,7 +29,7 @@ struct UnvType {
   int nodes = 0;
   bool beam = false;  ///< a record of orientation and end sections comes first
   /// A solid, or the shell that it becomes if a thickness is given.
-  std::optional<ElementType> element;
+  std::optional<FeElementType> element;
   std::array<int, 20> order{};  ///< of these: node k is node order[k] of the file
   UnvUse use = UnvUse::mesh;
 

@@ -318,7 +318,7 @@ class GmshParser {
   std::map<std::vector<int>, int> known_lists_;
 };
 
-using E = ElementType;
+using E = FeElementType;
 
 constexpr std::array<int, 20> same_order = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
                                             10, 11, 12, 13, 14, 15, 16, 17, 18, 19};

@@ -16,7 +16,7 @@ struct GmshType {
   const char* name = "";
   int dimension = 0;
   int nodes = 0;
-  std::optional<ElementType> element;  ///< the corresponding solid or shell, if there is one
+  std::optional<FeElementType> element;  ///< the corresponding solid or shell, if there is one
   std::array<int, 20> order{};  ///< of these: node k of the element is node order[k] of the file
 };
 

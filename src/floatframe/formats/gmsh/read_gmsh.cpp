@@ -197,7 +197,7 @@ class GmshModel {
         }
       }
       element_index_[i] = static_cast<int>(model_.elements.size());
-      Element element;
+      FeElement element;
       element.type = *e.type->element;
       if (e.type->dimension == 2) element.section = section_[i];
       for (std::size_t k = 0; k < nodes.size(); ++k) element.nodes[k] = nodes[e.type->order[k]];
@@ -218,7 +218,7 @@ class GmshModel {
   }
 
   /// For a duplicate element: that of a named group counts.
-  void same_section(const GmshElement& e, std::size_t i, Element& known) {
+  void same_section(const GmshElement& e, std::size_t i, FeElement& known) {
     const int others = thickness_.others();
     if (section_[i] == known.section || section_[i] == others) return;
     if (known.section != others)

@@ -43,7 +43,7 @@ void keep_nodes(FeModel& model) {
     std::vector<int> nodes;
     ++list;
     for (const int e : elements) {
-      const Element& element = model.elements[e];
+      const FeElement& element = model.elements[e];
       for (int k = 0; k < element_nodes(element.type); ++k) {
         const int node = element.nodes[k];
         int& last = list_of[node];

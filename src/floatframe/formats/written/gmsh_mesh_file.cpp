@@ -15,11 +15,11 @@ namespace floatframe {
 namespace {
 
 /// Place in the file of each node of the element; of solids as the table of the reader has it.
-std::array<int, 20> file_order(ElementType type, const GmshType& gmsh) {
+std::array<int, 20> file_order(FeElementType type, const GmshType& gmsh) {
   if (gmsh.element) return gmsh.order;
   std::array<int, 20> order{};
   std::iota(order.begin(), order.end(), 0);
-  if (type == ElementType::beam3) std::swap(order[1], order[2]);
+  if (type == FeElementType::beam3) std::swap(order[1], order[2]);
   return order;
 }
 
@@ -58,7 +58,7 @@ class GmshFile {
   }
 
  private:
-  static int dimension_of(const Element& e) { return written_cell(e.type).dimension; }
+  static int dimension_of(const FeElement& e) { return written_cell(e.type).dimension; }
 
   int new_group(int dimension, const std::string& name) {
     auto& used = used_names_[static_cast<std::size_t>(dimension)];
@@ -174,7 +174,7 @@ class GmshFile {
   }
 
   void add_element(std::string& text, std::size_t at, const GmshType& type) const {
-    const Element& e = model_.elements[at];
+    const FeElement& e = model_.elements[at];
     const std::array<int, 20> order = file_order(e.type, type);
     std::array<int, 20> file{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(type.nodes); ++k)

@@ -39,10 +39,10 @@ void add_cell(VtkGrid& grid, std::uint8_t type, std::span<const int> nodes) {
 void add_element_cells(const FeModel& model, const WrittenNumbers& numbers, VtkGrid& grid,
                        Cells& cells) {
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const Element& element = model.elements[e];
+    const FeElement& element = model.elements[e];
     std::array<int, 20> nodes = element.nodes;
     // Nodes are in the order of VTK, but in the quadratic beam.
-    if (element.type == ElementType::beam3) std::swap(nodes[1], nodes[2]);
+    if (element.type == FeElementType::beam3) std::swap(nodes[1], nodes[2]);
     const WrittenCell& cell = written_cell(element.type);
     add_cell(grid, cell.vtk, std::span(nodes).first(static_cast<std::size_t>(cell.nodes)));
     const auto m = static_cast<std::size_t>(element.material);
@@ -56,7 +56,7 @@ void add_element_cells(const FeModel& model, const WrittenNumbers& numbers, VtkG
 
 /// Behind the elements: spiders as lines, point masses as vertices.
 void add_other_cells(const FeModel& model, VtkGrid& grid, Cells& cells) {
-  const int spider = static_cast<int>(std::size(element_types)), mass = spider + 1;
+  const int spider = static_cast<int>(std::size(fe_element_types)), mass = spider + 1;
   for (const Spider& s : model.spiders) {
     if (s.reference < 0) continue;
     for (const int node : s.nodes) {
@@ -126,7 +126,8 @@ WrittenMesh vtu_mesh(const FeModel& model, const MeshWriteOptions&) {
   add_set_arrays(model, grid, out.notes);
   if (!model.springs.empty())
     out.notes.push_back(fmt::format("{} springs left out", model.springs.size()));
-  std::vector<std::string> types(std::begin(element_words), std::end(element_words)), materials;
+  std::vector<std::string> types(std::begin(fe_element_words), std::end(fe_element_words)),
+      materials;
   types.insert(types.end(), {"spider", "point_mass"});
   for (std::size_t m = 0; m < model.materials.size(); ++m)
     materials.push_back(written_material(model, static_cast<int>(m)));

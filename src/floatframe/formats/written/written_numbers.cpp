@@ -45,7 +45,7 @@ constexpr WrittenCell written_cells[] = {
 
 }  // namespace
 
-const WrittenCell& written_cell(ElementType type) {
+const WrittenCell& written_cell(FeElementType type) {
   const ElementKernel& kernel = element_kernel(type);
   const int dimension = is_beam(type) || is_rod(type)           ? 1
                         : kernel.family == ElementFamily::solid ? 3
@@ -62,7 +62,7 @@ WrittenNumbers written_numbers(const FeModel& model, std::vector<std::string>& n
     for (int i = 0; i < model.nodes(); ++i) nodes.push_back(i + 1);
   out.node = usable_numbers(std::move(nodes), model.positions.size(), "nodes", notes);
   std::vector<int> elements;
-  for (const Element& e : model.elements) elements.push_back(e.id);
+  for (const FeElement& e : model.elements) elements.push_back(e.id);
   out.element = usable_numbers(std::move(elements), model.elements.size(), "elements", notes);
   out.last_node = largest_number(out.node);
   out.last_element = largest_number(out.element);

@@ -23,7 +23,7 @@ struct WrittenCell {
   std::uint8_t vtk = 0;
   int gmsh = 0;
 };
-const WrittenCell& written_cell(ElementType type);
+const WrittenCell& written_cell(FeElementType type);
 
 /// Letters, digits, '_' and '-', at most 60; in upper case on request; unique among `used`, where
 /// it is added.
