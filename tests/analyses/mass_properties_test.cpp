@@ -139,7 +139,7 @@ MatX rigid_motion_energy(const AbsoluteFormulation& f, const VecX& q, const MatX
                          int last) {
   MatX V = MatX::Zero(q.size(), 6);
   int at = 0;
-  for (int i = 0; i <= last; at += f.body_size(i++)) {
+  for (int i = 0; i <= last; at += f.kinematics().bodies()[i++].size()) {
     if (i < first) continue;
     for (int k = 0; k < 3; ++k) {
       V.block<3, 1>(at, k) = Vec3::Unit(k);

@@ -48,7 +48,7 @@ TEST(ConstraintSet, TreeJointsHaveNoRowsAndBodiesComeFirst) {
   EXPECT_EQ(relative.constraints(), 4);
   EXPECT_EQ(relative.constraint_set().owner_of_row(0), "joint 'loop'");
   int own = 0;
-  for (int i = 0; i < 2; ++i) own += absolute.body_rows(i);
+  for (const AbsoluteBody& b : absolute.kinematics().bodies()) own += b.rows();
   EXPECT_EQ(absolute.constraint_set().offset(0), own);
   EXPECT_EQ(absolute.constraints(), own + 5 + 3 + 4);
   EXPECT_EQ(absolute.constraint_set().owner_of_row(own), "joint 'first'");

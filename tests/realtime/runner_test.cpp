@@ -36,7 +36,7 @@ std::vector<double> stepped(F& f, State start, const SimulationDescription& s, l
     runner.state().t = k == 11 ? s.duration : static_cast<double>(k) * s.step;
     runner.sample(rows.data() + k * width);
   }
-  iterations = runner.iterations();
+  iterations = runner.counters().iterations;
   return rows;
 }
 

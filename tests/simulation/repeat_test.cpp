@@ -74,7 +74,7 @@ void check(const Model& model, const Combination& c, const char* label) {
       start_accelerations(f, runner.state(), options.penalty_mass);
       histories.push_back(drive(runner, width, allocations));
       if (fresh == 0 && again == 0)
-        figure(name + " substeps", static_cast<double>(runner.substeps()));
+        figure(name + " substeps", static_cast<double>(runner.counters().substeps));
     }
   }
   EXPECT_TRUE(same_bits(histories[0], histories[2])) << name << ": two fresh runs";
@@ -123,8 +123,8 @@ TEST(Repeat, SubstepsDoNotAllocateEither) {
       start_accelerations(f, runner.state(), options.penalty_mass);
       std::size_t allocations = 0;
       drive(runner, model.outputs.size() + 1, allocations);
-      figure(c.name() + " substeps forced", static_cast<double>(runner.substeps()));
-      EXPECT_GT(runner.substeps(), 0);
+      figure(c.name() + " substeps forced", static_cast<double>(runner.counters().substeps));
+      EXPECT_GT(runner.counters().substeps, 0);
       EXPECT_EQ(allocations, 0u) << c.name();
     };
     if (c.coordinates == Coordinates::relative) {

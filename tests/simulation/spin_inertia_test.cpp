@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
 #include "simulation/figures.hpp"
 #include "support/model_text.hpp"

@@ -158,8 +158,7 @@ MatX free_directions(F& f) {
   const int n = f.velocities();
   if constexpr (std::is_same_v<F, AbsoluteFormulation>) {
     int own = 0;
-    for (std::size_t i = 0; i < f.model().bodies.size(); ++i)
-      own += f.body_rows(static_cast<int>(i));
+    for (const AbsoluteBody& b : f.kinematics().bodies()) own += b.rows();
     const MatX kernel = f.constraint_jacobian().topRows(own).fullPivLu().kernel();
     return kernel.householderQr().householderQ() * MatX::Identity(n, kernel.cols());
   }

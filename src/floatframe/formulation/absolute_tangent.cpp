@@ -1,16 +1,15 @@
-// Tangent of the absolute formulation on the motions that satisfy the internal constraints, and the
-// multipliers of the parts: (5), (6) of absolute.hpp, assembled into the fronts of the bodies.
-#include "floatframe/formulation/absolute.hpp"
+// Assembles (6) of absolute_tangent.hpp into the fronts of the bodies, and factorises it.
+#include "floatframe/formulation/absolute_tangent.hpp"
 
 namespace floatframe {
 
 /// B^T of the wrench at a marker: (F, r x F + T, Jr^T F + Jw^T T), r from the body's origin.
-void AbsoluteFormulation::gradient(int marker, const Vec3& force, const Vec3& torque,
-                                   Gradient& g) const noexcept {
+void AbsoluteTangent::gradient(int marker, const Vec3& force, const Vec3& torque,
+                               Gradient& g) const noexcept {
   g.body = marker < 0 ? -1 : markers_[marker].body;
   if (g.body < 0) return;
-  const MarkerData& m = markers_[marker];
-  const BodyData& b = bodies_[g.body];
+  const AbsoluteMarker& m = markers_[marker];
+  const AbsoluteBody& b = bodies_[g.body];
   g.z.head<3>() = force;
   g.z.segment<3>(3) = torque + (m.s.r - b.p_WB).cross(force);
   for (int k = 0; k < b.nm; ++k) {
@@ -21,7 +20,7 @@ void AbsoluteFormulation::gradient(int marker, const Vec3& force, const Vec3& to
   }
 }
 
-void AbsoluteFormulation::gradients(int a, int b, const WrenchRow& w) noexcept {
+void AbsoluteTangent::gradients(int a, int b, const WrenchRow& w) noexcept {
   gradient(a, w.Fa, w.Ta, ga_);
   gradient(b, w.Fb, w.Tb, gb_);
   if (ga_.body < 0 || ga_.body != gb_.body) return;
@@ -31,7 +30,7 @@ void AbsoluteFormulation::gradients(int a, int b, const WrenchRow& w) noexcept {
 }
 
 /// weight (g_a + g_b) (g_a + g_b)^T
-void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, double weight) noexcept {
+void AbsoluteTangent::add_rank_one(BlockLdlt& matrix, double weight) noexcept {
   for (const Gradient* g : {&ga_, &gb_}) {
     if (g->body < 0) continue;
     MatX& f = matrix.front(g->body);
@@ -58,7 +57,7 @@ void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, double weight) noexcep
 }
 
 /// The symmetric part of K over the motions (dr, dpi) of the markers a and b.
-void AbsoluteFormulation::add_curvature(int a, int b, const Mat12& K, BlockLdlt& matrix) noexcept {
+void AbsoluteTangent::add_curvature(int a, int b, const Mat12& K, BlockLdlt& matrix) noexcept {
   const int markers[2] = {a, b};
   int bodies[2], sizes[2] = {0, 0};
   for (int k = 0; k < 2; ++k) {
@@ -90,18 +89,19 @@ void AbsoluteFormulation::add_curvature(int a, int b, const Mat12& K, BlockLdlt&
 }
 
 /// B^T (mass M + stretch (x) I) B onto the lower triangle of f, `stretch` between the axes.
-void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& stretch,
-                                   MatX& f) noexcept {
+void AbsoluteTangent::add_mass(int body, double mass, const Mat3& stretch, MatX& f) const noexcept {
+  const AbsoluteBody& b = bodies_[body];
+  const MatX& M = terms_[body].M;
   // The image of a column of M under a rotation: sum of A_c x its part at the axis c.
   const auto turn = [&](Eigen::Index k) {
-    const double* column = b.M.data() + k * b.M.rows();
+    const double* column = M.data() + k * M.rows();
     Vec3 t = Vec3::Zero();
     for (int c = 0; c < 3; ++c)
       t += b.A.col(c).cross(Vec3(column[3 + 3 * c], column[4 + 3 * c], column[5 + 3 * c]));
     return t;
   };
   for (int j = 0; j < 3; ++j) {
-    for (int i = j; i < 3; ++i) f(i, j) += mass * b.M(i, j);
+    for (int i = j; i < 3; ++i) f(i, j) += mass * M(i, j);
     f.block<3, 1>(3, j) += mass * turn(j);
   }
   for (int d = 0; d < 3; ++d) {
@@ -111,7 +111,7 @@ void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& s
     f.block<3, 3>(3, 3) -= turned * skew(Vec3(b.A.col(d)));
   }
   for (int k = 0; k < b.nm; ++k) {
-    const double* column = b.M.data() + static_cast<Eigen::Index>(12 + k) * b.M.rows();
+    const double* column = M.data() + static_cast<Eigen::Index>(12 + k) * M.rows();
     const Vec3 t = turn(12 + k);
     for (int c = 0; c < 3; ++c) {
       f(6 + k, c) += mass * column[c];
@@ -123,24 +123,23 @@ void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& s
 
 /// Inertia and stiffness of body i, and the geometric stiffness of the multipliers of (1), a
 /// stretch between the axes, and of (2).
-void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
-                                        BlockLdlt& matrix) noexcept {
-  const BodyData& b = bodies_[i];
+void AbsoluteTangent::assemble_body(const Weights& t, int i, BlockLdlt& matrix) const noexcept {
+  const AbsoluteBody& b = bodies_[i];
   MatX& f = matrix.front(i);
-  const VecX& lambda = constraint_set_.multipliers();
+  const VecX& lambda = constraints_.multipliers();
   Mat3 stretch = Mat3::Zero();
   if (t.geometric)
     for (int k = 0; k < 6; ++k)
-      stretch(pair_a[k], pair_b[k]) = stretch(pair_b[k], pair_a[k]) =
+      stretch(b.pair_a[k], b.pair_b[k]) = stretch(b.pair_b[k], b.pair_a[k]) =
           t.s * b.length * lambda[b.row + k];
-  add_mass(b, t.mass, stretch, f);
+  add_mass(i, t.mass, stretch, f);
   if (b.nm == 0) return;
   const FlexibleBody& data = *model_.bodies[i].data;
   f.block(6, 6, b.nm, b.nm) += t.s * data.K + t.damping * data.D;
   if (!t.geometric) return;
   for (int p = 0; p < b.points; ++p) {
-    const MarkerData& m = point(b, p);
-    const Vec3 w = t.s * lambda.segment<3>(b.row + 6 + 3 * p);
+    const AbsoluteMarker& m = kinematics_.point(b, p);
+    const Vec3 w = t.s * lambda.segment<3>(b.point_row(p));
     for (int k = 0; k < b.nm; ++k) {
       Vec3 moved = Vec3::Zero();
       for (int c = 0; c < 3; ++c) moved += m.X(c, k) * b.A.col(c);
@@ -152,43 +151,43 @@ void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
 
 /// K_G of second-order displacements: due to accelerations of the bodies, and forces and
 /// multipliers on them.
-void AbsoluteFormulation::assemble_stiffening(const TangentWeights& t, BlockLdlt& matrix) noexcept {
-  for (BodyData& b : bodies_) {
-    const SecondOrder* second_order = b.inertia.second_order();
+void AbsoluteTangent::assemble_stiffening(const Weights& t, BlockLdlt& matrix) noexcept {
+  const VecX& acceleration = kinematics_.accelerations();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const SecondOrder* second_order = terms_[i].inertia.second_order();
     if (!second_order) continue;
-    b.K_G.setZero();
-    const Vec3 a = b.A.transpose() * (a_.segment<3>(b.offset) - model_.gravity);
+    const AbsoluteBody& b = bodies_[i];
+    K_G_[i].setZero();
+    const Vec3 a = b.A.transpose() * (acceleration.segment<3>(b.offset) - model_.gravity);
     Mat3 G;
     for (int c = 0; c < 3; ++c)
-      G.col(c).noalias() = b.A.transpose() * a_.segment<3>(b.offset + 3 + 3 * c);
-    add_stiffness(*second_order, a, G, t.s, b.K_G);
+      G.col(c).noalias() = b.A.transpose() * acceleration.segment<3>(b.axis(c));
+    add_stiffness(*second_order, a, G, t.s, K_G_[i]);
   }
   const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
-    const MarkerData& m = markers_[marker];
+    const AbsoluteMarker& m = markers_[marker];
     if (!m.second) return;
-    BodyData& b = bodies_[m.body];
-    m.add_stiffness(b.A.transpose() * force, b.A.transpose() * torque, t.s, b.K_G);
+    const Mat3& A = bodies_[m.body].A;
+    m.add_stiffness(A.transpose() * force, A.transpose() * torque, t.s, K_G_[m.body]);
   };
-  force_set_.add_wrenches(add);
-  const VecX& lambda = constraint_set_.multipliers();
-  for (const BodyData& b : bodies_)
+  forces_.add_wrenches(add);
+  const VecX& lambda = constraints_.multipliers();
+  for (const AbsoluteBody& b : bodies_)
     for (int p = 0; p < b.points; ++p)
-      add(b.point_marker[p], -lambda.segment<3>(b.row + 6 + 3 * p), Vec3::Zero());
-  constraint_set_.add_wrenches(lambda, [&](int marker, const Vec3& force, const Vec3& torque) {
+      add(b.point_marker[p], -lambda.segment<3>(b.point_row(p)), Vec3::Zero());
+  constraints_.add_wrenches(lambda, [&](int marker, const Vec3& force, const Vec3& torque) {
     const bool through_point = markers_[marker].point >= 0;
     add(marker, through_point ? Vec3(Vec3::Zero()) : force, torque);
   });
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const BodyData& b = bodies_[i];
-    if (b.inertia.second_order())
-      matrix.front(static_cast<int>(i)).block(6, 6, b.nm, b.nm) += b.K_G;
-  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (const int nm = bodies_[i].nm; terms_[i].inertia.second_order())
+      matrix.front(static_cast<int>(i)).block(6, 6, nm, nm) += K_G_[i];
 }
 
-void AbsoluteFormulation::assemble_forces(const TangentWeights& t, BlockLdlt& matrix) noexcept {
+void AbsoluteTangent::assemble_forces(const Weights& t, BlockLdlt& matrix) noexcept {
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const Force& force = model_.forces[k];
-    const ForceState& state = force_set_.state(k);
+    const ForceState& state = forces_.state(k);
     for (int r = 0; r < state.row_count; ++r) {
       const TangentRow& row = state.rows[r];
       const double weight = t.s * row.k + t.damping * row.c;
@@ -200,7 +199,7 @@ void AbsoluteFormulation::assemble_forces(const TangentWeights& t, BlockLdlt& ma
 }
 
 /// Row r of a part with its gradients in ga_ and gb_: G of (6).
-void AbsoluteFormulation::assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept {
+void AbsoluteTangent::assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept {
   MatX& f = matrix.front(place.home);
   const int at = place.at + r;
   for (const Gradient* g : {&ga_, &gb_}) {
@@ -216,12 +215,12 @@ void AbsoluteFormulation::assemble_row(const PartPlace& place, int r, BlockLdlt&
   }
 }
 
-void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& matrix) noexcept {
-  for (std::size_t k = 0; k < constraint_set_.parts().size(); ++k) {
-    const ConstraintPart& p = constraint_set_.parts()[k];
+void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexcept {
+  for (std::size_t k = 0; k < constraints_.parts().size(); ++k) {
+    const ConstraintPart& p = constraints_.parts()[k];
     const PartPlace& place = places_[k];
     if (place.home < 0) continue;
-    const int row = constraint_set_.offset(k);
+    const int row = constraints_.offset(k);
     for (int r = 0; r < p.rows(); ++r) {
       const int at = place.at + r;
       if (!(t.penalty > 0.0)) {  // without penalty these rows do not exist
@@ -229,18 +228,19 @@ void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& mat
         continue;
       }
       matrix.front(place.home)(at, at) = -1.0 / t.penalty;
-      gradients(p.a, p.b, constraint_set_.row(row + r).gradient);
+      gradients(p.a, p.b, constraints_.row(row + r).gradient);
       assemble_row(place, r, matrix);
     }
     if (!t.geometric) continue;
     if (place.turns) {
       Mat12 K = Mat12::Zero();
-      add_constraint_curvature(p, constraint_state(p.a), constraint_state(p.b),
-                               constraint_set_.multipliers().data() + row, K);
+      add_constraint_curvature(p, kinematics_.constraint_state(p.a),
+                               kinematics_.constraint_state(p.b),
+                               constraints_.multipliers().data() + row, K);
       add_curvature(p.a, p.b, t.s * K, matrix);
     }
     if (constraint_kind(p.type).gradients == PartGradients::line) {
-      const double w = t.s * constraint_set_.multipliers()[row] / p.scale;
+      const double w = t.s * constraints_.multipliers()[row] / p.scale;
       for (int c = 0; c < 3; ++c) {
         WrenchRow unit;
         unit.Fa = -Vec3::Unit(c);
@@ -253,23 +253,18 @@ void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& mat
   }
 }
 
-int AbsoluteFormulation::eliminate(const TangentWeights& t, Factors& factors) noexcept {
-  factors.matrix.set_zero();
-  factors.penalty = t.penalty;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    assemble_body(t, static_cast<int>(i), factors.matrix);
-  if (second_order_ && t.geometric) assemble_stiffening(t, factors.matrix);
-  assemble_forces(t, factors.matrix);
-  assemble_parts(t, factors.matrix);
-  const int failed = factors.matrix.factorize();
+int AbsoluteTangent::factorize(const Weights& t, int slot) noexcept {
+  BlockLdlt& matrix = factors_[slot];
+  matrix.set_zero();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) assemble_body(t, static_cast<int>(i), matrix);
+  if (second_order_ && t.geometric) assemble_stiffening(t, matrix);
+  assemble_forces(t, matrix);
+  assemble_parts(t, matrix);
+  const int failed = matrix.factorize();
   if (failed < 0) return -1;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const BodyData& b = bodies_[i];
-    const int j = failed - factors.matrix.offset(static_cast<int>(i));
-    if (j < 0 ||
-        (i + 1 < bodies_.size() && failed >= factors.matrix.offset(static_cast<int>(i) + 1)))
-      continue;
-    return b.offset + (j < 6 ? j : j < 6 + b.nm ? j + 6 : 0);
+  for (std::size_t i = bodies_.size(); i-- > 0;) {
+    const int j = failed - matrix.offset(static_cast<int>(i)), nm = bodies_[i].nm;
+    if (j >= 0) return bodies_[i].offset + (j < 6 ? j : j < 6 + nm ? j + 6 : 0);
   }
   return 0;
 }

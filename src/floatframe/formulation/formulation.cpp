@@ -52,6 +52,12 @@ double Formulation::gravity_energy() const noexcept {
   return sum;
 }
 
+CoordinateCounts Formulation::counts() const {
+  int elastic = 0;
+  for (const Body& b : model_.bodies) elastic += b.modes();
+  return {velocities() - elastic, elastic, velocities(), constraints()};
+}
+
 std::unique_ptr<Formulation> make_formulation(Coordinates coordinates, const Model& model,
                                               InertiaMethod method) {
   if (coordinates == Coordinates::relative)

@@ -104,7 +104,7 @@ class Formulation {
   virtual BodyCoordinates body_coordinates(int body) const = 0;
   /// "mode 2 of body 'arm'" or "joint 'hinge'", the owner of coordinate i.
   virtual std::string coordinate_owner(int i) const = 0;
-  virtual CoordinateCounts counts() const = 0;
+  CoordinateCounts counts() const;
   /// Phi_q at the present positions, sparse and dense.
   virtual SparseRowMatrix constraint_rows() = 0;
   MatX constraint_jacobian() { return MatX(constraint_rows()); }

@@ -86,7 +86,6 @@ class RelativeFormulation final : public Formulation {
   double kinetic_energy(const VecX& v) noexcept override;
   BodyCoordinates body_coordinates(int body) const override;
   std::string coordinate_owner(int i) const override { return tree_.coordinate_owner(i); }
-  CoordinateCounts counts() const override;
   SparseRowMatrix constraint_rows() override { return tangent_.constraint_rows(); }
   VecX mass_diagonal() const override;
   void add_tree_wrenches(Reactions& reactions) const noexcept override;

@@ -80,15 +80,4 @@ double RelativeFormulation::total_mass() const noexcept {
   return m;
 }
 
-CoordinateCounts RelativeFormulation::counts() const {
-  CoordinateCounts c;
-  for (const TreeBody& b : tree_.bodies()) {
-    c.rigid += b.nj;
-    c.elastic += b.nm;
-  }
-  c.total = c.rigid + c.elastic;
-  c.constraints = constraints();
-  return c;
-}
-
 }  // namespace floatframe

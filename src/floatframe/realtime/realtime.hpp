@@ -35,7 +35,7 @@ struct Silence {
   bool ended = false;  ///< inputs returned
 };
 
-struct RealTimeReport {
+struct RealTimeReport : StepCounters {
   static constexpr std::size_t most_silences = 16;
 
   std::string model, coordinates, inertia;
@@ -49,8 +49,6 @@ struct RealTimeReport {
   /// Range warnings (docs/range.md), available at the end.
   std::vector<RangeWarning> warnings;
   StartReport start;
-  long steps = 0, substeps = 0, iterations = 0, factorizations = 0;
-  long cut_short = 0;  ///< steps accepted before convergence
 
   Histogram cpu;              ///< processor time of each step: inputs, integration, outputs
   Histogram elapsed;          ///< wall clock of the same
@@ -67,7 +65,6 @@ struct RealTimeReport {
   double stolen = 0.0;   ///< from virtual processors, by their host [s]; 0 if unknown
   long preemptions = 0, page_faults = 0;  ///< of the stepping thread
 
-  double max_position_violation = 0.0, max_velocity_violation = 0.0;
   long input_timeouts = 0;                        ///< number of input timeouts
   std::array<Silence, most_silences> silences{};  ///< the first of them
   bool inputs_came = false;                       ///< inputs were received at least once

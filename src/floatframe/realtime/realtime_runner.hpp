@@ -50,14 +50,7 @@ class RealTimeRunner {
     const rusage after = usage();
     report_.preemptions = after.ru_nivcsw - before.ru_nivcsw;
     report_.page_faults = after.ru_minflt - before.ru_minflt + after.ru_majflt - before.ru_majflt;
-    const StepCounters& c = steps_.counters();
-    report_.steps = c.steps;
-    report_.substeps = c.substeps;
-    report_.iterations = c.iterations;
-    report_.factorizations = c.factorizations;
-    report_.cut_short = c.cut_short;
-    report_.max_position_violation = c.max_position_violation;
-    report_.max_velocity_violation = c.max_velocity_violation;
+    report_.StepCounters::operator=(steps_.counters());
     report_.time = steps_.state().t;
     return end;
   }

@@ -61,4 +61,19 @@ std::optional<RangeWarning> BranchWatch::judged(const MatX& J, double usual,
                                   t, branch_owners(constraints, dependent_rows(J)))};
 }
 
+std::optional<RangeWarning> BranchWatch::warning(Formulation& f) const {
+  for (const Dip* d : {&first_, &deepest_}) {
+    if (d->found == 0.0 || d->q.size() != f.configurations() || f.velocities() > most_coordinates)
+      continue;
+    const auto constraints_at = [&](const Dip& dip) {
+      kinematics_at(f, dip.t, dip.q, VecX::Zero(f.velocities()));
+      return f.constraint_jacobian();
+    };
+    const double usual =
+        std::max(independence(constraints_at(start_)), independence(constraints_at(best_)));
+    if (auto found = judged(constraints_at(*d), usual, f.constraint_set(), d->t)) return found;
+  }
+  return {};
+}
+
 }  // namespace floatframe

@@ -10,14 +10,11 @@
 // constraints that are redundant everywhere cause no dip, and other dips (long levers that become
 // short) are not singular. Whether an angle is small depends on lengths, so the constraints are
 // compared with those at the start and at the position with the highest sum.
-#include <algorithm>
 #include <optional>
-#include <span>
 
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/step.hpp"
 #include "floatframe/simulation/range_warning.hpp"
-#include "floatframe/simulation/redundancy.hpp"
 
 namespace floatframe {
 
@@ -38,20 +35,7 @@ class BranchWatch {
   }
 
   /// The sentence about the first singular configuration, if there was one. Moves the formulation.
-  std::optional<RangeWarning> warning(Formulation& f) const {
-    for (const Dip* d : {&first_, &deepest_}) {
-      if (d->found == 0.0 || d->q.size() != f.configurations() || f.velocities() > most_coordinates)
-        continue;
-      const auto constraints_at = [&](const Dip& dip) {
-        kinematics_at(f, dip.t, dip.q, VecX::Zero(f.velocities()));
-        return f.constraint_jacobian();
-      };
-      const double usual =
-          std::max(independence(constraints_at(start_)), independence(constraints_at(best_)));
-      if (auto found = judged(constraints_at(*d), usual, f.constraint_set(), d->t)) return found;
-    }
-    return {};
-  }
+  std::optional<RangeWarning> warning(Formulation& f) const;
 
  private:
   /// Decrease of the sum of logarithms that counts as a dip: a factor of twenty.

@@ -10,6 +10,7 @@
 #include "floatframe/core/plural.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/mass_scale.hpp"
 #include "floatframe/simulation/range_watch.hpp"
 #include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/small_motions.hpp"

@@ -12,6 +12,18 @@ namespace floatframe {
 
 namespace {
 
+/// Below it, inertias of parts of the body become denormal numbers [kg].
+constexpr double smallest_mass = 1e-300;
+
+/// The system at a small distance along a direction: residual without acceleration (nv), and the
+/// products of its mass matrix and constraint Jacobian with directions Z (nv x k, nc x k).
+struct Neighbour {
+  VecX r;
+  MatX MZ, JZ;
+};
+/// The system at the positions retracted by the increment `x`.
+using NeighbourAt = std::function<Neighbour(const VecX& x, const MatX& Z)>;
+
 /// Index of the first entry that is not finite or too large, -1 if there is none.
 int out_of_range(const VecX& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i)
@@ -98,8 +110,8 @@ VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, c
   return half_inverse * (half_inverse.transpose() * (m.N.transpose() * (force - mass * m.a_p)));
 }
 
-}  // namespace
-
+/// Throws RunError if a mass is too small to compute with, or with the text about a number that is
+/// too large (`overflow_text`).
 void check_numbers(const Model& model, const std::string& overflow, double t) {
   for (const Body& b : model.bodies)
     if (const double m = b.data->invariants.m; m > 0.0 && m < smallest_mass)
@@ -111,34 +123,8 @@ void check_numbers(const Model& model, const std::string& overflow, double t) {
     throw RunError(ErrorCode::not_finite, overflow_sentence(overflow, t, largest_magnitude));
 }
 
-void check_magnitudes(const VecX& force, const std::function<std::string(int)>& owner) {
-  const int i = out_of_range(force);
-  if (i < 0) return;
-  throw RunError(ErrorCode::not_finite,
-                 fmt::format("the numbers of the model overflow: the generalised force on {} at "
-                             "the start is {} [N, N m], expected less than {:g}; look at masses, "
-                             "inertias, gravity, forces and start velocities",
-                             owner(i), magnitude_text(force[i]), largest_magnitude));
-}
-
-void check_masses(const VecX& diagonal, const std::function<std::string(int)>& owner) {
-  const int i = out_of_range(diagonal);
-  if (i < 0) return;
-  throw RunError(ErrorCode::not_finite,
-                 fmt::format("the numbers of the model overflow: the mass or inertia that {} moves "
-                             "is {} [kg, kg m2], expected less than {:g}",
-                             owner(i), magnitude_text(diagonal[i]), largest_magnitude));
-}
-
-std::string named_text(const char* one, const char* many, const std::vector<std::string>& names) {
-  std::string text = names.size() == 1 ? one : many;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    text += i == 0 ? " '" : i + 1 == names.size() ? " and '" : ", '";
-    text += names[i] + "'";
-  }
-  return text;
-}
-
+/// The message that bodies move without mass, stiffness or constraint, and what is missing; without
+/// any body, `owner` names the moving coordinate.
 std::string loose_sentence(const Model& model, const std::vector<std::size_t>& bodies,
                            const std::string& owner) {
   std::vector<std::string> names, points;
@@ -168,31 +154,129 @@ std::string loose_sentence(const Model& model, const std::vector<std::size_t>& b
       names.empty() ? owner : named_text("body", "bodies", names), remedy);
 }
 
+/// The owner of the largest component of the first direction.
+std::string coordinate_moved(Formulation& f, const MatX& directions) {
+  Eigen::Index worst = 0;
+  directions.col(0).cwiseAbs().maxCoeff(&worst);
+  return f.coordinate_owner(static_cast<int>(worst));
+}
+
+}  // namespace
+
+void check_magnitudes(const VecX& force, const std::function<std::string(int)>& owner) {
+  const int i = out_of_range(force);
+  if (i < 0) return;
+  throw RunError(ErrorCode::not_finite,
+                 fmt::format("the numbers of the model overflow: the generalised force on {} at "
+                             "the start is {} [N, N m], expected less than {:g}; look at masses, "
+                             "inertias, gravity, forces and start velocities",
+                             owner(i), magnitude_text(force[i]), largest_magnitude));
+}
+
+void check_masses(const VecX& diagonal, const std::function<std::string(int)>& owner) {
+  const int i = out_of_range(diagonal);
+  if (i < 0) return;
+  throw RunError(ErrorCode::not_finite,
+                 fmt::format("the numbers of the model overflow: the mass or inertia that {} moves "
+                             "is {} [kg, kg m2], expected less than {:g}",
+                             owner(i), magnitude_text(diagonal[i]), largest_magnitude));
+}
+
+std::string named_text(const char* one, const char* many, const std::vector<std::string>& names) {
+  std::string text = names.size() == 1 ? one : many;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += i == 0 ? " '" : i + 1 == names.size() ? " and '" : ", '";
+    text += names[i] + "'";
+  }
+  return text;
+}
+
 MatX free_motions(const MatX& J, const VecX& possible) {
   return motions(J, VecX::Zero(J.rows()), possible).N;
 }
 
-MatX light_directions(const MatX& mass, const MatX& possible_mass, const MatX& motions,
-                      double light) {
-  const MatX own = motions.transpose() * mass * motions;
-  const SymmetricEigen eig = generalised_eigen(0.5 * (own + own.transpose()), possible_mass);
-  if (!eig.found) return MatX(mass.rows(), 0);
-  Eigen::Index count = 0;  // ascending eigenvalues
-  while (count < motions.cols() && eig.values[count] <= light) ++count;
-  return motions * eig.vectors.leftCols(count);
+std::vector<std::size_t> bodies_moved(Formulation& f, const State& state, const MatX& directions) {
+  const Model& model = f.model();
+  VecX speed = VecX::Zero(static_cast<Eigen::Index>(model.bodies.size()));
+  f.positions(state.t, state.q);
+  for (Eigen::Index k = 0; k < directions.cols(); ++k) {
+    f.velocities(directions.col(k).normalized());
+    const SystemMotion& motion = f.motion();
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+      double v = motion.bodies[i].w_WB.norm() * model.bodies[i].length;
+      for (std::size_t m = 0; m < model.markers.size(); ++m)
+        if (model.markers[m].body == static_cast<int>(i))
+          v = std::max(v, motion.markers[m]->v.norm());
+      speed[i] = std::max(speed[i], v);
+    }
+  }
+  std::vector<std::size_t> moved;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (speed[i] > 1e-3 * speed.maxCoeff()) moved.push_back(i);
+  return moved;
 }
 
-void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
-                 const VecX& gamma, const NeighbourAt& neighbour,
-                 const std::function<std::string(const MatX&)>& loose, VecX& a, VecX& lambda) {
-  const Eigen::Index nv = mass.rows(), nc = J.rows();
-  const Motions m = motions(J, gamma, possible);
-  a = m.a_p;
+std::string moving_bodies(Formulation& f, const State& state, const MatX& directions) {
+  std::vector<std::string> names;
+  for (const std::size_t i : bodies_moved(f, state, directions))
+    names.push_back(f.model().bodies[i].name);
+  return names.empty() ? coordinate_moved(f, directions) : named_text("body", "bodies", names);
+}
+
+void start_accelerations_dense(Formulation& f, State& state) {
+  const int nv = f.velocities(), nc = f.constraints();
+  const VecX no_lambda = VecX::Zero(nc);
+  const VecX possible = possible_masses(f, state);
+  const VecX r0 = residual_at(f, state.t, state.q, state.v, no_lambda), force = -r0;
+  check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
+  const MatX mass = mass_matrix(f, test_accelerations(r0, possible), r0, no_lambda);
+  const MatX J = f.constraint_jacobian();
+  VecX gamma(nc), q1(state.q.size());
+  f.constraint_accelerations(VecX::Zero(nv), gamma);
+  const auto neighbour = [&](const VecX& increment, const MatX& Z) {
+    Neighbour n;
+    f.retract(state.q, increment, q1);
+    n.r = residual_at(f, state.t, q1, state.v, no_lambda);
+    n.MZ.resize(nv, Z.cols());
+    const double size = std::max(1.0, n.r.cwiseAbs().maxCoeff());
+    for (Eigen::Index k = 0; k < Z.cols(); ++k)
+      n.MZ.col(k) = mass_times(f, Z.col(k), size, n.r, no_lambda);
+    n.JZ = f.constraint_rows() * Z;
+    return n;
+  };
+  const auto loose = [&](const MatX& directions) {
+    return loose_sentence(f.model(), bodies_moved(f, state, directions),
+                          coordinate_moved(f, directions));
+  };
+  const Motions m = motions(J, -gamma, possible);
+  state.a = m.a_p;
   // The constraints prescribe all motion: the masses do not matter.
-  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, possible, J, force, m, neighbour, loose);
-  lambda = VecX::Zero(nc);
+  if (m.N.cols() > 0)
+    state.a += m.N * free_accelerations(mass, possible, J, force, m, neighbour, loose);
+  state.lambda = VecX::Zero(nc);
   if (nc == 0 || nv == 0) return;
-  lambda = LeastNorm(J.transpose(), 1e-11).solve(VecX(force - mass * a));
+  state.lambda = LeastNorm(J.transpose(), 1e-11).solve(VecX(force - mass * state.a));
+}
+
+bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
+  state.a = VecX::Zero(f.velocities());
+  state.lambda = VecX::Zero(f.constraints());
+  check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);
+  const VecX possible = possible_masses(f, state);
+  dynamics_at(f, state);
+  const VecX diagonal = mass_diagonal(f, state);
+  // A coordinate whose mass is round-off may pass the pivot test by chance: check it first.
+  const double growth = growth_by_mass(f, diagonal, possible, penalty_mass);
+  // Dense linear algebra also detects directions that preloaded springs do not hold, as fast.
+  const bool small = diagonal.size() <= few_dense;
+  const bool good = may_lack_mass(growth)
+                        ? !small && start_held_by_stiffness(
+                                        f, state, mass_scale(diagonal, possible), penalty_mass)
+                        : start_by_passes(f, state, no_stiffness, penalty_mass, false, false);
+  if (!good) start_accelerations_dense(f, state);
+  state.a_alg = state.a;
+  dynamics_at(f, state);
+  return lacks_mass(growth);
 }
 
 }  // namespace floatframe

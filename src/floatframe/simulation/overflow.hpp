@@ -1,14 +1,10 @@
 #pragma once
 // Numbers of a model that double precision cannot compute with. Their effects on matrices and
 // iterations (vanishing pivots, no convergence) would suggest another cause.
-#include <fmt/format.h>
-
-#include <cmath>
 #include <string>
 
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/step.hpp"
-#include "floatframe/model/constraint_part.hpp"
 
 namespace floatframe {
 
@@ -20,55 +16,9 @@ inline constexpr double largest_beside_one = 1e15;
 /// "the spring of 's' has a slope of 1e+308 [N/m, N m/rad]", or nothing if all numbers of the model
 /// at these positions and velocities and the time t are below the limit. The text is the same in
 /// all formulations. Moves `f`.
-inline std::string overflow_text(Formulation& f, const State& state, double t, double limit) {
-  const Model& model = f.model();
-  std::string text;
-  const auto look = [&](double x, const auto& sentence) {
-    if (text.empty() && !(std::abs(x) < limit))
-      text = sentence(std::isfinite(x) ? fmt::format("{:.3g}", std::abs(x)) : "more than 1e+308");
-  };
-  for (const Joint& j : model.joints) {
-    if (!j.motion) continue;
-    const auto motion = evaluate(*j.motion, t);
-    for (const double x : {motion.f, motion.df, motion.ddf})
-      look(x, [&](const std::string& n) {
-        return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
-                           n);
-      });
-  }
-  kinematics_at(f, t, state.q, state.v);
-  f.forces();
-  const SystemMotion& motion = f.motion();
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    look(motion.bodies[i].w_WB.stableNorm(), [&](const std::string& n) {
-      return fmt::format("body '{}' turns at {} rad/s", model.bodies[i].name, n);
-    });
-    look(motion.bodies[i].v_WB.stableNorm(), [&](const std::string& n) {
-      return fmt::format("body '{}' moves at {} m/s", model.bodies[i].name, n);
-    });
-  }
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& force = model.forces[k];
-    const ForceState& now = motion.forces[k];
-    const auto slope = [&](const char* law, const char* unit) {
-      return [&force, law, unit](const std::string& n) {
-        return fmt::format("the {} of '{}' has a slope of {} [{}]", law, force.name, n, unit);
-      };
-    };
-    look(force.spring(now.length).df, slope("spring", "N/m, N m/rad"));
-    look(force.damper(now.rate).df, slope("damper", "N s/m, N m s/rad"));
-    look(now.force, [&](const std::string& n) {
-      return fmt::format("the force of '{}' is {} [N, N m]", force.name, n);
-    });
-  }
-  return text;
-}
+std::string overflow_text(Formulation& f, const State& state, double t, double limit);
 
 /// "the numbers of the model overflow: ..."
-inline std::string overflow_sentence(const std::string& text, double t, double limit) {
-  return fmt::format(
-      "the numbers of the model overflow: {} at t = {:.6g} s, expected less than {:g}", text, t,
-      limit);
-}
+std::string overflow_sentence(const std::string& text, double t, double limit);
 
 }  // namespace floatframe

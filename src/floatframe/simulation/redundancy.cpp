@@ -96,8 +96,8 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
   std::vector<std::size_t> body_of(static_cast<std::size_t>(nq));
   load_ = VecX::Zero(nq - first_);
   for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
-    const Eigen::Index size = f_.body_size(static_cast<int>(i));
-    const Eigen::Index own = f_.body_rows(static_cast<int>(i));
+    const AbsoluteBody& body = f_.kinematics().bodies()[i];
+    const Eigen::Index size = body.size(), own = body.rows();
     MatX own_rows = MatX::Zero(own, size);
     for (Eigen::Index r = 0; r < own; ++r)
       for (SparseRowMatrix::InnerIterator it(all, row + r); it; ++it)

@@ -15,6 +15,7 @@
 #include "floatframe/simulation/range_warning.hpp"
 #include "floatframe/simulation/result_table.hpp"
 #include "floatframe/simulation/start_report.hpp"
+#include "floatframe/simulation/step_report.hpp"
 
 namespace floatframe {
 
@@ -66,19 +67,14 @@ struct StepTimes {
   std::vector<std::uint64_t> counts;  ///< from the first bin with a step to the last
 };
 
-struct RunSummary {
+/// The steps are the output steps that were accepted.
+struct RunSummary : StepCounters {
   std::string model, coordinates, inertia;
   double step = 0, duration = 0;  ///< [s]; duration actually reached
-  long steps = 0, substeps = 0;   ///< accepted output steps; extra steps by halving
-  long iterations = 0, factorizations = 0;
-  bool locates_edges = false;        ///< with `locate_edges`
-  long edges = 0, edges_passed = 0;  ///< edges at which steps were divided; steps with too many
-  long corners = 0;                  ///< of functions of time, at which steps were divided
-  double cpu = 0;                    ///< [s] of stepping, without input and output
-  double real_time_factor = 0;       ///< duration / cpu
+  bool locates_edges = false;     ///< with `locate_edges`
+  double cpu = 0;                 ///< [s] of stepping, without input and output
+  double real_time_factor = 0;    ///< duration / cpu
   StepTimes step_times;
-  double max_position_violation = 0;  ///< [m] after steps
-  double max_velocity_violation = 0;  ///< [m/s] after the projections
   EnergySummary energy;
   /// "completed", "failed" or "interrupted"; "running" in a summary that is written at the start.
   std::string status = "completed";

@@ -3,6 +3,8 @@
 // are evaluated after every step, deformations and spin at recorded instants, energies at some of
 // these (the kinetic energy costs as much as half an iteration). `start` and `step` do not allocate
 // and do not change the run, bit for bit.
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "floatframe/formulation/formulation.hpp"

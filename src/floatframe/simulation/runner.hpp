@@ -246,13 +246,6 @@ class Runner {
   }
 
   const StepCounters& counters() const noexcept { return memory_.counters; }
-  /// Steps accepted before they had converged (`AttemptStatus::cut_short`).
-  long cut_short() const noexcept { return counters().cut_short; }
-  long substeps() const noexcept { return counters().substeps; }
-  long iterations() const noexcept { return counters().iterations; }
-  long factorizations() const noexcept { return counters().factorizations; }
-  double max_position_violation() const noexcept { return counters().max_position_violation; }
-  double max_velocity_violation() const noexcept { return counters().max_velocity_violation; }
 
  private:
   StepAttempt attempt(double h) noexcept {

@@ -8,6 +8,7 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/turning_state.hpp"
 #include "floatframe/simulation/whirl.hpp"
 
@@ -21,7 +22,6 @@ SteadyTurning TurningModel::Impl::steady(double speed, double angle) {
     f = std::make_unique<RelativeFormulation>(model, model.simulation.inertia);
   }
   SteadyTurning s = steady_turning(*f, rotor, q, speed, angle);
-  torque = s.torque;
   if (angle == 0.0) q = s.state.q;
   return s;
 }
@@ -86,7 +86,6 @@ TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s)
 
 TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s,
                                                          const LinearSystem& system) {
-  degrees = system.degrees;
   massless = system.massless;
   const Eigen::Index nv = system.x_of.rows(), nz = system.A.rows();
   MatX z(2 * nv, nz), rates(2 * nv, nz);
@@ -138,6 +137,11 @@ TurningModel::Impl::InWorld TurningModel::Impl::in_world(double speed, double an
                   "(bars: mass_model: hermite, section_inertia: true)",
                   massless));
   return in_world(speed, angle, s);
+}
+
+MatX least_squares(const MatX& T, const MatX& B) {
+  const VecX unit = T.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
+  return unit.asDiagonal() * qr_solve(T * unit.asDiagonal(), B);
 }
 
 TurningModel::TurningModel(const Model& model, const std::string& joint,
@@ -201,8 +205,6 @@ double TurningModel::dependence_on_angle(double speed) {
 
 const Model& TurningModel::model() const { return impl_->model; }
 const Rotor& TurningModel::rotor() const { return impl_->rotor; }
-double TurningModel::torque() const { return impl_->torque; }
-int TurningModel::degrees() const { return impl_->degrees; }
 const std::vector<std::string>& TurningModel::notes() const { return impl_->notes; }
 
 double TurningModel::eccentricity() const {

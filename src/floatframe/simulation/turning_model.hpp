@@ -84,9 +84,6 @@ class TurningModel {
   const Rotor& rotor() const;
   /// At the last speed: distance of the centre of mass of the rotor from its axis [m].
   double eccentricity() const;
-  /// Torque on the rotor that maintained the last speed, 0 if it is driven [N m].
-  double torque() const;
-  int degrees() const;
   /// Messages for the user, one sentence each without its full stop.
   const std::vector<std::string>& notes() const;
 

@@ -1,6 +1,5 @@
 #pragma once
 // Members of a turning model, for its source files.
-#include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/linear_reduction.hpp"
 #include "floatframe/simulation/small_motions.hpp"
 #include "floatframe/simulation/steady_turning.hpp"
@@ -13,8 +12,7 @@ struct TurningModel::Impl {
   std::unique_ptr<RelativeFormulation> f;
   Rotor rotor;
   VecX q;  ///< of the last steady state: initial guess for the next
-  double torque = 0.0;
-  int degrees = 0, massless = 0;
+  int massless = 0;
   bool weightless = false;  ///< gravity is omitted
   std::vector<std::string> notes;
 
@@ -33,9 +31,6 @@ struct TurningModel::Impl {
 };
 
 /// T^+ B; the columns of T have different magnitudes.
-inline MatX least_squares(const MatX& T, const MatX& B) {
-  const VecX unit = T.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
-  return unit.asDiagonal() * qr_solve(T * unit.asDiagonal(), B);
-}
+MatX least_squares(const MatX& T, const MatX& B);
 
 }  // namespace floatframe

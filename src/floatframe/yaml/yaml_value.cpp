@@ -236,12 +236,6 @@ const YamlEntry* YamlSection::find(const char* key) const {
   return nullptr;
 }
 
-SourceMark YamlSection::mark_of(const char* key) const {
-  const YamlEntry* e = find(key);
-  if (!e) return mark_;
-  return {*value_.context().file, e->value.line, e->value.column};
-}
-
 std::optional<YamlValue> YamlSection::get(const char* key) {
   asked_.emplace_back(key);
   const YamlEntry* e = find(key);

@@ -134,8 +134,6 @@ class YamlSection {
   void error(ErrorCode code, const std::string& sentence) const {
     value_.context().errors->add({mark_, code, path_prefix() + sentence, 1, path()});
   }
-  /// Mark of the value of `key`, or of the entity if it is absent.
-  SourceMark mark_of(const char* key) const;
   bool has(const char* key) const { return find(key) != nullptr; }
   /// The value of an optional key.
   std::optional<YamlValue> get(const char* key);
