@@ -2,6 +2,7 @@
 #include "floatframe/formulation/absolute.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "floatframe/formulation/equations_of_motion.hpp"
@@ -169,6 +170,7 @@ void AbsoluteFormulation::make_factors() {
   ga_.z = gb_.z = VecX::Zero(widest);
   motions_[0] = motions_[1] = product_ = MatX::Zero(widest, 6);
   unknowns_ = VecX::Zero(factors_[0].matrix.unknowns());
+  assert(places_.size() == constraint_set_.parts().size());
   correction_ = VecX::Zero(nq_);
   across_ = VecX::Zero(constraints());
 }
@@ -176,6 +178,7 @@ void AbsoluteFormulation::make_factors() {
 void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree_q,
                                      const VecX& tree_v, VecX& q, VecX& v) {
   q = v = VecX::Zero(nq_);
+  assert(tree_q.size() == tree.configurations() && tree_v.size() == tree.velocities());
   tree.positions(0.0, tree_q);
   tree.velocities(tree_v);
   tree.forces();

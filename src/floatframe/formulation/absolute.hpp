@@ -34,6 +34,7 @@
 // The geometric stiffness in T is that of the multipliers of (1), (2), which is bilinear in A and
 // y, of rods, and of joints of massless bodies: a force normal to a slide rotates with it, which
 // moves a massless body by force over stiffness, for any step size.
+#include <cassert>
 #include <span>
 #include <string>
 #include <vector>
@@ -76,12 +77,21 @@ class AbsoluteFormulation final : public Formulation {
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept override;
   int factorize(double mass, double damping, double s, double alpha,
                 int slot = 0) noexcept override {
-    return eliminate({mass, damping, s, s * alpha, true}, factors_[slot]);
+    assert(calls_.has(CallOrder::residual) && (slot == 0 || slot == 1));
+    const int pivot = eliminate({mass, damping, s, s * alpha, true}, factors_[slot]);
+    calls_.factorise(slot, pivot < 0);
+    return pivot;
   }
   int factorize_metric(double s, double penalty, int slot) noexcept override {
-    return eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
+    assert(calls_.has_masses() && (slot == 0 || slot == 1));
+    const int pivot = eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
+    calls_.factorise(slot, pivot < 0);
+    return pivot;
   }
-  double log_pivots(int slot) const noexcept override { return factors_[slot].matrix.log_pivots(); }
+  double log_pivots(int slot) const noexcept override {
+    assert(calls_.has_factors(slot));
+    return factors_[slot].matrix.log_pivots();
+  }
   void solve(VecX& b, int slot = 0) noexcept override;
   void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept override;
   void balance(VecX& lambda, VecX& r) noexcept override;
@@ -89,14 +99,21 @@ class AbsoluteFormulation final : public Formulation {
   void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
   void constraint_increments(const VecX& delta, VecX& out) noexcept override;
   void constraint_forces(const VecX& w, VecX& out) noexcept override;
-  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override { q = q0 + x; }
+  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override {
+    assert(q0.size() == nq_ && x.size() == nq_);
+    q = q0 + x;
+  }
   void settle(const VecX& q0, VecX& x) const noexcept override;
   /// From the present positions, with increments (5).
   void advance(VecX& x, const VecX& delta) const noexcept override;
 
   // -- Formulation
 
-  void set_accelerations(const VecX& a) noexcept override { a_ = a; }
+  void set_accelerations(const VecX& a) noexcept override {
+    assert(a.size() == nq_);
+    a_ = a;
+    calls_.accelerate();
+  }
   double kinetic_energy(const VecX& v) noexcept override;
   BodyCoordinates body_coordinates(int body) const override;
   std::string coordinate_owner(int i) const override;
@@ -187,6 +204,7 @@ class AbsoluteFormulation final : public Formulation {
   template <bool stiffens>
   void advance_of(VecX& x, const VecX& delta) const noexcept;
   const MarkerData& point(const BodyData& b, int p) const noexcept {
+    assert(p >= 0 && p < b.points);
     return markers_[b.point_marker[p]];
   }
   /// A marker as used by constraints: at its outer point.

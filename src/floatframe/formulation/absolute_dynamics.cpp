@@ -1,25 +1,33 @@
 // Residual and constraints of the absolute formulation.
+#include <cassert>
+
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
 void AbsoluteFormulation::dynamics() noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  calls_.reach(CallOrder::dynamics);
   for (BodyData& b : bodies_) b.inertia.absolute(b.A, b.Adot, b.y.data(), b.yd.data(), b.M, b.Qv);
   forces();
 }
 
 void AbsoluteFormulation::forces() noexcept {
+  assert(calls_.has(CallOrder::velocities));
   force_set_.evaluate(Vec3::Zero(), time_,
                       [&](int marker) -> const MarkerState& { return markers_[marker].s; });
 }
 
 ForceSide AbsoluteFormulation::force_side(std::size_t force) const noexcept {
+  assert(calls_.has(CallOrder::velocities) && force < model_.forces.size());
   return force_set_.side(force, Vec3::Zero(), time_,
                          [&](int marker) -> const MarkerState& { return markers_[marker].s; });
 }
 
 void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3& force,
                                      const Vec3& torque, VecX& out) const noexcept {
+  assert(marker >= 0 && static_cast<std::size_t>(marker) < markers_.size() && out.size() == nq_);
   const MarkerData& m = markers_[marker];
   if (m.body < 0) return;
   const BodyData& b = bodies_[m.body];
@@ -59,12 +67,18 @@ void AbsoluteFormulation::add_all_constraint_forces(const VecX& w, VecX& out) co
 }
 
 void AbsoluteFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(w.size() == constraints() && out.size() == nq_);
   out.setZero();
   add_all_constraint_forces(w, out);
 }
 
 void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
+  assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0);
+  assert(a.size() == nq_ && lambda.size() == constraints() && out.size() == nq_);
+  calls_.reach(CallOrder::residual);
+  calls_.accelerate();
   a_ = a;
   constraint_set_.set_multipliers(lambda, alpha);
   out.setZero();
@@ -88,6 +102,8 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
 }
 
 void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
+  poison(out);
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {
       const Vec3 u = b.A.col(pair_a[k]), v = b.A.col(pair_b[k]);
@@ -125,6 +141,9 @@ PointMotion AbsoluteFormulation::increment_of(int marker, const VecX& delta) con
 }
 
 void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(delta.size() == nq_ && out.size() == constraints());
+  poison(out);
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {
       const Vec3 du = delta.segment<3>(b.offset + 3 + 3 * pair_a[k]);
@@ -141,6 +160,7 @@ void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) no
 }
 
 Vec3 AbsoluteFormulation::marker_acceleration(int index) const noexcept {
+  assert(index >= 0 && static_cast<std::size_t>(index) < markers_.size());
   const MarkerData& m = markers_[index];
   if (m.body < 0) return Vec3::Zero();
   const BodyData& b = bodies_[m.body];
@@ -165,6 +185,10 @@ PointMotion AbsoluteFormulation::acceleration_of(int marker, const VecX& a) cons
 }
 
 void AbsoluteFormulation::constraint_accelerations(const VecX& a, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(a.size() == nq_ && out.size() == constraints());
+  calls_.accelerate();
+  poison(out);
   a_ = a;
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {

@@ -1,5 +1,7 @@
 // The absolute formulation for readers: its motion, energies and counts; not part of the step's
 // inner loop.
+#include <cassert>
+
 #include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
@@ -36,6 +38,7 @@ double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
 }
 
 double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
+  assert(calls_.has(CallOrder::positions) && v.size() == nq_);
   double sum = 0.0;
   for (BodyData& b : bodies_) {
     b.inertia.absolute(b.A, b.Adot, b.y.data(), b.yd.data(), b.M, b.Qv);
@@ -46,6 +49,7 @@ double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
 }
 
 BodyCoordinates AbsoluteFormulation::body_coordinates(int body) const {
+  assert(body >= 0 && static_cast<std::size_t>(body) < bodies_.size());
   const BodyData& b = bodies_[body];
   return {b.offset, b.size(), b.offset + 12, b.offset, b.size(), b.offset + 12, -1};
 }
@@ -64,6 +68,7 @@ std::string AbsoluteFormulation::coordinate_owner(int i) const {
 }
 
 SparseRowMatrix AbsoluteFormulation::constraint_rows() {
+  assert(calls_.has(CallOrder::velocities));
   // A row involves two of many bodies: only their coordinates are processed.
   SparseRowMatrix J(constraints(), nq_);
   std::vector<Eigen::Triplet<double>> entries;
@@ -113,12 +118,14 @@ CoordinateCounts AbsoluteFormulation::counts() const {
 }
 
 VecX AbsoluteFormulation::mass_diagonal() const {
+  assert(calls_.has_masses());
   VecX diagonal = VecX::Zero(nq_);
   for (const BodyData& b : bodies_) diagonal.segment(b.offset, 12 + b.nm) = b.M.diagonal();
   return diagonal;
 }
 
 MatX AbsoluteFormulation::mass_matrix() const {
+  assert(calls_.has_masses());
   MatX M = MatX::Zero(nq_, nq_);
   for (const BodyData& b : bodies_) M.block(b.offset, b.offset, 12 + b.nm, 12 + b.nm) = b.M;
   return M;

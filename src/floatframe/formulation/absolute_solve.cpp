@@ -6,7 +6,10 @@
 //   E_kk = 2 phi_kk / l,  E_ab = phi_ab / l,                                              (7)
 // and multipliers of (1) balance the stretch of a residual R_A = [R_u R_v R_w]:
 //   R_A + l A W,  W = -sym(A^T R_A) / l, has none.                                        (8)
+#include <cassert>
+
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -89,6 +92,7 @@ void AbsoluteFormulation::own_correction(const VecX& phi, VecX& p) const noexcep
 }
 
 void AbsoluteFormulation::solve(VecX& b, int slot) noexcept {
+  assert(calls_.has_factors(slot) && b.size() == nq_);
   BlockLdlt& matrix = factors_[slot].matrix;
   unknowns_.setZero();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -100,6 +104,9 @@ void AbsoluteFormulation::solve(VecX& b, int slot) noexcept {
 
 void AbsoluteFormulation::solve(VecX& b, const VecX& phi, double penalty, VecX& mu,
                                 int slot) noexcept {
+  assert(calls_.has_factors(slot) && b.size() == nq_);
+  assert(phi.size() == constraints() && mu.size() == constraints() && penalty > 0.0);
+  assert(std::abs(penalty - factors_[slot].penalty) <= 1e-9 * penalty);
   BlockLdlt& matrix = factors_[slot].matrix;
   unknowns_.setZero();
   const bool corrects = !own_constraints_hold(phi);
@@ -139,6 +146,8 @@ void AbsoluteFormulation::solve(VecX& b, const VecX& phi, double penalty, VecX& 
 
 /// First the forces on outer points are transferred to their bodies, (2), then (8) is applied.
 void AbsoluteFormulation::balance(VecX& lambda, VecX& r) noexcept {
+  assert(calls_.has(CallOrder::residual));
+  assert(lambda.size() == constraints() && r.size() == nq_);
   for (const BodyData& b : bodies_) {
     for (int p = 0; p < b.points; ++p) {
       const int at = b.offset + 12 + b.nm + 3 * p;
@@ -160,6 +169,7 @@ void AbsoluteFormulation::balance(VecX& lambda, VecX& r) noexcept {
 
 /// Makes the axes orthonormal and moves the outer points to their bodies.
 void AbsoluteFormulation::settle(const VecX& q0, VecX& x) const noexcept {
+  assert(q0.size() == nq_ && x.size() == nq_);
   stiffens_ ? settle_of<true>(q0, x) : settle_of<false>(q0, x);
 }
 
@@ -172,6 +182,7 @@ void AbsoluteFormulation::settle_of(const VecX& q0, VecX& x) const noexcept {
       A.col(c) = A0.col(c) + x.segment<3>(b.offset + 3 + 3 * c);
     }
     A = orthonormal(A, A0);
+    assert(is_rotation(A));  // of a state: A0 is one
     for (int c = 0; c < 3; ++c)
       x.segment<3>(b.offset + 3 + 3 * c) = A.col(c) - q0.segment<3>(b.offset + 3 + 3 * c);
     const Vec3 origin = q0.segment<3>(b.offset) + x.segment<3>(b.offset);
@@ -184,6 +195,8 @@ void AbsoluteFormulation::settle_of(const VecX& q0, VecX& x) const noexcept {
 }
 
 void AbsoluteFormulation::advance(VecX& x, const VecX& delta) const noexcept {
+  assert(calls_.has(CallOrder::positions));
+  assert(x.size() == nq_ && delta.size() == nq_);
   stiffens_ ? advance_of<true>(x, delta) : advance_of<false>(x, delta);
 }
 

@@ -1,5 +1,7 @@
 // Tangent of the absolute formulation on the motions that satisfy the internal constraints, and the
 // multipliers of the parts: (5), (6) of absolute.hpp, assembled into the fronts of the bodies.
+#include <cassert>
+
 #include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
@@ -7,6 +9,7 @@ namespace floatframe {
 /// B^T of the wrench at a marker: (F, r x F + T, Jr^T F + Jw^T T), r from the body's origin.
 void AbsoluteFormulation::gradient(int marker, const Vec3& force, const Vec3& torque,
                                    Gradient& g) const noexcept {
+  assert(marker < static_cast<int>(markers_.size()));
   g.body = marker < 0 ? -1 : markers_[marker].body;
   if (g.body < 0) return;
   const MarkerData& m = markers_[marker];
@@ -201,6 +204,7 @@ void AbsoluteFormulation::assemble_forces(const TangentWeights& t, BlockLdlt& ma
 
 /// Row r of a part with its gradients in ga_ and gb_: G of (6).
 void AbsoluteFormulation::assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept {
+  assert(place.home >= 0 && r >= 0);
   MatX& f = matrix.front(place.home);
   const int at = place.at + r;
   for (const Gradient* g : {&ga_, &gb_}) {
@@ -254,6 +258,7 @@ void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& mat
 }
 
 int AbsoluteFormulation::eliminate(const TangentWeights& t, Factors& factors) noexcept {
+  assert(t.mass >= 0.0 && t.s >= 0.0 && t.penalty >= 0.0);
   factors.matrix.set_zero();
   factors.penalty = t.penalty;
   for (std::size_t i = 0; i < bodies_.size(); ++i)

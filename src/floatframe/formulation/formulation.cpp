@@ -1,5 +1,7 @@
 #include "floatframe/formulation/formulation.hpp"
 
+#include <cassert>
+
 #include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
@@ -23,6 +25,11 @@ void Formulation::show_marker(const MarkerState& state, const LocalMarker& local
 
 const SystemMotion& Formulation::motion(MotionNeeds needs,
                                         const Reactions* reactions) const noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(!needs.accelerations || calls_.has_accelerations());
+  assert(!needs.energies || calls_.has_masses());
+  assert(!needs.reactions || reactions);
+  motion_.poison_filled();
   motion_.t = time_;
   motion_.reactions = reactions;
   fill_poses(motion_);
@@ -39,12 +46,14 @@ const SystemMotion& Formulation::motion(MotionNeeds needs,
 }
 
 double Formulation::gravity_energy(int body, const BodyKinematics& b) const noexcept {
+  assert(b.y.size() == model_.bodies[static_cast<std::size_t>(body)].modes());
   const BodyInertia& terms = inertia(body);
   const Vec3 m_bar = terms.static_moment(b.y.data());
   return -model_.gravity.dot(terms.data().m * b.p_WB + b.R_WB * m_bar);
 }
 
 double Formulation::gravity_energy() const noexcept {
+  assert(calls_.has(CallOrder::velocities));
   fill_poses(motion_);
   double sum = 0.0;
   for (std::size_t i = 0; i < motion_.bodies.size(); ++i)

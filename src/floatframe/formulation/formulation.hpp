@@ -4,12 +4,14 @@
 // watches and recording are compiled once; and the motion of the system, which is the same in all
 // coordinates. The integrator and its runner are templates over the classes that derive from it:
 // these are final, so that steps call them directly.
+#include <cassert>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "floatframe/formulation/body_inertia.hpp"
+#include "floatframe/formulation/call_order.hpp"
 #include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/formulation/force_set.hpp"
@@ -94,7 +96,10 @@ class Formulation {
   /// The accelerations of `MotionNeeds::accelerations` (`residual` and `constraint_accelerations`
   /// set them too).
   virtual void set_accelerations(const VecX& a) noexcept = 0;
-  const LocalMarker& local_marker(int i) const noexcept { return *local_markers_[i]; }
+  const LocalMarker& local_marker(int i) const noexcept {
+    assert(i >= 0 && static_cast<std::size_t>(i) < local_markers_.size());
+    return *local_markers_[i];
+  }
   /// At the present positions, of all bodies [J].
   virtual double kinetic_energy(const VecX& v) noexcept = 0;
   double gravity_energy() const noexcept;
@@ -125,6 +130,7 @@ class Formulation {
   const Model& model_;
   ConstraintSet constraint_set_;
   ForceSet force_set_;
+  [[no_unique_address]] CallOrder calls_;
   double time_ = 0.0;
   VecX omega2_;
 

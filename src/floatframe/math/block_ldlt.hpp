@@ -11,6 +11,7 @@
 // blocks come first: Schur complements of others would leave no digits of their small entries. So
 // do light blocks coupled with only one other (a link of 1 g on a crane). Light blocks that are
 // constrained come last: with their small mass the pivots of their multipliers cancel.
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -46,10 +47,16 @@ class BlockLdlt {
   void add(int a, int i, int b, int j, double x) noexcept;
   /// The front that holds the pair (a, b), and where each block starts in it.
   MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
-  MatX& front(int a) noexcept { return nodes_[a].matrix; }
+  MatX& front(int a) noexcept {
+    assert(a >= 0 && static_cast<std::size_t>(a) < nodes_.size());
+    return nodes_[a].matrix;
+  }
 
   /// First unknown of a block, blocks in the given order.
-  int offset(int block) const noexcept { return nodes_[block].offset; }
+  int offset(int block) const noexcept {
+    assert(block >= 0 && static_cast<std::size_t>(block) < nodes_.size());
+    return nodes_[block].offset;
+  }
   int unknowns() const noexcept { return unknowns_; }
 
   /// Returns -1 or the unknown (global index, blocks in the given order) whose pivot vanished.

@@ -1,5 +1,6 @@
 #pragma once
 // Disjoint sets of numbered elements that are merged.
+#include <cassert>
 #include <numeric>
 #include <vector>
 
@@ -17,6 +18,7 @@ class UnionFind {
   }
   /// The representative of the set of k.
   int root(int k) const {
+    assert(k >= 0 && static_cast<std::size_t>(k) < leader_.size());
     while (leader_[k] != k) k = leader_[k] = leader_[leader_[k]];
     return k;
   }

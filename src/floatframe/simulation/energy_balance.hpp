@@ -11,6 +11,7 @@
 // The remainder is the integration error, of order h^2, and for a spectral radius below 1 the
 // dissipation of the integrator. Nothing here allocates.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "floatframe/formulation/constraint_set.hpp"
@@ -86,6 +87,7 @@ class EnergyBalance {
 
   /// `noise`: energies below it are insignificant [J].
   void start(double t, const FlowSample& flows, const Energies& e, double noise) noexcept {
+    assert(std::isfinite(t) && noise >= 0.0);
     time_ = t;
     noise_ = noise;
     last_ = flows;
@@ -97,6 +99,7 @@ class EnergyBalance {
 
   /// To be called after every step.
   void advance(double t, const FlowSample& flows) noexcept {
+    assert(t >= time_);
     const double half = 0.5 * (t - time_);
     for (std::size_t k = 0; k < EnergyFlows::size(); ++k) {
       double work = half * (last_.power.value[k] + flows.power.value[k]);
@@ -111,6 +114,7 @@ class EnergyBalance {
 
   /// The energies at the time of the last `advance`.
   void check(double t, const Energies& e) noexcept {
+    assert(t == time_);
     low_.kinetic = std::min(low_.kinetic, e.kinetic);
     low_.potential = std::min(low_.potential, e.potential);
     low_.elastic = std::min(low_.elastic, e.elastic);

@@ -1,6 +1,7 @@
 #include "floatframe/simulation/time_grid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace floatframe {
@@ -20,11 +21,13 @@ PlannedStep TimeGrid::next() const noexcept {
 }
 
 PlannedStep TimeGrid::of_size(double h, double now) const noexcept {
+  assert(h > 0.0);
   if (h == step_) return next();
   return {.size = h, .to = now + h, .whole = false, .on_grid = false};
 }
 
 void TimeGrid::made(const PlannedStep& step) noexcept {
+  assert(step.size > 0.0);
   if (step.on_grid)
     ++since_base_;
   else

@@ -1,4 +1,6 @@
 // Acceleration of a point, d2p_WP/dt2 [m/s2].
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -6,6 +8,8 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::acceleration>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < 3);
+  assert(output.marker >= 0 && output.marker < std::ssize(motion.marker_accelerations));
   return motion.marker_accelerations[output.marker][output.component];
 }
 

@@ -2,6 +2,8 @@
 // velocity since the last sample: of the possible angles the value is that nearest to
 //   q_last + (t - t_last) (qdot_last + qdot) / 2
 // The first one is nearest to the start value or the motion given by the user.
+#include <cassert>
+
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -30,6 +32,7 @@ double output_value_of<OutputType::joint_position>(const SystemMotion& motion, c
   const Joint& joint = motion.model.joints[output.joint];
   const MarkerState& F = motion.marker(joint.frame_F);
   const MarkerState& M = motion.marker(joint.frame_M);
+  assert(!last.started || !(last.time > motion.t));
   const double rate = joint_velocity(joint, F, M, output.component);
   const double expected = last.started
                               ? last.position + 0.5 * (motion.t - last.time) * (last.rate + rate)

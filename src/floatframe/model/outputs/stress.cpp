@@ -1,6 +1,7 @@
 // Stress at a location of a flexible body, body axes [Pa] (model/gauge.hpp): components, von Mises,
 // von Mises with the sign of the principal stress of largest magnitude (for fatigue), principal
 // stresses in descending order.
+#include <cassert>
 #include <cmath>
 
 #include "floatframe/model/gauge.hpp"
@@ -18,6 +19,8 @@ constexpr const char* stress_words[] = {
 template <>
 double output_value_of<OutputType::stress>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
+  assert(output.gauge >= 0 && output.gauge < std::ssize(motion.model.gauges));
+  assert(output.component >= 0 && output.component < 11);
   const Vec6 s = gauge_values(motion, motion.model.gauges[output.gauge]);
   if (output.component < 6) return s(output.component);
   if (output.component == 6) return von_mises(s);
