@@ -27,7 +27,7 @@ ForceSide AbsoluteFormulation::force_side(std::size_t force) const noexcept {
 
 void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3& force,
                                      const Vec3& torque, VecX& out) const noexcept {
-  assert(marker >= 0 && static_cast<std::size_t>(marker) < markers_.size() && out.size() == nq_);
+  assert(is_index(marker, markers_) && out.size() == nq_);
   const MarkerData& m = markers_[marker];
   if (m.body < 0) return;
   const BodyData& b = bodies_[m.body];
@@ -160,7 +160,7 @@ void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) no
 }
 
 Vec3 AbsoluteFormulation::marker_acceleration(int index) const noexcept {
-  assert(index >= 0 && static_cast<std::size_t>(index) < markers_.size());
+  assert(is_index(index, markers_));
   const MarkerData& m = markers_[index];
   if (m.body < 0) return Vec3::Zero();
   const BodyData& b = bodies_[m.body];

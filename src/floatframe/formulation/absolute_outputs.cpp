@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
@@ -49,7 +50,7 @@ double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
 }
 
 BodyCoordinates AbsoluteFormulation::body_coordinates(int body) const {
-  assert(body >= 0 && static_cast<std::size_t>(body) < bodies_.size());
+  assert(is_index(body, bodies_));
   const BodyData& b = bodies_[body];
   return {b.offset, b.size(), b.offset + 12, b.offset, b.size(), b.offset + 12, -1};
 }

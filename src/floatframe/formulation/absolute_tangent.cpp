@@ -9,7 +9,7 @@ namespace floatframe {
 /// B^T of the wrench at a marker: (F, r x F + T, Jr^T F + Jw^T T), r from the body's origin.
 void AbsoluteFormulation::gradient(int marker, const Vec3& force, const Vec3& torque,
                                    Gradient& g) const noexcept {
-  assert(marker < static_cast<int>(markers_.size()));
+  assert(marker < std::ssize(markers_));
   g.body = marker < 0 ? -1 : markers_[marker].body;
   if (g.body < 0) return;
   const MarkerData& m = markers_[marker];

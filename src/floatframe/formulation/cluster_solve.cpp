@@ -2,6 +2,7 @@
 // propagated inwards as wrenches on the bodies, each front is eliminated leaves to root; then the
 // increments [Z; y] of the bodies propagate outwards and each front gives those of its coordinates.
 #include <cassert>
+#include <cmath>
 
 #include "floatframe/formulation/cluster_tangent.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
@@ -132,6 +133,32 @@ void ClusterTangent::solve(VecX& x, const VecX* w, VecX* increments, int slot) n
     if (increments) part_increments(factors, k, *increments);
     spread_increments(factors, k);
   }
+}
+
+double ClusterTangent::log_pivots(int slot) const noexcept {
+  assert(slot == 0 || slot == 1);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < clusters_.size(); ++k) {
+    const MatX& front = factors_[slot].fronts[k];
+    double product = 1.0;  // of four factors, to save logarithms
+    for (int j = 0; j < clusters_[k].size; ++j) {
+      product *= front(j, j);
+      if (j % 4 != 3) continue;
+      sum -= std::log(std::abs(product));
+      product = 1.0;
+    }
+    sum -= std::log(std::abs(product));
+  }
+  return sum;
+}
+
+int ClusterTangent::negative_pivots(int slot) const noexcept {
+  assert(slot == 0 || slot == 1);
+  int count = 0;
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    for (int j = 0; j < clusters_[k].size; ++j)
+      if (factors_[slot].fronts[k](j, j) < 0.0) ++count;
+  return count;
 }
 
 }  // namespace floatframe

@@ -86,7 +86,7 @@ void ClusterTangent::add_stiffening(const std::vector<BodyTerms>& terms, double 
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SecondOrder* second_order = terms[i].inertia.second_order();
     if (!second_order) continue;
-    assert(bodies_[i].K_G.rows() == tree_.body(static_cast<int>(i)).nm);
+    assert(bodies_[i].K_G.rows() == terms[i].M.rows() - 6);
     const TreeBody& b = tree_.body(static_cast<int>(i));
     const Vec6 z = b.Zdot + b.Zdot_0;
     const Mat3 G = skew(Vec3(z.tail<3>())) + skew(b.w_WB) * skew(b.w_WB);
@@ -136,7 +136,7 @@ void ClusterTangent::assemble_forces(const Weights& w, Factors& factors) noexcep
   for (std::size_t k = 0; k < force_elements_.size(); ++k) {
     const ForceState& f = forces_.state(k);
     const TreeElement& e = force_elements_[k];
-    assert(f.row_count >= 0 && f.row_count <= static_cast<int>(std::size(f.rows)));
+    assert(f.row_count >= 0 && f.row_count <= std::ssize(f.rows));
     for (int r = 0; r < f.row_count; ++r) {
       const TangentRow& row = f.rows[r];
       const double weight = w.s * row.k + w.damping * row.c;
@@ -158,8 +158,7 @@ void ClusterTangent::assemble_parts(const Weights& w, Factors& factors) noexcept
     if (e.cluster < 0) continue;
     MatX& front = factors.fronts[e.cluster];
     double* g = factors.gradients.data() + e.gradient;
-    assert(static_cast<std::size_t>(e.gradient + part.rows() * e.width) <=
-           factors.gradients.size());
+    assert(e.gradient + part.rows() * e.width <= std::ssize(factors.gradients));
     const PartGradients gradients = constraint_kind(part.type).gradients;
     if (gradients == PartGradients::unit) {
       fill_distance(tree_, e, g);
@@ -347,32 +346,6 @@ void ClusterTangent::hand_front_to_parent(const Cluster& c, const MatX& front) n
       T(j, i) += x;
     }
   }
-}
-
-double ClusterTangent::log_pivots(int slot) const noexcept {
-  assert(slot == 0 || slot == 1);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < clusters_.size(); ++k) {
-    const MatX& front = factors_[slot].fronts[k];
-    double product = 1.0;  // of four factors, to save logarithms
-    for (int j = 0; j < clusters_[k].size; ++j) {
-      product *= front(j, j);
-      if (j % 4 != 3) continue;
-      sum -= std::log(std::abs(product));
-      product = 1.0;
-    }
-    sum -= std::log(std::abs(product));
-  }
-  return sum;
-}
-
-int ClusterTangent::negative_pivots(int slot) const noexcept {
-  assert(slot == 0 || slot == 1);
-  int count = 0;
-  for (std::size_t k = 0; k < clusters_.size(); ++k)
-    for (int j = 0; j < clusters_[k].size; ++j)
-      if (factors_[slot].fronts[k](j, j) < 0.0) ++count;
-  return count;
 }
 
 int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights& weights,

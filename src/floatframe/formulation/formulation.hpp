@@ -16,6 +16,7 @@
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/formulation/force_set.hpp"
 #include "floatframe/formulation/local_marker.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/independent_rows.hpp"
 #include "floatframe/model/system_motion.hpp"
 
@@ -74,7 +75,10 @@ class Formulation {
   virtual void solve(VecX& b, int slot = 0) noexcept = 0;
   virtual void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept = 0;
   virtual void balance(VecX& lambda, VecX& r) noexcept = 0;
-  const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
+  const VecX& constraint_values() const noexcept {
+    assert(calls_.has(CallOrder::velocities));
+    return constraint_set_.values();
+  }
   virtual void constraint_rates(VecX& out) noexcept = 0;
   virtual void constraint_accelerations(const VecX& a, VecX& out) noexcept = 0;
   virtual void constraint_increments(const VecX& delta, VecX& out) noexcept = 0;
@@ -97,7 +101,7 @@ class Formulation {
   /// set them too).
   virtual void set_accelerations(const VecX& a) noexcept = 0;
   const LocalMarker& local_marker(int i) const noexcept {
-    assert(i >= 0 && static_cast<std::size_t>(i) < local_markers_.size());
+    assert(is_index(i, local_markers_));
     return *local_markers_[i];
   }
   /// At the present positions, of all bodies [J].
@@ -145,6 +149,11 @@ class Formulation {
 
   mutable SystemMotion motion_;  ///< filled when it is asked for
   std::vector<const LocalMarker*> local_markers_;
+#ifndef NDEBUG  // the view of modal accelerations is moved to NaN unless it is asked for
+  void view_modal_accelerations(bool asked) const noexcept;
+  std::vector<const double*> modal_accelerations_;
+  VecX not_asked_;
+#endif
 };
 
 /// In these coordinates. Throws InputError if a body lacks the data `method` needs.

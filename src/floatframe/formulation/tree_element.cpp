@@ -44,7 +44,7 @@ const double* directions(const TreeKinematics& tree, const PathEntry& p) noexcep
 
 TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
                          const std::vector<int>& cluster_of_body, int a, int b) {
-  assert(b >= 0 && cluster_of_body.size() == static_cast<std::size_t>(tree.body_count()));
+  assert(b >= 0 && std::ssize(cluster_of_body) == tree.body_count());
   TreeElement e;
   e.a = a;
   e.b = b;

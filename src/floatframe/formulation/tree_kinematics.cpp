@@ -292,7 +292,7 @@ PointMotion TreeKinematics::acceleration_in_world(int marker) const noexcept {
 
 /// Contribution of coordinate accelerations, added to the bias of a marker.
 void TreeKinematics::add_acceleration(int marker, PointMotion& x) const noexcept {
-  assert(marker >= 0 && static_cast<std::size_t>(marker) < markers_.size());
+  assert(is_index(marker, markers_));
   const TreeMarker& m = markers_[marker];
   if (m.body < 0) return;
   const TreeBody& b = bodies_[m.body];

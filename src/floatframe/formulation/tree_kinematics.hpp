@@ -34,6 +34,7 @@
 
 #include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/formulation/point_motion.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
@@ -118,7 +119,7 @@ class TreeKinematics {
   }
   const std::vector<TreeBody>& bodies() const noexcept { return bodies_; }
   const TreeMarker& marker(int i) const noexcept {
-    assert(i >= 0 && static_cast<std::size_t>(i) < markers_.size());
+    assert(is_index(i, markers_));
     return markers_[i];
   }
   /// Parents before children.

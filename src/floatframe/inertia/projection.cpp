@@ -248,9 +248,9 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
   const bool bent = !work.moved.empty();
   const ProjectionData::TurningPoint* turning = data.turning.data();
   const ProjectionData::TurningPoint* const end = turning + data.turning.size();
-  assert(((y && ydot) || nm == 0) && work.X.size() == static_cast<std::size_t>(n * rows * nm));
+  assert(((y && ydot) || nm == 0) && std::ssize(work.X) == n * rows * nm);
   assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq && stride <= work.stride);
-  assert(!stiffened || work.h.size() == static_cast<std::size_t>(n * 3 * nm * nm));
+  assert(!stiffened || std::ssize(work.h) == n * 3 * nm * nm);
   poison(M);
   poison(Qv);
 

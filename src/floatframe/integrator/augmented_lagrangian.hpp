@@ -49,11 +49,7 @@ class AugmentedLagrangian {
   AugmentedLagrangian(F& formulation, const StepOptions& options)
       : f_(formulation), options_(options), spectral_radius_(options.spectral_radius) {
     const int nv = f_.velocities(), nc = f_.constraints();
-    assert(options.spectral_radius >= 0.0 && options.spectral_radius <= 1.0);
-    assert(options.tolerance > 0.0 && options.position_tolerance > 0.0);
-    assert(options.velocity_tolerance > 0.0 && options.penalty_mass > 0.0);
-    assert(options.max_iterations > 0 && options.max_projections >= 0);
-    assert(options.fixed_iterations >= 0 && options.time_budget >= 0.0);
+    assert(are_valid(options));
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
     lambda_ = reactions_ = rate_ = work_ = increments_ = VecX::Zero(nc);
@@ -117,11 +113,8 @@ class AugmentedLagrangian {
   /// would turn round-off of nearly dependent constraints into velocities.
   static constexpr double min_projection_rate = 0.5;
 
-  /// The sizes of the formulation.
   bool fits(const State& s) const noexcept {
-    const Eigen::Index nv = f_.velocities();
-    return std::isfinite(s.t) && s.q.size() == f_.configurations() && s.v.size() == nv &&
-           s.a.size() == nv && s.a_alg.size() == nv && s.lambda.size() == f_.constraints();
+    return has_sizes(s, f_.configurations(), f_.velocities(), f_.constraints());
   }
 
   StepAttempt advance(State& state, double h) noexcept {
@@ -334,60 +327,11 @@ class AugmentedLagrangian {
            report.position_violation < options_.position_tolerance;
   }
 
-  /// Projects velocities and accelerations onto the constraints, orthogonally in W = M + 0.01 s K
-  /// (the Newton tangent would feed energy into stiff modes). False if W is singular.
-  bool project(const Scheme& k, StepAttempt& report) noexcept {
-    assert(report.accepted() && f_.constraints() > 0);
-    double penalty = metric_penalty * k.penalty;
-    int pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
-    ++report.factorizations;
-    for (int retry = 0; pivot >= 0 && retry < max_penalty_reductions; ++retry) {
-      penalty *= penalty_reduction;
-      pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
-      ++report.factorizations;
-    }
-    if (pivot >= 0) {
-      report.status = AttemptStatus::singular_tangent;
-      report.coordinate = pivot;
-      return false;
-    }
-    report.log_pivots = f_.log_pivots(projection_slot);
-    project_velocities(penalty, report);
-    f_.velocities(v_);
-    f_.constraint_accelerations(a_, rate_);
-    const double first = largest(rate_);
-    double violation = first;
-    reactions_ = lambda_;
-    for (int pass = 0; pass < options_.max_projections; ++pass) {
-      // To 1e-6 m/s2 or nine digits. A violation not halved after four passes is round-off or the
-      // result of contradicting constraints.
-      if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
-      correct(a_, penalty);
-      violation = largest(rate_);
-      // W times the change of a is -Phi_q^T penalty mu.
-      reactions_ += penalty * work_;
-    }
-    return true;
-  }
-
+  bool project(const Scheme& k, StepAttempt& report) noexcept;
   bool solve_accelerations(const State&, const Scheme&, double penalty, double enough) noexcept;
   bool iterate_accelerations(double s, double penalty, double enough) noexcept;
 
-  void project_velocities(double penalty, StepAttempt& report) noexcept {
-    if (keeps_impulses_) impulses_.setZero();
-    f_.constraint_rates(rate_);
-    report.velocity_violation = largest(rate_);
-    const double enough = 0.1 * options_.velocity_tolerance;
-    for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
-         ++pass) {
-      const double before = report.velocity_violation;
-      correct(v_, penalty);
-      if (keeps_impulses_) impulses_ += penalty * work_;
-      report.velocity_violation = largest(rate_);
-      if (report.velocity_violation > min_projection_rate * before) break;
-    }
-  }
-
+  void project_velocities(double penalty, StepAttempt& report) noexcept;
   /// One pass: z -= W^-1 Phi_q^T penalty rate, and the remaining rate.
   void correct(VecX& z, double penalty) noexcept {
     assert(penalty > 0.0 && z.size() == delta_.size());
@@ -411,7 +355,6 @@ class AugmentedLagrangian {
   static int index_of_largest(const VecX& x) noexcept {
     int k = -1;
     if (x.size() > 0) x.cwiseAbs().maxCoeff(&k);
-    assert(k < x.size() || x.size() == 0);
     return k;
   }
 
@@ -426,4 +369,6 @@ class AugmentedLagrangian {
 
 }  // namespace floatframe
 
-#include "floatframe/integrator/restart.hpp"  // the remaining member functions
+// The remaining member functions.
+#include "floatframe/integrator/projections.hpp"
+#include "floatframe/integrator/restart.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
 
 namespace floatframe {
@@ -21,7 +22,7 @@ std::vector<std::set<int>> neighbours_of(std::size_t n,
                                          const std::vector<std::pair<int, int>>& edges) {
   std::vector<std::set<int>> neighbours(n);
   for (const auto& [a, b] : edges) {
-    assert(a >= 0 && b >= 0 && static_cast<std::size_t>(std::max(a, b)) < n);
+    assert(is_index(a, neighbours) && is_index(b, neighbours));
     if (a == b) continue;
     neighbours[a].insert(b);
     neighbours[b].insert(a);
@@ -139,7 +140,7 @@ BlockLdlt::BlockLdlt(const std::vector<Block>& blocks,
 }
 
 int BlockLdlt::start_of(const Node& n, int block) const noexcept {
-  assert(block >= 0 && static_cast<std::size_t>(block) < nodes_.size());
+  assert(is_index(block, nodes_));
   if (&n == &nodes_[block]) return 0;
   for (std::size_t k = 0; k < n.blocks.size(); ++k)
     if (n.blocks[k] == block) return n.start[k];
@@ -154,8 +155,8 @@ void BlockLdlt::set_zero() noexcept {
 }
 
 MatX& BlockLdlt::front(int a, int b, int& offset_a, int& offset_b) noexcept {
-  assert(a >= 0 && static_cast<std::size_t>(a) < nodes_.size());
-  assert(b >= 0 && static_cast<std::size_t>(b) < nodes_.size());
+  assert(is_index(a, nodes_));
+  assert(is_index(b, nodes_));
   Node& na = nodes_[a];
   Node& nb = nodes_[b];
   Node& first = na.rank <= nb.rank ? na : nb;

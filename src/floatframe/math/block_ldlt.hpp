@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/pivoted_ldlt.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -48,13 +49,13 @@ class BlockLdlt {
   /// The front that holds the pair (a, b), and where each block starts in it.
   MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
   MatX& front(int a) noexcept {
-    assert(a >= 0 && static_cast<std::size_t>(a) < nodes_.size());
+    assert(is_index(a, nodes_));
     return nodes_[a].matrix;
   }
 
   /// First unknown of a block, blocks in the given order.
   int offset(int block) const noexcept {
-    assert(block >= 0 && static_cast<std::size_t>(block) < nodes_.size());
+    assert(is_index(block, nodes_));
     return nodes_[block].offset;
   }
   int unknowns() const noexcept { return unknowns_; }

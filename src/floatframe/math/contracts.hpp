@@ -3,6 +3,8 @@
 // A Newton iteration that diverges is no mistake of a programmer: what must be unit, orthonormal or
 // symmetric may also be NaN, and only `all_finite` fails then. Release builds call none of this.
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -18,6 +20,11 @@ inline bool all_finite(const double* x, Eigen::Index n) noexcept {
 template <class D>
 bool all_finite(const Eigen::DenseBase<D>& x) noexcept {
   return x.allFinite();
+}
+
+template <class X>
+bool is_index(std::ptrdiff_t i, const X& x) noexcept {
+  return i >= 0 && i < std::ssize(x);
 }
 
 /// |x| = 1: a direction, or the coefficients of a quaternion.

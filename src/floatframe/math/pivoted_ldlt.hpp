@@ -35,7 +35,7 @@ struct PivotOrder {
 
 /// Swaps columns and rows i < j of the front, both among the leading ne.
 inline void swap_in_front(double* f, int n, int i, int j, PivotOrder& p) noexcept {
-  assert(0 <= i && i < j && j < n && static_cast<std::size_t>(j) < p.row.size());
+  assert(0 <= i && i < j && j < n && j < std::ssize(p.row));
   const int ld = front_stride(n);
   const auto at = [&](int row, int column) -> double& { return f[column * ld + row]; };
   for (int k = 0; k < i; ++k) std::swap(at(i, k), at(j, k));
@@ -50,7 +50,7 @@ inline void swap_in_front(double* f, int n, int i, int j, PivotOrder& p) noexcep
 /// times the terms of its diagonal.
 inline int pivoted_ldlt(double* f, int n, int ne, PivotOrder& p, double tolerance) noexcept {
   assert(0 <= ne && ne <= n && tolerance >= 0.0);
-  assert(p.row.size() == static_cast<std::size_t>(ne) && p.size.size() == ne);
+  assert(std::ssize(p.row) == ne && p.size.size() == ne);
   const int ld = front_stride(n);
   const auto at = [&](int row, int column) -> double& { return f[column * ld + row]; };
   for (int j = 0; j < ne; ++j) {

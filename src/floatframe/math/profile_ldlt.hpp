@@ -25,7 +25,7 @@ inline void below(int j, int end, int ne, int ld, const One& one, const Lane& la
 
 /// Zeros where a column may become nonzero.
 inline void profile_clear(double* f, int n, int ne, const FrontProfile& profile) noexcept {
-  assert(0 <= ne && ne <= n && profile.size() >= static_cast<std::size_t>(ne));
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   const int ld = front_stride(n);
   for (int j = 0; j < n; ++j) {
     double* c = f + static_cast<std::ptrdiff_t>(j) * ld;
@@ -37,7 +37,7 @@ inline void profile_clear(double* f, int n, int ne, const FrontProfile& profile)
 
 inline int profile_ldlt(double* f, int n, int ne, double* original,
                         const FrontProfile& profile) noexcept {
-  assert(0 <= ne && ne <= n && profile.size() >= static_cast<std::size_t>(ne));
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   assert(std::is_sorted(profile.begin(), profile.end()));
   const std::ptrdiff_t ld = front_stride(n);
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
@@ -68,7 +68,7 @@ inline int profile_ldlt(double* f, int n, int ne, double* original,
 
 inline void profile_forward(const double* f, int n, int ne, double* b,
                             const FrontProfile& profile) noexcept {
-  assert(0 <= ne && ne <= n && profile.size() >= static_cast<std::size_t>(ne));
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   const std::ptrdiff_t ld = front_stride(n);
   for (int j = 0; j < ne; ++j) {
     const double* c = f + j * ld;
@@ -82,7 +82,7 @@ inline void profile_forward(const double* f, int n, int ne, double* b,
 
 inline void profile_backward(const double* f, int n, int ne, double* b,
                              const FrontProfile& profile) noexcept {
-  assert(0 <= ne && ne <= n && profile.size() >= static_cast<std::size_t>(ne));
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   const std::ptrdiff_t ld = front_stride(n);
   for (int j = ne; j-- > 0;) {
     const double* c = f + j * ld;

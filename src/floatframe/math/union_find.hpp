@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "floatframe/math/contracts.hpp"
+
 namespace floatframe {
 
 class UnionFind {
@@ -18,7 +20,7 @@ class UnionFind {
   }
   /// The representative of the set of k.
   int root(int k) const {
-    assert(k >= 0 && static_cast<std::size_t>(k) < leader_.size());
+    assert(is_index(k, leader_));
     while (leader_[k] != k) k = leader_[k] = leader_[leader_[k]];
     return k;
   }

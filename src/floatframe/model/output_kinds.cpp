@@ -40,7 +40,6 @@ MotionNeeds needs_of_outputs(const Model& model) noexcept {
 double output_value(const SystemMotion& motion, const Output& output,
                     FollowedOutput& last) noexcept {
   assert(std::isfinite(motion.t));
-  assert(motion.reactions || !output_kind(output.type).needs_of_motion.reactions);
   return value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
 }
 

@@ -57,17 +57,17 @@ struct SystemMotion {
   SystemMotion& operator=(const SystemMotion&) = delete;
 
   const BodyKinematics& body(int i) const noexcept {
-    assert(i >= 0 && static_cast<std::size_t>(i) < bodies.size());
+    assert(is_index(i, bodies));
     return bodies[static_cast<std::size_t>(i)];
   }
   const MarkerState& marker(int i) const noexcept {
-    assert(i >= 0 && static_cast<std::size_t>(i) < markers.size());
+    assert(is_index(i, markers));
     return *markers[static_cast<std::size_t>(i)];
   }
   /// Position of a marker in the world [m].
   Vec3 place(int i) const noexcept { return marker(i).r + origin; }
   const ForceState& force(int i) const noexcept {
-    assert(i >= 0 && static_cast<std::size_t>(i) < model.forces.size());
+    assert(is_index(i, model.forces));
     return forces[i];
   }
   /// The marker a of a force, b if it has none.

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
@@ -376,12 +377,12 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
     const ConstraintPart& p = set.parts()[k];
     const WrenchRow w = set.wrench(k, lambda);
     if (p.owner.kind == ConstraintOwner::Kind::rod) {
-      assert(p.owner.index >= 0 && p.owner.index < std::ssize(reactions.rods));
+      assert(is_index(p.owner.index, reactions.rods));
       reactions.rods[p.owner.index] = {-w.Fb, -w.Tb};
       reactions.tensions[p.owner.index] = lambda[set.offset(k)];
       continue;
     }
-    assert(p.owner.index >= 0 && p.owner.index < std::ssize(reactions.joints));
+    assert(is_index(p.owner.index, reactions.joints));
     Reactions::Wrench& joint = reactions.joints[p.owner.index];
     joint.force -= w.Fb;
     joint.torque -= w.Tb;

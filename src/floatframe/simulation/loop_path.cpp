@@ -108,7 +108,7 @@ bool LoopPath::starts_as_drawn() const {
 }
 
 bool LoopPath::closes(const VecX& q) {
-  f_.positions(t_, q);
+  kinematics_at(f_, t_, q, VecX::Zero(f_.velocities()));
   return largest(f_.constraint_values()) < 1e-10;
 }
 
@@ -293,7 +293,7 @@ VecX LoopPath::gap(VecX& q) {
     f_.retract(q, x, q_new);
     q = q_new;
   }
-  f_.positions(t_, q);
+  kinematics_at(f_, t_, q, rest);
   return f_.constraint_values();
 }
 
@@ -319,12 +319,13 @@ bool LoopPath::closed(const VecX& q) {
 bool LoopPath::near(const VecX& from, const VecX& to) {
   std::vector<Mat3> R;
   std::vector<Vec3> p;
-  f_.positions(t_, from);
+  const VecX rest = VecX::Zero(f_.velocities());
+  kinematics_at(f_, t_, from, rest);
   for (const BodyKinematics& b : f_.motion().bodies) {
     R.push_back(b.R_WB);
     p.push_back(b.p_WB);
   }
-  f_.positions(t_, to);
+  kinematics_at(f_, t_, to, rest);
   const std::vector<BodyKinematics>& moved = f_.motion().bodies;
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (rotation_log(R[i].transpose() * moved[i].R_WB).norm() > largest_turn ||

@@ -83,7 +83,7 @@ class MotionWatch {
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
       const BodyKinematics& b = motion.bodies[i];
       std::vector<PhaseMeter>& m = range_.meters(static_cast<int>(i));
-      assert(m.size() == static_cast<std::size_t>(2 + b.yd.size()));
+      assert(std::ssize(m) == 2 + b.yd.size());
       use(m[0], b.v_WB);
       use(m[1], b.w_WB);
       for (std::size_t k = 2; k < m.size(); ++k)

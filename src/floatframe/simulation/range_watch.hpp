@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/force_outputs.hpp"
 #include "floatframe/model/system_motion.hpp"
@@ -210,7 +211,7 @@ class RangeWatch {
   const std::vector<BodyRange>& bodies() const noexcept { return bodies_; }
   /// Two per body, its translation and its rotation, then one per mode.
   std::vector<PhaseMeter>& meters(int body) noexcept {
-    assert(body >= 0 && body < std::ssize(meters_));
+    assert(is_index(body, meters_));
     return meters_[body];
   }
   /// For the force elements that measure rotations.

@@ -1,6 +1,7 @@
 // Acceleration of a point, d2p_WP/dt2 [m/s2].
 #include <cassert>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -9,7 +10,7 @@ template <>
 double output_value_of<OutputType::acceleration>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
   assert(output.component >= 0 && output.component < 3);
-  assert(output.marker >= 0 && output.marker < std::ssize(motion.marker_accelerations));
+  assert(is_index(output.marker, motion.marker_accelerations));
   return motion.marker_accelerations[output.marker][output.component];
 }
 

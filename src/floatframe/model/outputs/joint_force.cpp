@@ -9,7 +9,7 @@ template <>
 double output_value_of<OutputType::joint_force>(const SystemMotion& motion, const Output& output,
                                                 FollowedOutput&) noexcept {
   assert(output.component >= 0 && output.component < 3);
-  assert(output.rod >= 0 || output.joint >= 0);
+  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
   const Reactions& all = *motion.reactions;
   const Reactions::Wrench& w = output.rod >= 0 ? all.rods[output.rod] : all.joints[output.joint];
   if (output.to < 0) return w.force[output.component];

@@ -12,7 +12,7 @@ template <>
 double output_value_of<OutputType::joint_torque>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
   assert(output.component >= 0 && output.component < 3);
-  assert(output.rod >= 0 || output.joint >= 0);
+  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
   const Model& model = motion.model;
   const bool rod = output.rod >= 0;
   const Reactions& all = *motion.reactions;

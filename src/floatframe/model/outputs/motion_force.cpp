@@ -18,7 +18,7 @@ const char* motion_force_unit(const Model& model, const Output& output) {
 template <>
 double output_value_of<OutputType::motion_force>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
-  assert(motion.model.joints[output.joint].motion);
+  assert(motion.reactions && motion.model.joints[output.joint].motion);
   return motion.reactions->motions[output.joint];
 }
 

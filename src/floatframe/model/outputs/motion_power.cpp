@@ -11,7 +11,7 @@ template <>
 double output_value_of<OutputType::motion_power>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
   const Joint& joint = motion.model.joints[output.joint];
-  assert(joint.motion);
+  assert(motion.reactions && joint.motion);
   return motion.reactions->motions[output.joint] * evaluate(*joint.motion, motion.t).df;
 }
 

@@ -11,7 +11,7 @@ double output_value_of<OutputType::projection_impulse>(const SystemMotion& motio
                                                        const Output& output,
                                                        FollowedOutput&) noexcept {
   assert(output.component >= 0 && output.component < 3);
-  assert(output.rod >= 0 || output.joint >= 0);
+  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
   const Reactions& all = *motion.reactions;
   const Vec3& impulse =
       output.rod >= 0 ? all.rod_impulses[output.rod] : all.joint_impulses[output.joint];

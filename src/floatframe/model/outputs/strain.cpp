@@ -2,6 +2,7 @@
 // (model/gauge.hpp). Three of them at 0, 45 and 90 degrees are a rosette.
 #include <cassert>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -10,7 +11,7 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::strain>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
-  assert(output.gauge >= 0 && output.gauge < std::ssize(motion.model.gauges));
+  assert(is_index(output.gauge, motion.model.gauges));
   return gauge_values(motion, motion.model.gauges[output.gauge])(0);
 }
 

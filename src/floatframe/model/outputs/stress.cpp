@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -19,7 +20,7 @@ constexpr const char* stress_words[] = {
 template <>
 double output_value_of<OutputType::stress>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
-  assert(output.gauge >= 0 && output.gauge < std::ssize(motion.model.gauges));
+  assert(is_index(output.gauge, motion.model.gauges));
   assert(output.component >= 0 && output.component < 11);
   const Vec6 s = gauge_values(motion, motion.model.gauges[output.gauge]);
   if (output.component < 6) return s(output.component);
