@@ -39,6 +39,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/block_ldlt.hpp"
@@ -79,13 +80,13 @@ class AbsoluteFormulation final : public Formulation {
                 int slot = 0) noexcept override {
     assert(calls_.has(CallOrder::residual) && (slot == 0 || slot == 1));
     const int pivot = eliminate({mass, damping, s, s * alpha, true}, factors_[slot]);
-    calls_.factorise(slot, pivot < 0);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
     return pivot;
   }
   int factorize_metric(double s, double penalty, int slot) noexcept override {
     assert(calls_.has_masses() && (slot == 0 || slot == 1));
     const int pivot = eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
-    calls_.factorise(slot, pivot < 0);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
     return pivot;
   }
   double log_pivots(int slot) const noexcept override {
@@ -112,7 +113,7 @@ class AbsoluteFormulation final : public Formulation {
   void set_accelerations(const VecX& a) noexcept override {
     assert(a.size() == nq_);
     a_ = a;
-    calls_.accelerate();
+    FLOATFRAME_DEBUG(calls_.accelerate());
   }
   double kinetic_energy(const VecX& v) noexcept override;
   BodyCoordinates body_coordinates(int body) const override;

@@ -1,6 +1,7 @@
 // Residual and constraints of the absolute formulation.
 #include <cassert>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/math/contracts.hpp"
 
@@ -8,7 +9,7 @@ namespace floatframe {
 
 void AbsoluteFormulation::dynamics() noexcept {
   assert(calls_.has(CallOrder::velocities));
-  calls_.reach(CallOrder::dynamics);
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::dynamics));
   for (BodyData& b : bodies_) b.inertia.absolute(b.A, b.Adot, b.y.data(), b.yd.data(), b.M, b.Qv);
   forces();
 }
@@ -77,8 +78,8 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
                                    VecX& out) noexcept {
   assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0);
   assert(a.size() == nq_ && lambda.size() == constraints() && out.size() == nq_);
-  calls_.reach(CallOrder::residual);
-  calls_.accelerate();
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::residual));
+  FLOATFRAME_DEBUG(calls_.accelerate());
   a_ = a;
   constraint_set_.set_multipliers(lambda, alpha);
   out.setZero();
@@ -103,7 +104,7 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
 
 void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
-  poison(out);
+  FLOATFRAME_DEBUG(poison(out));
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {
       const Vec3 u = b.A.col(pair_a[k]), v = b.A.col(pair_b[k]);
@@ -143,7 +144,7 @@ PointMotion AbsoluteFormulation::increment_of(int marker, const VecX& delta) con
 void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities));
   assert(delta.size() == nq_ && out.size() == constraints());
-  poison(out);
+  FLOATFRAME_DEBUG(poison(out));
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {
       const Vec3 du = delta.segment<3>(b.offset + 3 + 3 * pair_a[k]);
@@ -187,8 +188,8 @@ PointMotion AbsoluteFormulation::acceleration_of(int marker, const VecX& a) cons
 void AbsoluteFormulation::constraint_accelerations(const VecX& a, VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities));
   assert(a.size() == nq_ && out.size() == constraints());
-  calls_.accelerate();
-  poison(out);
+  FLOATFRAME_DEBUG(calls_.accelerate());
+  FLOATFRAME_DEBUG(poison(out));
   a_ = a;
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {

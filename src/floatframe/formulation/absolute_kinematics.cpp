@@ -1,6 +1,7 @@
 // Positions and velocities of the absolute formulation.
 #include <cassert>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/math/contracts.hpp"
 
@@ -9,8 +10,8 @@ namespace floatframe {
 void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
   time_ = t;
   assert(q.size() == nq_ && std::isfinite(t));
-  calls_.reach(CallOrder::positions);
-  poison(a_);
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::positions));
+  FLOATFRAME_DEBUG(poison(a_));
   stiffens_ ? positions_of<true>(q) : positions_of<false>(q);
 }
 
@@ -20,14 +21,14 @@ void AbsoluteFormulation::positions_of(const VecX& q) noexcept {
     b.p_WB = q.segment<3>(b.offset);
     for (int c = 0; c < 3; ++c) b.A.col(c) = q.segment<3>(b.offset + 3 + 3 * c);
     b.y = q.segment(b.offset + 12, b.nm);
-    poison(b.v_WB);
-    poison(b.Adot);
-    poison(b.w_WB);
-    poison(b.yd);
+    FLOATFRAME_DEBUG(poison(b.v_WB));
+    FLOATFRAME_DEBUG(poison(b.Adot));
+    FLOATFRAME_DEBUG(poison(b.w_WB));
+    FLOATFRAME_DEBUG(poison(b.yd));
   }
   for (MarkerData& m : markers_) {
-    poison_rates(m.s);
-    poison(m.v_P);
+    FLOATFRAME_DEBUG(poison_rates(m.s));
+    FLOATFRAME_DEBUG(poison(m.v_P));
     if (m.body < 0) {
       m.s.r = m.X_NM.p;
       m.s.R = m.X_NM.R;
@@ -46,14 +47,14 @@ void AbsoluteFormulation::positions_of(const VecX& q) noexcept {
 
 void AbsoluteFormulation::velocities(const VecX& v) noexcept {
   assert(v.size() == nq_ && calls_.has(CallOrder::positions));
-  calls_.reach(CallOrder::velocities);
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::velocities));
   stiffens_ ? velocities_of<true>(v) : velocities_of<false>(v);
 }
 
 template <bool stiffens>
 void AbsoluteFormulation::velocities_of(const VecX& v) noexcept {
   VecX& phi = constraint_set_.values();
-  poison(phi);
+  FLOATFRAME_DEBUG(poison(phi));
   for (BodyData& b : bodies_) {
     b.v_WB = v.segment<3>(b.offset);
     for (int c = 0; c < 3; ++c) b.Adot.col(c) = v.segment<3>(b.offset + 3 + 3 * c);

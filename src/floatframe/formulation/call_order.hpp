@@ -4,10 +4,10 @@
 namespace floatframe {
 
 class CallOrder {
+#ifndef NDEBUG
  public:
   enum Stage { nothing, positions, velocities, dynamics, residual };
 
-#ifndef NDEBUG
   void reach(Stage s) noexcept {
     if (s == positions) accelerated_ = false;
     if (s >= dynamics) weighed_ = true;
@@ -28,10 +28,6 @@ class CallOrder {
  private:
   Stage stage_ = nothing;
   bool weighed_ = false, accelerated_ = false, factorised_[2] = {false, false};
-#else
-  void reach(Stage) noexcept {}
-  void accelerate() noexcept {}
-  void factorise(int, bool) noexcept {}
 #endif
 };
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <new>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/math/contracts.hpp"
 
@@ -22,7 +23,7 @@ void Formulation::show_body(const Mat3& R_WB, const Vec3& w_WB, const VecX& y, c
 #ifndef NDEBUG
   modal_accelerations_.push_back(ydd);
   not_asked_.resize(std::max(not_asked_.size(), y.size()));
-  poison(not_asked_);
+  FLOATFRAME_DEBUG(poison(not_asked_));
 #endif
 }
 
@@ -46,7 +47,7 @@ const SystemMotion& Formulation::motion(MotionNeeds needs,
   assert(!needs.accelerations || calls_.has_accelerations());
   assert(!needs.energies || calls_.has(CallOrder::dynamics));
   assert(!needs.reactions || reactions);
-  motion_.poison_filled();
+  FLOATFRAME_DEBUG(motion_.poison_filled());
 #ifndef NDEBUG
   view_modal_accelerations(needs.accelerations);
 #endif

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/cluster_tangent.hpp"
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/formulation/tree_kinematics.hpp"
@@ -59,13 +60,13 @@ class RelativeFormulation final : public Formulation {
                 int slot = 0) noexcept override {
     assert(calls_.has(CallOrder::residual) && (slot == 0 || slot == 1));
     const int pivot = tangent_.factorize(terms_, {mass, damping, s, s * alpha, true}, slot);
-    calls_.factorise(slot, pivot < 0);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
     return pivot;
   }
   int factorize_metric(double s, double penalty, int slot) noexcept override {
     assert(calls_.has_masses() && (slot == 0 || slot == 1));
     const int pivot = tangent_.factorize(terms_, {1.0, 0.0, s, penalty, false}, slot);
-    calls_.factorise(slot, pivot < 0);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
     return pivot;
   }
   double log_pivots(int slot) const noexcept override {
@@ -106,7 +107,7 @@ class RelativeFormulation final : public Formulation {
   void set_accelerations(const VecX& a) noexcept override {
     assert(calls_.has(CallOrder::positions));
     tree_.accelerations(a);
-    calls_.accelerate();
+    FLOATFRAME_DEBUG(calls_.accelerate());
   }
   double kinetic_energy(const VecX& v) noexcept override;
   BodyCoordinates body_coordinates(int body) const override;

@@ -1,6 +1,7 @@
 // Residual and constraints: accelerations root to leaves, body terms, wrenches leaves to root.
 #include <cassert>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -10,13 +11,13 @@ namespace floatframe {
 void RelativeFormulation::positions(double t, const VecX& q) noexcept {
   time_ = t;
   assert(std::isfinite(t));
-  calls_.reach(CallOrder::positions);
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::positions));
   tree_.positions(q);
 }
 
 void RelativeFormulation::velocities(const VecX& v) noexcept {
   assert(calls_.has(CallOrder::positions));
-  calls_.reach(CallOrder::velocities);
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::velocities));
   tree_.velocities(v);
   constraint_set_.evaluate(
       time_, [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
@@ -24,7 +25,7 @@ void RelativeFormulation::velocities(const VecX& v) noexcept {
 
 void RelativeFormulation::dynamics() noexcept {
   assert(calls_.has(CallOrder::velocities));
-  calls_.reach(CallOrder::dynamics);
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::dynamics));
   for (const int i : tree_.order()) {
     const TreeBody& b = tree_.body(i);
     BodyTerms& t = terms_[i];
@@ -50,8 +51,8 @@ ForceSide RelativeFormulation::force_side(std::size_t force) const noexcept {
 void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
   assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0 && lambda.size() == constraints());
-  calls_.reach(CallOrder::residual);
-  calls_.accelerate();
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::residual));
+  FLOATFRAME_DEBUG(calls_.accelerate());
   tree_.accelerations(a);
   for (const int i : tree_.order()) {  // (1)
     const TreeBody& b = tree_.body(i);
@@ -88,14 +89,14 @@ void RelativeFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
 
 void RelativeFormulation::constraint_rates(VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
-  poison(out);
+  FLOATFRAME_DEBUG(poison(out));
   constraint_set_.rates([&](int marker) -> const MarkerState& { return tree_.marker(marker).s; },
                         out);
 }
 
 void RelativeFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
-  poison(out);
+  FLOATFRAME_DEBUG(poison(out));
   tree_.spread(delta, increments_);
   constraint_set_.increments([&](int marker) { return tree_.increment_of(marker, increments_); },
                              out);
@@ -103,8 +104,8 @@ void RelativeFormulation::constraint_increments(const VecX& delta, VecX& out) no
 
 void RelativeFormulation::constraint_accelerations(const VecX& a, VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
-  calls_.accelerate();
-  poison(out);
+  FLOATFRAME_DEBUG(calls_.accelerate());
+  FLOATFRAME_DEBUG(poison(out));
   tree_.accelerations(a);
   constraint_set_.accelerations([&](int marker) { return tree_.acceleration_of(marker); }, out);
 }

@@ -4,6 +4,7 @@
 
 #include <cassert>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/small_products.hpp"
 
@@ -87,16 +88,16 @@ void TreeKinematics::place_body(TreeBody& b) noexcept {
 
 template <bool stiffens>
 void TreeKinematics::positions_of(const VecX& q) noexcept {
-  for (TreeMarker& m : markers_) poison_state(m.s);
+  FLOATFRAME_DEBUG(for (TreeMarker& m : markers_) poison_state(m.s);)
   for (const int i : order_) {
     TreeBody& b = bodies_[i];
     b.y = q.segment(b.iyq, b.nm);
-    poison(b.w_WB);
-    poison(b.Z);
-    poison(b.Zdot_0);
-    poison(b.Zdot);
-    poison(b.yd);
-    poison(b.ydd);
+    FLOATFRAME_DEBUG(poison(b.w_WB));
+    FLOATFRAME_DEBUG(poison(b.Z));
+    FLOATFRAME_DEBUG(poison(b.Zdot_0));
+    FLOATFRAME_DEBUG(poison(b.Zdot));
+    FLOATFRAME_DEBUG(poison(b.yd));
+    FLOATFRAME_DEBUG(poison(b.ydd));
   }
   choose_origin(q);
   place_ground_markers();
@@ -193,7 +194,7 @@ void TreeKinematics::accelerations(const VecX& a) noexcept {
 void TreeKinematics::retract(const VecX& q0, const VecX& x, VecX& q) const noexcept {
   assert(q0.size() == nq_ && x.size() == nv_ && q.size() == nq_);
   assert(&q != &q0);
-  poison(q);
+  FLOATFRAME_DEBUG(poison(q));
   for (const TreeBody& b : bodies_) {
     joint_retract(b.type, q0.data() + b.iq, x.data() + b.iv, q.data() + b.iq);
     q.segment(b.iyq, b.nm) = q0.segment(b.iyq, b.nm) + x.segment(b.iy, b.nm);
@@ -227,7 +228,7 @@ void TreeKinematics::spread(const VecX& x, BodyVectors& increments) const noexce
 
 void TreeKinematics::project(BodyVectors& wrenches, VecX& out) const noexcept {
   assert(wrenches.size() == bodies_.size() && out.size() == nv_);
-  poison(out);
+  FLOATFRAME_DEBUG(poison(out));
   for (std::size_t k = order_.size(); k-- > 0;) {
     const TreeBody& b = bodies_[order_[k]];
     const VecX& h = wrenches[order_[k]];

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "floatframe/body/modal_mass.hpp"
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -50,7 +51,7 @@ PreprocessingData::PreprocessingData(const InertiaInvariants& v)
     : m(v.m), m_u(v.m_u), P_u(v.P_u), S(v.S) {
   const int nm = v.modes();
   assert(v.m >= 0.0 && all_finite(v.m_u) && all_finite(v.P_u) && is_symmetric(v.P_u));
-  for ([[maybe_unused]] const Mat3X& of_axis : v.Si) assert(of_axis.cols() == nm);
+  FLOATFRAME_DEBUG(for (const Mat3X& of_axis : v.Si) assert(of_axis.cols() == nm);)
   Si.resize(9, nm);
   Sij.resize(9 * nm, nm);
   Sij_sum.resize(6, nm * nm);
@@ -93,7 +94,7 @@ PreprocessingData::PreprocessingData(const InertiaInvariants& v)
 void deform(const PreprocessingData& data, const double* y, DeformedInvariants& d) noexcept {
   const int nm = data.modes();
   assert((y || nm == 0) && d.S_d.rows() == 9 && d.S_d.cols() == nm);
-  poison(d.S_d);
+  FLOATFRAME_DEBUG(poison(d.S_d));
   d.m_bar = data.m_u + times(data.S, y);                                 // (29)
   affine(data.Si.data(), data.Sij.data(), 9 * nm, nm, y, d.S_d.data());  // (38)
   const Mat3 first = times9(data.Si, y);                                 // column i: S^i y
@@ -114,8 +115,8 @@ void deform_stiffened(const PreprocessingData& data, StiffeningData& stiffening,
   const int nm = data.modes();
   assert((y || nm == 0) && d.S_d.rows() == 9 && d.S_d.cols() == nm);
   assert(stiffening.S.cols() == nm && stiffening.S2.cols() == nm);
-  poison(d.S_d);
-  poison(stiffening.S);
+  FLOATFRAME_DEBUG(poison(d.S_d));
+  FLOATFRAME_DEBUG(poison(stiffening.S));
   affine(data.S.data(), stiffening.S2.data(), 3 * nm, nm, y, stiffening.S.data());
   d.m_bar = data.m_u + 0.5 * (times(data.S, y) + times(stiffening.S, y));
   affine(data.Si.data(), stiffening.S_ij.data(), 9 * nm, nm, y, d.S_d.data());
@@ -132,8 +133,8 @@ void absolute_terms(const PreprocessingData& data, const StiffeningData* stiffen
   const int nq = 12 + nm;
   assert((ydot || nm == 0) && work.S_dot.size() == 9 * nm);
   assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq);
-  poison(M);
-  poison(Qv);
+  FLOATFRAME_DEBUG(poison(M));
+  FLOATFRAME_DEBUG(poison(Qv));
   DeformedInvariants& d = work.deformed;
   const Mat3X& S = stiffened ? stiffening->S : data.S;
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -251,8 +252,8 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
   assert(((y && ydot) || nm == 0) && std::ssize(work.X) == n * rows * nm);
   assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq && stride <= work.stride);
   assert(!stiffened || std::ssize(work.h) == n * 3 * nm * nm);
-  poison(M);
-  poison(Qv);
+  FLOATFRAME_DEBUG(poison(M));
+  FLOATFRAME_DEBUG(poison(Qv));
 
   for (int k = 0; k < n; ++k) {
     const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;

@@ -1,6 +1,7 @@
 // Relative inertia terms, (46)-(63). Rows over the modes are processed in whole SIMD lanes.
 #include <cassert>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/lanes.hpp"
@@ -165,9 +166,9 @@ inline void relative_terms(const PreprocessingData& data, StiffeningData* stiffe
   assert(((y && ydot) || nm == 0) && work.rows.size() >= 15 * nl);
   assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq);
   assert(is_rotation(A));
-  poison(M);
-  poison(Qv);
-  poison(work.rows);
+  FLOATFRAME_DEBUG(poison(M));
+  FLOATFRAME_DEBUG(poison(Qv));
+  FLOATFRAME_DEBUG(poison(work.rows));
   double* S_d = work.rows.data();
   double* skew_rate = S_d + 9 * nl;  // 3 rows: (S^12-S^21) ydot, ...
   double* y_row = skew_rate + 3 * nl;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/frequency.hpp"
 
@@ -44,19 +45,21 @@ void with_part_type(ConstraintType type, std::index_sequence<I...>, F f) noexcep
 
 constexpr std::make_index_sequence<std::size(constraint_types)> all_part_types;
 
-/// Debug builds: NaN until a kind has filled it.
+#ifndef NDEBUG
+/// NaN until a kind has filled it.
 void poison_row(ConstraintRow& row) noexcept {
   for (Vec3* x : {&row.gradient.Fa, &row.gradient.Ta, &row.gradient.Fb, &row.gradient.Tb})
     poison(*x);
   for (double* x : {&row.phi, &row.quad, &row.phi_t, &row.phi_tt}) poison(*x);
 }
+#endif
 
 }  // namespace
 
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept {
   assert(part.a >= 0 && part.b >= 0 && part.scale > 0.0 && rows);
-  for (int r = 0; r < part.rows(); ++r) poison_row(rows[r]);
+  FLOATFRAME_DEBUG(for (int r = 0; r < part.rows(); ++r) poison_row(rows[r]);)
   with_part_type(part.type, all_part_types,
                  [&](auto type) { constraint_rows_of<type()>(part, a, b, t, rows); });
 }

@@ -77,10 +77,7 @@ struct SystemMotion {
   /// Debug builds: NaN until it is filled.
   void poison_filled() noexcept {
     for (BodyKinematics& b : bodies) {
-      poison(b.p_WB);
-      poison(b.v_WB);
-      poison(b.a_WB);
-      poison(b.alpha_WB);
+      for (Vec3* x : {&b.p_WB, &b.v_WB, &b.a_WB, &b.alpha_WB}) poison(*x);
       for (double* e : {&b.kinetic_energy, &b.gravity_energy, &b.elastic_energy}) poison(*e);
     }
     for (Vec3& a : marker_accelerations) poison(a);

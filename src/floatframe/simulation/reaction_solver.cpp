@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -69,8 +70,8 @@ void ReactionSolver::solve(const State& state, std::span<const double> inputs,
                            std::span<const std::int64_t> force_branches) noexcept {
   assert(state.v.size() == f_.velocities() && state.lambda.size() == f_.constraints());
   assert(state.a.size() == f_.velocities() && all_finite(state.a));
-  for (Vec3& x : reactions_.joint_impulses) poison(x);
-  for (Vec3& x : reactions_.rod_impulses) poison(x);
+  FLOATFRAME_DEBUG(for (Vec3& x : reactions_.joint_impulses) poison(x);)
+  FLOATFRAME_DEBUG(for (Vec3& x : reactions_.rod_impulses) poison(x);)
   if (!force_branches.empty()) f_.hold_force_branches(force_branches);
   f_.set_inputs(inputs);
   f_.set_spring_angles(spring_angles);
