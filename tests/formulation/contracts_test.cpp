@@ -2,6 +2,7 @@
 // was not asked for.
 #include <gtest/gtest.h>
 
+#include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {

@@ -35,7 +35,7 @@ struct StepOptions {
 
 inline bool are_valid(const StepOptions& o) noexcept {
   return o.spectral_radius >= 0.0 && o.spectral_radius <= 1.0 && o.tolerance > 0.0 &&
-         o.max_iterations > 0 && o.position_tolerance > 0.0 && o.velocity_tolerance > 0.0 &&
+         o.max_iterations > 0 && o.position_tolerance >= 0.0 && o.velocity_tolerance >= 0.0 &&
          o.penalty_mass > 0.0 && o.max_projections >= 0 && o.fixed_iterations >= 0 &&
          o.time_budget >= 0.0;
 }

@@ -30,8 +30,6 @@ class PiecewisePolynomial {
   /// breaks ascending (equal neighbours are allowed: a jump); pieces.size() == breaks.size() + 1.
   PiecewisePolynomial(std::vector<double> breaks, std::vector<Piece> pieces)
       : breaks_(std::move(breaks)), pieces_(std::move(pieces)) {
-    assert(pieces_.size() == breaks_.size() + 1);
-    assert(std::is_sorted(breaks_.begin(), breaks_.end()));
     if (!breaks_.empty()) find_edges();
   }
 

@@ -16,7 +16,7 @@ using FrontProfile = std::vector<int>;
 /// Calls one(i) for the rows below j in its group of four, lane(i) for the groups below.
 template <class One, class Lane>
 inline void below(int j, int end, int ne, int ld, const One& one, const Lane& lane) noexcept {
-  assert(0 <= j && j < ld && ld % 4 == 0 && end % 4 == 0 && end > j);
+  assert(0 <= j && j < ld && ld % 4 == 0 && end % 4 == 0);
   const int rest = (j & ~3) + 4, border = ne & ~3;
   for (int i = j + 1; i < rest; ++i) one(i);
   for (int i = rest; i < std::min(end, border); i += 4) lane(i);

@@ -209,7 +209,7 @@ bool LoopPath::lead(Stage& stage, VecX& q) {
 bool LoopPath::lead_in_increments(Stage& stage, VecX& q) {
   VecX q_new = q;
   for (int k = 0; k < stage.increments; ++k) {
-    f_.positions(t_, q);
+    kinematics_at(f_, t_, q, VecX::Zero(f_.velocities()));
     stage.equations.begin_here();
     // Parts of an increment also move the bodies as little as possible from its beginning: the
     // result does not depend on them.
