@@ -30,7 +30,7 @@ class IndependentRows::Elimination {
 
   void take(int row, double threshold) {
     assert(row >= 0 && row < A_.rows() && threshold >= 0.0);
-    const double length = A_.row(row).norm();
+    const double length = A_.cols() > 0 ? A_.row(row).norm() : 0.0;
     if (!(length > nothing * longest_)) {
       done_.dependent_.push_back(row);
       return;
