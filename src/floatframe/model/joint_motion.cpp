@@ -63,7 +63,7 @@ void joint_retract(JointType type, const double* q0, const double* x, double* q)
 }
 
 void joint_advance(JointType type, double* x, const double* delta) noexcept {
-  assert(x != delta && ((x && delta) || joint_velocities(type) == 0));
+  assert((x != delta && x && delta) || joint_velocities(type) == 0);
   const JointKind& kind = joint_kind(type);
   const int rotation = kind.rotation_vector;
   const int plain = rotation < 0 ? kind.coordinates.count() : rotation;
@@ -76,7 +76,7 @@ void joint_advance(JointType type, double* x, const double* delta) noexcept {
 }
 
 void joint_configuration(JointType type, const double* user, double* q) noexcept {
-  assert(user != q && ((user && q) || joint_velocities(type) == 0));
+  assert((user != q && user && q) || joint_velocities(type) == 0);
   assert(all_finite(user, joint_velocities(type)));
   const JointKind& kind = joint_kind(type);
   const int rotation = kind.rotation_vector;
