@@ -22,7 +22,6 @@ struct StepScheme {
     s = 1.0 / c2;
     penalty = o.penalty_mass;
     alpha = penalty / s;
-    assert(c1 > 0.0 && c2 > 0.0 && beta > 0.0);
   }
   double h, am, af, gamma, beta, base, c1, c2, s, penalty, alpha;
   bool trapezoidal;
