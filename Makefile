@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or 13 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-contracts test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 VERSION := $(shell awk '/^project/ {print $$3}' CMakeLists.txt)
@@ -11,8 +11,9 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
-	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
+	@echo "make test-all      the same, then what takes longer: asserts, a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
+	@echo "make test-contracts  the tests of the rooms of steps, with asserts"
 	@echo "make attacks       hostile input of every kind, ATTACKS=5000 each, for a night; SEED=1 begins it"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make test-python-asan  its tests with address and undefined-behaviour sanitizers"
@@ -45,6 +46,7 @@ test: build
 # What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
 # docs/validation.md has the figures.
 test-all: test
+	$(MAKE) --no-print-directory test-contracts
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
 	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	$(MAKE) --no-print-directory attacks ATTACKS=200
@@ -55,6 +57,13 @@ test-all: test
 	$(MAKE) --no-print-directory test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
+
+# The rooms of steps with their asserts, which a release build leaves out.
+ROOMS_OF_STEPS := math inertia model formulation integrator simulation
+test-contracts: install-packages
+	cmake --preset contracts
+	cmake --build build-contracts --parallel $(JOBS) --target $(ROOMS_OF_STEPS:%=%_tests)
+	@cd build-contracts && $(CTEST) -R '^($(shell echo $(ROOMS_OF_STEPS) | tr ' ' '|'))\.'
 
 # Hostile models, results, decks, command lines, signals and limits, so many of each kind; another SEED makes others.
 ATTACKS ?= 5000
@@ -163,4 +172,4 @@ check-format:
 	scripts/format.sh --check
 
 clean:
-	rm -rf build build-dev build-asan build-profile build-fuzz
+	rm -rf build build-dev build-contracts build-asan build-profile build-fuzz

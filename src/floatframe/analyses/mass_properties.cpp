@@ -136,7 +136,7 @@ ModelMass mass_properties(const Model& model, const SimulationOptions& options) 
   RelativeFormulation f(started, d.inertia);
   ModelMass whole;
   const State state = start_state(f, d, &whole.start);
-  f.positions(state.t, state.q);
+  kinematics_at(f, state);
   whole.time = state.t;
   const SystemMotion& motion = f.motion();
   for (std::size_t i = 0; i < started.bodies.size(); ++i) {

@@ -53,6 +53,7 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
 void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree_q,
                                      const VecX& tree_v, VecX& q, VecX& v) {
   q = v = VecX::Zero(velocities());
+  assert(tree_q.size() == tree.configurations() && tree_v.size() == tree.velocities());
   tree.positions(0.0, tree_q);
   tree.velocities(tree_v);
   tree.forces();

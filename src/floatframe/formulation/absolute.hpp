@@ -8,9 +8,11 @@
 //
 // The residual is, body by body with gravity g taken off the acceleration of r0, M (a - g) - Qv +
 // (0; K y + D ydot), less applied forces, plus Phi_q^T (lambda + alpha Phi).
+#include <cassert>
 #include <string>
 #include <vector>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/absolute_tangent.hpp"
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/formulation/relative.hpp"
@@ -49,17 +51,31 @@ class AbsoluteFormulation final : public Formulation {
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept override;
   int factorize(double mass, double damping, double s, double alpha,
                 int slot = 0) noexcept override {
-    return tangent_.factorize({mass, damping, s, s * alpha, true}, slot);
+    assert(calls_.has(CallOrder::residual) && (slot == 0 || slot == 1));
+    const int pivot = tangent_.factorize({mass, damping, s, s * alpha, true}, slot);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
+    return pivot;
   }
   int factorize_metric(double s, double penalty, int slot) noexcept override {
-    return tangent_.factorize({1.0, 0.0, s, penalty, false}, slot);
+    assert(calls_.has_masses() && (slot == 0 || slot == 1));
+    const int pivot = tangent_.factorize({1.0, 0.0, s, penalty, false}, slot);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
+    return pivot;
   }
-  double log_pivots(int slot) const noexcept override { return tangent_.log_pivots(slot); }
-  void solve(VecX& b, int slot = 0) noexcept override { tangent_.solve(b, slot); }
+  double log_pivots(int slot) const noexcept override {
+    assert(calls_.has_factors(slot));
+    return tangent_.log_pivots(slot);
+  }
+  void solve(VecX& b, int slot = 0) noexcept override {
+    assert(calls_.has_factors(slot));
+    tangent_.solve(b, slot);
+  }
   void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept override {
+    assert(calls_.has_factors(slot));
     tangent_.solve(b, phi, penalty, mu, slot);
   }
   void balance(VecX& lambda, VecX& r) noexcept override {
+    assert(calls_.has(CallOrder::residual));
     tangent_.balance(lambda, r);
     constraint_set_.set_multipliers(lambda, 0.0);
   }
@@ -67,15 +83,22 @@ class AbsoluteFormulation final : public Formulation {
   void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
   void constraint_increments(const VecX& delta, VecX& out) noexcept override;
   void constraint_forces(const VecX& w, VecX& out) noexcept override;
-  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override { q = q0 + x; }
+  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override {
+    assert(q0.size() == velocities() && x.size() == velocities());
+    q = q0 + x;
+  }
   void settle(const VecX& q0, VecX& x) const noexcept override { kinematics_.settle(q0, x); }
   void advance(VecX& x, const VecX& delta) const noexcept override {
+    assert(calls_.has(CallOrder::positions));
     kinematics_.advance(x, delta);
   }
 
   // -- Formulation
 
-  void set_accelerations(const VecX& a) noexcept override { kinematics_.accelerations(a); }
+  void set_accelerations(const VecX& a) noexcept override {
+    kinematics_.accelerations(a);
+    FLOATFRAME_DEBUG(calls_.accelerate());
+  }
   double kinetic_energy(const VecX& v) noexcept override;
   BodyCoordinates body_coordinates(int body) const override;
   std::string coordinate_owner(int i) const override { return kinematics_.coordinate_owner(i); }

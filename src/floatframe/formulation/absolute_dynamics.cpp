@@ -1,14 +1,23 @@
 // Residual and constraints of the absolute formulation.
+#include <cassert>
+
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
 void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
+  assert(std::isfinite(t));
   time_ = t;
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::positions));
   kinematics_.positions(q);
 }
 
 void AbsoluteFormulation::velocities(const VecX& v) noexcept {
+  assert(calls_.has(CallOrder::positions));
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::velocities));
+  FLOATFRAME_DEBUG(poison(constraint_set_.values()));
   kinematics_.velocities(v, constraint_set_.values());
   constraint_set_.evaluate(time_, [&](int marker) -> const MarkerState& {
     return kinematics_.constraint_state(marker);
@@ -16,6 +25,8 @@ void AbsoluteFormulation::velocities(const VecX& v) noexcept {
 }
 
 void AbsoluteFormulation::dynamics() noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::dynamics));
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const AbsoluteBody& b = kinematics_.bodies()[i];
     BodyTerms& t = terms_[i];
@@ -25,12 +36,14 @@ void AbsoluteFormulation::dynamics() noexcept {
 }
 
 void AbsoluteFormulation::forces() noexcept {
+  assert(calls_.has(CallOrder::velocities));
   force_set_.evaluate(Vec3::Zero(), time_, [&](int marker) -> const MarkerState& {
     return kinematics_.markers()[marker].s;
   });
 }
 
 ForceSide AbsoluteFormulation::force_side(std::size_t force) const noexcept {
+  assert(calls_.has(CallOrder::velocities) && force < model_.forces.size());
   return force_set_.side(force, Vec3::Zero(), time_, [&](int marker) -> const MarkerState& {
     return kinematics_.markers()[marker].s;
   });
@@ -44,12 +57,18 @@ void AbsoluteFormulation::add_constraint_forces(const VecX& w, VecX& out) const 
 }
 
 void AbsoluteFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(w.size() == constraints() && out.size() == velocities());
   out.setZero();
   add_constraint_forces(w, out);
 }
 
 void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
+  assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0);
+  assert(lambda.size() == constraints() && out.size() == velocities());
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::residual));
+  FLOATFRAME_DEBUG(calls_.accelerate());
   kinematics_.accelerations(a);
   constraint_set_.set_multipliers(lambda, alpha);
   out.setZero();
@@ -74,18 +93,26 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
 }
 
 void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
+  FLOATFRAME_DEBUG(poison(out));
   kinematics_.own_rates(out);
   constraint_set_.rates(
       [&](int marker) -> const MarkerState& { return kinematics_.constraint_state(marker); }, out);
 }
 
 void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(delta.size() == velocities() && out.size() == constraints());
+  FLOATFRAME_DEBUG(poison(out));
   kinematics_.own_increments(delta, out);
   constraint_set_.increments([&](int marker) { return kinematics_.increment_of(marker, delta); },
                              out);
 }
 
 void AbsoluteFormulation::constraint_accelerations(const VecX& a, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
+  FLOATFRAME_DEBUG(calls_.accelerate());
+  FLOATFRAME_DEBUG(poison(out));
   kinematics_.accelerations(a);
   kinematics_.own_accelerations(out);
   constraint_set_.accelerations([&](int marker) { return kinematics_.acceleration_of(marker); },

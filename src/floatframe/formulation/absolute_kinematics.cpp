@@ -1,5 +1,8 @@
 #include "floatframe/formulation/absolute_kinematics.hpp"
 
+#include "floatframe/core/debug_only.hpp"
+#include "floatframe/math/contracts.hpp"
+
 namespace floatframe {
 
 namespace {
@@ -89,6 +92,8 @@ std::string AbsoluteKinematics::coordinate_owner(int i) const {
 }
 
 void AbsoluteKinematics::positions(const VecX& q) noexcept {
+  assert(q.size() == size_);
+  FLOATFRAME_DEBUG(poison(a_));
   stiffens_ ? positions_of<true>(q) : positions_of<false>(q);
 }
 
@@ -98,8 +103,14 @@ void AbsoluteKinematics::positions_of(const VecX& q) noexcept {
     b.p_WB = q.segment<3>(b.offset);
     for (int c = 0; c < 3; ++c) b.A.col(c) = q.segment<3>(b.axis(c));
     b.y = q.segment(b.offset + 12, b.nm);
+    FLOATFRAME_DEBUG(poison(b.v_WB));
+    FLOATFRAME_DEBUG(poison(b.Adot));
+    FLOATFRAME_DEBUG(poison(b.w_WB));
+    FLOATFRAME_DEBUG(poison(b.yd));
   }
   for (AbsoluteMarker& m : markers_) {
+    FLOATFRAME_DEBUG(poison_rates(m.s));
+    FLOATFRAME_DEBUG(poison(m.outer.v));
     if (m.body < 0) {
       m.s.r = m.X_NM.p;
       m.s.R = m.X_NM.R;
@@ -119,6 +130,7 @@ void AbsoluteKinematics::positions_of(const VecX& q) noexcept {
 }
 
 void AbsoluteKinematics::velocities(const VecX& v, VecX& phi) noexcept {
+  assert(v.size() == size_);
   stiffens_ ? velocities_of<true>(v, phi) : velocities_of<false>(v, phi);
 }
 
@@ -168,6 +180,7 @@ void AbsoluteKinematics::velocities_of(const VecX& v, VecX& phi) noexcept {
 }
 
 void AbsoluteKinematics::settle(const VecX& q0, VecX& x) const noexcept {
+  assert(q0.size() == size_ && x.size() == size_);
   stiffens_ ? settle_of<true>(q0, x) : settle_of<false>(q0, x);
 }
 
@@ -180,6 +193,7 @@ void AbsoluteKinematics::settle_of(const VecX& q0, VecX& x) const noexcept {
       A.col(c) = A0.col(c) + x.segment<3>(b.axis(c));
     }
     A = orthonormal(A, A0);
+    assert(is_rotation(A));  // of a state: A0 is one
     for (int c = 0; c < 3; ++c) x.segment<3>(b.axis(c)) = A.col(c) - q0.segment<3>(b.axis(c));
     const Vec3 origin = q0.segment<3>(b.offset) + x.segment<3>(b.offset);
     const double *y = q0.data() + b.offset + 12, *dy = x.data() + b.offset + 12;
@@ -190,6 +204,7 @@ void AbsoluteKinematics::settle_of(const VecX& q0, VecX& x) const noexcept {
 }
 
 void AbsoluteKinematics::advance(VecX& x, const VecX& delta) const noexcept {
+  assert(x.size() == size_ && delta.size() == size_);
   stiffens_ ? advance_of<true>(x, delta) : advance_of<false>(x, delta);
 }
 
@@ -293,6 +308,7 @@ PointMotion AbsoluteKinematics::increment_of(int marker, const VecX& delta) cons
 }
 
 Vec3 AbsoluteKinematics::point_acceleration(int marker) const noexcept {
+  assert(is_index(marker, markers_));
   const AbsoluteMarker& m = markers_[marker];
   if (m.body < 0) return Vec3::Zero();
   const AbsoluteBody& b = bodies_[m.body];
@@ -316,6 +332,7 @@ PointMotion AbsoluteKinematics::acceleration_of(int marker) const noexcept {
 
 void AbsoluteKinematics::add_wrench(int marker, bool through_point, const Vec3& force,
                                     const Vec3& torque, VecX& out) const noexcept {
+  assert(is_index(marker, markers_) && out.size() == size_);
   const AbsoluteMarker& m = markers_[marker];
   if (m.body < 0) return;
   const AbsoluteBody& b = bodies_[m.body];

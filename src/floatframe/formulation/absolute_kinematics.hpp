@@ -15,6 +15,7 @@
 // through the angular velocity
 //   omega = 1/2 (u x udot + v x vdot + w x wdot),                                        (4)
 // exact where (1) holds; so a torque T has the generalised force 1/2 T x u on u, and so on.
+#include <cassert>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,7 @@ class AbsoluteKinematics {
   const std::vector<AbsoluteMarker>& markers() const noexcept { return markers_; }
   /// The marker of an outer point.
   const AbsoluteMarker& point(const AbsoluteBody& b, int p) const noexcept {
+    assert(p >= 0 && p < b.points);
     return markers_[b.point_marker[p]];
   }
   /// "mode 2 of body 'arm'", the owner of coordinate i. Load time.
@@ -78,7 +80,10 @@ class AbsoluteKinematics {
   void positions(const VecX& q) noexcept;
   /// `phi`: its rows (1), (2) are set to their values.
   void velocities(const VecX& v, VecX& phi) noexcept;
-  void accelerations(const VecX& a) noexcept { a_ = a; }
+  void accelerations(const VecX& a) noexcept {
+    assert(a.size() == size_);
+    a_ = a;
+  }
   const VecX& accelerations() const noexcept { return a_; }
   /// Makes the axes of q0 + x orthonormal and moves the outer points to their bodies.
   void settle(const VecX& q0, VecX& x) const noexcept;

@@ -1,6 +1,9 @@
 // The absolute formulation for readers: its motion, energies and counts; not part of the step's
 // inner loop.
+#include <cassert>
+
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
@@ -38,6 +41,7 @@ double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
 }
 
 double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
+  assert(calls_.has(CallOrder::positions) && v.size() == velocities());
   double sum = 0.0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const AbsoluteBody& b = kinematics_.bodies()[i];
@@ -50,11 +54,13 @@ double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
 }
 
 BodyCoordinates AbsoluteFormulation::body_coordinates(int body) const {
+  assert(is_index(body, kinematics_.bodies()));
   const AbsoluteBody& b = kinematics_.bodies()[body];
   return {b.offset, b.size(), b.offset + 12, b.offset, b.size(), b.offset + 12, -1};
 }
 
 SparseRowMatrix AbsoluteFormulation::constraint_rows() {
+  assert(calls_.has(CallOrder::velocities));
   // A row involves two of many bodies: only their coordinates are processed.
   SparseRowMatrix J(constraints(), velocities());
   std::vector<Eigen::Triplet<double>> entries;
@@ -95,6 +101,7 @@ SparseRowMatrix AbsoluteFormulation::constraint_rows() {
 }
 
 VecX AbsoluteFormulation::mass_diagonal() const {
+  assert(calls_.has_masses());
   VecX diagonal = VecX::Zero(velocities());
   for (std::size_t i = 0; i < terms_.size(); ++i)
     diagonal.segment(kinematics_.bodies()[i].offset, terms_[i].M.rows()) = terms_[i].M.diagonal();
@@ -102,6 +109,7 @@ VecX AbsoluteFormulation::mass_diagonal() const {
 }
 
 MatX AbsoluteFormulation::mass_matrix() const {
+  assert(calls_.has_masses());
   MatX M = MatX::Zero(velocities(), velocities());
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const int at = kinematics_.bodies()[i].offset;

@@ -1,4 +1,6 @@
 // Solutions of (6) of absolute_tangent.hpp, and what balances the rows of the bodies.
+#include <cassert>
+
 #include "floatframe/formulation/absolute_tangent.hpp"
 
 namespace floatframe {
@@ -62,6 +64,7 @@ void AbsoluteTangent::own_correction(const VecX& phi, VecX& p) const noexcept {
 }
 
 void AbsoluteTangent::solve(VecX& b, int slot) noexcept {
+  assert(b.size() == kinematics_.size());
   BlockLdlt& matrix = factors_[slot];
   unknowns_.setZero();
   for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -72,6 +75,7 @@ void AbsoluteTangent::solve(VecX& b, int slot) noexcept {
 }
 
 void AbsoluteTangent::solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept {
+  assert(b.size() == kinematics_.size() && phi.size() == mu.size() && penalty > 0.0);
   BlockLdlt& matrix = factors_[slot];
   const bool corrects = !own_constraints_hold(phi);
   if (corrects) {
@@ -107,6 +111,7 @@ void AbsoluteTangent::solve(VecX& b, const VecX& phi, double penalty, VecX& mu, 
 
 /// First the forces on outer points are transferred to their bodies, (2), then (8) is applied.
 void AbsoluteTangent::balance(VecX& lambda, VecX& r) const noexcept {
+  assert(r.size() == kinematics_.size());
   for (const AbsoluteBody& b : bodies_) {
     for (int p = 0; p < b.points; ++p) {
       const Vec3 force = r.segment<3>(b.point(p));

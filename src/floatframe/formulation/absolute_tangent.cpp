@@ -1,11 +1,14 @@
 // Assembles (6) of absolute_tangent.hpp into the fronts of the bodies, and factorises it.
 #include "floatframe/formulation/absolute_tangent.hpp"
 
+#include <cassert>
+
 namespace floatframe {
 
 /// B^T of the wrench at a marker: (F, r x F + T, Jr^T F + Jw^T T), r from the body's origin.
 void AbsoluteTangent::gradient(int marker, const Vec3& force, const Vec3& torque,
                                Gradient& g) const noexcept {
+  assert(marker < std::ssize(markers_));
   g.body = marker < 0 ? -1 : markers_[marker].body;
   if (g.body < 0) return;
   const AbsoluteMarker& m = markers_[marker];
@@ -200,6 +203,7 @@ void AbsoluteTangent::assemble_forces(const Weights& t, BlockLdlt& matrix) noexc
 
 /// Row r of a part with its gradients in ga_ and gb_: G of (6).
 void AbsoluteTangent::assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept {
+  assert(place.home >= 0 && r >= 0);
   MatX& f = matrix.front(place.home);
   const int at = place.at + r;
   for (const Gradient* g : {&ga_, &gb_}) {
@@ -254,6 +258,7 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
 }
 
 int AbsoluteTangent::factorize(const Weights& t, int slot) noexcept {
+  assert(t.mass >= 0.0 && t.s >= 0.0 && t.penalty >= 0.0);
   BlockLdlt& matrix = factors_[slot];
   matrix.set_zero();
   for (std::size_t i = 0; i < bodies_.size(); ++i) assemble_body(t, static_cast<int>(i), matrix);

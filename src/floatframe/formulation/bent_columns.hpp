@@ -3,8 +3,10 @@
 //   u(y) = X y + 1/2 e_j y^T h_j y,   its columns X(y) = X + e_j y^T h_j,  u(y) = (X + X(y)) y / 2,
 // and the acceleration e_j ydot^T h_j ydot of rates.
 #include <array>
+#include <cassert>
 
 #include "floatframe/body/second_order.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/lanes.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -17,6 +19,8 @@ class BentColumns {
   BentColumns(const Mat3X& X, const std::array<MatX, 3>& h)
       : bends_(!(h[0].isZero(0.0) && h[1].isZero(0.0) && h[2].isZero(0.0))), X_(X) {
     const Eigen::Index nm = X.cols();
+    assert(h[0].rows() == nm && h[0].cols() == nm && is_symmetric(h[0]));
+    assert(is_symmetric(h[1]) && is_symmetric(h[2]));
     moved_ = VecX::Zero((3 * nm + 3) & ~3);
     by_mode_ = MatX::Zero(moved_.size(), nm);
     pairs_ = MatX::Zero(4, nm * (nm + 1) / 2);
@@ -33,6 +37,7 @@ class BentColumns {
 
   /// Writes X(y), 3 x nm, and returns u(y).
   Vec3 bend(const double* y, double* X) noexcept {
+    assert(y && X && X_.cols() > 0);
     const int nm = static_cast<int>(X_.cols());
     add_by_mode(y, nm);
     const double* x = X_.data();
@@ -74,6 +79,7 @@ class BentColumns {
     const int rows = static_cast<int>(moved_.size());
     double* out = moved_.data();
     const double* c = by_mode_.data();
+    assert(nm == by_mode_.cols() && rows == by_mode_.rows());
     int k = 0;
     if (nm & 1) {
       for (int r = 0; r < rows; r += 4) lanes(out + r) = y[0] * lanes(c + r);

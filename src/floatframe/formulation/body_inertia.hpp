@@ -2,6 +2,7 @@
 // The inertia terms of one body inside a formulation: selects the method at load time, owns the
 // scratch memory. Rigid bodies use preprocessing with zero modes under either method.
 #include <algorithm>
+#include <cassert>
 #include <memory>
 #include <string>
 
@@ -53,6 +54,7 @@ class BodyInertia {
 
   void relative(const Vec3& r0, const Mat3& A, const Vec3& omega, const double* y,
                 const double* ydot, MatX& M, VecX& Qv) noexcept {
+    assert(M.rows() == 6 + data_.modes());
     if (!special_)
       relative_preprocessing(data_, r0, A, omega, y, ydot, work_, M, Qv);
     else if (projection_)
@@ -62,6 +64,7 @@ class BodyInertia {
   }
   void absolute(const Mat3& A, const Mat3& Adot, const double* y, const double* ydot, MatX& M,
                 VecX& Qv) noexcept {
+    assert(M.rows() == 12 + data_.modes());
     if (!special_)
       absolute_preprocessing(data_, A, Adot, y, ydot, work_, M, Qv);
     else if (projection_)
@@ -71,6 +74,7 @@ class BodyInertia {
   }
   /// m_bar: its mass times the centre of mass in the body frame [kg m].
   Vec3 static_moment(const double* y) const noexcept {
+    assert(y || data_.modes() == 0);
     Vec3 m = data_.m_u;  // (29)
     for (int a = 0; a < data_.modes(); ++a) m += data_.S.col(a) * y[a];
     if (!second_order_) return m;
@@ -84,6 +88,7 @@ class BodyInertia {
   const SecondOrder* second_order() const noexcept { return second_order_.get(); }
   /// K_kk / M_kk of each mode, `no_inertia` for massless ones [1/s2].
   VecX own_frequencies_squared(const MatX& K) const {
+    assert(K.rows() == data_.modes() && K.cols() == data_.modes());
     VecX w = VecX::Zero(data_.modes());
     for (Eigen::Index k = 0; k < w.size(); ++k) {
       const double mass = data_.M_ff(k, k);

@@ -1,6 +1,9 @@
 // Solution with a factorised tangent. With the linear terms of the minimisation 1/2 x^T T x - b^T x
 // propagated inwards as wrenches on the bodies, each front is eliminated leaves to root; then the
 // increments [Z; y] of the bodies propagate outwards and each front gives those of its coordinates.
+#include <cassert>
+#include <cmath>
+
 #include "floatframe/formulation/cluster_tangent.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -9,11 +12,13 @@ namespace floatframe {
 
 /// Phi_q^T w of the parts of cluster k, over its front.
 void ClusterTangent::add_part_loads(const Factors& factors, std::size_t k, const VecX& w) noexcept {
+  assert(w.size() == constraints_.count());
   double* work = fronts_[k].work.data();
   for (const int q : fronts_[k].parts) {
     const TreeElement& e = part_elements_[q];
     const double* g = factors.gradients.data() + e.gradient;
     double* out = work + e.first;
+    assert(e.first + e.width <= fronts_[k].work.size());
     const double* f = w.data() + constraints_.offset(q);
     const int rows = constraints_.parts()[q].rows();
     if (rows == 3) {
@@ -36,6 +41,7 @@ void ClusterTangent::gather_loads(const Factors& factors, std::size_t k) noexcep
     const TreeBody& b = tree_.body(i);
     const Directions& d = factors.bodies[i];
     const VecX& load = loads_[i];
+    assert(d.own.cols() == b.nj + b.nm && load.size() == 6 + b.nm);
     const Vec6 wrench = load.head<6>();
     double* own = work + (b.iv - c.offset);
     add_transposed_times(d.own.data(), b.moving(), wrench.data(), own);
@@ -80,18 +86,22 @@ void ClusterTangent::spread_increments(const Factors& factors, std::size_t k) no
     const double* own = work + (b.iv - c.offset);
     add_times(d.own.data(), b.moving(), own, z.data());
     VecX& increment = increments_[i];
+    assert(increment.size() == 6 + b.nm);
     for (int j = 0; j < b.nm; ++j) increment[6 + j] = own[b.nj + j];
     increment.head<6>() = z;
   }
 }
 
 void ClusterTangent::solve(VecX& x, const VecX* w, VecX* increments, int slot) noexcept {
+  assert((slot == 0 || slot == 1) && x.size() == tree_.velocity_count());
+  assert(!increments || increments->size() == constraints_.count());
   const Factors& factors = factors_[slot];
   for (VecX& load : loads_) load.setZero();
   if (increments) increments->setZero();
   for (std::size_t k = clusters_.size(); k-- > 0;) {
     const Cluster& c = clusters_[k];
     VecX& front = fronts_[k].work;
+    assert(front.size() == factors.fronts[k].rows());
     double* work = front.data();
     for (int j = 0; j < c.size; ++j) work[j] = x[c.offset + j];
     for (int j = c.size; j < front.size(); ++j) work[j] = 0.0;
@@ -123,6 +133,32 @@ void ClusterTangent::solve(VecX& x, const VecX* w, VecX* increments, int slot) n
     if (increments) part_increments(factors, k, *increments);
     spread_increments(factors, k);
   }
+}
+
+double ClusterTangent::log_pivots(int slot) const noexcept {
+  assert(slot == 0 || slot == 1);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < clusters_.size(); ++k) {
+    const MatX& front = factors_[slot].fronts[k];
+    double product = 1.0;  // of four factors, to save logarithms
+    for (int j = 0; j < clusters_[k].size; ++j) {
+      product *= front(j, j);
+      if (j % 4 != 3) continue;
+      sum -= std::log(std::abs(product));
+      product = 1.0;
+    }
+    sum -= std::log(std::abs(product));
+  }
+  return sum;
+}
+
+int ClusterTangent::negative_pivots(int slot) const noexcept {
+  assert(slot == 0 || slot == 1);
+  int count = 0;
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    for (int j = 0; j < clusters_[k].size; ++j)
+      if (factors_[slot].fronts[k](j, j) < 0.0) ++count;
+  return count;
 }
 
 }  // namespace floatframe

@@ -2,6 +2,7 @@
 #include "floatframe/formulation/cluster_tangent.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "floatframe/math/partial_ldlt.hpp"
@@ -14,6 +15,7 @@ namespace {
 /// Lower triangle of front += w g g^T on the rows and columns first..first+n, in whole lanes:
 /// entries above the diagonal are scratch, and g is zero beyond the front.
 void add_outer(MatX& front, int first, int n, const double* g, double w) noexcept {
+  assert(first % 4 == 0 && n % 4 == 0 && first >= 0 && first + n <= front.rows());
   const Eigen::Index ld = front.rows();
   double* column = front.data() + first * ld + first;
   const int columns = std::min(n, static_cast<int>(front.cols()) - first);
@@ -27,6 +29,7 @@ void add_outer(MatX& front, int first, int n, const double* g, double w) noexcep
 /// The same for the three rows of g (n each): front += w (g0 g0^T + g1 g1^T + g2 g2^T).
 void add_three_outer(MatX& front, int first, int n, const double* g, double w) noexcept {
   const Eigen::Index ld = front.rows();
+  assert(first % 4 == 0 && n % 4 == 0 && first >= 0 && first + n <= front.rows());
   const double *g0 = g, *g1 = g + n, *g2 = g + 2 * n;
   double* column = front.data() + first * ld + first;
   const int columns = std::min(n, static_cast<int>(front.cols()) - first);
@@ -83,6 +86,7 @@ void ClusterTangent::add_stiffening(const std::vector<BodyTerms>& terms, double 
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SecondOrder* second_order = terms[i].inertia.second_order();
     if (!second_order) continue;
+    assert(bodies_[i].K_G.rows() == terms[i].M.rows() - 6);
     const TreeBody& b = tree_.body(static_cast<int>(i));
     const Vec6 z = b.Zdot + b.Zdot_0;
     const Mat3 G = skew(Vec3(z.tail<3>())) + skew(b.w_WB) * skew(b.w_WB);
@@ -116,6 +120,7 @@ void ClusterTangent::assemble_ground_force(const TreeElement& e, const WrenchRow
   const Vec3& force = side_b ? row.Fb : row.Fa;
   const Vec3& torque = side_b ? row.Tb : row.Ta;
   const Eigen::Index nm = b.G_modal.cols();
+  assert(scratch_.size() >= 6 + nm && m.body == e.body);
   auto g = scratch_.head(6 + nm);
   g.head<3>() = force;
   g.segment<3>(3) = m.s.r.cross(force) + torque;
@@ -131,6 +136,7 @@ void ClusterTangent::assemble_forces(const Weights& w, Factors& factors) noexcep
   for (std::size_t k = 0; k < force_elements_.size(); ++k) {
     const ForceState& f = forces_.state(k);
     const TreeElement& e = force_elements_[k];
+    assert(f.row_count >= 0 && f.row_count <= std::ssize(f.rows));
     for (int r = 0; r < f.row_count; ++r) {
       const TangentRow& row = f.rows[r];
       const double weight = w.s * row.k + w.damping * row.c;
@@ -152,6 +158,7 @@ void ClusterTangent::assemble_parts(const Weights& w, Factors& factors) noexcept
     if (e.cluster < 0) continue;
     MatX& front = factors.fronts[e.cluster];
     double* g = factors.gradients.data() + e.gradient;
+    assert(e.gradient + part.rows() * e.width <= std::ssize(factors.gradients));
     const PartGradients gradients = constraint_kind(part.type).gradients;
     if (gradients == PartGradients::unit) {
       fill_distance(tree_, e, g);
@@ -164,6 +171,7 @@ void ClusterTangent::assemble_parts(const Weights& w, Factors& factors) noexcept
       add_outer(front, e.first, e.width, g, w.penalty);
     }
     if (w.geometric && gradients == PartGradients::line) {
+      assert(part.scale > 0.0);
       fill_distance(tree_, e, scratch_.data());
       add_three_outer(front, e.first, e.width, scratch_.data(),
                       w.s * constraints_.multipliers()[row] / part.scale);
@@ -179,6 +187,7 @@ void ClusterTangent::find_products(int i) noexcept {
   const double* S = b.own.data();
   double* U = bodies_[i].U.data();
   const int width = b.nj + b.nm, nt = 6 + b.nm;
+  assert(b.own.cols() == width && bodies_[i].U.cols() == width);
   for (int j = 0; j < width; ++j) {
     double* u = U + 6 * j;
     if (j < b.nj)
@@ -207,6 +216,7 @@ void ClusterTangent::add_own(const Cluster& c, int i, MatX& front) noexcept {
   BodyTangent& t = bodies_[i];
   const Eigen::Index ld = front.rows();
   const int width = b.nj + b.nm, at = b.iv - c.offset, nt = 6 + b.nm;
+  assert(at >= 0 && at + width <= c.size && t.T.rows() == nt);
   const double* T = t.T.data();
   const double* S = b.own.data();
   double* U = t.U.data();
@@ -242,6 +252,7 @@ void ClusterTangent::add_couplings(const Cluster& c, int i, MatX& front) const n
   const double* U = bodies_[i].U.data();
   const Eigen::Index ld = front.rows();
   const int width = b.nj + b.nm, at = b.iv - c.offset;
+  assert(at >= 0 && at + width <= c.size && c.n <= front.cols());
   const auto couple = [&](const double* directions, int count, int column_at) {
     for (int a = 0; a < count; ++a) {
       double* column = front.data() + static_cast<Eigen::Index>(column_at + a) * ld + at;
@@ -310,6 +321,7 @@ void ClusterTangent::load_bodies(const std::vector<BodyTerms>& terms, const Weig
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TreeBody& b = tree_.body(static_cast<int>(i));
     BodyTangent& t = bodies_[i];
+    assert(terms[i].M.rows() == 6 + b.nm);
     t.T = terms[i].M;
     if (w.mass != 1.0) t.T *= w.mass;
     if (b.nm > 0) {
@@ -325,6 +337,7 @@ void ClusterTangent::load_bodies(const std::vector<BodyTerms>& terms, const Weig
 void ClusterTangent::hand_front_to_parent(const Cluster& c, const MatX& front) noexcept {
   MatX& T = bodies_[c.parent].T;
   const int np = c.n - c.size;
+  assert(c.parent >= 0 && T.rows() == np);
   for (int j = 0; j < np; ++j) {
     T(j, j) += front(c.size + j, c.size + j);
     for (int i = j + 1; i < np; ++i) {
@@ -335,32 +348,10 @@ void ClusterTangent::hand_front_to_parent(const Cluster& c, const MatX& front) n
   }
 }
 
-double ClusterTangent::log_pivots(int slot) const noexcept {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < clusters_.size(); ++k) {
-    const MatX& front = factors_[slot].fronts[k];
-    double product = 1.0;  // of four factors, to save logarithms
-    for (int j = 0; j < clusters_[k].size; ++j) {
-      product *= front(j, j);
-      if (j % 4 != 3) continue;
-      sum -= std::log(std::abs(product));
-      product = 1.0;
-    }
-    sum -= std::log(std::abs(product));
-  }
-  return sum;
-}
-
-int ClusterTangent::negative_pivots(int slot) const noexcept {
-  int count = 0;
-  for (std::size_t k = 0; k < clusters_.size(); ++k)
-    for (int j = 0; j < clusters_[k].size; ++j)
-      if (factors_[slot].fronts[k](j, j) < 0.0) ++count;
-  return count;
-}
-
 int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights& weights,
                               int slot) noexcept {
+  assert((slot == 0 || slot == 1) && terms.size() == bodies_.size());
+  assert(weights.mass >= 0.0 && weights.s >= 0.0 && weights.penalty >= 0.0);
   Factors& factors = factors_[slot];
   clear_geometric();
   if (weights.geometric) gather_geometric(weights.s);

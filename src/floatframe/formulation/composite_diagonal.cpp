@@ -1,5 +1,6 @@
 #include "floatframe/formulation/composite_diagonal.hpp"
 
+#include <cassert>
 #include <ranges>
 
 namespace floatframe {
@@ -12,6 +13,7 @@ VecX composite_diagonal(const TreeKinematics& tree,
   for (const int i : tree.order() | std::views::reverse) {
     const TreeBody& b = tree.body(i);
     const MatX& M = inertia(i);
+    assert(M.rows() == 6 + b.nm && M.cols() == 6 + b.nm);
     Mat6& C = composite[static_cast<std::size_t>(i)];  // of its children so far
     C += M.topLeftCorner<6, 6>();
     for (int k = 0; k < b.nj; ++k) diagonal[b.iv + k] = b.own.col(k).dot(C * b.own.col(k));

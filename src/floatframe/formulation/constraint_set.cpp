@@ -1,5 +1,7 @@
 #include "floatframe/formulation/constraint_set.hpp"
 
+#include <cassert>
+
 namespace floatframe {
 
 ConstraintSet::ConstraintSet(const Model& model, std::span<const int> joints) : model_(model) {
@@ -11,6 +13,7 @@ ConstraintSet::ConstraintSet(const Model& model, std::span<const int> joints) : 
 }
 
 void ConstraintSet::number_rows(int first) {
+  assert(first >= 0);
   first_ = count_ = first;
   offsets_.clear();
   for (const ConstraintPart& p : parts_) {
@@ -22,6 +25,7 @@ void ConstraintSet::number_rows(int first) {
 }
 
 std::size_t ConstraintSet::part_of_row(int i) const noexcept {
+  assert(i >= 0 && i < count_);
   std::size_t k = parts_.size();
   while (k-- > 0 && offsets_[k] > i) {
   }
@@ -34,6 +38,7 @@ std::string ConstraintSet::owner_of_row(int i) const {
 }
 
 WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept {
+  assert(part < parts_.size() && w.size() == count_);
   WrenchRow sum;
   sum.Fa.setZero();
   sum.Ta.setZero();
@@ -56,6 +61,7 @@ WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept 
 }
 
 double ConstraintSet::motion_power(const VecX& lambda) const noexcept {
+  assert(lambda.size() == count_);
   double sum = 0.0;
   for (std::size_t r = 0; r < rows_.size(); ++r)
     sum += lambda[first_ + static_cast<Eigen::Index>(r)] * rows_[r].phi_t;

@@ -12,6 +12,7 @@
 // The motion of a marker depends on the formulation and is supplied by callables. Rows may begin
 // after other rows (`first`), so that the vectors contain all constraints of a formulation. Step
 // time: no heap, noexcept.
+#include <cassert>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,10 +32,16 @@ class ConstraintSet {
 
   const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
   /// First row of a part.
-  int offset(std::size_t part) const noexcept { return offsets_[part]; }
+  int offset(std::size_t part) const noexcept {
+    assert(part < offsets_.size());
+    return offsets_[part];
+  }
   /// Number of all rows, including those before the first.
   int count() const noexcept { return count_; }
-  const ConstraintRow& row(int i) const noexcept { return rows_[i - first_]; }
+  const ConstraintRow& row(int i) const noexcept {
+    assert(i >= first_ && i < count_);
+    return rows_[i - first_];
+  }
   /// The part that row i belongs to; none (`parts().size()`) for rows before the first.
   std::size_t part_of_row(int i) const noexcept;
   /// "joint 'hinge'", "rod 'tie'" that row i belongs to.
@@ -48,6 +55,7 @@ class ConstraintSet {
   /// lambda + alpha Phi [N], of the last `set_multipliers`.
   const VecX& weights() const noexcept { return weights_; }
   void set_multipliers(const VecX& lambda, double alpha) noexcept {
+    assert(lambda.size() == count_ && alpha >= 0.0);
     multipliers_ = lambda;
     weights_ = lambda;
     weights_ += alpha * values_;
@@ -56,6 +64,7 @@ class ConstraintSet {
   /// Rows and values at time t; `state(marker)` is a MarkerState.
   template <class StateOf>
   void evaluate(double t, const StateOf& state) noexcept {
+    assert(offsets_.size() == parts_.size() && values_.size() == count_);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
       ConstraintRow* rows = rows_.data() + (offsets_[k] - first_);
@@ -67,6 +76,7 @@ class ConstraintSet {
   /// (1), with `state(marker)` as above.
   template <class StateOf>
   void rates(const StateOf& state, VecX& out) const noexcept {
+    assert(out.size() == count_);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
       const MarkerState& a = state(p.a);
@@ -83,6 +93,7 @@ class ConstraintSet {
   /// out = Phi_q x, `motion(marker)` the PointMotion under the increment x.
   template <class MotionOf>
   void increments(const MotionOf& motion, VecX& out) const noexcept {
+    assert(out.size() == count_);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
       const PointMotion a = motion(p.a), b = motion(p.b);
@@ -97,6 +108,7 @@ class ConstraintSet {
   /// (2), `motion(marker)` the PointMotion of accelerations.
   template <class MotionOf>
   void accelerations(const MotionOf& motion, VecX& out) const noexcept {
+    assert(out.size() == count_);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
       const PointMotion a = motion(p.a), b = motion(p.b);
@@ -126,6 +138,7 @@ class ConstraintSet {
 
  private:
   const ConstraintRow& row_of(std::size_t part, int r) const noexcept {
+    assert(part < parts_.size() && r >= 0 && r < parts_[part].rows());
     return rows_[offsets_[part] - first_ + r];
   }
 

@@ -19,7 +19,8 @@
 //   residual(a, lambda, alpha,  dynamics        out; lambda for the tangent's geometric stiffness
 //            out)
 //   factorize(.., slot)         residual        T with its directions of motion, in the slot
-//   factorize_metric(.., slot)  dynamics        W with its directions of motion, in the slot
+//   factorize_metric(.., slot)  velocities      W with its directions of motion, in the slot; M is
+//                                               that of the last dynamics
 //   solve(.., slot)             a matrix in     b; the configuration may have moved since
 //                               the slot
 //   constraint_rates(out)       velocities      out = Phidot = Phi_q v + Phi_t
@@ -36,6 +37,7 @@
 //                               at q0 (+) x
 //   stepping(false, accepted)                   the end of the step
 //
+// Asserts follow this order (call_order.hpp).
 // positions, velocities, dynamics, residual and the constraint_* functions may be repeated in any
 // order that satisfies these requirements; the results of an evaluation do not depend on earlier
 // ones except for the turns counted by angles of springs (`stepping`).

@@ -1,6 +1,12 @@
 #include "floatframe/formulation/formulation.hpp"
 
+#include <algorithm>
+#include <cassert>
+#include <new>
+
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
@@ -14,7 +20,21 @@ void Formulation::show_body(const Mat3& R_WB, const Vec3& w_WB, const VecX& y, c
                             const double* ydd) {
   const auto view = [&](const double* data) { return VecX::ConstMapType(data, y.size()); };
   motion_.bodies.push_back({R_WB, w_WB, view(y.data()), view(yd.data()), view(ydd)});
+#ifndef NDEBUG
+  modal_accelerations_.push_back(ydd);
+  not_asked_.resize(std::max(not_asked_.size(), y.size()));
+  FLOATFRAME_DEBUG(poison(not_asked_));
+#endif
 }
+
+#ifndef NDEBUG
+void Formulation::view_modal_accelerations(bool asked) const noexcept {
+  for (std::size_t i = 0; i < motion_.bodies.size(); ++i) {
+    auto& ydd = motion_.bodies[i].ydd;
+    new (&ydd) VecX::ConstMapType(asked ? modal_accelerations_[i] : not_asked_.data(), ydd.size());
+  }
+}
+#endif
 
 void Formulation::show_marker(const MarkerState& state, const LocalMarker& local) {
   motion_.markers.push_back(&state);
@@ -23,6 +43,14 @@ void Formulation::show_marker(const MarkerState& state, const LocalMarker& local
 
 const SystemMotion& Formulation::motion(MotionNeeds needs,
                                         const Reactions* reactions) const noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(!needs.accelerations || calls_.has_accelerations());
+  assert(!needs.energies || calls_.has(CallOrder::dynamics));
+  assert(!needs.reactions || reactions);
+  FLOATFRAME_DEBUG(motion_.poison_filled());
+#ifndef NDEBUG
+  view_modal_accelerations(needs.accelerations);
+#endif
   motion_.t = time_;
   motion_.reactions = reactions;
   fill_poses(motion_);
@@ -39,12 +67,14 @@ const SystemMotion& Formulation::motion(MotionNeeds needs,
 }
 
 double Formulation::gravity_energy(int body, const BodyKinematics& b) const noexcept {
+  assert(is_index(body, model_.bodies) && b.y.size() == model_.bodies[body].modes());
   const BodyInertia& terms = inertia(body);
   const Vec3 m_bar = terms.static_moment(b.y.data());
   return -model_.gravity.dot(terms.data().m * b.p_WB + b.R_WB * m_bar);
 }
 
 double Formulation::gravity_energy() const noexcept {
+  assert(calls_.has(CallOrder::velocities));
   fill_poses(motion_);
   double sum = 0.0;
   for (std::size_t i = 0; i < motion_.bodies.size(); ++i)

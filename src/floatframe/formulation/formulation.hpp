@@ -4,16 +4,19 @@
 // watches and recording are compiled once; and the motion of the system, which is the same in all
 // coordinates. The integrator and its runner are templates over the classes that derive from it:
 // these are final, so that steps call them directly.
+#include <cassert>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "floatframe/formulation/body_inertia.hpp"
+#include "floatframe/formulation/call_order.hpp"
 #include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/formulation/force_set.hpp"
 #include "floatframe/formulation/local_marker.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/independent_rows.hpp"
 #include "floatframe/model/system_motion.hpp"
 
@@ -72,7 +75,10 @@ class Formulation {
   virtual void solve(VecX& b, int slot = 0) noexcept = 0;
   virtual void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept = 0;
   virtual void balance(VecX& lambda, VecX& r) noexcept = 0;
-  const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
+  const VecX& constraint_values() const noexcept {
+    assert(calls_.has(CallOrder::velocities));
+    return constraint_set_.values();
+  }
   virtual void constraint_rates(VecX& out) noexcept = 0;
   virtual void constraint_accelerations(const VecX& a, VecX& out) noexcept = 0;
   virtual void constraint_increments(const VecX& delta, VecX& out) noexcept = 0;
@@ -94,7 +100,10 @@ class Formulation {
   /// The accelerations of `MotionNeeds::accelerations` (`residual` and `constraint_accelerations`
   /// set them too).
   virtual void set_accelerations(const VecX& a) noexcept = 0;
-  const LocalMarker& local_marker(int i) const noexcept { return *local_markers_[i]; }
+  const LocalMarker& local_marker(int i) const noexcept {
+    assert(is_index(i, local_markers_));
+    return *local_markers_[i];
+  }
   /// At the present positions, of all bodies [J].
   virtual double kinetic_energy(const VecX& v) noexcept = 0;
   double gravity_energy() const noexcept;
@@ -125,6 +134,7 @@ class Formulation {
   const Model& model_;
   ConstraintSet constraint_set_;
   ForceSet force_set_;
+  [[no_unique_address]] CallOrder calls_;
   double time_ = 0.0;
   VecX omega2_;
 
@@ -139,6 +149,11 @@ class Formulation {
 
   mutable SystemMotion motion_;  ///< filled when it is asked for
   std::vector<const LocalMarker*> local_markers_;
+#ifndef NDEBUG  // the view of modal accelerations is moved to NaN unless it is asked for
+  void view_modal_accelerations(bool asked) const noexcept;
+  std::vector<const double*> modal_accelerations_;
+  VecX not_asked_;
+#endif
 };
 
 /// In these coordinates. Throws InputError if a body lacks the data `method` needs.

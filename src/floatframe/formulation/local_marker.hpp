@@ -11,9 +11,11 @@
 // With geometric stiffening (SecondOrderNode) X + e_j y^T h_j and X_theta + e_j y^T theta_j replace
 // X and X_theta in rates and gradients, p_B and theta contain half of these terms, and pddot_B and
 // the second derivative of theta contain e_j ydot^T h_j ydot and e_j ydot^T theta_j ydot.
+#include <cassert>
 #include <memory>
 
 #include "floatframe/formulation/bent_columns.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -46,9 +48,11 @@ struct LocalMarker {
     R_B = m.X_NM.R;
     if (m.body < 0) return;
     const FlexibleBody& data = *model.bodies[m.body].data;
+    assert(is_rotation(m.X_NM.R));
     X = X_theta = Jr = Jw = Mat3X::Zero(3, data.modes());
     if (m.node < 0) return;
     const ModalNode& node = data.nodes[m.node];
+    assert(node.X.cols() == data.modes() && node.X_theta.cols() == data.modes());
     node_p = node.p;
     p_B = node.p + m.X_NM.p;
     X = node.X;
@@ -68,6 +72,7 @@ struct LocalMarker {
   /// Only for markers with `local`. `stiffens`: there may be markers with `second`.
   template <bool stiffens>
   void deform(const VecX& y) noexcept {
+    assert(local && y.size() == X.cols());
     if (stiffens && second) {
       p_B = second->place.bend(y.data(), X.data());
     } else {
@@ -106,6 +111,7 @@ struct LocalMarker {
   }
   template <bool stiffens>
   void deform_rate(const VecX& yd) noexcept {
+    assert(local && yd.size() == X.cols());
     pdot_B.noalias() = X * yd;
     if (stiffens && second) pddot_B = second->place.quadratic(yd.data());
     if (!rotates) return;
@@ -123,11 +129,13 @@ struct LocalMarker {
   /// out += weight times the derivative of Jr^T force + Jw^T torque, body axes, by h and theta.
   void add_stiffness(const Vec3& force, const Vec3& torque, double weight,
                      MatX& out) const noexcept {
+    assert(second && out.rows() == X.cols() && out.cols() == X.cols());
     add_weighted(second->h->h, weight * force, out);
     if (turns) add_weighted(second->h->theta, weight * (torque + o_B.cross(force)), out);
   }
   /// Jr, Jw for the body rotation A, once after `deform`.
   void world_gradients(const Mat3& A) noexcept {
+    assert(local && Jr.cols() == X.cols() && Jw.cols() == X.cols());
     Jr.noalias() = A * X;
     if (!rotates) return;
     const Vec3 o = A * o_B;
@@ -143,6 +151,7 @@ struct LocalMarker {
     const double *h0 = h[0].data(), *h1 = h[1].data(), *h2 = h[2].data();
     double* o = out.data();
     const Eigen::Index n = out.size();
+    assert(h[0].size() == n && h[1].size() == n && h[2].size() == n);
     for (Eigen::Index k = 0; k < n; ++k) o[k] += w[0] * h0[k] + w[1] * h1[k] + w[2] * h2[k];
   }
   /// The node of a marker on a stiffening body; null if it has no second-order terms.

@@ -1,6 +1,8 @@
 // Load time of the relative formulation.
 #include "floatframe/formulation/relative.hpp"
 
+#include <cassert>
+
 #include "floatframe/formulation/equations_of_motion.hpp"
 
 namespace floatframe {
@@ -87,6 +89,7 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
 }
 
 void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v) {
+  assert(values.joints.size() == model_.joints.size());
   force_set_.count_turns_from(values, t);
   tree_.start(values, t, q, v);
 }

@@ -11,10 +11,12 @@
 // modal forces,
 //   h_c = M (Zdot + Zdot_0; yddot) - Qv + (0; K y + D ydot) - forces + those of constraints    (1)
 // and inwards to the coordinates (`TreeKinematics::project`). No dense mass matrix is formed.
+#include <cassert>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/cluster_tangent.hpp"
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/formulation/tree_kinematics.hpp"
@@ -56,15 +58,32 @@ class RelativeFormulation final : public Formulation {
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept override;
   int factorize(double mass, double damping, double s, double alpha,
                 int slot = 0) noexcept override {
-    return tangent_.factorize(terms_, {mass, damping, s, s * alpha, true}, slot);
+    assert(calls_.has(CallOrder::residual) && (slot == 0 || slot == 1));
+    const int pivot = tangent_.factorize(terms_, {mass, damping, s, s * alpha, true}, slot);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
+    return pivot;
   }
   int factorize_metric(double s, double penalty, int slot) noexcept override {
-    return tangent_.factorize(terms_, {1.0, 0.0, s, penalty, false}, slot);
+    assert(calls_.has_masses() && (slot == 0 || slot == 1));
+    const int pivot = tangent_.factorize(terms_, {1.0, 0.0, s, penalty, false}, slot);
+    FLOATFRAME_DEBUG(calls_.factorise(slot, pivot < 0));
+    return pivot;
   }
-  double log_pivots(int slot) const noexcept override { return tangent_.log_pivots(slot); }
-  int negative_pivots(int slot) const noexcept { return tangent_.negative_pivots(slot); }
-  void solve(VecX& b, int slot = 0) noexcept override { tangent_.solve(b, slot); }
+  double log_pivots(int slot) const noexcept override {
+    assert(calls_.has_factors(slot));
+    return tangent_.log_pivots(slot);
+  }
+  int negative_pivots(int slot) const noexcept {
+    assert(calls_.has_factors(slot));
+    return tangent_.negative_pivots(slot);
+  }
+  void solve(VecX& b, int slot = 0) noexcept override {
+    assert(calls_.has_factors(slot));
+    tangent_.solve(b, slot);
+  }
   void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept override {
+    assert(calls_.has_factors(slot) && penalty >= 0.0);
+    assert(phi.size() == constraints() && mu.size() == constraints());
     weights_ = -penalty * phi;
     tangent_.solve(b, weights_, mu, slot);
     mu += phi;
@@ -78,15 +97,25 @@ class RelativeFormulation final : public Formulation {
     tree_.retract(q0, x, q);
   }
   void settle(const VecX&, VecX&) const noexcept override {}
-  void advance(VecX& x, const VecX& delta) const noexcept override { tree_.advance(x, delta); }
+  void advance(VecX& x, const VecX& delta) const noexcept override {
+    assert(calls_.has(CallOrder::positions));
+    tree_.advance(x, delta);
+  }
 
   // -- Formulation
 
-  void set_accelerations(const VecX& a) noexcept override { tree_.accelerations(a); }
+  void set_accelerations(const VecX& a) noexcept override {
+    assert(calls_.has(CallOrder::positions));
+    tree_.accelerations(a);
+    FLOATFRAME_DEBUG(calls_.accelerate());
+  }
   double kinetic_energy(const VecX& v) noexcept override;
   BodyCoordinates body_coordinates(int body) const override;
   std::string coordinate_owner(int i) const override { return tree_.coordinate_owner(i); }
-  SparseRowMatrix constraint_rows() override { return tangent_.constraint_rows(); }
+  SparseRowMatrix constraint_rows() override {
+    assert(calls_.has(CallOrder::velocities));
+    return tangent_.constraint_rows();
+  }
   VecX mass_diagonal() const override;
   void add_tree_wrenches(Reactions& reactions) const noexcept override;
   double total_mass() const noexcept;

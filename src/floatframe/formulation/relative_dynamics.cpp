@@ -1,21 +1,31 @@
 // Residual and constraints: accelerations root to leaves, body terms, wrenches leaves to root.
+#include <cassert>
+
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/formulation/relative.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/small_products.hpp"
 
 namespace floatframe {
 
 void RelativeFormulation::positions(double t, const VecX& q) noexcept {
   time_ = t;
+  assert(std::isfinite(t));
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::positions));
   tree_.positions(q);
 }
 
 void RelativeFormulation::velocities(const VecX& v) noexcept {
+  assert(calls_.has(CallOrder::positions));
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::velocities));
   tree_.velocities(v);
   constraint_set_.evaluate(
       time_, [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
 }
 
 void RelativeFormulation::dynamics() noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::dynamics));
   for (const int i : tree_.order()) {
     const TreeBody& b = tree_.body(i);
     BodyTerms& t = terms_[i];
@@ -25,6 +35,7 @@ void RelativeFormulation::dynamics() noexcept {
 }
 
 void RelativeFormulation::forces() noexcept {
+  assert(calls_.has(CallOrder::velocities));
   for (std::size_t k = 0; k < spring_body_.size(); ++k)
     if (spring_body_[k] >= 0) force_set_.set_angle(k, tree_.body(spring_body_[k]).angle);
   force_set_.evaluate(tree_.origin(), time_,
@@ -32,17 +43,22 @@ void RelativeFormulation::forces() noexcept {
 }
 
 ForceSide RelativeFormulation::force_side(std::size_t force) const noexcept {
+  assert(calls_.has(CallOrder::velocities) && force < model_.forces.size());
   return force_set_.side(force, tree_.origin(), time_,
                          [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
 }
 
 void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
+  assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0 && lambda.size() == constraints());
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::residual));
+  FLOATFRAME_DEBUG(calls_.accelerate());
   tree_.accelerations(a);
   for (const int i : tree_.order()) {  // (1)
     const TreeBody& b = tree_.body(i);
     const BodyTerms& t = terms_[i];
     VecX& h = wrenches_[i];
+    assert(h.size() == 6 + b.nm && t.M.cols() == 6 + b.nm);
     const Vec6 zdot = b.Zdot + b.Zdot_0;
     const int n = 6 + b.nm;
     h = -t.Qv;
@@ -63,6 +79,7 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
 }
 
 void RelativeFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && w.size() == constraints());
   for (VecX& h : wrenches_) h.setZero();
   constraint_set_.add_wrenches(w, [&](int marker, const Vec3& force, const Vec3& torque) {
     tree_.add_wrench(marker, force, torque, wrenches_);
@@ -71,17 +88,24 @@ void RelativeFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
 }
 
 void RelativeFormulation::constraint_rates(VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
+  FLOATFRAME_DEBUG(poison(out));
   constraint_set_.rates([&](int marker) -> const MarkerState& { return tree_.marker(marker).s; },
                         out);
 }
 
 void RelativeFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
+  FLOATFRAME_DEBUG(poison(out));
   tree_.spread(delta, increments_);
   constraint_set_.increments([&](int marker) { return tree_.increment_of(marker, increments_); },
                              out);
 }
 
 void RelativeFormulation::constraint_accelerations(const VecX& a, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
+  FLOATFRAME_DEBUG(calls_.accelerate());
+  FLOATFRAME_DEBUG(poison(out));
   tree_.accelerations(a);
   constraint_set_.accelerations([&](int marker) { return tree_.acceleration_of(marker); }, out);
 }

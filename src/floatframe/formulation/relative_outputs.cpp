@@ -1,5 +1,7 @@
 // The relative formulation for readers: its motion, energies and counts; not part of the step's
 // inner loop.
+#include <cassert>
+
 #include "floatframe/formulation/composite_diagonal.hpp"
 #include "floatframe/formulation/relative.hpp"
 
@@ -38,11 +40,13 @@ double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
 }
 
 VecX RelativeFormulation::mass_diagonal() const {
+  assert(calls_.has_masses());
   return composite_diagonal(
       tree_, [this](int i) -> const MatX& { return terms_[static_cast<std::size_t>(i)].M; });
 }
 
 double RelativeFormulation::kinetic_energy(const VecX& v) noexcept {
+  assert(calls_.has(CallOrder::velocities) && v.size() == velocities());
   double sum = 0.0;
   for (const int i : tree_.order()) {
     const TreeBody& b = tree_.body(i);
@@ -57,6 +61,7 @@ double RelativeFormulation::kinetic_energy(const VecX& v) noexcept {
 }
 
 void RelativeFormulation::add_tree_wrenches(Reactions& reactions) const noexcept {
+  assert(calls_.has(CallOrder::residual) && reactions.joints.size() == model_.joints.size());
   for (std::size_t j = 0; j < reactions.joints.size(); ++j) {
     const int i = tree_.body_of_joint(static_cast<int>(j));
     if (i < 0) continue;
@@ -70,6 +75,7 @@ void RelativeFormulation::add_tree_wrenches(Reactions& reactions) const noexcept
 }
 
 BodyCoordinates RelativeFormulation::body_coordinates(int body) const {
+  assert(body >= 0 && body < tree_.body_count());
   const TreeBody& b = tree_.body(body);
   return {b.iq, b.iyq - b.iq + b.nm, b.iyq, b.iv, b.nj + b.nm, b.iy, b.parent};
 }

@@ -1,6 +1,7 @@
 #include "floatframe/formulation/tree_element.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -43,6 +44,7 @@ const double* directions(const TreeKinematics& tree, const PathEntry& p) noexcep
 
 TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
                          const std::vector<int>& cluster_of_body, int a, int b) {
+  assert(b >= 0 && std::ssize(cluster_of_body) == tree.body_count());
   TreeElement e;
   e.a = a;
   e.b = b;
@@ -70,14 +72,17 @@ TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>&
   }
   e.first &= ~3;
   e.width = front_stride(last - e.first);
+  assert(e.first >= 0 && last <= c.n);
   return e;
 }
 
 void fill_gradient(const TreeKinematics& tree, const TreeElement& e, const WrenchRow& gradient,
                    double* row) noexcept {
+  assert(row || e.width == 0);
   for (int j = 0; j < e.width; ++j) row[j] = 0.0;
   for (const PathEntry& p : e.path) {
     const TreeMarker& m = tree.marker(p.marker);
+    assert(p.front >= e.first && p.front + p.count <= e.first + e.width);
     const Vec3& force = p.side_b ? gradient.Fb : gradient.Fa;
     const Vec3& torque = p.side_b ? gradient.Tb : gradient.Ta;
     double* out = row + (p.front - e.first);
@@ -96,9 +101,11 @@ void fill_gradient(const TreeKinematics& tree, const TreeElement& e, const Wrenc
 }
 
 void fill_distance(const TreeKinematics& tree, const TreeElement& e, double* rows) noexcept {
+  assert(rows || e.width == 0);
   for (int j = 0; j < 3 * e.width; ++j) rows[j] = 0.0;
   for (const PathEntry& p : e.path) {
     const TreeMarker& m = tree.marker(p.marker);
+    assert(p.front >= e.first && p.front + p.count <= e.first + e.width);
     const double sign = p.side_b ? 1.0 : -1.0;
     double* x = rows + (p.front - e.first);
     double* y = x + e.width;

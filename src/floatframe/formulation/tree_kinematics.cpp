@@ -2,6 +2,10 @@
 // header.
 #include "floatframe/formulation/tree_kinematics.hpp"
 
+#include <cassert>
+
+#include "floatframe/core/debug_only.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/small_products.hpp"
 
 namespace floatframe {
@@ -34,6 +38,7 @@ void TreeKinematics::marker_velocity(TreeMarker& m) const noexcept {
 
 /// The origin of this evaluation: the first body's joint frame M.
 void TreeKinematics::choose_origin(const VecX& q) noexcept {
+  assert(!order_.empty());
   TreeBody& b = bodies_[order_[0]];
   joint_motion(b.type, b.axes, q.data() + b.iq, b.motion);
   const Pose& X_WF = model_.markers[b.frame_F].X_NM;
@@ -62,6 +67,7 @@ void TreeKinematics::place_body(TreeBody& b) noexcept {
   const Vec3 p_OM = F.s.r + F.s.R * b.motion.p_FM;
   b.R_WB.noalias() = R_WM * child.R_B.transpose();
   b.p_OB.noalias() = p_OM - b.R_WB * child.p_B;
+  assert(is_rotation(b.R_WB));
   marker_position(child);
   for (int k = 0; k < b.nj; ++k) {
     const Vec3 eta = F.s.R * b.motion.H.block<3, 1>(3, k);
@@ -82,9 +88,16 @@ void TreeKinematics::place_body(TreeBody& b) noexcept {
 
 template <bool stiffens>
 void TreeKinematics::positions_of(const VecX& q) noexcept {
+  FLOATFRAME_DEBUG(for (TreeMarker& m : markers_) poison_state(m.s);)
   for (const int i : order_) {
     TreeBody& b = bodies_[i];
     b.y = q.segment(b.iyq, b.nm);
+    FLOATFRAME_DEBUG(poison(b.w_WB));
+    FLOATFRAME_DEBUG(poison(b.Z));
+    FLOATFRAME_DEBUG(poison(b.Zdot_0));
+    FLOATFRAME_DEBUG(poison(b.Zdot));
+    FLOATFRAME_DEBUG(poison(b.yd));
+    FLOATFRAME_DEBUG(poison(b.ydd));
   }
   choose_origin(q);
   place_ground_markers();
@@ -163,6 +176,7 @@ template void TreeKinematics::velocities_of<false>(const VecX& v) noexcept;
 template void TreeKinematics::velocities_of<true>(const VecX& v) noexcept;
 
 void TreeKinematics::accelerations(const VecX& a) noexcept {
+  assert(a.size() == nv_);
   for (const int i : order_) {
     TreeBody& b = bodies_[i];
     b.ydd = a.segment(b.iy, b.nm);
@@ -178,6 +192,9 @@ void TreeKinematics::accelerations(const VecX& a) noexcept {
 }
 
 void TreeKinematics::retract(const VecX& q0, const VecX& x, VecX& q) const noexcept {
+  assert(q0.size() == nq_ && x.size() == nv_ && q.size() == nq_);
+  assert(&q != &q0);
+  FLOATFRAME_DEBUG(poison(q));
   for (const TreeBody& b : bodies_) {
     joint_retract(b.type, q0.data() + b.iq, x.data() + b.iv, q.data() + b.iq);
     q.segment(b.iyq, b.nm) = q0.segment(b.iyq, b.nm) + x.segment(b.iy, b.nm);
@@ -185,6 +202,7 @@ void TreeKinematics::retract(const VecX& q0, const VecX& x, VecX& q) const noexc
 }
 
 void TreeKinematics::advance(VecX& x, const VecX& delta) const noexcept {
+  assert(x.size() == nv_ && delta.size() == nv_);
   for (const TreeBody& b : bodies_) {
     joint_advance(b.type, x.data() + b.iv, delta.data() + b.iv);
     x.segment(b.iy, b.nm) += delta.segment(b.iy, b.nm);
@@ -192,6 +210,7 @@ void TreeKinematics::advance(VecX& x, const VecX& delta) const noexcept {
 }
 
 void TreeKinematics::spread(const VecX& x, BodyVectors& increments) const noexcept {
+  assert(x.size() == nv_ && increments.size() == bodies_.size());
   for (const int i : order_) {
     const TreeBody& b = bodies_[i];
     VecX& own = increments[i];
@@ -208,6 +227,8 @@ void TreeKinematics::spread(const VecX& x, BodyVectors& increments) const noexce
 }
 
 void TreeKinematics::project(BodyVectors& wrenches, VecX& out) const noexcept {
+  assert(wrenches.size() == bodies_.size() && out.size() == nv_);
+  FLOATFRAME_DEBUG(poison(out));
   for (std::size_t k = order_.size(); k-- > 0;) {
     const TreeBody& b = bodies_[order_[k]];
     const VecX& h = wrenches[order_[k]];
@@ -229,6 +250,7 @@ void TreeKinematics::project(BodyVectors& wrenches, VecX& out) const noexcept {
 
 void TreeKinematics::add_wrench(int marker, const Vec3& force, const Vec3& torque,
                                 BodyVectors& wrenches) const noexcept {
+  assert(marker >= 0 && wrenches.size() == bodies_.size());
   const TreeMarker& m = markers_[marker];
   if (m.body < 0) return;
   VecX& h = wrenches[m.body];
@@ -242,6 +264,7 @@ void TreeKinematics::add_wrench(int marker, const Vec3& force, const Vec3& torqu
 }
 
 PointMotion TreeKinematics::increment_of(int marker, const BodyVectors& increments) const noexcept {
+  assert(marker >= 0 && increments.size() == bodies_.size());
   const TreeMarker& m = markers_[marker];
   PointMotion x{Vec3::Zero(), Vec3::Zero()};
   if (m.body < 0) return x;
@@ -270,6 +293,7 @@ PointMotion TreeKinematics::acceleration_in_world(int marker) const noexcept {
 
 /// Contribution of coordinate accelerations, added to the bias of a marker.
 void TreeKinematics::add_acceleration(int marker, PointMotion& x) const noexcept {
+  assert(is_index(marker, markers_));
   const TreeMarker& m = markers_[marker];
   if (m.body < 0) return;
   const TreeBody& b = bodies_[m.body];

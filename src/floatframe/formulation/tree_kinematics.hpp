@@ -28,11 +28,13 @@
 //
 // The origin O is the first body's joint point at that evaluation: positions stay small wherever
 // the system is on the road.
+#include <cassert>
 #include <string>
 #include <vector>
 
 #include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/formulation/point_motion.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
@@ -111,9 +113,15 @@ class TreeKinematics {
   int velocity_count() const noexcept { return nv_; }
   int configuration_count() const noexcept { return nq_; }
   int body_count() const noexcept { return static_cast<int>(bodies_.size()); }
-  const TreeBody& body(int i) const noexcept { return bodies_[i]; }
+  const TreeBody& body(int i) const noexcept {
+    assert(i >= 0 && i < body_count());
+    return bodies_[i];
+  }
   const std::vector<TreeBody>& bodies() const noexcept { return bodies_; }
-  const TreeMarker& marker(int i) const noexcept { return markers_[i]; }
+  const TreeMarker& marker(int i) const noexcept {
+    assert(is_index(i, markers_));
+    return markers_[i];
+  }
   /// Parents before children.
   const std::vector<int>& order() const noexcept { return order_; }
   /// p_WO of the last `positions`.
@@ -123,9 +131,11 @@ class TreeKinematics {
   /// During steps, markers used by outputs only are not updated.
   void stepping(bool on) noexcept { stepping_ = on; }
   void positions(const VecX& q) noexcept {
+    assert(q.size() == nq_);
     stiffens_ ? positions_of<true>(q) : positions_of<false>(q);
   }
   void velocities(const VecX& v) noexcept {
+    assert(v.size() == nv_);
     stiffens_ ? velocities_of<true>(v) : velocities_of<false>(v);
   }
   void accelerations(const VecX& a) noexcept;

@@ -1,6 +1,10 @@
 #include "floatframe/inertia/preprocessing.hpp"
 
+#include <cassert>
+
 #include "floatframe/body/modal_mass.hpp"
+#include "floatframe/core/debug_only.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -46,10 +50,13 @@ Mat3 times9(const MatX& S, const double* x) noexcept {
 PreprocessingData::PreprocessingData(const InertiaInvariants& v)
     : m(v.m), m_u(v.m_u), P_u(v.P_u), S(v.S) {
   const int nm = v.modes();
+  assert(v.m >= 0.0 && all_finite(v.m_u) && all_finite(v.P_u) && is_symmetric(v.P_u));
+  FLOATFRAME_DEBUG(for (const Mat3X& of_axis : v.Si) assert(of_axis.cols() == nm);)
   Si.resize(9, nm);
   Sij.resize(9 * nm, nm);
   Sij_sum.resize(6, nm * nm);
   M_ff = modal_mass(v);  // (40)
+  assert(is_symmetric(M_ff) && (nm == 0 || M_ff.diagonal().minCoeff() >= 0.0));
   for (int i = 0; i < 3; ++i) Si.middleRows<3>(3 * i) = v.Si[i];
   const int nl = by_modes.stride = (nm + 3) & ~3;
   by_modes.S = VecX::Zero(3 * nl);
@@ -86,6 +93,8 @@ PreprocessingData::PreprocessingData(const InertiaInvariants& v)
 
 void deform(const PreprocessingData& data, const double* y, DeformedInvariants& d) noexcept {
   const int nm = data.modes();
+  assert((y || nm == 0) && d.S_d.rows() == 9 && d.S_d.cols() == nm);
+  FLOATFRAME_DEBUG(poison(d.S_d));
   d.m_bar = data.m_u + times(data.S, y);                                 // (29)
   affine(data.Si.data(), data.Sij.data(), 9 * nm, nm, y, d.S_d.data());  // (38)
   const Mat3 first = times9(data.Si, y);                                 // column i: S^i y
@@ -104,6 +113,10 @@ namespace {
 void deform_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const double* y,
                       DeformedInvariants& d) noexcept {
   const int nm = data.modes();
+  assert((y || nm == 0) && d.S_d.rows() == 9 && d.S_d.cols() == nm);
+  assert(stiffening.S.cols() == nm && stiffening.S2.cols() == nm);
+  FLOATFRAME_DEBUG(poison(d.S_d));
+  FLOATFRAME_DEBUG(poison(stiffening.S));
   affine(data.S.data(), stiffening.S2.data(), 3 * nm, nm, y, stiffening.S.data());
   d.m_bar = data.m_u + 0.5 * (times(data.S, y) + times(stiffening.S, y));
   affine(data.Si.data(), stiffening.S_ij.data(), 9 * nm, nm, y, d.S_d.data());
@@ -118,6 +131,10 @@ void absolute_terms(const PreprocessingData& data, const StiffeningData* stiffen
                     VecX& Qv) noexcept {
   const int nm = data.modes();
   const int nq = 12 + nm;
+  assert((ydot || nm == 0) && work.S_dot.size() == 9 * nm);
+  assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq);
+  FLOATFRAME_DEBUG(poison(M));
+  FLOATFRAME_DEBUG(poison(Qv));
   DeformedInvariants& d = work.deformed;
   const Mat3X& S = stiffened ? stiffening->S : data.S;
 
@@ -165,6 +182,7 @@ void absolute_terms(const PreprocessingData& data, const StiffeningData* stiffen
     }
     for (int k = 0; k < 12; ++k) M(12 + a, k) = column[k];
   }
+  assert(is_symmetric(M));
 }
 
 }  // namespace

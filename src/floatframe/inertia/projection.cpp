@@ -1,8 +1,11 @@
 #include "floatframe/inertia/projection.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 
+#include "floatframe/core/debug_only.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -85,6 +88,7 @@ struct AbsoluteCoordinates {
 /// four) are skipped.
 void accumulate(const double* B, const double* MB, int rows, int nq, int stride,
                 double* upper) noexcept {
+  assert(rows % 3 == 0 && stride % 4 == 0 && nq < stride);
   int r = 0;
   for (; r + 2 < rows; r += 3) {
     const double* b0 = B + static_cast<std::ptrdiff_t>(r) * stride;
@@ -188,6 +192,7 @@ inline Vec3 turn(const ProjectionData& data, const ProjectionData::TurningPoint&
     theta += y[a] * column;
     rate += ydot[a] * column;
   }
+  assert(point.rotation >= 0 && row + 3 <= data.rotations.rows());
   const Vec3 turned = theta.cross(arm);
   for (int a = 0; a < nm; ++a) {
     const Vec3 column = data.rotations.col(a).segment<3>(row);
@@ -204,6 +209,7 @@ inline void add_products(const ProjectionData& data, int nq, int stride, Project
   const bool six = data.six_dof();
   const int rows = six ? 6 : 3;
   const auto& mass = six ? data.M_6 : data.M_s;
+  assert(mass.isCompressed() && mass.rows() == data.nodes() * (six ? 6 : 1));
   const auto* outer = mass.outerIndexPtr();
   const auto* inner = mass.innerIndexPtr();
   const double* value = mass.valuePtr();
@@ -243,6 +249,11 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
   const bool bent = !work.moved.empty();
   const ProjectionData::TurningPoint* turning = data.turning.data();
   const ProjectionData::TurningPoint* const end = turning + data.turning.size();
+  assert(((y && ydot) || nm == 0) && std::ssize(work.X) == n * rows * nm);
+  assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq && stride <= work.stride);
+  assert(!stiffened || std::ssize(work.h) == n * 3 * nm * nm);
+  FLOATFRAME_DEBUG(poison(M));
+  FLOATFRAME_DEBUG(poison(Qv));
 
   for (int k = 0; k < n; ++k) {
     const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;
@@ -268,6 +279,7 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
     for (int i = 0; i < 3; ++i) B[i * stride + nq] += bias(i);
   }
 
+  assert(turning == end);  // ascending, so that all have been met
   double* upper = work.upper.data();
   std::fill_n(upper, static_cast<std::ptrdiff_t>(nq) * stride, 0.0);
   add_products(data, nq, stride, work, upper);
@@ -286,6 +298,9 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffe
   const std::size_t rows = data.six_dof() ? 6 : 3;
   const std::size_t nm = modes;
   const std::size_t width = stride;
+  assert(data.X.rows() == 3 * data.nodes());
+  assert(!data.six_dof() || (data.X_theta.rows() == data.X.rows() && data.X_theta.cols() == modes));
+  assert(!stiffening || data.h.rows() == modes * data.X.rows());
   B.assign(n * rows * width, 0.0);
   MB.assign(rows * width, 0.0);
   upper.assign((12 + nm) * width, 0.0);
@@ -315,6 +330,7 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffe
 
 ProjectionWorkspace::Twist::Twist(const SecondOrder& of_beams) {
   const int nm = static_cast<int>(of_beams.S2[0].rows());
+  assert(of_beams.S2[0].cols() == nm && of_beams.S2i[0][0].rows() == nm);
   none = PreprocessingData(InertiaInvariants::zero(nm));
   second_order = StiffeningData(none, of_beams);
   work = PreprocessingWorkspace(nm);
@@ -327,6 +343,7 @@ ProjectionWorkspace::Twist::Twist(const SecondOrder& of_beams) {
 void relative_projection(const ProjectionData& data, const Vec3& r0, const Mat3& A,
                          const Vec3& omega, const double* y, const double* ydot,
                          ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  assert(is_rotation(A));
   project(data, RelativeCoordinates(r0, A, omega), y, ydot, work, M, Qv);
   if (!work.twist) return;
   ProjectionWorkspace::Twist& t = *work.twist;

@@ -1,5 +1,9 @@
 // Relative inertia terms, (46)-(63). Rows over the modes are processed in whole SIMD lanes.
+#include <cassert>
+
+#include "floatframe/core/debug_only.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/lanes.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -8,6 +12,7 @@ namespace {
 
 /// out += C x, C rows x n with a multiple of four rows.
 void add_columns(const double* C, int rows, int n, const double* x, double* out) noexcept {
+  assert(rows % 4 == 0 && n >= 0);
   int b = 0;
   for (; b + 1 < n; b += 2) {
     const double* c0 = C + static_cast<std::ptrdiff_t>(b) * rows;
@@ -32,6 +37,7 @@ void pad(const double* x, int n, double* row) noexcept {
 
 /// a . x over one row.
 double dot(const double* a, const double* x, int stride) noexcept {
+  assert(stride % 4 == 0);
   Lanes s = {};
   for (int r = 0; r < stride; r += 4) s += lanes(a + r) * lanes(x + r);
   return sum(s);
@@ -62,6 +68,7 @@ inline DeformedIntegrals deformed_integrals(const PreprocessingData& data,
   const int nm = data.modes(), nl = data.by_modes.stride;
   DeformedIntegrals out{data.m_u, data.P_u, Vec3::Zero(), Mat3::Zero(), S_d};
   if (nm == 0) return out;
+  assert(data.by_modes.Si.size() == 9 * nl && data.by_modes.Sij.rows() == 9 * nl);
   pad(y, nm, y_row);
   pad(ydot, nm, ydot_row);
   const double* S = data.by_modes.S.data();
@@ -75,6 +82,7 @@ inline DeformedIntegrals deformed_integrals(const PreprocessingData& data,
   const Mat3 second = lane_times9(S_d, y_row, nl);              // column i: S_d^i y
   if constexpr (stiffened) {
     double* Sy = stiffening->S_by_mode.data();
+    assert(stiffening->S_by_mode.size() == 3 * nl && stiffening->S2_by_modes.rows() == 3 * nl);
     for (int r = 0; r < 3 * nl; r += 4) lanes(Sy + r) = lanes(S + r);
     add_columns(stiffening->S2_by_modes.data(), 3 * nl, nm, y, Sy);
     for (int j = 0; j < 3; ++j) {
@@ -155,6 +163,12 @@ inline void relative_terms(const PreprocessingData& data, StiffeningData* stiffe
   const int nm = data.modes();
   const int nq = 6 + nm;
   const int nl = data.by_modes.stride;
+  assert(((y && ydot) || nm == 0) && work.rows.size() >= 15 * nl);
+  assert(M.rows() == nq && M.cols() == nq && Qv.size() == nq);
+  assert(is_rotation(A));
+  FLOATFRAME_DEBUG(poison(M));
+  FLOATFRAME_DEBUG(poison(Qv));
+  FLOATFRAME_DEBUG(poison(work.rows));
   double* S_d = work.rows.data();
   double* skew_rate = S_d + 9 * nl;  // 3 rows: (S^12-S^21) ydot, ...
   double* y_row = skew_rate + 3 * nl;
@@ -201,6 +215,7 @@ inline void relative_terms(const PreprocessingData& data, StiffeningData* stiffe
     const double* mff = data.M_ff.data() + static_cast<std::ptrdiff_t>(a) * nm;
     for (int b = 0; b < nm; ++b) column[b] = mff[b];  // (54)
   }
+  assert(is_symmetric(M));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // The integrals of geometric stiffening, laid out for speed.
+#include <cassert>
+
 #include "floatframe/inertia/preprocessing.hpp"
 
 namespace floatframe {
@@ -6,6 +8,7 @@ namespace floatframe {
 StiffeningData::StiffeningData(const PreprocessingData& data, const SecondOrder& second_order)
     : S_ij(data.Sij), S_ij_by_modes(data.by_modes.Sij), S(data.S), S_by_mode(data.by_modes.S) {
   const int nm = data.modes(), nl = data.by_modes.stride;
+  assert(second_order.S2[0].rows() == nm && second_order.S2[0].cols() == nm);
   S2 = MatX::Zero(3 * nm, nm);
   S2_by_modes = MatX::Zero(3 * nl, nm);
   pairs = MatX::Zero(12, nm * (nm + 1) / 2);
@@ -27,11 +30,14 @@ StiffeningData::StiffeningData(const PreprocessingData& data, const SecondOrder&
       if (a <= b) ++pair;
     }
   }
+  assert(pair == pairs.cols());
 }
 
 void add_stiffness(const SecondOrder& second_order, const Vec3& a, const Mat3& G, double weight,
                    MatX& out) noexcept {
   const Eigen::Index n = out.size();
+  assert(out.rows() == out.cols() && out.rows() == second_order.S2[0].rows());
+  assert(second_order.S2i[2][2].size() == n);
   double* o = out.data();
   for (int j = 0; j < 3; ++j) {
     const double c = weight * a[j], c0 = weight * G(j, 0), c1 = weight * G(j, 1);
@@ -46,6 +52,7 @@ void add_stiffness(const SecondOrder& second_order, const Vec3& a, const Mat3& G
 }
 
 RateForces rate_forces(const StiffeningData& stiffening, int nm, const double* ydot) noexcept {
+  assert((ydot || nm == 0) && stiffening.pairs.cols() == nm * (nm + 1) / 2);
   Eigen::Matrix<double, 12, 1> sum = Eigen::Matrix<double, 12, 1>::Zero();
   int pair = 0;
   for (int b = 0; b < nm; ++b)

@@ -30,6 +30,7 @@
 // Nothing here allocates after construction, throws or prints. The state changes only when the step
 // is accepted.
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -37,6 +38,7 @@
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/integrator/step.hpp"
 #include "floatframe/integrator/step_scheme.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -47,6 +49,7 @@ class AugmentedLagrangian {
   AugmentedLagrangian(F& formulation, const StepOptions& options)
       : f_(formulation), options_(options), spectral_radius_(options.spectral_radius) {
     const int nv = f_.velocities(), nc = f_.constraints();
+    assert(are_valid(options));
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
     lambda_ = reactions_ = rate_ = work_ = increments_ = VecX::Zero(nc);
@@ -54,6 +57,7 @@ class AugmentedLagrangian {
 
   /// One step of size h from `state`, which is replaced only if the step is accepted.
   StepAttempt step(State& state, double h) noexcept {
+    assert(h > 0.0 && fits(state) && all_finite(state.q));
     f_.stepping(true);
     const StepAttempt report = advance(state, h);
     f_.stepping(false, report.accepted());
@@ -71,14 +75,20 @@ class AugmentedLagrangian {
 
   /// Equal states and equal reuse records give bit-identical next steps.
   const TangentReuse& tangent_reuse() const noexcept { return reuse_; }
-  void set_tangent_reuse(const TangentReuse& e) noexcept { reuse_ = e; }
+  void set_tangent_reuse(const TangentReuse& e) noexcept {
+    assert(e.contraction >= 0.0 && e.contraction <= 1.0);
+    reuse_ = e;
+  }
 
   /// Multipliers consistent with the projected accelerations of the last accepted step. Those of
   /// the state belong to the accelerations before projection, which have an error of O(h).
   const VecX& reactions() const noexcept { return reactions_; }
   /// If enabled: impulses i of the constraints in the velocity projection of the last accepted
   /// step, W dv = -Phi_q^T i [N s].
-  const VecX& impulses() const noexcept { return impulses_; }
+  const VecX& impulses() const noexcept {
+    assert(keeps_impulses_);
+    return impulses_;
+  }
   void keep_impulses() {
     keeps_impulses_ = true;
     impulses_ = VecX::Zero(f_.constraints());
@@ -103,6 +113,10 @@ class AugmentedLagrangian {
   /// would turn round-off of nearly dependent constraints into velocities.
   static constexpr double min_projection_rate = 0.5;
 
+  bool fits(const State& s) const noexcept {
+    return has_sizes(s, f_.configurations(), f_.velocities(), f_.constraints());
+  }
+
   StepAttempt advance(State& state, double h) noexcept {
     Scheme k(options_, h);
     StepAttempt report;
@@ -120,6 +134,7 @@ class AugmentedLagrangian {
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
+    assert(x_.allFinite() && q_.allFinite());  // or not converged
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
     reuse_.valid_at = state.t;
@@ -131,6 +146,7 @@ class AugmentedLagrangian {
     else
       state.a_alg.swap(a_alg_);
     state.lambda.swap(lambda_);
+    assert(fits(state));
     return report;
   }
 
@@ -139,6 +155,7 @@ class AugmentedLagrangian {
     // (a) in (b) and (c), with x = 0 in (a): `known` is -a_alg_n+1 without x.
     const double h = k.h, from_v = h, from_a = h * h * (0.5 - k.beta);
     const VecX& omega2 = f_.own_frequencies_squared();
+    assert(omega2.size() == x_.size());
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
       const double known = k.base * (from_v * state.v[i] + from_a * state.a_alg[i]);
       v_hat_[i] = state.v[i] + h * (1.0 - k.gamma) * state.a_alg[i] - h * k.gamma * known;
@@ -162,6 +179,7 @@ class AugmentedLagrangian {
   /// or the predictor has moved a body of very small mass too far. Repeats the step with a larger
   /// penalty and a predictor that ignores such accelerations.
   void retry_step(const State& state, Scheme& k, StepAttempt& report) noexcept {
+    assert(!report.accepted());
     k.penalty *= retry_penalty_factor;
     k.alpha *= retry_penalty_factor;
     StepAttempt again;
@@ -184,6 +202,7 @@ class AugmentedLagrangian {
 
   void newton(const State& state, const Scheme& k, StepAttempt& report) noexcept {
     const bool constrained = f_.constraints() > 0;
+    assert(report.iterations == 0 && k.penalty > 0.0 && k.alpha > 0.0);
     Iterate it;
     it.penalty = k.penalty;
     it.alpha = k.alpha;
@@ -245,6 +264,7 @@ class AugmentedLagrangian {
   /// Decides whether a new tangent pays off: at a rate above 0.9 the old one hardly converges; else
   /// compares the remaining iterations at that rate with one iteration plus its factorisation.
   void choose_tangent(Iterate& it) noexcept {
+    assert(reuse_.contraction >= 0.0 && reuse_.contraction <= 1.0 && it.increment >= 0.0);
     it.renew = reuse_.contraction > 0.9 ||
                std::log(options_.tolerance / it.increment) / std::log(reuse_.contraction) >
                    1.0 + F::factorization_cost;
@@ -254,6 +274,7 @@ class AugmentedLagrangian {
 
   /// (g). False if it is singular, even with a reduced penalty.
   bool renew_tangent(const Scheme& k, Iterate& it, StepAttempt& report) noexcept {
+    assert(it.alpha > 0.0 && it.penalty > 0.0);
     int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
     ++report.factorizations;
     for (int retry = 0; f_.constraints() > 0 && pivot >= 0 && retry < max_penalty_reductions;
@@ -264,6 +285,7 @@ class AugmentedLagrangian {
       ++report.factorizations;
     }
     if (pivot < 0) return true;
+    assert(pivot < f_.velocities());
     report.status = AttemptStatus::singular_tangent;
     report.coordinate = pivot;
     return false;
@@ -273,6 +295,7 @@ class AugmentedLagrangian {
   /// With the Phi_q of the factorisation on the penalty, an old factorisation converges like any
   /// modified Newton iteration; with the current Phi_q it would not for large penalties.
   void solve_increment(const Scheme& k, const Iterate& it) noexcept {
+    assert(rhs_.size() == x_.size() && lambda_.size() == f_.constraints());
     delta_ = -k.s * rhs_;
     if (f_.constraints() == 0) {
       f_.solve(delta_, newton_slot);
@@ -304,61 +327,14 @@ class AugmentedLagrangian {
            report.position_violation < options_.position_tolerance;
   }
 
-  /// Projects velocities and accelerations onto the constraints, orthogonally in W = M + 0.01 s K
-  /// (the Newton tangent would feed energy into stiff modes). False if W is singular.
-  bool project(const Scheme& k, StepAttempt& report) noexcept {
-    double penalty = metric_penalty * k.penalty;
-    int pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
-    ++report.factorizations;
-    for (int retry = 0; pivot >= 0 && retry < max_penalty_reductions; ++retry) {
-      penalty *= penalty_reduction;
-      pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
-      ++report.factorizations;
-    }
-    if (pivot >= 0) {
-      report.status = AttemptStatus::singular_tangent;
-      report.coordinate = pivot;
-      return false;
-    }
-    report.log_pivots = f_.log_pivots(projection_slot);
-    project_velocities(penalty, report);
-    f_.velocities(v_);
-    f_.constraint_accelerations(a_, rate_);
-    const double first = largest(rate_);
-    double violation = first;
-    reactions_ = lambda_;
-    for (int pass = 0; pass < options_.max_projections; ++pass) {
-      // To 1e-6 m/s2 or nine digits. A violation not halved after four passes is round-off or the
-      // result of contradicting constraints.
-      if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
-      correct(a_, penalty);
-      violation = largest(rate_);
-      // W times the change of a is -Phi_q^T penalty mu.
-      reactions_ += penalty * work_;
-    }
-    return true;
-  }
-
+  bool project(const Scheme& k, StepAttempt& report) noexcept;
   bool solve_accelerations(const State&, const Scheme&, double penalty, double enough) noexcept;
   bool iterate_accelerations(double s, double penalty, double enough) noexcept;
 
-  void project_velocities(double penalty, StepAttempt& report) noexcept {
-    if (keeps_impulses_) impulses_.setZero();
-    f_.constraint_rates(rate_);
-    report.velocity_violation = largest(rate_);
-    const double enough = 0.1 * options_.velocity_tolerance;
-    for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
-         ++pass) {
-      const double before = report.velocity_violation;
-      correct(v_, penalty);
-      if (keeps_impulses_) impulses_ += penalty * work_;
-      report.velocity_violation = largest(rate_);
-      if (report.velocity_violation > min_projection_rate * before) break;
-    }
-  }
-
+  void project_velocities(double penalty, StepAttempt& report) noexcept;
   /// One pass: z -= W^-1 Phi_q^T penalty rate, and the remaining rate.
   void correct(VecX& z, double penalty) noexcept {
+    assert(penalty > 0.0 && z.size() == delta_.size());
     delta_.setZero();
     f_.solve(delta_, rate_, penalty, work_, projection_slot);
     z += delta_;
@@ -393,4 +369,6 @@ class AugmentedLagrangian {
 
 }  // namespace floatframe
 
-#include "floatframe/integrator/restart.hpp"  // the remaining member functions
+// The remaining member functions.
+#include "floatframe/integrator/projections.hpp"
+#include "floatframe/integrator/restart.hpp"

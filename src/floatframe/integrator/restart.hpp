@@ -2,13 +2,17 @@
 // A step of AugmentedLagrangian starts from velocities that satisfy the constraints and
 // accelerations that satisfy the equations of motion. Both are computed again where steps are
 // divided at a discontinuity of forces.
+#include <cassert>
+
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
 /// Projects the velocities of a state that no step of size h has produced onto the constraints.
 template <EquationsOfMotion F>
 void AugmentedLagrangian<F>::project_velocities(State& state, double h) noexcept {
+  assert(fits(state));
   if (f_.constraints() == 0) return;
   const Scheme k(options_, h);
   f_.positions(state.t, state.q);
@@ -29,6 +33,7 @@ void AugmentedLagrangian<F>::project_velocities(State& state, double h) noexcept
 /// coordinate). Evaluates positions, velocities and `dynamics` at the state.
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
+  assert(fits(state) && all_finite(state.a));
   const Scheme k(options_, h);
   a_ = state.a;
   lambda_.setZero();
@@ -46,6 +51,7 @@ bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
 /// suffice.
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept {
+  assert(fits(state) && all_finite(state.a) && all_finite(state.lambda));
   const Scheme k(options_, h);
   a_ = state.a;
   lambda_ = state.lambda;
@@ -60,6 +66,7 @@ bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept 
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::solve_accelerations(const State& state, const Scheme& k,
                                                  double penalty, double enough) noexcept {
+  assert(penalty > 0.0 && enough > 0.0);
   f_.positions(state.t, state.q);
   f_.velocities(state.v);
   f_.dynamics();
@@ -75,6 +82,7 @@ bool AugmentedLagrangian<F>::solve_accelerations(const State& state, const Schem
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::iterate_accelerations(double s, double penalty,
                                                    double enough) noexcept {
+  assert(s >= 0.0 && a_.size() == f_.velocities() && lambda_.size() == f_.constraints());
   constexpr int most_passes = 40;
   constexpr double no_stiffness = 1e-30;
   if (f_.factorize_metric(s > 0.0 ? s : no_stiffness, penalty, projection_slot) >= 0) return false;

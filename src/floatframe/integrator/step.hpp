@@ -33,6 +33,18 @@ struct StepOptions {
   double largest_acceleration = 1e7;
 };
 
+inline bool are_valid(const StepOptions& o) noexcept {
+  return o.spectral_radius >= 0.0 && o.spectral_radius <= 1.0 && o.tolerance > 0.0 &&
+         o.max_iterations > 0 && o.position_tolerance >= 0.0 && o.velocity_tolerance >= 0.0 &&
+         o.penalty_mass > 0.0 && o.max_projections >= 0 && o.fixed_iterations >= 0 &&
+         o.time_budget >= 0.0;
+}
+/// nq, nv and nc of a formulation.
+inline bool has_sizes(const State& s, Eigen::Index nq, Eigen::Index nv, Eigen::Index nc) noexcept {
+  return s.q.size() == nq && s.v.size() == nv && s.a.size() == nv && s.a_alg.size() == nv &&
+         s.lambda.size() == nc;
+}
+
 /// cut_short: accepted before convergence, because of `fixed_iterations` or `time_budget`.
 enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
 

@@ -1,6 +1,8 @@
 #pragma once
 // The constants of one step size in the generalised-alpha family (augmented_lagrangian.hpp, (a) to
 // (h)).
+#include <cassert>
+
 #include "floatframe/integrator/step.hpp"
 
 namespace floatframe {
@@ -8,6 +10,7 @@ namespace floatframe {
 struct StepScheme {
   StepScheme(const StepOptions& o, double step) noexcept : h(step) {
     const double rho = o.spectral_radius;
+    assert(step > 0.0 && std::isfinite(step) && rho >= 0.0 && o.penalty_mass > 0.0);
     trapezoidal = rho >= 1.0;
     am = trapezoidal ? 0.0 : (2.0 * rho - 1.0) / (rho + 1.0);
     af = trapezoidal ? 0.0 : rho / (rho + 1.0);

@@ -1,9 +1,11 @@
 #include "floatframe/math/block_ldlt.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
 
 namespace floatframe {
@@ -20,6 +22,7 @@ std::vector<std::set<int>> neighbours_of(std::size_t n,
                                          const std::vector<std::pair<int, int>>& edges) {
   std::vector<std::set<int>> neighbours(n);
   for (const auto& [a, b] : edges) {
+    assert(is_index(a, neighbours) && is_index(b, neighbours));
     if (a == b) continue;
     neighbours[a].insert(b);
     neighbours[b].insert(a);
@@ -95,6 +98,7 @@ BlockLdlt::BlockLdlt(const std::vector<Block>& blocks,
                      const std::vector<std::pair<int, int>>& edges) {
   nodes_.resize(blocks.size());
   for (std::size_t k = 0; k < blocks.size(); ++k) {
+    assert(blocks[k].size >= 0 && blocks[k].inner >= 0 && !(blocks[k].mass < 0.0));
     Node& node = nodes_[k];
     node.size = blocks[k].size + blocks[k].inner;
     node.offset = unknowns_;
@@ -107,6 +111,7 @@ BlockLdlt::BlockLdlt(const std::vector<Block>& blocks,
     order_.push_back(block);
     nodes_[block].blocks.assign(neighbours.begin(), neighbours.end());
   });
+  assert(order_.size() == blocks.size());
   for (Node& node : nodes_) {
     std::sort(node.blocks.begin(), node.blocks.end(),
               [&](int a, int b) { return nodes_[a].rank < nodes_[b].rank; });
@@ -125,14 +130,17 @@ BlockLdlt::BlockLdlt(const std::vector<Block>& blocks,
     if (node.blocks.empty()) continue;
     node.parent = node.blocks.front();
     const Node& p = nodes_[node.parent];
+    assert(p.rank > node.rank);
     for (int b : node.blocks) {
       const int at = start_of(p, b);
+      assert(at >= 0);  // what an eliminated block couples is coupled in the next front
       for (int i = 0; i < blocks[b].size; ++i) node.parent_rows.push_back(at + i);
     }
   }
 }
 
 int BlockLdlt::start_of(const Node& n, int block) const noexcept {
+  assert(is_index(block, nodes_));
   if (&n == &nodes_[block]) return 0;
   for (std::size_t k = 0; k < n.blocks.size(); ++k)
     if (n.blocks[k] == block) return n.start[k];
@@ -147,11 +155,14 @@ void BlockLdlt::set_zero() noexcept {
 }
 
 MatX& BlockLdlt::front(int a, int b, int& offset_a, int& offset_b) noexcept {
+  assert(is_index(a, nodes_));
+  assert(is_index(b, nodes_));
   Node& na = nodes_[a];
   Node& nb = nodes_[b];
   Node& first = na.rank <= nb.rank ? na : nb;
   offset_a = start_of(first, a);
   offset_b = start_of(first, b);
+  assert(offset_a >= 0 && offset_b >= 0);  // coupled
   return first.matrix;
 }
 
@@ -159,6 +170,7 @@ void BlockLdlt::add(int a, int i, int b, int j, double x) noexcept {
   int oa = 0, ob = 0;
   MatX& f = front(a, b, oa, ob);
   const int r = oa + i, c = ob + j;
+  assert(i >= 0 && i < nodes_[a].size && j >= 0 && j < nodes_[b].size);
   f(std::max(r, c), std::min(r, c)) += x;
 }
 
@@ -198,6 +210,7 @@ double BlockLdlt::log_pivots() const noexcept {
 }
 
 void BlockLdlt::solve(VecX& x) noexcept {
+  assert(x.size() == unknowns_);
   double* all = x.data();
   for (const int k : order_) {
     Node& n = nodes_[k];

@@ -11,9 +11,11 @@
 // blocks come first: Schur complements of others would leave no digits of their small entries. So
 // do light blocks coupled with only one other (a link of 1 g on a crane). Light blocks that are
 // constrained come last: with their small mass the pivots of their multipliers cancel.
+#include <cassert>
 #include <utility>
 #include <vector>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/pivoted_ldlt.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -46,10 +48,16 @@ class BlockLdlt {
   void add(int a, int i, int b, int j, double x) noexcept;
   /// The front that holds the pair (a, b), and where each block starts in it.
   MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
-  MatX& front(int a) noexcept { return nodes_[a].matrix; }
+  MatX& front(int a) noexcept {
+    assert(is_index(a, nodes_));
+    return nodes_[a].matrix;
+  }
 
   /// First unknown of a block, blocks in the given order.
-  int offset(int block) const noexcept { return nodes_[block].offset; }
+  int offset(int block) const noexcept {
+    assert(is_index(block, nodes_));
+    return nodes_[block].offset;
+  }
   int unknowns() const noexcept { return unknowns_; }
 
   /// Returns -1 or the unknown (global index, blocks in the given order) whose pivot vanished.

@@ -5,9 +5,11 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <cassert>
 #include <limits>
 
 #include "floatframe/math/balancing.hpp"
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 namespace {
@@ -31,17 +33,20 @@ using ColPivQr = Eigen::ColPivHouseholderQR<MatX>;
 }  // namespace
 
 SymmetricEigen symmetric_eigen(const MatX& A) {
+  assert(A.rows() == A.cols());
   const Eigen::SelfAdjointEigenSolver<MatX> solver(A);
   if (solver.info() != Eigen::Success) return not_found(A.rows(), A.rows());
   return {solver.eigenvalues(), solver.eigenvectors(), true};
 }
 
 VecX symmetric_eigenvalues(const MatX& A) {
+  assert(A.rows() == A.cols());
   const Eigen::SelfAdjointEigenSolver<MatX> solver(A, Eigen::EigenvaluesOnly);
   return solver.info() == Eigen::Success ? solver.eigenvalues() : not_found(A.rows(), 0).values;
 }
 
 SymmetricEigen generalised_eigen(const MatX& A, const MatX& B) {
+  assert(A.rows() == A.cols() && A.rows() == B.rows());
   // Eigen continues with the remains of a failed Cholesky factor.
   if (!is_positive_definite(B)) return not_found(A.rows(), A.rows());
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(A, B);
@@ -50,6 +55,7 @@ SymmetricEigen generalised_eigen(const MatX& A, const MatX& B) {
 }
 
 SymmetricEigen generalised_eigenvalues(const MatX& A, const MatX& B) {
+  assert(A.rows() == A.cols() && A.rows() == B.rows());
   if (!is_positive_definite(B)) return not_found(A.rows(), 0);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(A, B, Eigen::EigenvaluesOnly);
   if (solver.info() != Eigen::Success) return not_found(A.rows(), 0);
@@ -58,6 +64,7 @@ SymmetricEigen generalised_eigenvalues(const MatX& A, const MatX& B) {
 
 GeneralEigen general_eigen(const MatX& A) {
   const Eigen::Index n = A.rows();
+  assert(A.cols() == n);
   if (n == 0) return {Eigen::VectorXcd(0), Eigen::MatrixXcd(0, 0), true};
   MatX B = A;
   const VecX d = balance(B);
@@ -69,7 +76,10 @@ GeneralEigen general_eigen(const MatX& A) {
   return e;
 }
 
-bool is_positive_definite(const MatX& A) { return Eigen::LLT<MatX>(A).info() == Eigen::Success; }
+bool is_positive_definite(const MatX& A) {
+  assert(A.rows() == A.cols());
+  return Eigen::LLT<MatX>(A).info() == Eigen::Success;
+}
 
 PivotedQr pivoted_qr(const MatX& A, std::optional<double> threshold) {
   const auto qr = decomposed<ColPivQr>(A, threshold);
@@ -83,6 +93,7 @@ Eigen::Index pivoted_rank(const MatX& A, std::optional<double> threshold) {
 
 Orthonormal orthonormal_columns(const MatX& A) {
   const Eigen::Index n = A.cols();
+  assert(A.rows() >= n);
   const Eigen::HouseholderQR<MatX> qr(A);
   const MatX R = qr.matrixQR().topRows(n);
   return {qr.householderQ() * MatX::Identity(A.rows(), n),
@@ -111,10 +122,12 @@ LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
 LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
 
 VecX LeastNorm::solve(const VecX& b) const {
+  assert(b.size() == factors_->rows);
   if (!factors_->cod) return VecX::Zero(factors_->cols);
   return factors_->cod->solve(b);
 }
 MatX LeastNorm::solve(const MatX& B) const {
+  assert(B.rows() == factors_->rows);
   if (!factors_->cod) return MatX::Zero(factors_->cols, B.cols());
   return factors_->cod->solve(B);
 }
@@ -123,9 +136,18 @@ MatX LeastNorm::pseudo_inverse() const {
   return factors_->cod->pseudoInverse();
 }
 
-MatX lu_solve(const MatX& A, const MatX& B) { return A.partialPivLu().solve(B); }
-MatX ldlt_solve(const MatX& A, const MatX& B) { return A.ldlt().solve(B); }
-MatX qr_solve(const MatX& A, const MatX& B) { return A.colPivHouseholderQr().solve(B); }
+MatX lu_solve(const MatX& A, const MatX& B) {
+  assert(A.rows() == A.cols() && A.rows() == B.rows());
+  return A.partialPivLu().solve(B);
+}
+MatX ldlt_solve(const MatX& A, const MatX& B) {
+  assert(is_symmetric(A) && A.rows() == B.rows());
+  return A.ldlt().solve(B);
+}
+MatX qr_solve(const MatX& A, const MatX& B) {
+  assert(A.rows() == B.rows());
+  return A.colPivHouseholderQr().solve(B);
+}
 
 double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
 

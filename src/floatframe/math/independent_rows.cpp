@@ -1,6 +1,7 @@
 #include "floatframe/math/independent_rows.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <queue>
@@ -28,7 +29,8 @@ class IndependentRows::Elimination {
   }
 
   void take(int row, double threshold) {
-    const double length = A_.row(row).norm();
+    assert(row >= 0 && row < A_.rows() && threshold >= 0.0);
+    const double length = A_.cols() > 0 ? A_.row(row).norm() : 0.0;
     if (!(length > nothing * longest_)) {
       done_.dependent_.push_back(row);
       return;
@@ -74,6 +76,7 @@ class IndependentRows::Elimination {
   }
 
   void apply(int k) {
+    assert(k > applied_ && k < done_.rank());
     const Column& c = done_.columns_[k];
     double product = 0.0;
     for (const Entry& e : c.v) product += e.value * x_[e.at];
@@ -85,6 +88,7 @@ class IndependentRows::Elimination {
   }
 
   void keep(Column c, double left) {
+    assert(left > 0.0 && !c.v.empty());
     std::size_t best = 0;
     const auto last = [&](const Entry& e) { return last_row_[e.at]; };
     for (std::size_t k = 1; k < c.v.size(); ++k)
@@ -128,6 +132,7 @@ IndependentRows::IndependentRows(const SparseRowMatrix& A, double threshold) : u
 }
 
 VecX IndependentRows::least_norm(const VecX& b) const {
+  assert(rank() == 0 || b.size() > columns_.back().row);
   // With Q = H_1 ... H_r: A^T P = Q R, so R^T z = P^T b and x = Q z.
   VecX z(rank()), x = VecX::Zero(unknowns_);
   for (std::size_t k = 0; k < columns_.size(); ++k) {

@@ -8,6 +8,7 @@
 // round-off, or is not finite, stops the factorisation. Cost: sum over eliminated columns of
 // (n-j)^2/2 multiplications.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "floatframe/math/lanes.hpp"
@@ -69,12 +70,23 @@ inline void take_panel(double* f, const double* c0, int j1, int n, int ld,
   }
 }
 
+/// Rows n and beyond, which whole lanes read, of the columns to the left of the last lane.
+inline bool padding_is_zero(const double* f, int n) noexcept {
+  const int ld = front_stride(n);
+  for (int j = 0; j < (n & ~3); ++j)
+    for (int i = n; i < ld; ++i)
+      if (f[j * ld + i] != 0.0 && !std::isnan(f[j * ld + i])) return false;
+  return true;
+}
+
 /// Returns -1, or the first column whose pivot is at most `tolerance` times `original` (size ne):
 /// its diagonal before any elimination, including that in earlier fronts. The leading dimension is
 /// `front_stride(n)`; rows n and beyond must be zero, and entries above the diagonal are scratch.
 /// The diagonal of eliminated columns receives 1/D.
 inline int partial_ldlt(double* f, int n, int ne, const double* original,
                         double tolerance) noexcept {
+  assert(0 <= ne && ne <= n && tolerance >= 0.0);
+  assert(padding_is_zero(f, n));
   const int ld = front_stride(n);
   constexpr int width = 4;
   for (int j0 = 0; j0 < ne; j0 += width) {
@@ -127,6 +139,7 @@ inline int partial_ldlt(double* f, int n, int ne, const double* original,
 
 /// The same for a single front: `original` receives its diagonal.
 inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
+  assert(0 <= ne && ne <= n);
   const int ld = front_stride(n);
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
   return partial_ldlt(f, n, ne, original, pivot_tolerance);
@@ -136,6 +149,7 @@ inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
 /// The trailing part of b becomes b2 - L21 L11^-1 b1. b has room for `front_stride(n)` finite
 /// numbers.
 inline void partial_forward(const double* f, int n, int ne, double* b) noexcept {
+  assert(0 <= ne && ne <= n);
   const int ld = front_stride(n);
   for (int j0 = 0; j0 < ne; j0 += 4) {
     const int j1 = std::min(j0 + 4, ne), rest = j0 + 4;
@@ -163,6 +177,7 @@ inline void partial_forward(const double* f, int n, int ne, double* b) noexcept 
 
 /// Backward substitution: b(0..ne) -= L21^T b(ne..n), then L11^-T.
 inline void partial_backward(const double* f, int n, int ne, double* b) noexcept {
+  assert(0 <= ne && ne <= n);
   const int ld = front_stride(n);
   for (int j0 = (ne - 1) & ~3; j0 >= 0; j0 -= 4) {
     const int j1 = std::min(j0 + 4, ne), rest = j0 + 4;

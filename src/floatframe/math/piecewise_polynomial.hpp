@@ -9,6 +9,7 @@
 // function that is continuous with its slope and is extended beyond both edges along its tangents
 // (the pieces themselves may grow without bound there).
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -46,6 +47,7 @@ class PiecewisePolynomial {
     return std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin();
   }
   Value piece_value(std::size_t k, double x) const noexcept {
+    assert(k < pieces_.size());
     const Piece& p = pieces_[k];
     const double t = x - p.centre;
     Value v;
@@ -70,6 +72,7 @@ class PiecewisePolynomial {
     if (k > 0 && x < edges_[k - 1]) at = edges_[k - 1];
     if (k < edges_.size() && x > edges_[k]) at = edges_[k];
     const Stretch& s = stretches_[k];
+    assert(s.first <= s.last && s.last < pieces_.size());
     Value v = piece_value(std::clamp(piece_index(at), s.first, s.last), at);
     if (at == x) return v;
     v.f += v.df * (x - at);

@@ -6,6 +6,7 @@
 // triangle, column major, with leading dimension `front_stride(n)`; it is small and rare: simple
 // loops.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -34,6 +35,7 @@ struct PivotOrder {
 
 /// Swaps columns and rows i < j of the front, both among the leading ne.
 inline void swap_in_front(double* f, int n, int i, int j, PivotOrder& p) noexcept {
+  assert(0 <= i && i < j && j < n && j < std::ssize(p.row));
   const int ld = front_stride(n);
   const auto at = [&](int row, int column) -> double& { return f[column * ld + row]; };
   for (int k = 0; k < i; ++k) std::swap(at(i, k), at(j, k));
@@ -47,6 +49,8 @@ inline void swap_in_front(double* f, int n, int i, int j, PivotOrder& p) noexcep
 /// Returns -1, or a column (of the front as given) for which no remaining pivot exceeds `tolerance`
 /// times the terms of its diagonal.
 inline int pivoted_ldlt(double* f, int n, int ne, PivotOrder& p, double tolerance) noexcept {
+  assert(0 <= ne && ne <= n && tolerance >= 0.0);
+  assert(std::ssize(p.row) == ne && p.size.size() == ne);
   const int ld = front_stride(n);
   const auto at = [&](int row, int column) -> double& { return f[column * ld + row]; };
   for (int j = 0; j < ne; ++j) {
@@ -126,6 +130,7 @@ inline int pivoted_ldlt(double* f, int n, int ne, PivotOrder& p, double toleranc
 
 /// log |det D|.
 inline double pivoted_log(int ne, const PivotOrder& p) noexcept {
+  assert(p.diagonal.size() == ne);
   double sum = 0.0;
   for (int k = 0; k < ne; ++k) {
     double inverse = p.diagonal[k];
@@ -141,6 +146,7 @@ inline double pivoted_log(int ne, const PivotOrder& p) noexcept {
 /// As `partial_forward`: the leading part of b becomes D^-1 L^-1 P b1, the trailing one
 /// b2 - L21 L11^-1 P b1.
 inline void pivoted_forward(const double* f, int n, int ne, PivotOrder& p, double* b) noexcept {
+  assert(0 <= ne && ne <= n && p.work.size() == ne);
   const int ld = front_stride(n);
   for (int j = 0; j < ne; ++j) p.work[j] = b[p.row[j]];
   for (int j = 0; j < ne; ++j) b[j] = p.work[j];
@@ -162,6 +168,7 @@ inline void pivoted_forward(const double* f, int n, int ne, PivotOrder& p, doubl
 
 /// As `partial_backward`, with the order of the front restored.
 inline void pivoted_backward(const double* f, int n, int ne, PivotOrder& p, double* b) noexcept {
+  assert(0 <= ne && ne <= n && p.work.size() == ne);
   const int ld = front_stride(n);
   for (int j = ne; j-- > 0;) {
     const double* column = f + j * ld;

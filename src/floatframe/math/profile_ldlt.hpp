@@ -2,6 +2,7 @@
 // L D L^T of a mostly zero front: as partial_ldlt.hpp, but each column ends at its `end`, plus the
 // border, the rows after the eliminated ones. Fronts of long chains of loops with consecutive
 // coordinates cost their number times the square of the column height.
+#include <cassert>
 #include <vector>
 
 #include "floatframe/math/partial_ldlt.hpp"
@@ -15,6 +16,7 @@ using FrontProfile = std::vector<int>;
 /// Calls one(i) for the rows below j in its group of four, lane(i) for the groups below.
 template <class One, class Lane>
 inline void below(int j, int end, int ne, int ld, const One& one, const Lane& lane) noexcept {
+  assert(0 <= j && j < ld && ld % 4 == 0 && end % 4 == 0);
   const int rest = (j & ~3) + 4, border = ne & ~3;
   for (int i = j + 1; i < rest; ++i) one(i);
   for (int i = rest; i < std::min(end, border); i += 4) lane(i);
@@ -23,6 +25,7 @@ inline void below(int j, int end, int ne, int ld, const One& one, const Lane& la
 
 /// Zeros where a column may become nonzero.
 inline void profile_clear(double* f, int n, int ne, const FrontProfile& profile) noexcept {
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   const int ld = front_stride(n);
   for (int j = 0; j < n; ++j) {
     double* c = f + static_cast<std::ptrdiff_t>(j) * ld;
@@ -34,6 +37,8 @@ inline void profile_clear(double* f, int n, int ne, const FrontProfile& profile)
 
 inline int profile_ldlt(double* f, int n, int ne, double* original,
                         const FrontProfile& profile) noexcept {
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
+  assert(std::is_sorted(profile.begin(), profile.end()));
   const std::ptrdiff_t ld = front_stride(n);
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
   for (int j = 0; j < ne; ++j) {
@@ -63,6 +68,7 @@ inline int profile_ldlt(double* f, int n, int ne, double* original,
 
 inline void profile_forward(const double* f, int n, int ne, double* b,
                             const FrontProfile& profile) noexcept {
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   const std::ptrdiff_t ld = front_stride(n);
   for (int j = 0; j < ne; ++j) {
     const double* c = f + j * ld;
@@ -76,6 +82,7 @@ inline void profile_forward(const double* f, int n, int ne, double* b,
 
 inline void profile_backward(const double* f, int n, int ne, double* b,
                              const FrontProfile& profile) noexcept {
+  assert(0 <= ne && ne <= n && std::ssize(profile) >= ne);
   const std::ptrdiff_t ld = front_stride(n);
   for (int j = ne; j-- > 0;) {
     const double* c = f + j * ld;

@@ -1,12 +1,15 @@
 #pragma once
 // Products with small column-major matrices, most of them twist directions (six rows): too small
 // for a general matrix product to be efficient.
+#include <cassert>
+
 #include "floatframe/math/lanes.hpp"
 
 namespace floatframe {
 
 /// z += A x, A 6 x n.
 inline void add_times(const double* A, int n, const double* x, double* z) noexcept {
+  assert(n >= 0 && (n == 0 || (A && x)) && z);
   double z0 = z[0], z1 = z[1], z2 = z[2], z3 = z[3], z4 = z[4], z5 = z[5];
   for (int j = 0; j < n; ++j, A += 6) {
     const double w = x[j];
@@ -32,6 +35,7 @@ inline double dot6(const double* a, const double* b) noexcept {
 /// out += A x, A rows x columns.
 inline void add_product(const double* A, int rows, int columns, const double* x,
                         double* out) noexcept {
+  assert(rows >= 0 && columns >= 0 && (out < x || out >= x + columns));
   int j = 0;
   for (; j + 1 < columns; j += 2, A += 2 * rows) {
     const double x0 = x[j], x1 = x[j + 1];
@@ -48,11 +52,13 @@ inline void add_product(const double* A, int rows, int columns, const double* x,
 
 /// out += A^T f, A 6 x n.
 inline void add_transposed_times(const double* A, int n, const double* f, double* out) noexcept {
+  assert(n >= 0 && (n == 0 || (A && out)) && f);
   for (int j = 0; j < n; ++j, A += 6) out[j] += dot6(A, f);
 }
 
 /// out = A^T f, A 6 x n.
 inline void transposed_times(const double* A, int n, const double* f, double* out) noexcept {
+  assert(n >= 0 && (n == 0 || (A && out)) && f);
   for (int j = 0; j < n; ++j, A += 6) out[j] = dot6(A, f);
 }
 

@@ -6,8 +6,10 @@
 //     so that Rdot R^T = skew(H tdot) (angular velocity in the frame R maps into).
 // Series are used below |t| = 1e-2 so that no digits are lost. Source: theory.md section 10
 // (docs/theory.md).
+#include <cassert>
 #include <cmath>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -26,6 +28,7 @@ struct RotationCoefficients {
 };
 
 inline RotationCoefficients rotation_coefficients(double t2) noexcept {
+  assert(!(t2 < 0.0));
   RotationCoefficients c;
   if (t2 < 1e-4) {
     c.s = 1.0 - t2 / 6.0 * (1.0 - t2 / 20.0 * (1.0 - t2 / 42.0));
@@ -52,6 +55,7 @@ inline Mat3 rotation_exp(const Vec3& theta) noexcept {
   const Mat3 k = skew(theta);
   Mat3 r = Mat3::Identity() + c.s * k;
   r.noalias() += c.a * (k * k);
+  assert(is_rotation(r));
   return r;
 }
 
@@ -82,6 +86,7 @@ inline Eigen::Quaterniond quaternion_exp(const Vec3& theta) noexcept {
 
 /// Rotation vector of a unit quaternion, length in [0, pi].
 inline Vec3 quaternion_log(const Eigen::Quaterniond& q) noexcept {
+  assert(is_unit(q));
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   const Vec3 v = sign * q.vec();
   const double n = v.norm();
@@ -92,6 +97,7 @@ inline Vec3 quaternion_log(const Eigen::Quaterniond& q) noexcept {
 /// Two unit vectors that complete the unit vector n to a right-handed orthonormal triad (t1, t2,
 /// n).
 inline void orthonormal_complement(const Vec3& n, Vec3& t1, Vec3& t2) noexcept {
+  assert(is_unit(n));
   int k = 0;
   n.cwiseAbs().minCoeff(&k);
   t1 = n.cross(Vec3::Unit(k)).normalized();

@@ -1,7 +1,10 @@
 #pragma once
 // Disjoint sets of numbered elements that are merged.
+#include <cassert>
 #include <numeric>
 #include <vector>
+
+#include "floatframe/math/contracts.hpp"
 
 namespace floatframe {
 
@@ -17,6 +20,7 @@ class UnionFind {
   }
   /// The representative of the set of k.
   int root(int k) const {
+    assert(is_index(k, leader_));
     while (leader_[k] != k) k = leader_[k] = leader_[leader_[k]];
     return k;
   }

@@ -18,7 +18,9 @@ namespace {
 /// Twists at the origin of the body, in its axes, that a joint to the ground allows.
 Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
   JointMotion motion;
-  const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const double drawn[6] = {};
+  double q[7] = {};
+  joint_configuration(joint.type, drawn, q);
   joint_motion(joint.type, {Vec3::UnitZ(), joint.axis_2}, q, motion);
   const Vec3 p_BM = M.node < 0 ? M.X_NM.p : Vec3(body.data->nodes[M.node].p + M.X_NM.p);
   Mat6X free = motion.H.leftCols(joint_velocities(joint.type));

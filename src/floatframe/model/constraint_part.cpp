@@ -1,15 +1,19 @@
 // Dispatch of the constraint parts in a step: direct calls, no pointer.
 #include "floatframe/model/constraint_part.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "floatframe/core/debug_only.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/frequency.hpp"
 
 namespace floatframe {
 
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept {
+  assert(std::isfinite(t) && all_finite(&f.amplitude, 1) && f.frequency >= 0.0);
   PiecewisePolynomial::Value v = f.pieces(t);
   if (f.amplitude != 0.0) {
     const double w = omega_of(f.frequency);
@@ -41,16 +45,28 @@ void with_part_type(ConstraintType type, std::index_sequence<I...>, F f) noexcep
 
 constexpr std::make_index_sequence<std::size(constraint_types)> all_part_types;
 
+#ifndef NDEBUG
+/// NaN until a kind has filled it.
+void poison_row(ConstraintRow& row) noexcept {
+  for (Vec3* x : {&row.gradient.Fa, &row.gradient.Ta, &row.gradient.Fb, &row.gradient.Tb})
+    poison(*x);
+  for (double* x : {&row.phi, &row.quad, &row.phi_t, &row.phi_tt}) poison(*x);
+}
+#endif
+
 }  // namespace
 
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept {
+  assert(part.a >= 0 && part.b >= 0 && part.scale > 0.0 && rows);
+  FLOATFRAME_DEBUG(for (int r = 0; r < part.rows(); ++r) poison_row(rows[r]);)
   with_part_type(part.type, all_part_types,
                  [&](auto type) { constraint_rows_of<type()>(part, a, b, t, rows); });
 }
 
 void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
                               const MarkerState& b, const double* lambda, Mat12& K) noexcept {
+  assert(part.a >= 0 && part.b >= 0 && part.scale > 0.0 && lambda);
   with_part_type(part.type, all_part_types,
                  [&](auto type) { constraint_curvature_of<type()>(part, a, b, lambda, K); });
 }

@@ -6,6 +6,7 @@
 // axes. A multiplier lambda acts on the markers with the wrench -lambda gradient. A kind of part is
 // one file model/constraints/<name>.cpp, which begins with its formulas, and one entry in
 // constraint_list.hpp: both formulations, messages and the generic tests run over the list.
+#include <cassert>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,7 @@ inline constexpr const ConstraintKind* constraint_kinds[] = {
 #undef FLOATFRAME_KIND
 
 inline const ConstraintKind& constraint_kind(ConstraintType type) noexcept {
+  assert(index_of(type) < std::size(constraint_kinds));
   return *constraint_kinds[index_of(type)];
 }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/system_motion.hpp"
 
@@ -15,6 +17,7 @@ namespace {
 
 /// eps = row . stress
 Eigen::RowVector<double, 6> strain_row(const Vec3& d, const StressGroup& group) {
+  assert(is_unit(d) && group.young > 0.0);
   Eigen::RowVector<double, 6> row;
   row << d(0) * d(0), d(1) * d(1), d(2) * d(2), 2.0 * d(0) * d(1), 2.0 * d(1) * d(2),
       2.0 * d(2) * d(0);
@@ -26,6 +29,7 @@ Eigen::RowVector<double, 6> strain_row(const Vec3& d, const StressGroup& group) 
 }  // namespace
 
 void fill_rows(const FlexibleBody& body, Gauge& gauge) {
+  assert(body.stress && (gauge.section >= 0) != (gauge.place >= 0));
   const BodyStress& stress = *body.stress;
   if (gauge.section >= 0) {
     const Eigen::Index row = 6 * static_cast<Eigen::Index>(gauge.section);
@@ -64,8 +68,10 @@ Vec6 gauge_values(const SystemMotion& motion, const Gauge& gauge) noexcept {
   Vec6 out = Vec6::Zero();
   const BodyKinematics& b = motion.body(gauge.body);
   const auto nm = static_cast<int>(gauge.modes.cols());
+  assert(nm == b.y.size());
   for (int k = 0; k < nm; ++k) out += gauge.modes.col(k) * b.y[k];
   if (gauge.loads.cols() == 0) return out;
+  assert(gauge.loads.cols() == body_load_cases + nm);
   const BodyLoadCoefficients c = body_load_coefficients(motion, gauge.body);
   for (int k = 0; k < body_load_cases; ++k) out += gauge.loads.col(k) * c(k);
   for (int k = 0; k < nm; ++k) out -= gauge.loads.col(body_load_cases + k) * b.ydd[k];

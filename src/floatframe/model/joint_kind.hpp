@@ -6,11 +6,13 @@
 // A joint connects frame F on the parent and frame M on the child. Both have z along `axis` (world
 // axes where the joint has none) and coincide in the design configuration. Step time calls the
 // functions below by name, without a pointer; the pointers of a JointKind serve load time.
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
 #include <span>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -71,6 +73,7 @@ inline Eigen::Quaterniond read_quaternion(const double* q) noexcept {
 }
 
 inline void write_quaternion(const Eigen::Quaterniond& r, double* q) noexcept {
+  assert(is_unit(r));
   q[0] = r.w();
   q[1] = r.x();
   q[2] = r.y();
@@ -89,6 +92,7 @@ struct JointCoordinate {
 class JointCoordinates {
  public:
   constexpr JointCoordinates(std::initializer_list<JointCoordinate> list) {
+    assert(list.size() <= std::size(items_));
     for (const JointCoordinate& c : list) items_[count_++] = c;
   }
   constexpr int count() const noexcept { return static_cast<int>(count_); }

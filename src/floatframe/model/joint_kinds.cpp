@@ -1,8 +1,10 @@
 // Dispatch of the joints: data for load time, direct calls for step time.
+#include <cassert>
 #include <iterator>
 #include <utility>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 
@@ -26,23 +28,31 @@ constexpr std::make_index_sequence<std::size(joint_list)> all_types;
 
 }  // namespace
 
-const JointKind& joint_kind(JointType type) noexcept { return *joint_list[index_of(type)]; }
+const JointKind& joint_kind(JointType type) noexcept {
+  assert(index_of(type) < std::size(joint_list));
+  return *joint_list[index_of(type)];
+}
 
 void joint_motion(JointType type, const JointDirections& axes, const double* q,
                   JointMotion& m) noexcept {
+  assert((q || joint_configurations(type) == 0) && is_unit(axes.axis));
   m.R_FM.setIdentity();
   m.p_FM.setZero();
   m.H.setZero();
   m.bias.setZero();
   with_type(type, all_types, [&](auto t) { joint_motion_of<t()>(axes, q, m); });
+  assert(is_rotation(m.R_FM));
 }
 
 void joint_bias(JointType type, const double* v, JointMotion& m) noexcept {
+  assert(v || joint_velocities(type) == 0);
   with_type(type, all_types, [&](auto t) { joint_bias_of<t()>(v, m); });
 }
 
 double joint_position(const Joint& joint, const MarkerState& F, const MarkerState& M, int component,
                       double reference) noexcept {
+  assert(component >= 0 && component < joint_velocities(joint.type));
+  assert(is_unit(joint.axis_2));
   const JointPose pose{joint.axis_2, F.R.transpose() * M.R, F.R.transpose() * (M.r - F.r),
                        reference};
   double q = 0.0;
@@ -52,6 +62,7 @@ double joint_position(const Joint& joint, const MarkerState& F, const MarkerStat
 
 double joint_velocity(const Joint& joint, const MarkerState& F, const MarkerState& M,
                       int component) noexcept {
+  assert(component >= 0 && component < joint_velocities(joint.type));
   const Vec3 d = M.r - F.r;
   const JointTwist twist{joint.axis_2, F, M, F.R.transpose() * (M.v - F.v - F.w.cross(d)),
                          F.R.transpose() * (M.w - F.w)};
@@ -61,6 +72,7 @@ double joint_velocity(const Joint& joint, const MarkerState& F, const MarkerStat
 }
 
 Vec3 roll_pitch_yaw(const Mat3& R) noexcept {
+  assert(is_rotation(R));
   const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }

@@ -1,7 +1,10 @@
 // Common functions of all joints, from their number of coordinates, units and rotation vector.
 #include "floatframe/model/joint_motion.hpp"
 
+#include <cassert>
+
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -27,12 +30,14 @@ std::string joints_of_one_coordinate() {
 
 const char* joint_coordinate_name(JointType type, int component) noexcept {
   const auto all = joint_kind(type).coordinates.all();
+  assert(component >= 0);
   const std::size_t k = component;
   return k < all.size() ? all[k].name : "";
 }
 
 JointUnit joint_unit(JointType type, int component) noexcept {
   const auto all = joint_kind(type).coordinates.all();
+  assert(component >= 0);
   const std::size_t k = component;
   return k < all.size() ? all[k].unit : JointUnit::rad;
 }
@@ -48,14 +53,17 @@ void joint_retract(JointType type, const double* q0, const double* x, double* q)
   const int plain = rotation < 0 ? kind.coordinates.count() : rotation;
   for (int i = 0; i < plain; ++i) q[i] = q0[i] + x[i];
   if (rotation >= 0) {
+    assert(is_unit(read_quaternion(q0 + rotation)));
     const Eigen::Quaterniond r =
         quaternion_exp(Vec3(x[rotation], x[rotation + 1], x[rotation + 2])) *
         read_quaternion(q0 + rotation);
     write_quaternion(r.normalized(), q + rotation);
+    assert(is_unit(read_quaternion(q + rotation)));
   }
 }
 
 void joint_advance(JointType type, double* x, const double* delta) noexcept {
+  assert((x != delta && x && delta) || joint_velocities(type) == 0);
   const JointKind& kind = joint_kind(type);
   const int rotation = kind.rotation_vector;
   const int plain = rotation < 0 ? kind.coordinates.count() : rotation;
@@ -68,6 +76,8 @@ void joint_advance(JointType type, double* x, const double* delta) noexcept {
 }
 
 void joint_configuration(JointType type, const double* user, double* q) noexcept {
+  assert((user != q && user && q) || joint_velocities(type) == 0);
+  assert(all_finite(user, joint_velocities(type)));
   const JointKind& kind = joint_kind(type);
   const int rotation = kind.rotation_vector;
   const int plain = rotation < 0 ? kind.coordinates.count() : rotation;

@@ -1,4 +1,7 @@
 // The constraint parts of joints, of prescribed motions and of rods.
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -6,6 +9,7 @@ namespace floatframe {
 JointParts::JointParts(const Joint& joint, int index, double length,
                        std::vector<ConstraintPart>& parts)
     : axis_2_(joint.axis_2), length_(length), parts_(parts) {
+  assert(length > 0.0 && joint.frame_F >= 0 && joint.frame_M >= 0);
   base_.a = joint.frame_F;
   base_.b = joint.frame_M;
   base_.owner = {ConstraintOwner::Kind::joint, index};
@@ -18,6 +22,7 @@ ConstraintPart& JointParts::add(ConstraintType type) {
 }
 
 void JointParts::perpendicular(const Vec3& e_F, const Vec3& n_M, double c) {
+  assert(is_unit(e_F) && is_unit(n_M) && std::abs(c) <= 1.0);
   ConstraintPart& p = add(ConstraintType::perpendicular);
   p.e_a = e_F;
   p.n_b = n_M;
@@ -35,6 +40,7 @@ void append_joint_parts(const Model& model, int index, std::vector<ConstraintPar
 void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
   const Joint& joint = model.joints[index];
   if (!joint.motion) return;
+  assert(joint_has_one_coordinate(joint.type));
   ConstraintPart p;
   const bool angle = joint_unit(joint.type, 0) == JointUnit::rad;
   p.type = angle ? ConstraintType::drive_angle : ConstraintType::drive_position;
@@ -48,6 +54,7 @@ void append_motion_parts(const Model& model, int index, std::vector<ConstraintPa
 
 void append_rod_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
   const Rod& rod = model.rods[index];
+  assert(rod.length > 0.0 && rod.a >= 0 && rod.b >= 0);
   ConstraintPart p;
   p.type = ConstraintType::distance;
   p.a = rod.a;

@@ -1,6 +1,7 @@
 #pragma once
 // Motion of a marker in the world, as the formulations supply it to joints and forces, and the
 // wrench they return.
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -12,6 +13,19 @@ struct MarkerState {
   Vec3 a_bias, alpha_bias;  ///< acceleration and angular acceleration when all coordinate
                             ///< accelerations are zero
 };
+
+/// Debug builds: NaN until they are computed.
+inline void poison_rates(MarkerState& s) noexcept {
+  poison(s.v);
+  poison(s.w);
+  poison(s.a_bias);
+  poison(s.alpha_bias);
+}
+inline void poison_state(MarkerState& s) noexcept {
+  poison(s.r);
+  poison(s.R);
+  poison_rates(s);
+}
 
 /// Gradient of a scalar measure of two markers: d(measure) = Fa.dr_a + Ta.dpi_a + Fb.dr_b +
 /// Tb.dpi_b.

@@ -134,7 +134,9 @@ void hint_at_angles(const ModelDescription& description, const Model& model, Hin
 
 bool joint_turns(const Joint& j) {
   JointMotion motion;
-  const double q[7] = {};
+  const double drawn[6] = {};
+  double q[7] = {};
+  joint_configuration(j.type, drawn, q);
   joint_motion(j.type, {Vec3::UnitZ(), j.axis_2}, q, motion);
   return !motion.H.bottomRows<3>().leftCols(joint_velocities(j.type)).isZero(0.0);
 }

@@ -1,5 +1,6 @@
 // Dispatch of the outputs: data for load time, direct calls for samples.
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -25,7 +26,10 @@ double value_of_type(std::index_sequence<I...>, const SystemMotion& motion, cons
 
 }  // namespace
 
-const OutputKind& output_kind(OutputType type) noexcept { return *output_list[index_of(type)]; }
+const OutputKind& output_kind(OutputType type) noexcept {
+  assert(index_of(type) < std::size(output_list));
+  return *output_list[index_of(type)];
+}
 
 MotionNeeds needs_of_outputs(const Model& model) noexcept {
   MotionNeeds all;
@@ -35,6 +39,7 @@ MotionNeeds needs_of_outputs(const Model& model) noexcept {
 
 double output_value(const SystemMotion& motion, const Output& output,
                     FollowedOutput& last) noexcept {
+  assert(std::isfinite(motion.t));
   return value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
 }
 

@@ -1,5 +1,6 @@
 #include "floatframe/model/road.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@ namespace {
 RoadPoint with_bumps(const Road& road, const PiecewisePolynomial::Value& v, double x) noexcept {
   RoadPoint p{v.f, v.df, v.ddf};
   for (const CosineBump& bump : road.bumps) {
+    assert(bump.length > 0.0);
     const double s = (x - bump.start) / bump.length;
     if (s <= 0.0 || s >= 1.0) continue;
     const double w = 2.0 * std::numbers::pi;

@@ -1,9 +1,12 @@
 #include "floatframe/model/system_motion.hpp"
 
+#include <cassert>
+
 namespace floatframe {
 
 double elastic_energy(const Body& body, const BodyKinematics& motion) noexcept {
   const MatX& K = body.data->K;
+  assert(motion.y.size() == K.rows() && K.rows() == K.cols());
   double sum = 0.0;
   for (Eigen::Index k = 0; k < motion.y.size(); ++k)
     sum += 0.5 * motion.y[k] * K.col(k).dot(motion.y);
@@ -22,6 +25,7 @@ double modal_damping_power(const SystemMotion& motion) noexcept {
   for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
     const VecX::ConstMapType& rate = motion.bodies[i].yd;
     const MatX& D = motion.model.bodies[i].data->D;
+    assert(D.rows() == rate.size() && D.cols() == rate.size());
     for (Eigen::Index k = 0; k < rate.size(); ++k)
       for (Eigen::Index l = 0; l < rate.size(); ++l) sum += rate[k] * D(l, k) * rate[l];
   }

@@ -3,8 +3,10 @@
 // recording, export and questions about mass read, in any formulation. It is a view of what the
 // formulation holds (`Formulation::motion`), valid until the formulation moves; what is not at hand
 // there is filled only if a reader needs it (`MotionNeeds`). Step time: no heap, noexcept.
+#include <cassert>
 #include <vector>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/force_evaluation.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
@@ -54,14 +56,31 @@ struct SystemMotion {
   SystemMotion(const SystemMotion&) = delete;
   SystemMotion& operator=(const SystemMotion&) = delete;
 
-  const BodyKinematics& body(int i) const noexcept { return bodies[static_cast<std::size_t>(i)]; }
-  const MarkerState& marker(int i) const noexcept { return *markers[static_cast<std::size_t>(i)]; }
+  const BodyKinematics& body(int i) const noexcept {
+    assert(is_index(i, bodies));
+    return bodies[static_cast<std::size_t>(i)];
+  }
+  const MarkerState& marker(int i) const noexcept {
+    assert(is_index(i, markers));
+    return *markers[static_cast<std::size_t>(i)];
+  }
   /// Position of a marker in the world [m].
   Vec3 place(int i) const noexcept { return marker(i).r + origin; }
-  const ForceState& force(int i) const noexcept { return forces[i]; }
+  const ForceState& force(int i) const noexcept {
+    assert(is_index(i, model.forces));
+    return forces[i];
+  }
   /// The marker a of a force, b if it has none.
   const MarkerState& first_marker(const Force& f) const noexcept {
     return marker(f.a >= 0 ? f.a : f.b);
+  }
+  /// Debug builds: NaN until it is filled.
+  void poison_filled() noexcept {
+    for (BodyKinematics& b : bodies) {
+      for (Vec3* x : {&b.p_WB, &b.v_WB, &b.a_WB, &b.alpha_WB}) poison(*x);
+      for (double* e : {&b.kinetic_energy, &b.gravity_energy, &b.elastic_energy}) poison(*e);
+    }
+    for (Vec3& a : marker_accelerations) poison(a);
   }
 };
 

@@ -27,7 +27,7 @@ double axial_inertia(const InertiaInvariants& I, const RotorBody& r) {
 }  // namespace
 
 AxisMotion axis_motion(RelativeFormulation& f, const Rotor& rotor, const SteadyTurning& s) {
-  f.positions(0.0, s.state.q);
+  kinematics_at(f, 0.0, s.state.q, VecX::Zero(f.velocities()));
   const std::vector<Body>& bodies = f.model().bodies;
   Eigen::Index rows = 0, count = 0;
   std::vector<Eigen::Index> begin;

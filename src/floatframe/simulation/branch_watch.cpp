@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -33,10 +34,12 @@ std::string branch_owners(const ConstraintSet& constraints, const std::vector<in
 
 BranchWatch::BranchWatch(double step, int configurations)
     : step_(step), highest_(std::numeric_limits<double>::lowest()) {
+  assert(step > 0.0 && configurations >= 0);
   first_.q = deepest_.q = start_.q = best_.q = VecX::Zero(configurations);
 }
 
 void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
+  assert(s.q.size() == first_.q.size());
   // Substeps have a separate metric.
   if (!std::isfinite(last.log_pivots) || std::abs(last.size - step_) > 1e-6 * step_) return;
   const double x = last.log_pivots;

@@ -12,6 +12,7 @@
 // as a number: distances below a small fixed fraction of a step are treated as zero. Nothing here
 // allocates after construction.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -32,7 +33,11 @@ class CornerSteps {
         integrator_(integrator),
         move_(formulation, integrator),
         corners_(std::move(corners)),
-        slack_(time_corner_width * step) {}
+        slack_(time_corner_width * step) {
+    assert(step > 0.0);
+    assert(std::is_sorted(corners_.begin(), corners_.end(),
+                          [](const TimeCorner& a, const TimeCorner& b) { return a.to < b.to; }));
+  }
 
   const std::vector<TimeCorner>& corners() const noexcept { return corners_; }
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
@@ -49,6 +54,7 @@ class CornerSteps {
   template <class Smooth, class Behind>
   StepAttempt step(State& state, double h, long& passed, const Smooth& smooth,
                    const Behind& behind) noexcept {
+    assert(h > 0.0);
     const double end = state.t + h;
     StepAttempt total;
     for (auto c = after(state.t); c != corners_.end() && !(c->from > end + slack_); ++c) {
@@ -85,6 +91,7 @@ class CornerSteps {
   template <class Smooth>
   bool reach(State& state, double to, double h, const Smooth& smooth, StepAttempt& total) noexcept {
     const double dt = to - state.t;
+    assert(h > 0.0 && dt < (1.0 + 1e-6) * h + slack_);
     made_ = Made::nothing;
     if (!(dt > rounding * h)) return true;
     if (dt < shortest * h) {
@@ -109,6 +116,7 @@ class CornerSteps {
 
   template <class Behind>
   void pass(State& state, const TimeCorner& c, double h, const Behind& behind) noexcept {
+    assert(c.from <= c.to);
     if (watch_.look) {
       kinematics_at(f_, state);
       f_.forces();

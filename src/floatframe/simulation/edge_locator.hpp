@@ -15,6 +15,7 @@
 // half a step is not detected. A step with more than `most_edges` of them (a wheel resting on an
 // edge) is finished without division.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -48,6 +49,7 @@ class EdgeLocator {
 
   /// Holds the branches of the forces at this state.
   void hold(const State& state) noexcept {
+    assert(free_.size() == f_.model().forces.size() && state.q.size() == q_.size());
     f_.hold_force_branches(free_);
     look(state, here_);
     for (std::size_t k = 0; k < forces_.size(); ++k)
@@ -57,6 +59,7 @@ class EdgeLocator {
   /// One step of size h. If it is not accepted, the state is that of the last edge that was passed.
   StepAttempt step(State& state, double h, long& edges, long& passed) noexcept {
     if (forces_.empty()) return integrator_.step(state, h);
+    assert(h > 0.0 && state.q.size() == q_.size() && state.v.size() == x_.size());
     const double end = state.t + h;
     StepAttempt total;
     for (int count = 0;; ++count) {
@@ -113,12 +116,14 @@ class EdgeLocator {
   };
 
   void look(const State& state, Sides& sides) noexcept {
+    assert(sides.size() == forces_.size());
     kinematics_at(f_, state);
     for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.force_side(forces_[k]);
   }
 
   /// Looks in the middle of a step of size h, from `from_` to the state.
   void look_between(const State& state, double h) noexcept {
+    assert(h > 0.0 && between_.size() == forces_.size());
     x_ = (0.125 * h) * (3.0 * from_.v + state.v);
     f_.retract(from_.q, x_, q_);
     x_ = 0.5 * (from_.v + state.v) + (0.125 * h) * (from_.a - state.a);
@@ -137,6 +142,7 @@ class EdgeLocator {
   void keep(const State& state) noexcept {
     copy(state, from_);
     const auto angles = f_.spring_angles();
+    assert(angles.size() == angles_.size());
     std::copy(angles.begin(), angles.end(), angles_.begin());
   }
   void return_to(State& state) noexcept {
@@ -144,6 +150,8 @@ class EdgeLocator {
     f_.set_spring_angles(angles_);
   }
   static void copy(const State& a, State& b) noexcept {  // of the same sizes: no allocation
+    assert(a.q.size() == b.q.size() && a.v.size() == b.v.size() && a.a.size() == b.a.size());
+    assert(a.a_alg.size() == b.a_alg.size() && a.lambda.size() == b.lambda.size());
     b.t = a.t;
     b.q = a.q;
     b.v = a.v;
@@ -154,6 +162,7 @@ class EdgeLocator {
 
   /// By linear interpolation from the beginning to `sides`, at `at`; `but`: the force to skip.
   Crossing earliest(const Sides& sides, double at, std::size_t but) const noexcept {
+    assert(at > 0.0 && sides.size() == first_.size());
     Crossing c;
     for (std::size_t k = 0; k < sides.size(); ++k) {
       if (k == but || !(sides[k].beyond > 0.0)) continue;
@@ -169,11 +178,13 @@ class EdgeLocator {
   bool locate(State& state, double h, double left, double span, StepAttempt& total) noexcept {
     const double enough = close * h / left;
     std::size_t force = earliest(last_, span, none).force;
+    assert(force != none && left > 0.0 && span > 0.0 && span <= 1.0);
     double low = 0.0, high = span;
     double low_side = std::min(first_[force].beyond, 0.0), high_side = last_[force].beyond;
     int idle = 0;  // passes in a row that kept the other end: > 0 the upper one
     for (int pass = 0; pass < most_passes; ++pass) {
       const double at = low + (high - low) * low_side / (low_side - high_side);
+      assert(at >= low && at <= high);
       return_to(state);
       moved_ = at * left < shortest * h;
       if (moved_)
@@ -218,6 +229,7 @@ class EdgeLocator {
 
   /// The located force, and all others that are at an edge as well, change their branches.
   void pass(State& state, double h) noexcept {
+    assert(found_ < forces_.size());
     f_.forces();
     // Multipliers that are available in a restored state, too.
     watch_(state, moved_ ? state.lambda : integrator_.reactions());

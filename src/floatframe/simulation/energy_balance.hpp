@@ -11,6 +11,7 @@
 // The remainder is the integration error, of order h^2, and for a spectral radius below 1 the
 // dissipation of the integrator. Nothing here allocates.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "floatframe/formulation/constraint_set.hpp"
@@ -86,6 +87,7 @@ class EnergyBalance {
 
   /// `noise`: energies below it are insignificant [J].
   void start(double t, const FlowSample& flows, const Energies& e, double noise) noexcept {
+    assert(std::isfinite(t) && noise >= 0.0);
     time_ = t;
     noise_ = noise;
     last_ = flows;

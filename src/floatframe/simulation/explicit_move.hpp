@@ -5,6 +5,8 @@
 //   v1 (1 + omega^2 dt^2/4) = v (1 - omega^2 dt^2/4) + dt a,   x = dt (v + v1)/2
 // which is v + dt a for omega = 0; then velocities are projected onto the constraints. The error is
 // of second order in the length of the move.
+#include <cassert>
+
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
 namespace floatframe {
@@ -20,6 +22,8 @@ class ExplicitMove {
 
   /// Moves by dt along velocities and accelerations; h: the step size.
   void operator()(State& state, double dt, double h) noexcept {
+    assert(h > 0.0 && state.v.size() == x_.size() && state.a.size() == x_.size());
+    assert(state.q.size() == q_.size());
     if (!(dt > 0.0)) return;
     const VecX& omega2 = f_.own_frequencies_squared();
     for (Eigen::Index i = 0; i < x_.size(); ++i) {

@@ -1,9 +1,11 @@
 #include "floatframe/simulation/least_reactions.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
@@ -58,6 +60,7 @@ void add_product(const double* u, const double* v, int rows, double* out,
 
 /// x := A^-1 x for the leading n x n of a positive definite A, by Cholesky.
 void solve_small(Mat6& A, int n, Vec6& x) noexcept {
+  assert(n >= 0 && n <= 6);
   for (int j = 0; j < n; ++j) {
     for (int k = 0; k < j; ++k)
       for (int i = j; i < n; ++i) A(i, j) -= A(i, k) * A(j, k);
@@ -124,9 +127,11 @@ LeastReactions::LeastReactions(const Model& model)
 
 void LeastReactions::fill(const Formulation& f, const SystemMotion& motion, const Side& side,
                           const Group& group, int part, bool of_b) noexcept {
+  assert(part >= group.first && part < group.first + group.parts);
   if (side.body < 0) return;
   const ConstraintPart& p = all_.parts()[part];
   const LocalMarker& m = f.local_marker(of_b ? p.b : p.a);
+  assert(m.body == side.body && model_.bodies[m.body].length > 0.0);
   const Vec3 arm = motion.body(m.body).R_WB * m.p_B;
   const double per_length = 1.0 / model_.bodies[m.body].length;
   double* out = rows_of_J_.data() + side.at + (all_.offset(part) - group.row) * side.size;
@@ -147,6 +152,7 @@ void LeastReactions::fill(const Formulation& f, const SystemMotion& motion, cons
 }
 
 void LeastReactions::add_normal_equations(const Side& s, const Side& t, int rows) noexcept {
+  assert(s.body >= 0 && t.body >= 0 && s.size > 0 && t.size > 0);
   int os = 0, ot = 0;
   MatX& front = normal_.front(s.body, t.body, os, ot);
   // The lower triangle is read.
@@ -185,6 +191,7 @@ void LeastReactions::place(const Formulation& f) noexcept {
 }
 
 void LeastReactions::times_transpose(const VecX& lambda, VecX& out) const noexcept {
+  assert(lambda.size() == rows() && out.size() == normal_.unknowns());
   out.setZero();
   for (const Group& g : groups_)
     for (const Side* s : {&g.a, &g.b})
@@ -194,6 +201,7 @@ void LeastReactions::times_transpose(const VecX& lambda, VecX& out) const noexce
 }
 
 void LeastReactions::add_times(const VecX& x, VecX& lambda) const noexcept {
+  assert(lambda.size() == rows() && x.size() == normal_.unknowns());
   for (const Group& g : groups_)
     for (const Side* s : {&g.a, &g.b})
       with_rows(*s, g.rows, [&](const auto& J) {
@@ -219,6 +227,8 @@ void LeastReactions::add_load(const LocalMarker& m, const SystemMotion& motion, 
 }
 
 void LeastReactions::find_load(const Formulation& f, const Reactions& reactions) noexcept {
+  assert(reactions.joints.size() == model_.joints.size());
+  assert(reactions.rods.size() == model_.rods.size());
   load_.setZero();
   const SystemMotion& motion = f.motion();
   // The reaction acts back on a, with a moment if the points are apart.
@@ -349,6 +359,7 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
 }
 
 void LeastReactions::shorten_dense(VecX& lambda) noexcept {
+  assert(lambda.size() == rows());
   if (!dense_) orthonormalise();
   for (Eigen::Index j = 0; j < rank_; ++j) projected_[j] = U_.col(j).dot(lambda);
   lambda.setZero();
@@ -366,10 +377,12 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
     const ConstraintPart& p = set.parts()[k];
     const WrenchRow w = set.wrench(k, lambda);
     if (p.owner.kind == ConstraintOwner::Kind::rod) {
+      assert(is_index(p.owner.index, reactions.rods));
       reactions.rods[p.owner.index] = {-w.Fb, -w.Tb};
       reactions.tensions[p.owner.index] = lambda[set.offset(k)];
       continue;
     }
+    assert(is_index(p.owner.index, reactions.joints));
     Reactions::Wrench& joint = reactions.joints[p.owner.index];
     joint.force -= w.Fb;
     joint.torque -= w.Tb;

@@ -108,7 +108,7 @@ bool LoopPath::starts_as_drawn() const {
 }
 
 bool LoopPath::closes(const VecX& q) {
-  f_.positions(t_, q);
+  kinematics_at(f_, t_, q, VecX::Zero(f_.velocities()));
   return largest(f_.constraint_values()) < 1e-10;
 }
 
@@ -209,7 +209,7 @@ bool LoopPath::lead(Stage& stage, VecX& q) {
 bool LoopPath::lead_in_increments(Stage& stage, VecX& q) {
   VecX q_new = q;
   for (int k = 0; k < stage.increments; ++k) {
-    f_.positions(t_, q);
+    kinematics_at(f_, t_, q, VecX::Zero(f_.velocities()));
     stage.equations.begin_here();
     // Parts of an increment also move the bodies as little as possible from its beginning: the
     // result does not depend on them.
@@ -293,7 +293,7 @@ VecX LoopPath::gap(VecX& q) {
     f_.retract(q, x, q_new);
     q = q_new;
   }
-  f_.positions(t_, q);
+  kinematics_at(f_, t_, q, rest);
   return f_.constraint_values();
 }
 
@@ -319,12 +319,13 @@ bool LoopPath::closed(const VecX& q) {
 bool LoopPath::near(const VecX& from, const VecX& to) {
   std::vector<Mat3> R;
   std::vector<Vec3> p;
-  f_.positions(t_, from);
+  const VecX rest = VecX::Zero(f_.velocities());
+  kinematics_at(f_, t_, from, rest);
   for (const BodyKinematics& b : f_.motion().bodies) {
     R.push_back(b.R_WB);
     p.push_back(b.p_WB);
   }
-  f_.positions(t_, to);
+  kinematics_at(f_, t_, to, rest);
   const std::vector<BodyKinematics>& moved = f_.motion().bodies;
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (rotation_log(R[i].transpose() * moved[i].R_WB).norm() > largest_turn ||

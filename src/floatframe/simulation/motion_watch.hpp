@@ -1,6 +1,7 @@
 #pragma once
 // Monitors deformation, spin and phase of a run, from the motion after each step. Nothing here
 // allocates after construction.
+#include <cassert>
 #include <map>
 #include <vector>
 
@@ -33,6 +34,7 @@ class MotionWatch {
 
   /// Deformation, spin and rotation of all bodies.
   void look(const SystemMotion& motion) noexcept {
+    assert(motion.bodies.size() == range_.bodies().size());
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
       const BodyKinematics& b = motion.bodies[i];
       const Vec3 w = b.R_WB.transpose() * b.w_WB;
@@ -43,6 +45,7 @@ class MotionWatch {
   /// For each flexible body: its largest elastic displacement, and the largest due to a single mode
   /// [m].
   void deformations(const SystemMotion& motion, double* out) noexcept {
+    assert(motion.bodies.size() == range_.bodies().size());
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
       const BodyKinematics& b = motion.bodies[i];
       if (b.y.size() == 0) continue;
@@ -54,6 +57,7 @@ class MotionWatch {
 
   /// For all bodies [J].
   double kinetic_energy(const SystemMotion& motion) noexcept {
+    assert(motion.bodies.size() == energy_.size());
     double sum = 0.0;
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
       const BodyKinematics& b = motion.bodies[i];
@@ -79,6 +83,7 @@ class MotionWatch {
     for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
       const BodyKinematics& b = motion.bodies[i];
       std::vector<PhaseMeter>& m = range_.meters(static_cast<int>(i));
+      assert(std::ssize(m) == 2 + b.yd.size());
       use(m[0], b.v_WB);
       use(m[1], b.w_WB);
       for (std::size_t k = 2; k < m.size(); ++k)

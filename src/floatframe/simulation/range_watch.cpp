@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -128,6 +129,7 @@ std::string BodyRange::node_name(int node) const {
 
 void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
                         const RangeLimits& l) noexcept {
+  assert(h > 0.0 && (y || data_.modes() == 0));
   turn_.offer(h * w.norm(), t, l.turn);
   const Eigen::Index modes = data_.modes();
   if (modes == 0) return;
@@ -155,6 +157,7 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
 }
 
 double BodyRange::displacement_now(const double* y) const noexcept {
+  assert(y || data_.modes() == 0);
   const Eigen::Index modes = data_.modes();
   double most = 0.0;
   for (const int n : nodes_) {
@@ -168,6 +171,7 @@ double BodyRange::displacement_now(const double* y) const noexcept {
 }
 
 double BodyRange::displacement_of_one_mode(const double* y) const noexcept {
+  assert(y || data_.modes() == 0);
   double most = 0.0;
   for (Eigen::Index k = 0; k < data_.modes(); ++k)
     most = std::max(most, displaced_[k] * std::abs(y[k]));
@@ -231,6 +235,7 @@ void TurnWatch::warn(std::vector<RangeWarning>& out) const {
 
 RangeWatch::RangeWatch(const Model& model, double step, const RangeLimits& limits)
     : model_(model), step_(step), limits_(limits), turns_(model, step) {
+  assert(step > 0.0);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     bodies_.emplace_back(model, static_cast<int>(i));
     const InertiaInvariants& v = model.bodies[i].data->invariants;

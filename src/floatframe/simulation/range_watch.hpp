@@ -3,6 +3,7 @@
 // deformations, slow spin, a step that resolves the motion. `observe` functions are called in a
 // run: noexcept, no allocation; the measurements are turned into sentences at the end.
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/force_outputs.hpp"
 #include "floatframe/model/system_motion.hpp"
@@ -108,7 +110,7 @@ class BodyRange {
 /// for one frequency and weighted with the kinetic energy for several.
 class PhaseMeter {
  public:
-  explicit PhaseMeter(double mass) noexcept : mass_(mass) {}
+  explicit PhaseMeter(double mass) noexcept : mass_(mass) { assert(mass >= 0.0); }
   void start(const Vec3& v) noexcept { previous_ = v; }
   /// To be called after every full step.
   void observe(const Vec3& v) noexcept {
@@ -191,6 +193,7 @@ class TurnWatch {
   static bool quarter(const Vec3& theta) noexcept { return theta.norm() > 0.5 * std::numbers::pi; }
   Vec3 rotation(const SystemMotion& motion, const Watched& x) const noexcept {
     const Force& force = model_.forces[x.force];
+    assert(force.a >= 0 && force.b >= 0);
     const Mat3 R = motion.marker(force.a).R.transpose() * motion.marker(force.b).R;
     return quaternion_log(Eigen::Quaterniond(R));
   }
@@ -207,7 +210,10 @@ class RangeWatch {
   std::vector<BodyRange>& bodies() noexcept { return bodies_; }
   const std::vector<BodyRange>& bodies() const noexcept { return bodies_; }
   /// Two per body, its translation and its rotation, then one per mode.
-  std::vector<PhaseMeter>& meters(int body) noexcept { return meters_[body]; }
+  std::vector<PhaseMeter>& meters(int body) noexcept {
+    assert(is_index(body, meters_));
+    return meters_[body];
+  }
   /// For the force elements that measure rotations.
   TurnWatch& turns() noexcept { return turns_; }
   double step() const noexcept { return step_; }

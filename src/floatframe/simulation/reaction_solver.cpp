@@ -1,9 +1,12 @@
 #include "floatframe/simulation/reaction_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "floatframe/core/debug_only.hpp"
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 
@@ -35,6 +38,7 @@ ReactionSolver::ReactionSolver(Coordinates coordinates, const Model& model, Iner
                                const State& start, const ReactionOptions& options)
     : own_(make_formulation(coordinates, model, method)), f_(*own_), options_(options) {
   const int nv = f_.velocities(), nc = f_.constraints();
+  assert(options.penalty_mass > 0.0 && options.step > 0.0);
   a_ = residual_ = delta_ = best_a_ = VecX::Zero(nv);
   lambda_ = gamma_ = work_ = best_lambda_ = VecX::Zero(nc);
   reactions_.joints.resize(model.joints.size());
@@ -64,6 +68,10 @@ int ReactionSolver::factorize() noexcept {
 void ReactionSolver::solve(const State& state, std::span<const double> inputs,
                            std::span<const double> spring_angles,
                            std::span<const std::int64_t> force_branches) noexcept {
+  assert(state.v.size() == f_.velocities() && state.lambda.size() == f_.constraints());
+  assert(state.a.size() == f_.velocities() && all_finite(state.a));
+  FLOATFRAME_DEBUG(for (Vec3& x : reactions_.joint_impulses) poison(x);)
+  FLOATFRAME_DEBUG(for (Vec3& x : reactions_.rod_impulses) poison(x);)
   if (!force_branches.empty()) f_.hold_force_branches(force_branches);
   f_.set_inputs(inputs);
   f_.set_spring_angles(spring_angles);
@@ -103,6 +111,7 @@ void ReactionSolver::find_force_error() noexcept {
 void ReactionSolver::iterate(bool refines) noexcept {
   const double p = options_.penalty_mass;
   constexpr double infinite = std::numeric_limits<double>::infinity();
+  assert(residual_.size() == a_.size() && gamma_.size() == lambda_.size());
   double best = infinite, last = infinite, last_step = infinite;
   for (int pass = 0, idle = 0; pass < most_passes && idle < idle_passes; ++pass) {
     if (pass == 0 || refines) {
@@ -150,6 +159,7 @@ void ReactionSolver::collect_wrenches() noexcept {
 }
 
 void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept {
+  assert(impulses.size() == set.count());
   for (Vec3& x : reactions_.joint_impulses) x.setZero();
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintOwner& owner = set.parts()[k].owner;

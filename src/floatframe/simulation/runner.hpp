@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@ class Runner {
  public:
   Runner(F& formulation, const StepOptions& options, double min_step)
       : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
+    assert(min_step >= 0.0);
     memory_.outputs.resize(f_.model().outputs.size());
     memory_.inputs.assign(f_.inputs().begin(), f_.inputs().end());
     needs_ = needs_of_outputs(f_.model());
@@ -86,6 +88,7 @@ class Runner {
   }
   /// `m.outputs` has one entry for each output of the model.
   void set_memory(const RunnerMemory& m) {
+    assert(m.outputs.size() == f_.model().outputs.size() && m.inputs.size() == f_.inputs().size());
     memory_ = m;
     integrator_.set_tangent_reuse(m.tangent_reuse);
   }
@@ -93,6 +96,7 @@ class Runner {
   /// Advances by h, in substeps if necessary. False: the step did not converge with the smallest
   /// substep.
   bool advance(double h) noexcept {
+    assert(h > 0.0 && state_.q.size() == f_.configurations());
     asked_ = h;
     take_inputs(h);
     const double end = state_.t + h;
@@ -126,12 +130,15 @@ class Runner {
   }
   /// The same with a smallest substep for this step and those after it.
   bool advance(double h, double min_step) noexcept {
+    assert(min_step >= 0.0);
     min_step_ = min_step;
     return advance(h);
   }
 
   /// Writes one row of outputs (time first) at the present state.
   void sample(double* row) noexcept {
+    assert(row && state_.q.size() == f_.configurations());
+    assert(reactions_ || !needs_.reactions);
     const Model& model = f_.model();
     kinematics_at(f_, state_);
     if (needs_.energies || needs_.reactions)
@@ -257,6 +264,7 @@ class Runner {
 
   /// A step in which no function of time has a corner.
   StepAttempt smooth(double h) noexcept {
+    assert(h > 0.0);
     if (!locator_) return integrator_.step(state_, h);
     return locator_->step(state_, h, memory_.counters.edges, memory_.counters.edges_passed);
   }
@@ -272,6 +280,7 @@ class Runner {
   /// accelerations and multipliers are those of the new values.
   void take_inputs(double h) noexcept {
     const std::span<const double> now = f_.inputs();
+    assert(now.size() == memory_.inputs.size());
     if (std::equal(now.begin(), now.end(), memory_.inputs.begin())) return;
     std::copy(now.begin(), now.end(), memory_.inputs.begin());
     if (input_use_ == InputUse::ramp) return;
@@ -284,6 +293,7 @@ class Runner {
   double smallest() const noexcept { return std::min(min_step_, asked_); }
 
   void count(const StepAttempt& r) noexcept {
+    assert(r.iterations >= 0 && r.factorizations >= 0 && r.coordinate < f_.velocities());
     StepCounters& c = memory_.counters;
     c.iterations += r.iterations;
     c.factorizations += r.factorizations;

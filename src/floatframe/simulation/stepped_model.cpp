@@ -1,6 +1,7 @@
 #include "floatframe/simulation/stepped_model.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
@@ -85,6 +86,7 @@ void SteppedModel<F>::prepare_reactions() {
 
 template <class F>
 bool SteppedModel<F>::advance(const PlannedStep& step) noexcept {
+  assert(step.size > 0.0 && step.to > state().t);
   if (!runner_.advance(step.size, min_step_ * std::max(1.0, step.size / grid_.step())))
     return false;
   runner_.state().t = step.to;
@@ -117,7 +119,7 @@ std::string lost_masses(const SystemMotion& motion) {
 template <class F>
 std::string SteppedModel<F>::failure() {
   const std::string text = runner_.failure();  // first: refers to the failed iteration
-  f_.positions(runner_.state().t, runner_.state().q);
+  kinematics_at(f_, runner_.state());
   const std::string lost = lost_masses(f_.motion());
   return text + (lost.empty() ? light_motion_note(f_, runner_.state()) : "; " + lost);
 }
@@ -145,6 +147,8 @@ SteppedMemory SteppedModel<F>::memory() const {
 
 template <class F>
 void SteppedModel<F>::set_memory(const SteppedMemory& m) {
+  assert(m.state.q.size() == f_.configurations() && m.state.v.size() == f_.velocities());
+  assert(m.state.lambda.size() == f_.constraints());
   grid_.restore(m.base, m.since_base);
   runner_.state() = m.state;
   f_.set_spring_angles(m.spring_angles);

@@ -1,6 +1,7 @@
 #include "floatframe/simulation/time_grid.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace floatframe {
@@ -25,6 +26,7 @@ PlannedStep TimeGrid::of_size(double h, double now) const noexcept {
 }
 
 void TimeGrid::made(const PlannedStep& step) noexcept {
+  assert(step.size > 0.0);
   if (step.on_grid)
     ++since_base_;
   else

@@ -2,6 +2,7 @@
 // The times of the steps of a run. Step k ends at base + (k + 1) h, so that rounding does not
 // accumulate, and has exactly the size h, not a difference of times that varies in its last bits;
 // only the last step of a duration may be shorter.
+#include <cassert>
 #include <cstdint>
 #include <limits>
 
@@ -21,7 +22,9 @@ class TimeGrid {
 
   /// `duration`: counted from `base` [s].
   TimeGrid(double base, double step, double duration) noexcept
-      : base_(base), step_(step), duration_(duration) {}
+      : base_(base), step_(step), duration_(duration) {
+    assert(step > 0.0 && !(duration < 0.0));
+  }
 
   double step() const noexcept { return step_; }
   /// Number of steps in the duration, including a shorter last one.
@@ -37,6 +40,7 @@ class TimeGrid {
   /// Number of steps made since `base`.
   std::int64_t since_base() const noexcept { return since_base_; }
   void restore(double base, std::int64_t since_base) noexcept {
+    assert(since_base >= 0);
     base_ = base;
     since_base_ = since_base;
   }

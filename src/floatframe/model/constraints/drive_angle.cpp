@@ -5,6 +5,7 @@
 //   quad       l (w_a x z_a).(w_b - w_a)
 //   curvature  dz_a = -skew(z_a) dpi_a
 //   in time    phi_t = -l fdot, phi_tt = -l fddot
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,7 @@ template <>
 void constraint_rows_of<ConstraintType::drive_angle>(const ConstraintPart& part,
                                                      const MarkerState& a, const MarkerState& b,
                                                      double t, ConstraintRow* rows) noexcept {
+  assert(part.motion);
   const PiecewisePolynomial::Value f = evaluate(*part.motion, t);
   const Vec3 x = b.R.col(0);
   const Vec3 z = a.R.col(2);

@@ -2,6 +2,8 @@
 //   phi        z_a.d - f(t) = 0                               1 row
 //   gradient, quad and curvature: those along an axis that rotates with a (axis_row.hpp)
 //   in time    phi_t = -fdot, phi_tt = -fddot
+#include <cassert>
+
 #include "floatframe/model/axis_row.hpp"
 
 namespace floatframe {
@@ -11,6 +13,7 @@ void constraint_rows_of<ConstraintType::drive_position>(const ConstraintPart& pa
                                                         const MarkerState& a, const MarkerState& b,
                                                         double t, ConstraintRow* rows) noexcept {
   fill_axis_row(a.R.col(2), a, b, *rows);
+  assert(part.motion);
   const PiecewisePolynomial::Value f = evaluate(*part.motion, t);
   rows->phi -= f.f;
   rows->phi_t = -f.df;

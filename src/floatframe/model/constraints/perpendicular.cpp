@@ -5,6 +5,9 @@
 //   gradient   l e x n on pi_a, -l e x n on pi_b: ds = dpi_a.(e x n) - dpi_b.(e x n)
 //   quad       l ((w_a x edot).n + 2 edot.ndot + e.(w_b x ndot)),  edot = w_a x e, ndot = w_b x n
 //   curvature  d(e x n) = (e n^T - e.n I) dpi_a + (e.n I - n e^T) dpi_b
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/constraint_part.hpp"
 
 namespace floatframe {
@@ -13,6 +16,7 @@ template <>
 void constraint_rows_of<ConstraintType::perpendicular>(const ConstraintPart& part,
                                                        const MarkerState& a, const MarkerState& b,
                                                        double, ConstraintRow* rows) noexcept {
+  assert(is_unit(part.e_a) && is_unit(part.n_b) && std::abs(part.c) <= 1.0);
   const Vec3 e = a.R * part.e_a;
   const Vec3 n = b.R * part.n_b;
   const Vec3 torque = part.scale * e.cross(n);

@@ -8,6 +8,9 @@
 //   measured     p_FM, log R_FM; v_FM, w_FM
 //   mirrored     p and pdot are polar, theta and w axial
 //   reversed     R' = R^T, p' = -R^T p, w' = -R^T w, pdot' = -R^T (pdot - w x p)
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -16,6 +19,7 @@ template <>
 void joint_motion_of<JointType::free>(const JointDirections&, const double* q,
                                       JointMotion& m) noexcept {
   m.p_FM = Vec3(q[0], q[1], q[2]);
+  assert(is_unit(read_quaternion(q + 3)));
   m.R_FM = read_quaternion(q + 3).toRotationMatrix();
   m.H.setIdentity();
 }

@@ -9,6 +9,9 @@
 //   mirrored     an axial axis and a polar axis_2: then e1, e2 are polar, since
 //                (det P z) x (P e1) = P (z x e1), and all coordinates keep their values
 //   reversed     R_MF = R_z(-q), p_MF = -R_z(-q) p_FM, pdot_MF = -R_z(-q) (pdot_FM - qdot z x p_FM)
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -18,7 +21,9 @@ namespace {
 struct PlanarDirections {
   Vec3 z, e1, e2;
   PlanarDirections(const Vec3& normal, const Vec3& axis_2) noexcept
-      : z(normal), e1((axis_2 - normal.dot(axis_2) * normal).normalized()), e2(normal.cross(e1)) {}
+      : z(normal), e1((axis_2 - normal.dot(axis_2) * normal).normalized()), e2(normal.cross(e1)) {
+    assert(is_unit(z) && is_unit(e1));
+  }
 };
 
 }  // namespace

@@ -7,6 +7,9 @@
 //   measured     theta = log R_FM, w_FM
 //   mirrored     theta and w are axial
 //   reversed     R_MF = exp(-skew(theta)), w' = -R_FM^T w
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -14,6 +17,7 @@ namespace floatframe {
 template <>
 void joint_motion_of<JointType::spherical>(const JointDirections&, const double* q,
                                            JointMotion& m) noexcept {
+  assert(is_unit(read_quaternion(q)));
   m.R_FM = read_quaternion(q).toRotationMatrix();
   m.H.block<3, 3>(3, 0).setIdentity();
 }

@@ -11,8 +11,10 @@
 //                it never reaches 1: parallel axes are refused in the design configuration
 //   mirrored     both axes are axial
 //   reversed     R_MF = exp(-q2 e2) exp(-q1 e1): the axes change places, the angles too, and sign
+#include <cassert>
 #include <utility>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -20,6 +22,7 @@ namespace floatframe {
 template <>
 void joint_motion_of<JointType::universal>(const JointDirections& axes, const double* q,
                                            JointMotion& m) noexcept {
+  assert(is_unit(axes.axis) && is_unit(axes.axis_2));
   const Mat3 r1 = rotation_exp(q[0] * axes.axis);
   m.R_FM = r1 * rotation_exp(q[1] * axes.axis_2);
   const Vec3 e2 = r1 * axes.axis_2;
@@ -54,6 +57,7 @@ double joint_velocity_of<JointType::universal>(const JointTwist& twist, int comp
   const double c = z.dot(e2);
   const double a = z.dot(twist.w_FM), b = e2.dot(twist.w_FM);
   const double det = 1.0 - c * c;
+  assert(!(det <= 0.0));  // axes that are not parallel
   return component == 0 ? (a - c * b) / det : (b - c * a) / det;
 }
 

@@ -1,4 +1,6 @@
 // Angular acceleration of a body [rad/s2], world axes.
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -7,6 +9,7 @@ template <>
 double output_value_of<OutputType::angular_acceleration>(const SystemMotion& motion,
                                                          const Output& output,
                                                          FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < 3);
   return motion.body(output.body).alpha_WB[output.component];
 }
 

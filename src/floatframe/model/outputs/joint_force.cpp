@@ -1,4 +1,6 @@
 // Force of a joint on its child, including that of its motion, or of a rod on the body at `to` [N].
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -6,6 +8,8 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::joint_force>(const SystemMotion& motion, const Output& output,
                                                 FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < 3);
+  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
   const Reactions& all = *motion.reactions;
   const Reactions::Wrench& w = output.rod >= 0 ? all.rods[output.rod] : all.joints[output.joint];
   if (output.to < 0) return w.force[output.component];

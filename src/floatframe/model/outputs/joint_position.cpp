@@ -2,6 +2,8 @@
 // velocity since the last sample: of the possible angles the value is that nearest to
 //   q_last + (t - t_last) (qdot_last + qdot) / 2
 // The first one is nearest to the start value or the motion given by the user.
+#include <cassert>
+
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"

@@ -2,6 +2,8 @@
 // m]. With the force F and the torque T_M about the point M of the joint on the child (of a rod its
 // end at `to`), the torque about a point P is
 //   T_P = T_M + (p_WM - p_WP) x F
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -9,6 +11,8 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::joint_torque>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < 3);
+  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
   const Model& model = motion.model;
   const bool rod = output.rod >= 0;
   const Reactions& all = *motion.reactions;

@@ -1,4 +1,6 @@
 // Second derivative of the amplitude of a mode of a flexible body.
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -7,6 +9,7 @@ template <>
 double output_value_of<OutputType::modal_acceleration>(const SystemMotion& motion,
                                                        const Output& output,
                                                        FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < motion.body(output.body).ydd.size());
   return motion.body(output.body).ydd[output.component];
 }
 

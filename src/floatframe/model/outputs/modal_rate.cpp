@@ -1,4 +1,6 @@
 // Rate of the amplitude of a mode of a flexible body.
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -6,6 +8,7 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::modal_rate>(const SystemMotion& motion, const Output& output,
                                                FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < motion.body(output.body).yd.size());
   return motion.body(output.body).yd[output.component];
 }
 

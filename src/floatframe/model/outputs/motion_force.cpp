@@ -1,5 +1,7 @@
 // Force [N] or torque [N m] of a prescribed motion along its coordinate, on the child: the load of
 // a motor.
+#include <cassert>
+
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -16,6 +18,7 @@ const char* motion_force_unit(const Model& model, const Output& output) {
 template <>
 double output_value_of<OutputType::motion_force>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
+  assert(motion.reactions && motion.model.joints[output.joint].motion);
   return motion.reactions->motions[output.joint];
 }
 

@@ -1,5 +1,7 @@
 // Power of a prescribed motion, its force times the rate of the coordinate, positive into the
 // system [W].
+#include <cassert>
+
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -9,6 +11,7 @@ template <>
 double output_value_of<OutputType::motion_power>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
   const Joint& joint = motion.model.joints[output.joint];
+  assert(motion.reactions && joint.motion);
   return motion.reactions->motions[output.joint] * evaluate(*joint.motion, motion.t).df;
 }
 

@@ -1,4 +1,6 @@
 // Position of a point, p_WP [m].
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -6,6 +8,7 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::position>(const SystemMotion& motion, const Output& output,
                                              FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < 3);
   return motion.place(output.marker)[output.component];
 }
 

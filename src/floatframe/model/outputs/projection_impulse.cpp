@@ -1,5 +1,7 @@
 // Impulse of the velocity projection onto the constraints on the child of a joint, or on the body
 // at `to` of a rod, in the last step [N s]: it is not included in the reactions.
+#include <cassert>
+
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -8,6 +10,8 @@ template <>
 double output_value_of<OutputType::projection_impulse>(const SystemMotion& motion,
                                                        const Output& output,
                                                        FollowedOutput&) noexcept {
+  assert(output.component >= 0 && output.component < 3);
+  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
   const Reactions& all = *motion.reactions;
   const Vec3& impulse =
       output.rod >= 0 ? all.rod_impulses[output.rod] : all.joint_impulses[output.joint];

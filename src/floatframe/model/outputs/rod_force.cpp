@@ -1,4 +1,7 @@
 // Force in a rod, tension positive [N].
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -6,6 +9,7 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::rod_force>(const SystemMotion& motion, const Output& output,
                                               FollowedOutput&) noexcept {
+  assert(is_index(output.rod, motion.reactions->tensions));
   return motion.reactions->tensions[output.rod];
 }
 

@@ -1,5 +1,8 @@
 // Section forces at the end of a beam element, local axes of the beam (model/gauge.hpp): N, Vy, Vz
 // [N], T, My, Mz [N m] on the face whose normal is x.
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -17,6 +20,7 @@ const char* section_unit(const Model&, const Output& output) {
 template <>
 double output_value_of<OutputType::section_force>(const SystemMotion& motion, const Output& output,
                                                   FollowedOutput&) noexcept {
+  assert(is_index(output.gauge, motion.model.gauges));
   return gauge_values(motion, motion.model.gauges[output.gauge])(output.component);
 }
 

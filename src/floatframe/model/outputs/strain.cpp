@@ -1,5 +1,8 @@
 // Strain along a direction at a location of a flexible body, as measured by a strain gauge
 // (model/gauge.hpp). Three of them at 0, 45 and 90 degrees are a rosette.
+#include <cassert>
+
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -8,6 +11,7 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::strain>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
+  assert(is_index(output.gauge, motion.model.gauges));
   return gauge_values(motion, motion.model.gauges[output.gauge])(0);
 }
 

@@ -1,8 +1,10 @@
 // Stress at a location of a flexible body, body axes [Pa] (model/gauge.hpp): components, von Mises,
 // von Mises with the sign of the principal stress of largest magnitude (for fatigue), principal
 // stresses in descending order.
+#include <cassert>
 #include <cmath>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -18,6 +20,8 @@ constexpr const char* stress_words[] = {
 template <>
 double output_value_of<OutputType::stress>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
+  assert(is_index(output.gauge, motion.model.gauges));
+  assert(output.component >= 0 && output.component < 11);
   const Vec6 s = gauge_values(motion, motion.model.gauges[output.gauge]);
   if (output.component < 6) return s(output.component);
   if (output.component == 6) return von_mises(s);
