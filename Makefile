@@ -46,7 +46,6 @@ test: build
 # What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
 # docs/validation.md has the figures.
 test-all: test
-	$(MAKE) --no-print-directory test-contracts
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
 	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	$(MAKE) --no-print-directory attacks ATTACKS=200

@@ -30,7 +30,7 @@ LISTS = {
     "constraint": ("model/constraint_list.hpp", "ConstraintType"),
     "force": ("model/force_list.hpp", "ForceType"),
     "output": ("model/output_list.hpp", "OutputType"),
-    "element": ("fe/element_list.hpp", "ElementType"),
+    "element": ("fe/element_list.hpp", "FeElementType"),
 }
 # From the flat onto the waves; its inputs jump by 8 N, what the skyhook of the example changes in a step of 1 ms.
 DAMPER = ["examples/active_damper/active_damper.yaml", "--duration", "0.6", "--set", "largest_force=400", "--coordinates"]
