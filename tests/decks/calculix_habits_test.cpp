@@ -26,8 +26,7 @@ TEST(CalculixHabits, FieldsBehindNodesAndElements) {
   EXPECT_EQ(model.positions[2], Vec3(0, 1, 0));
   ASSERT_EQ(model.elements.size(), 1u);
   EXPECT_EQ(model.elements[0].nodes[3], 3);
-  EXPECT_TRUE(
-      has_note(model, "deck.inp:3: fields after the coordinates of 2 nodes are ignored"));
+  EXPECT_TRUE(has_note(model, "deck.inp:3: fields after the coordinates of 2 nodes are ignored"));
   EXPECT_TRUE(has_note(model,
                        "deck.inp:7: 1 element of type C3D4 with more than 4 nodes: the "
                        "others are ignored, as CalculiX does"));
