@@ -11,9 +11,9 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
-	@echo "make test-all      the same, then what takes longer: asserts, a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
+	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
-	@echo "make test-contracts  the tests of the rooms of steps, with asserts"
+	@echo "make test-contracts  the tests of the rooms of steps, with asserts; not part of test-all"
 	@echo "make attacks       hostile input of every kind, ATTACKS=5000 each, for a night; SEED=1 begins it"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make test-python-asan  its tests with address and undefined-behaviour sanitizers"
