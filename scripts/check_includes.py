@@ -13,7 +13,7 @@ import sys
 
 # room -> rooms it may include. CONTRIBUTING.md draws the same picture.
 FE = {"core", "math", "fe"}
-DYNAMICS = {"core", "math", "body", "inertia", "model", "formulation", "integrator"}
+DYNAMICS = {"core", "math", "body", "inertia", "description", "model", "formulation", "integrator"}
 ALLOWED = {
     "core": set(),
     "math": {"core"},
@@ -36,12 +36,14 @@ ALLOWED = {
     # A library of its own, which no other room may include.
     "decks": FE | {"formats", "formats/nastran", "formats/text", "formats/written"},
     "parts": FE | {"body", "reduction", "formats", "formats/body_file", "formats/sid", "formats/text", "formats/written"},
-    "model": FE | {"body", "reduction", "inertia"},
-    "formulation": {"core", "math", "body", "inertia", "model"},
-    "integrator": {"core", "math", "body", "inertia", "model", "formulation"},
+    # What the user says, and its checks.
+    "description": FE | {"body", "reduction"},
+    "model": FE | {"body", "reduction", "inertia", "description"},
+    "formulation": {"core", "math", "body", "inertia", "description", "model"},
+    "integrator": {"core", "math", "body", "inertia", "description", "model", "formulation"},
     "simulation": DYNAMICS,
     "yaml": {"core", "math"},
-    "model_file": FE | {"body", "reduction", "model", "formats/geometry", "formats/sid", "parts", "yaml"},
+    "model_file": FE | {"body", "reduction", "description", "model", "formats/geometry", "formats/sid", "parts", "yaml"},
     "history": DYNAMICS | {"simulation"},
     "report": DYNAMICS | {"simulation", "history"},
     "export": DYNAMICS | {"history", "report", "formats/body_file", "formats/vtk"},
@@ -55,8 +57,8 @@ ALLOWED = {
 }
 
 # Rooms, and single files, that public headers may reach.
-PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "model",
-          "model_file",
+PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
+          "model", "model_file",
           "formulation/counts.hpp", "simulation", "history", "report", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.

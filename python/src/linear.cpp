@@ -66,7 +66,8 @@ std::vector<Mode> modes_of(const Model& model, int number, const Keywords& given
   const LinearSystem system = linear_system(model, options, number);
   std::vector<std::string> bodies, forces;
   for (const Body& b : model.bodies) bodies.push_back(b.name);
-  for (const Force& f : model.forces) forces.push_back(f.name);
+  for (const Element& f : model.elements)
+    if (f.acts) forces.push_back(f.name);
   std::vector<Mode> modes;
   for (LinearMode& mode : linear_modes(system)) {
     if (number > 0 && std::ssize(modes) == number) break;

@@ -41,7 +41,13 @@ void bind_model(nb::module_& m) {
       .def_ro("name", &Model::name)
       .def_prop_ro("bodies", [](const Model& model) { return names_of(model.bodies); })
       .def_prop_ro("joints", [](const Model& model) { return names_of(model.joints); })
-      .def_prop_ro("forces", [](const Model& model) { return names_of(model.forces); })
+      .def_prop_ro("forces",
+                   [](const Model& model) {
+                     std::vector<std::string> names;
+                     for (const Element& e : model.elements)
+                       if (e.acts) names.push_back(e.name);
+                     return names;
+                   })
       .def_prop_ro("inputs", [](const Model& model) { return names_of(model.inputs); })
       .def_prop_ro("outputs", [](const Model& model) { return names_of(model.outputs); })
       .def_prop_ro("output_units", units_of)

@@ -6,8 +6,9 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/model/force_kind.hpp"
-#include "support/exact_tangents.hpp"
+#include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/model/element_kind.hpp"
+#include "support/element_motion.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -44,31 +45,32 @@ Model everything(unsigned seed) {
     return static_cast<int>(model.markers.size()) - 1;
   };
   ExampleNumbers numbers(seed);
-  for (const ForceType type : force_types) {
-    const ForceKind& kind = force_kind(type);
+  for (const ElementType type : types_of(ElementList::forces)) {
+    const ElementKind& kind = element_kind(type);
     for (std::size_t regime = 0; regime < kind.regimes.size(); ++regime) {
-      ForceExample x = kind.example(regime, numbers);
-      Force f = x.force;
-      f.name = std::string(force_type_name(type)) + "_" + kind.regimes[regime].name;
-      const std::size_t body = model.forces.size() % names.size();
-      if (kind.markers == ForceMarkers::of_joint) {
+      ElementExample x = kind.example(regime, numbers);
+      Element e = x.element;
+      e.name = std::string(element_type_name(type)) + "_" + kind.regimes[regime].name;
+      const std::size_t body = model.elements.size() % names.size();
+      if (kind.axis == ElementAxis::coordinate) {
         // On a joint of its kind, as the builder would put it.
         for (const Joint& j : model.joints)
-          if (j.type == (f.rotational ? JointType::revolute : JointType::prismatic)) {
-            f.a = j.frame_F;
-            f.b = j.frame_M;
-          }
+          if (j.type == (e.rotational ? JointType::revolute : JointType::prismatic))
+            e.markers = {j.frame_F, j.frame_M};
       } else {
-        if (kind.markers != ForceMarkers::one) f.a = marker((body + 2) % names.size());
-        f.b = marker(body);
+        const std::size_t ports = x.markers.size();
+        for (std::size_t i = 0; i < ports; ++i)
+          e.markers.push_back(marker((body + 2 * (ports - 1 - i)) % names.size()));
       }
-      if (f.type == ForceType::tyre) {
-        f.road = static_cast<int>(model.roads.size());
-        model.roads.push_back(x.model.roads.at(0));
-        f.radius += 20.0;  // in contact wherever the body is
+      if (e.road >= 0) {
+        e.road = static_cast<int>(model.roads.size());
+        Road road = x.model.roads.at(0);
+        // In contact wherever the body is.
+        road.pieces = road.pieces + PiecewisePolynomial::polynomial({20.0});
+        model.roads.push_back(std::move(road));
       }
-      f.input = f.target.input = f.target_rate.input = -1;
-      model.forces.push_back(f);
+      for (Signal& signal : e.signals) signal.input = -1;
+      model.elements.push_back(std::move(e));
     }
   }
   return model;
@@ -80,24 +82,20 @@ Model with_exact_dampers(const Model& model, const VecX& q) {
   evaluate_at(f, 0.3, q, VecX::Zero(f.velocities()));
   f.forces();
   Model kept = model;
-  kept.forces.clear();
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& force = model.forces[k];
-    const MarkerState& b = f.marker(force.b);
-    const ForceState& state = f.force(static_cast<int>(k));
-    const ForceTangent t = exact_tangent(
-        {model, force, force.a >= 0 ? f.marker(force.a) : b, b, f.motion().origin, 0.3, 0.0, {}});
-    Mat12 C = 0.5 * (t.C + t.C.transpose());
-    for (int r = 0; r < state.row_count; ++r) {
-      const Vec12 g = stacked(state.rows[r].g);
-      C -= state.rows[r].c * g * g.transpose();
-    }
-    if (C.cwiseAbs().maxCoeff() < 1e-9) kept.forces.push_back(force);
+  kept.elements.clear();
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& element = model.elements[k];
+    std::vector<const MarkerState*> markers;
+    for (const int port : element.markers) markers.push_back(&f.marker(port));
+    const EffortTangent t =
+        exact_tangent({model, element, markers.data(), f.motion().origin, 0.3, 0.0, {}});
+    const MatX C = 0.5 * (t.C + t.C.transpose()) - tangent_of_rows(f.effort(static_cast<int>(k))).C;
+    if (C.cwiseAbs().maxCoeff() < 1e-9) kept.elements.push_back(element);
   }
-  std::vector<int> of_type(std::size(force_types), 0);
-  for (const Force& force : kept.forces) ++of_type[index_of(force.type)];
-  for (const ForceType type : force_types)
-    EXPECT_GT(of_type[index_of(type)], 0) << force_type_name(type);
+  std::vector<int> of_type(std::size(element_types), 0);
+  for (const Element& element : kept.elements) ++of_type[index_of(element.type)];
+  for (const ElementType type : types_of(ElementList::forces))
+    EXPECT_GT(of_type[index_of(type)], 0) << element_type_name(type);
   return kept;
 }
 

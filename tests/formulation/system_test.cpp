@@ -36,12 +36,12 @@ RandomSystem random_tree(unsigned seed, bool reversed) {
 
 void add_springs(RandomSystem& s) {
   const auto add = [&](const std::string& name, auto kind) {
-    ForceDescription f;
+    ElementDescription f;
     f.name = name;
     f.kind = std::move(kind);
     s.d.forces.push_back(std::move(f));
   };
-  SpringDamperDescription spring;
+  SpringDamper spring;
   spring.a = s.at("body_weld", 2);
   spring.b = s.at("branch", 1);
   spring.spring = PiecewisePolynomial::linear(30.0, 0.5);
@@ -49,13 +49,13 @@ void add_springs(RandomSystem& s) {
   spring.a = s.at(ground_name, 0);
   spring.b = s.at("body_universal", 3);
   add("to_ground", spring);
-  GuidedSpringDescription guided;
+  GuidedSpring guided;
   guided.reference = s.at("body_revolute", 2);
   guided.tip = s.at("body_cylindrical", 4);
   guided.axis = s.random.vec3();
   guided.spring = PiecewisePolynomial::polynomial({0.0, 10.0, 0.0, 3.0});
   add("guided", guided);
-  JointSpringDescription joint;
+  JointSpring joint;
   joint.spring = PiecewisePolynomial::polynomial({0.3, 5.0});
   joint.joint = "revolute";
   add("at_hinge", joint);
@@ -230,10 +230,10 @@ TEST_P(TwoFormulations, EnergiesAgree) {
   evaluate_at(relative, 0.0, q, v);
   relative.dynamics();
   near(0.5 * v.dot(mass_columns(relative) * v), relative.kinetic_energy(v));
-  for (std::size_t k = 0; k < m.forces.size(); ++k) {
+  for (std::size_t k = 0; k < m.elements.size(); ++k) {
     const int i = static_cast<int>(k);
-    near(absolute.force(i).energy, relative.force(i).energy);
-    near(absolute.force(i).force, relative.force(i).force);
+    near(absolute.effort(i).energy, relative.effort(i).energy);
+    near(absolute.effort(i).force, relative.effort(i).force);
   }
 }
 
@@ -257,7 +257,7 @@ TEST_P(TwoFormulations, ConservativeTreeKeepsItsEnergy) {
     evaluate_at(f, 0.0, q1, v + h * a);
     f.forces();
     double e = f.kinetic_energy(v + h * a) + f.gravity_energy() + elastic_energy(f.motion());
-    for (std::size_t k = 0; k < m.forces.size(); ++k) e += f.force(static_cast<int>(k)).energy;
+    for (std::size_t k = 0; k < m.elements.size(); ++k) e += f.effort(static_cast<int>(k)).energy;
     return e;
   };
   const double dt = 1e-4;

@@ -30,7 +30,7 @@ Model build_chain(JointType middle, Closure closure, int modes, bool massless = 
   s.add_joint("first", JointType::revolute, ground_name, 0, "a", 0);
   s.add_joint("middle", middle, "a", 1, "b", 0);
   s.add_joint("last", JointType::revolute, "b", 1, "c", 0);
-  SpringDamperDescription spring;
+  SpringDamper spring;
   spring.spring = PiecewisePolynomial::linear(30.0, 0.5);
   spring.a = s.at(closure == Closure::spring_between ? "a" : ground_name, 2);
   spring.b = s.at("c", 2);

@@ -26,10 +26,10 @@ COUNTED_START = "floatframe_counted_start"
 COMPILER = "GNU 12"
 ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "simulation"}
 LISTS = {
-    "joint": ("model/joint_list.hpp", "JointType"),
+    "joint": ("description/joint_list.hpp", "JointType"),
     "constraint": ("model/constraint_list.hpp", "ConstraintType"),
-    "force": ("model/force_list.hpp", "ForceType"),
-    "output": ("model/output_list.hpp", "OutputType"),
+    "force": ("description/elements.hpp", "ElementType"),
+    "output": ("description/output_list.hpp", "OutputType"),
     "element": ("fe/element_list.hpp", "FeElementType"),
 }
 # From the flat onto the waves; its inputs jump by 8 N, what the skyhook of the example changes in a step of 1 ms.
@@ -96,7 +96,7 @@ def source_figures():
         shutil.rmtree(folder)
     # What is added is one file and one entry: other files that name it are what more there is to touch.
     for kind, (list_file, enum) in LISTS.items():
-        entries = re.findall(r"entry\((\w+)\)", texts[SOURCES / list_file])
+        entries = re.findall(r"entry\((\w+)(?:, \w+)?\)", texts[SOURCES / list_file])
         touched = [sum(1 for p, t in texts.items() if p != SOURCES / list_file and p.stem != name
                        and re.search(rf"\b{enum}::{name}\b", t)) for name in entries]
         figures[f"other files that name a {kind} by its type, all of them"] = sum(touched)

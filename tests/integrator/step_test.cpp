@@ -328,11 +328,11 @@ Model massless_arm() {
               make_body("stone", RigidDescription{1.0, Vec3::Zero(), 0.01 * Mat3::Identity()}, at)};
   d.joints = {
       make_joint("hinge", JointType::revolute, ground_name, "arm", Vec3::Zero(), Vec3::UnitY())};
-  JointSpringDescription torsion;
+  JointSpring torsion;
   torsion.joint = "hinge";
   const double length = Vec3(0.0, 0.1, -0.8).norm(), pull = 50.0 * (length - 0.7);
   torsion.spring = PiecewisePolynomial::polynomial({pull * 0.8 / length, 20.0});
-  SpringDamperDescription string;
+  SpringDamper string;
   string.a = place_on("arm", {1.0, 0.0, 0.0});
   string.b = place_on("stone", at);
   string.spring = PiecewisePolynomial::linear(50.0, 0.7);

@@ -170,7 +170,7 @@ TEST_P(Constraint, FactsAreThoseOfTheGradients) {
     const auto r = rows(part, p);
     ASSERT_EQ(static_cast<int>(r.size()), kind.rows);
     double forces = 0.0;
-    for (const ConstraintRow& row : r) forces += row.gradient.Fa.norm() + row.gradient.Fb.norm();
+    for (const ConstraintRow& row : r) forces += row.gradient.a.F.norm() + row.gradient.b.F.norm();
     EXPECT_EQ(forces > 0.0, kind.points);
     if (kind.gradients == PartGradients::unit) {
       ASSERT_EQ(kind.rows, 3);

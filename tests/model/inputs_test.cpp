@@ -1,134 +1,127 @@
-// Force elements that follow inputs: a value from outside does the same as that value written as a
+// Elements that follow inputs: a value from outside does the same as that value written as a
 // function of time, to the last bit; signs; targets; the stiffness of an actuator.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/model.hpp"
+#include "support/element_motion.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe {
 namespace {
 
-using Values = std::vector<double>;
-
-MarkerState at(const Vec3& r, const Vec3& v = Vec3::Zero()) {
-  MarkerState s;
-  s.r = r;
-  s.R = Mat3::Identity();
-  s.v = v;
-  s.w.setZero();
-  s.a_bias.setZero();
-  s.alpha_bias.setZero();
-  return s;
-}
-
-ForceState evaluated(const Force& f, const Values& inputs, const MarkerState& a,
-                     const MarkerState& b, double t = 0.3) {
-  ForceState s;
-  evaluate_force(Model{}, f, a, b, Vec3::Zero(), t, 0.0, s, inputs);
-  return s;
-}
-ForceState evaluated(const Force& f, const Values& inputs) {
-  return evaluated(f, inputs, at({0.1, 0.2, -0.3}, {0.5, 0, 0.1}), at({0.4, -0.5, 0.9}, {0, 1, 2}));
-}
-
-Force element(ForceType type) {
-  Force f;
-  f.type = type;
-  f.a = 0;
-  f.b = 1;
-  f.spring = PiecewisePolynomial::linear(300.0, 0.4);
-  f.damper = PiecewisePolynomial::linear(7.0, 0.0);
-  f.axis = Vec3(1, 2, -1).normalized();
-  f.driven = type != ForceType::force && type != ForceType::torque;
-  return f;
-}
-
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-class Driven : public ::testing::TestWithParam<ForceType> {};
+SignalDescription number(double value) {
+  SignalDescription s;
+  s.pieces = PiecewisePolynomial::polynomial({value});
+  return s;
+}
+SignalDescription input(const std::string& name) {
+  SignalDescription s;
+  s.input = name;
+  return s;
+}
 
-TEST_P(Driven, ByAnInputAsByAConstant) {
-  Force constant = element(GetParam());
-  constant.magnitude.pieces = PiecewisePolynomial::polynomial({7.3});
-  Force follows = element(GetParam());
-  follows.input = 1;
-  const ForceState a = evaluated(constant, {}), b = evaluated(follows, {99.0, 7.3});
-  EXPECT_TRUE(same_bits(a.force, b.force));
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_TRUE(same_bits(a.wrench.Fb[k], b.wrench.Fb[k])) << k;
-    EXPECT_TRUE(same_bits(a.wrench.Ta[k], b.wrench.Ta[k])) << k;
-    EXPECT_TRUE(same_bits(a.wrench.Tb[k], b.wrench.Tb[k])) << k;
+MarkerState at(const Vec3& r, const Vec3& v = Vec3::Zero()) {
+  const Vec3 zero = Vec3::Zero();
+  return {r, Mat3::Identity(), v, zero, zero, zero};
+}
+
+/// An element in a motion, with the inputs "u0", "u1", ...
+template <class Keys>
+ElementExample element(Keys keys, std::vector<double> inputs, const MarkerState& a,
+                       const MarkerState& b, double t = 0.3) {
+  ElementExample x;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    x.model.inputs.emplace_back().name = "u" + std::to_string(k);
+  x.inputs = std::move(inputs);
+  x.t = t;
+  x.keys(std::move(keys));
+  x.markers = element_kind(x.element.type).energy == EnergyCategory::loads ? std::vector{b}
+                                                                           : std::vector{a, b};
+  return x;
+}
+
+SignalDescription& driven_by(AppliedLoad& f) { return f.magnitude; }
+template <class Keys>
+SignalDescription& driven_by(Keys& f) requires requires {
+  f.actuator;
+}
+{ return f.actuator.emplace(); }
+
+/// An element of a type, driven by a signal.
+template <class Keys>
+class Driven : public ::testing::Test {
+ protected:
+  static Efforts driven(const SignalDescription& signal, std::vector<double> inputs) {
+    Keys keys;
+    driven_by(keys) = signal;
+    return test::efforts(element(keys, std::move(inputs), at({0.1, 0.2, -0.3}, {0.5, 0, 0.1}),
+                                 at({0.4, -0.5, 0.9}, {0, 1, 2})));
   }
-  EXPECT_NE(a.force, evaluated(follows, {7.3, 99.0}).force);
+};
+using Types =
+    ::testing::Types<SpringDamper, GuidedSpring, JointSpring, AppliedForce, AppliedTorque>;
+TYPED_TEST_SUITE(Driven, Types);
+
+TYPED_TEST(Driven, ByAnInputAsByAConstant) {
+  const Efforts a = this->driven(number(7.3), {}), b = this->driven(input("u1"), {99.0, 7.3});
+  EXPECT_TRUE(same_bits(a.force, b.force));
+  const VecX of_a = test::stacked(a), of_b = test::stacked(b);
+  for (Eigen::Index k = 0; k < of_a.size(); ++k) EXPECT_TRUE(same_bits(of_a[k], of_b[k])) << k;
+  EXPECT_NE(a.force, this->driven(input("u1"), {7.3, 99.0}).force);
 }
 
-TEST_P(Driven, FunctionOfTimeAndInputAddUp) {
-  Force f = element(GetParam());
-  f.magnitude = {PiecewisePolynomial::polynomial({1.0, 2.0}), 0.0, 0.0, 0.0};
-  f.input = 0;
-  Force sum = element(GetParam());
-  sum.magnitude.pieces = PiecewisePolynomial::polynomial({1.6 + 5.0});
-  EXPECT_NEAR(evaluated(f, {5.0}).force, evaluated(sum, {}).force, 1e-12);
+TYPED_TEST(Driven, FunctionOfTimeAndInputAddUp) {
+  SignalDescription both = input("u0");
+  both.pieces = PiecewisePolynomial::polynomial({1.0, 2.0});
+  EXPECT_NEAR(this->driven(both, {5.0}).force, this->driven(number(1.6 + 5.0), {}).force, 1e-12);
 }
-
-INSTANTIATE_TEST_SUITE_P(AllTypes, Driven,
-                         ::testing::Values(ForceType::spring_damper, ForceType::guided_spring,
-                                           ForceType::joint_spring, ForceType::force,
-                                           ForceType::torque),
-                         [](const auto& type) { return std::string(force_type_name(type.param)); });
 
 TEST(Actuator, PullsTheEndsOfASpringTogether) {
-  Force f;
-  f.driven = true;
-  f.input = 0;
-  const ForceState s = evaluated(f, {40.0}, at({0, 0, 0}), at({0, 0, 2}));
+  SpringDamper f;
+  f.actuator = input("u0");
+  const Efforts s = test::efforts(element(f, {40.0}, at({0, 0, 0}), at({0, 0, 2})));
   EXPECT_EQ(s.force, 40.0);
-  EXPECT_EQ(s.wrench.Fa, Vec3(0, 0, 40));
-  EXPECT_EQ(s.wrench.Fb, Vec3(0, 0, -40));
+  EXPECT_EQ(s.wrench[0].F, Vec3(0, 0, 40));
+  EXPECT_EQ(s.wrench[1].F, Vec3(0, 0, -40));
 }
 
 TEST(Actuator, RaisesTheCoordinateOfAJoint) {
-  Force f;
-  f.type = ForceType::joint_spring;
-  f.driven = true;
-  f.input = 0;
-  EXPECT_EQ(evaluated(f, {40.0}, at({0, 0, 0}), at({0, 0, 1})).wrench.Fb, Vec3(0, 0, 40));
-  f.rotational = true;
-  EXPECT_EQ(evaluated(f, {40.0}, at({0, 0, 0}), at({0, 0, 0})).wrench.Tb, Vec3(0, 0, 40));
+  JointSpring f;
+  f.actuator = input("u0");
+  ElementExample x = element(f, {40.0}, at({0, 0, 0}), at({0, 0, 1}));
+  EXPECT_EQ(test::efforts(x).wrench[1].F, Vec3(0, 0, 40));
+  x.element.rotational = true;
+  EXPECT_EQ(test::efforts(x).wrench[1].T, Vec3(0, 0, 40));
 }
 
 TEST(Actuator, TurnsWithItsLine) {  // the geometric stiffness of its force is in the tangent
-  Force f;
-  f.driven = true;
-  f.input = 0;
-  const MarkerState a = at({0, 0, 0}), b = at({0.3, -0.2, 0.7});
-  const ForceState s = evaluated(f, {40.0}, a, b);
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 step = 1e-6 * Vec3::Unit(k);
-    const Vec3 change = evaluated(f, {40.0}, a, at(b.r + step)).wrench.Fb -
-                        evaluated(f, {40.0}, a, at(b.r - step)).wrench.Fb;
-    Vec3 predicted = Vec3::Zero();
-    for (int i = 0; i < s.row_count; ++i)
-      predicted -= s.rows[i].k * s.rows[i].g.Fb * s.rows[i].g.Fb.dot(2.0 * step);
-    EXPECT_LT((change - predicted).norm(), 1e-9 * 40.0);
+  SpringDamper f;
+  f.actuator = input("u0");
+  const ElementExample x = element(f, {40.0}, at({0, 0, 0}), at({0.3, -0.2, 0.7}));
+  const MatX K = test::tangent_of_rows(test::efforts(x)).K;
+  for (int k = 6; k < 9; ++k) {
+    const VecX step = 1e-6 * VecX::Unit(12, k);
+    const VecX change = test::stacked(test::efforts(test::moved(x, step))) -
+                        test::stacked(test::efforts(test::moved(x, -step)));
+    EXPECT_LT((change + 2.0 * K * step).norm(), 1e-9 * 40.0);
   }
 }
 
 TEST(Target, PullsPositionAndRate) {
-  Force f;
-  f.type = ForceType::joint_spring;
+  JointSpring f;
   f.spring = PiecewisePolynomial::linear(100.0, 0.0);
   f.damper = PiecewisePolynomial::linear(10.0, 0.0);
-  f.targeted = true;
-  f.target.input = 0;
-  f.target_rate.input = 1;
-  const MarkerState a = at({0, 0, 0}), b = at({0, 0, 0.5}, {0, 0, 2});
-  const ForceState s = evaluated(f, {0.7, 3.0}, a, b);
-  EXPECT_NEAR(s.wrench.Fb.z(), 100.0 * 0.2 + 10.0 * 1.0, 1e-12);
+  f.target = input("u0");
+  f.target_rate = input("u1");
+  const Efforts s =
+      test::efforts(element(f, {0.7, 3.0}, at({0, 0, 0}), at({0, 0, 0.5}, {0, 0, 2})));
+  EXPECT_NEAR(s.wrench[1].F.z(), 100.0 * 0.2 + 10.0 * 1.0, 1e-12);
   EXPECT_EQ(s.length, 0.5);
   EXPECT_EQ(s.rate, 2.0);
   EXPECT_NEAR(s.energy, 0.5 * 100.0 * 0.2 * 0.2, 1e-12);
@@ -137,12 +130,11 @@ TEST(Target, PullsPositionAndRate) {
 }
 
 TEST(Target, OfTimeBringsItsOwnRate) {
-  Force f;
-  f.type = ForceType::joint_spring;
+  JointSpring f;
   f.damper = PiecewisePolynomial::linear(10.0, 0.0);
-  f.targeted = f.derived_rate = true;
-  f.target.function.pieces = PiecewisePolynomial::polynomial({0.0, 0.0, 4.0});  // rate 8 t
-  EXPECT_NEAR(evaluated(f, {}, at({0, 0, 0}), at({0, 0, 0}), 0.5).wrench.Fb.z(), 40.0, 1e-12);
+  f.target.emplace().pieces = PiecewisePolynomial::polynomial({0.0, 0.0, 4.0});  // rate 8 t
+  const ElementExample x = element(f, {}, at({0, 0, 0}), at({0, 0, 0}), 0.5);
+  EXPECT_NEAR(test::efforts(x).wrench[1].F.z(), 40.0, 1e-12);
 }
 
 // ------------------------------------------------------------------------------------------------
@@ -153,7 +145,7 @@ ModelDescription block_with_load(const std::string& input) {
   b.name = "block";
   b.kind = RigidDescription{1.0, Vec3::Zero(), Mat3::Identity()};
   d.bodies.push_back(b);
-  AppliedLoadDescription load;
+  AppliedForce load;
   load.at.body = "block";
   load.magnitude.input = input;
   d.forces.push_back({"push", load, {}});
@@ -169,7 +161,7 @@ TEST(BuildInputs, NamesBecomeIndices) {
   d.inputs.push_back({"a", "", 0.0, {}, {}, false, {}});
   d.inputs.push_back({"b", "N", 2.0, -1.0, 3.0, false, {}});
   const Model model = build_model(d);
-  EXPECT_EQ(model.forces[0].input, 1);
+  EXPECT_EQ(model.elements[0].signals[0].input, 1);
   EXPECT_EQ(model.inputs[1].initial, 2.0);
   EXPECT_EQ(model.inputs[1].low, -1.0);
   EXPECT_EQ(model.inputs[1].high, 3.0);

@@ -29,11 +29,11 @@ ModelDescription many_bodies() {
         make_joint(numbered("j", k), JointType::revolute,
                    k % 20 == 0 ? ground_name : numbered("b", k - 1), body, p);
     if (k % 500 != 0) d.joints.push_back(j);  // chains that hang from free joints are left
-    JointSpringDescription motor;
+    JointSpring motor;
     motor.joint = k % 500 == 0 ? numbered("j", k + 1) : j.name;
     motor.spring = PiecewisePolynomial::linear(5.0, 0.0);
     d.forces.push_back({numbered("motor", k), motor, {}});
-    SpringDamperDescription spring;
+    SpringDamper spring;
     spring.a = place_on(ground_name, p + Vec3::UnitZ());
     spring.b = place_on(body, p);
     spring.spring = PiecewisePolynomial::linear(5.0, 1.0);
@@ -50,7 +50,7 @@ ModelDescription many_bodies() {
 TEST(ManyBodies, AreBuilt) {
   const Model m = build_model(many_bodies());
   EXPECT_EQ(m.bodies.size(), 20000u);
-  EXPECT_EQ(m.forces.size(), 40000u);
+  EXPECT_EQ(m.elements.size(), 40000u);
   EXPECT_EQ(m.outputs.size(), 60000u);
   EXPECT_EQ(m.joints.size(), 20000u);
   int automatic = 0;
@@ -65,7 +65,7 @@ TEST(ManyBodies, AreBuilt) {
     if (o.type == OutputType::joint_position) {
       EXPECT_EQ(m.joints[o.joint].name, o.name.replace(0, 1, "j"));
     } else if (o.type == OutputType::force) {
-      EXPECT_EQ(m.forces[o.force].name, o.name.replace(0, 1, "spring"));
+      EXPECT_EQ(m.elements[o.element].name, o.name.replace(0, 1, "spring"));
     }
     if (HasFailure()) break;
   }

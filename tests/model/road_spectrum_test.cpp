@@ -1,5 +1,5 @@
 // Random roads: the spectrum that was asked for, smooth, the same again, and nothing else.
-#include "floatframe/model/road_spectrum.hpp"
+#include "floatframe/description/road_spectrum.hpp"
 
 #include <gtest/gtest.h>
 

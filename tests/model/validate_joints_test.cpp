@@ -9,6 +9,8 @@ namespace {
 
 using namespace test;
 
+Rod& rod(ModelDescription& d) { return std::get<Rod>(d.rods[0].kind); }
+
 TEST(Validate, Joints) {
   check({
       {[](D& d) {
@@ -51,18 +53,20 @@ TEST(Validate, Joints) {
        },
        "joints.pin.position: wrong_value"},
       {[](D& d) { d.joints[2].keep = true; }, "joints.ball.keep: incomplete"},
-      {[](D& d) { d.rods[0].length = 0.0; }, "rods.rod.length: out_of_range"},
-      {[](D& d) { d.rods[0].a.body = "block"; }, "rods.rod: geometry"},
+      {[](D& d) { rod(d).length = 0.0; }, "rods.rod.length: out_of_range"},
+      {[](D& d) { rod(d).a.body = "block"; }, "rods.rod: geometry"},
+      {[](D& d) { d.rods.push_back(d.forces[0]); }, "rods.spring.type: wrong_value"},
+      {[](D& d) { d.forces.push_back(d.rods[0]); }, "forces.rod.type: wrong_value"},
       {[](D& d) {
-         d.rods[0].length.reset();
-         d.rods[0].a.point = d.rods[0].b.point;
+         rod(d).length.reset();
+         rod(d).a.point = rod(d).b.point;
        },
        "rods.rod: geometry"},
-      {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: not_found"},
-      {[](D& d) { d.rods[0].a.node = "n0"; }, "rods.rod.from.node: incomplete"},
+      {[](D& d) { rod(d).a.body = "x"; }, "rods.rod.from.body: not_found"},
+      {[](D& d) { rod(d).a.node = "n0"; }, "rods.rod.from.node: incomplete"},
       // Nodes are known when the bodies are reduced; the errors are those of model files.
       {[](D& d) { d.joints[2].child.node = "n9"; }, "not_found"},
-      {[](D& d) { d.rods[0].b.node = "n0"; }, "not_found"},
+      {[](D& d) { rod(d).b.node = "n0"; }, "not_found"},
       {[](D& d) {
          d.bodies[2].rigid = true;
          d.amplitudes.clear();
@@ -76,14 +80,14 @@ TEST(Validate, Joints) {
          d.joints[2].child.point = d.joints[2].parent.point = Vec3(0.4, 0, 0);
        },
        "not_found"},
-      {[](D& d) { kind<GuidedSpringDescription>(d, 1).tip.point.x() = 0.6; }, "not_found"},
-      {[](D& d) { kind<AppliedLoadDescription>(d, 4).at.node = "n0"; }, "not_found"},
+      {[](D& d) { kind<GuidedSpring>(d, 1).tip.point.x() = 0.6; }, "not_found"},
+      {[](D& d) { kind<AppliedForce>(d, 4).at.node = "n0"; }, "not_found"},
       {[](D& d) {
          d.outputs[0].at.body = "part";
          d.outputs[0].at.point = Vec3(0.7, 0, 0);
        },
        "not_found"},
-      {[](D& d) { d.rods[0].b.point.z() = nan; }, "rods.rod.to.at[3]: out_of_range"},
+      {[](D& d) { rod(d).b.point.z() = nan; }, "rods.rod.to.at[3]: out_of_range"},
   });
 }
 

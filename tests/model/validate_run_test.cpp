@@ -1,7 +1,7 @@
 // Every option of a run, one change at a time, as `build_model` and as `run` are given it.
 #include <gtest/gtest.h>
 
-#include "floatframe/model/validate.hpp"
+#include "floatframe/description/validate.hpp"
 #include "support/error_of.hpp"
 #include "support/valid_description.hpp"
 

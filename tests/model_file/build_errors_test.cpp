@@ -1,7 +1,7 @@
 // Errors that show only when a model from a file is built, with their places.
 #include <gtest/gtest.h>
 
-#include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "support/error_of.hpp"

@@ -2,15 +2,16 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/formulation/relative.hpp"
-#include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model_file/mirror.hpp"
+#include "support/element_motion.hpp"
 #include "support/random_force.hpp"
 
 namespace floatframe::test {
 namespace {
 
 /// Two bodies that fly about, one on a hinge, and an element of the type.
-ModelDescription flying(ForceType type, unsigned seed) {
+ModelDescription flying(ElementType type, unsigned seed) {
   ExampleNumbers numbers(seed);
   ModelDescription d;
   for (const char* name : {"one", "two", "hinged"}) {
@@ -51,7 +52,7 @@ ModelDescription flying(ForceType type, unsigned seed) {
   return d;
 }
 
-ForceState state_of(const ModelDescription& d) {
+Efforts state_of(const ModelDescription& d) {
   const Model model = build_model(d);
   RelativeFormulation f(model, InertiaMethod::preprocessing);
   VecX q, v;
@@ -59,39 +60,41 @@ ForceState state_of(const ModelDescription& d) {
   f.positions(0.0, q);
   f.velocities(v);
   f.forces();
-  return f.force(0);
+  return f.effort(0);
 }
 
 ModelDescription image_of(ModelDescription d, const Placement& x) {
   for (BodyDescription& b : d.bodies) place(b, x);
   for (JointDescription& j : d.joints) place(j, x);
-  for (ForceDescription& f : d.forces) place(f, x);
+  for (ElementDescription& f : d.forces) place(f, x);
   return d;
 }
 
 TEST(Mirror, ImageOfEveryForceDoesTheMirroredThing) {
-  for (const ForceType type : force_types) {
+  for (const ElementType type : types_of(ElementList::forces)) {
     bool acts = false;
     for (unsigned seed = 1; seed <= 20; ++seed) {
       const ModelDescription d = flying(type, seed);
       // A road is a profile over x.
-      const auto keys = force_keys(type);
-      const bool on_road = std::any_of(keys.begin(), keys.end(), [](const ForceKey& key) {
-        return key.kind == ForceKeyKind::road;
+      const auto keys = element_keys(type);
+      const bool on_road = std::any_of(keys.begin(), keys.end(), [](const ElementKey& key) {
+        return key.kind == KeyKind::road;
       });
       const Placement y = reflection(1, 0.3), x = on_road ? y : reflection(0, -0.2);
       for (const Placement& p : {y, x, y * x}) {
-        const ForceState a = state_of(d), b = state_of(image_of(d, p));
-        const double size = 1e-12 * (1.0 + stacked(a.wrench).norm());
-        EXPECT_LT((b.wrench.Fa - p.polar(a.wrench.Fa)).norm(), size) << force_type_name(type);
-        EXPECT_LT((b.wrench.Fb - p.polar(a.wrench.Fb)).norm(), size) << force_type_name(type);
-        EXPECT_LT((b.wrench.Ta - p.axial(a.wrench.Ta)).norm(), size) << force_type_name(type);
-        EXPECT_LT((b.wrench.Tb - p.axial(a.wrench.Tb)).norm(), size) << force_type_name(type);
+        const Efforts a = state_of(d), b = state_of(image_of(d, p));
+        const double size = 1e-12 * (1.0 + stacked(a).norm());
+        for (std::size_t i = 0; i < a.markers(); ++i) {
+          EXPECT_LT((b.wrench[i].F - p.polar(a.wrench[i].F)).norm(), size)
+              << element_type_name(type);
+          EXPECT_LT((b.wrench[i].T - p.axial(a.wrench[i].T)).norm(), size)
+              << element_type_name(type);
+        }
         EXPECT_NEAR(b.energy, a.energy, 1e-12 * (1.0 + std::abs(a.energy)));
-        acts = acts || stacked(a.wrench).norm() > 1e-3;
+        acts = acts || stacked(a).norm() > 1e-3;
       }
     }
-    EXPECT_TRUE(acts) << force_type_name(type);
+    EXPECT_TRUE(acts) << element_type_name(type);
   }
 }
 

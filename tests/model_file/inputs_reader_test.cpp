@@ -13,7 +13,7 @@ const std::string file = FLOATFRAME_TEST_DATA "/good_models/inputs.yaml";
 
 template <class T>
 const T& force(const ModelDescription& d, const std::string& name) {
-  for (const ForceDescription& f : d.forces)
+  for (const ElementDescription& f : d.forces)
     if (f.name == name) return std::get<T>(f.kind);
   throw std::runtime_error("no force " + name);
 }
@@ -32,16 +32,16 @@ TEST(InputsInFiles, EveryKeyArrives) {
   EXPECT_EQ(d.inputs[3].unit, "rad/s");
   EXPECT_EQ(d.inputs[3].initial, 0.0);
   EXPECT_FALSE(d.inputs[3].low);
-  EXPECT_EQ(force<AppliedLoadDescription>(d, "push").magnitude.input, "push");
-  const auto& tie = force<SpringDamperDescription>(d, "tie");
+  EXPECT_EQ(force<AppliedForce>(d, "push").magnitude.input, "push");
+  const auto& tie = force<SpringDamper>(d, "tie");
   EXPECT_EQ(tie.actuator->input, "pull");
   EXPECT_EQ(tie.actuator->amplitude, 1.0);
-  EXPECT_EQ(force<GuidedSpringDescription>(d, "guide").actuator->input, "pull");
-  const auto& motor = force<JointSpringDescription>(d, "motor");
+  EXPECT_EQ(force<GuidedSpring>(d, "guide").actuator->input, "pull");
+  const auto& motor = force<JointSpring>(d, "motor");
   EXPECT_EQ(motor.target->input, "angle");
   EXPECT_EQ(motor.target_rate->input, "speed");
   EXPECT_FALSE(motor.actuator);
-  EXPECT_EQ(force<JointSpringDescription>(d, "brake").actuator->input, "push");
+  EXPECT_EQ(force<JointSpring>(d, "brake").actuator->input, "push");
 }
 
 TEST(InputsInFiles, RunKeepsTheInitialValueAsIfItWereConstant) {

@@ -155,15 +155,14 @@ TEST(Mirror, FlexibleBodyKeepsItsDescription) {
 
 TEST(Mirror, Loads) {
   const Placement m = reflection(2, 0.0);
-  for (bool torque : {false, true}) {
-    ForceDescription f;
-    AppliedLoadDescription l;
-    l.torque = torque;
-    l.direction = a;
-    f.kind = l;
-    place(f, m);
-    EXPECT_EQ(std::get<AppliedLoadDescription>(f.kind).direction, torque ? m.axial(a) : m.polar(a));
-  }
+  AppliedLoad load;
+  load.direction = a;
+  ElementDescription force{"force", AppliedForce{load}, {}},
+      torque{"torque", AppliedTorque{load}, {}};
+  place(force, m);
+  place(torque, m);
+  EXPECT_EQ(std::get<AppliedForce>(force.kind).direction, m.polar(a));
+  EXPECT_EQ(std::get<AppliedTorque>(torque.kind).direction, m.axial(a));
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "support/error_of.hpp"

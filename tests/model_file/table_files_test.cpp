@@ -46,8 +46,8 @@ TEST_F(TableFiles, GiveWhatTheSameNumbersInTheModelFileGive) {
   const ModelDescription written =
       read("[[0, 0], [0.5, 0.25], [1, 1], [2, -1]]", "[[0.5, -100], [1, 0], [1.5, 200]]",
            "[[0, 0], [1, 0], [1, 0.1], [4, 0.1]]");
-  const auto& a = std::get<SpringDamperDescription>(from_files.forces[0].kind).spring;
-  const auto& b = std::get<SpringDamperDescription>(written.forces[0].kind).spring;
+  const auto& a = std::get<SpringDamper>(from_files.forces[0].kind).spring;
+  const auto& b = std::get<SpringDamper>(written.forces[0].kind).spring;
   for (double x = -1.0; x < 5.0; x += 0.0625) {
     EXPECT_EQ(from_files.joints[0].motion->pieces(x).f, written.joints[0].motion->pieces(x).f) << x;
     EXPECT_EQ(a(x).f, b(x).f) << x;

@@ -7,6 +7,7 @@
 
 #include "support/completed_run.hpp"
 #include "support/descriptions.hpp"
+#include "support/element_motion.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -30,13 +31,12 @@ ModelDescription disc_model(const BearingDisc& disc, const Vec5& start) {
   j.position = {start[0], start[1], start[2], start[3], start[4], 0.0};
   j.velocity = {0.0, 0.0, 0.0, 0.0, 0.0, disc.spin};
   d.joints = {j};
-  d.forces = {{"bearing",
-               ForceValues{ForceType::bearing,
-                           {{"from", place_on("ground")},
-                            {"to", place_on("disc")},
-                            {"stiffness", disc.K},
-                            {"damping", disc.C}}},
-               {}}};
+  Bearing bearing;
+  bearing.from = place_on("ground");
+  bearing.to = place_on("disc");
+  bearing.stiffness = disc.K;
+  bearing.damping = disc.C;
+  d.forces = {{"bearing", bearing, {}}};
   for (int k = 0; k < 3; ++k)
     d.outputs.push_back(
         make_output("r" + std::to_string(k), OutputType::joint_position, "free", k));
@@ -156,14 +156,20 @@ TEST(Bearing, InModelFiles) {
   const ModelDescription d =
       read_bearing("axis_2: y, stiffness: [[10, 2], [-3, 20]], damping: [[1, 0], [0, 1]]");
   const Model model = build_model(d);
-  const Force& f = model.forces.at(0);
-  EXPECT_EQ(f.type, ForceType::bearing);
-  EXPECT_EQ(f.numbers.at(0), 10.0);  // K by columns
-  EXPECT_EQ(f.numbers.at(1), -3.0);
-  EXPECT_EQ(f.numbers.at(6), 2.0);
-  EXPECT_NEAR(f.numbers.at(73), 0.1, 1e-15);  // e_2 is z
-  const Mat3 R = model.bodies.at(0).X_WB.R * model.markers.at(f.b).X_NM.R;
+  const Element& f = model.elements.at(0);
+  EXPECT_EQ(f.type, ElementType::bearing);
+  const Mat3 R = model.bodies.at(0).X_WB.R * model.markers.at(f.markers[1]).X_NM.R;
   EXPECT_LT((R.col(2) - Vec3::UnitX()).norm() + (R.col(0) - Vec3::UnitY()).norm(), 1e-15);
+  ElementExample x;
+  x.model = model;
+  x.element = f;
+  x.element.markers.clear();  // those of the example
+  const Vec3 zero = Vec3::Zero();
+  x.markers = {{Vec3(0, 0, 0.9), R, zero, zero, zero, zero},
+               {Vec3(0, 0, 1.0), R, zero, zero, zero, zero}};
+  EXPECT_LT(stacked(efforts(x)).norm(), 1e-14);  // drawn without a force
+  x.markers[1].r.y() += 1e-3;                    // along e_1; e_2 is z
+  EXPECT_LT((efforts(x).wrench[1].F - Vec3(0, -0.01, 0.003)).norm(), 1e-14);
 }
 
 TEST(Bearing, InvalidBearingsAreErrors) {

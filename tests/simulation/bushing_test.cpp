@@ -7,9 +7,10 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/element_keys.hpp"
 #include "support/completed_run.hpp"
 #include "support/descriptions.hpp"
+#include "support/element_motion.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -26,18 +27,18 @@ ModelDescription on_bushing(const RigidDescription& rigid, const Vec3& at) {
   d.gravity.setZero();
   d.bodies = {make_body("block", rigid)};
   d.joints = {make_joint("free", JointType::free, "ground", "block")};
-  d.forces = {{"bushing",
-               ForceValues{ForceType::bushing,
-                           {{"from", place_on("ground", at)}, {"to", place_on("block", at)}}},
-               {}}};
+  Bushing bushing;
+  bushing.from = place_on("ground", at);
+  bushing.to = place_on("block", at);
+  d.forces = {{"bushing", bushing, {}}};
   for (int k = 0; k < 6; ++k)
     d.outputs.push_back(
         make_output("q" + std::to_string(k), OutputType::joint_position, "free", k));
   return d;
 }
 
-std::map<std::string, ForceValue>& values(ModelDescription& d) {
-  return std::get<ForceValues>(d.forces[0].kind).values;
+void set(ModelDescription& d, const std::string& key, const KeyValue& value) {
+  set_key_value(d.forces[0], ElementView(d.forces[0]).key(key), value);
 }
 
 // Started in the shape of an eigenmode a body is in the opposite one after half its period: all six
@@ -53,9 +54,9 @@ TEST(Bushing, EigenfrequenciesOfABodyAreThoseOfItsMatrices) {
   rigid.mass = 3.0;
   rigid.J_C << 0.05, 0.004, -0.002, 0.004, 0.08, 0.006, -0.002, 0.006, 0.11;
   ModelDescription d = on_bushing(rigid, at);
-  values(d)["axis"] = axis;
-  values(d)["axis_2"] = across;
-  for (int i = 0; i < 6; ++i) values(d)[laws[i]] = PiecewisePolynomial::linear(k[i], 0.0);
+  set(d, "axis", axis);
+  set(d, "axis_2", across);
+  for (int i = 0; i < 6; ++i) set(d, laws[i], PiecewisePolynomial::linear(k[i], 0.0));
 
   // Small motions (r, phi) of the frame at the centre of mass: displacement r + phi x at.
   Mat6 K = Mat6::Zero(), M = Mat6::Zero();
@@ -92,9 +93,9 @@ TEST(Bushing, LargeRotationsAboutAnyAxisAreHarmonic) {
   const Vec3 about = Vec3(0.5, -0.7, 0.4).normalized();
   const RigidDescription ball{1.0, Vec3::Zero(), J * Mat3::Identity()};
   ModelDescription d = on_bushing(ball, Vec3::Zero());
-  values(d)["axis"] = Vec3(1.0, 1.0, 0.2);
-  for (int i = 0; i < 3; ++i) values(d)[laws[i]] = PiecewisePolynomial::linear(500.0, 0.0);
-  for (int i = 3; i < 6; ++i) values(d)[laws[i]] = PiecewisePolynomial::linear(k, 0.0);
+  set(d, "axis", Vec3(1.0, 1.0, 0.2));
+  for (int i = 0; i < 3; ++i) set(d, laws[i], PiecewisePolynomial::linear(500.0, 0.0));
+  for (int i = 3; i < 6; ++i) set(d, laws[i], PiecewisePolynomial::linear(k, 0.0));
   const Vec3 start = theta * about;
   d.joints[0].position = {0.0, 0.0, 0.0, start.x(), start.y(), start.z()};
   d.simulation.duration = 0.4;
@@ -118,8 +119,8 @@ TEST(Bushing, DampersActOnTheRatesOfTheirAngles) {
   const double J = 0.02, k = 3.0, c = 0.1, theta = 0.8;
   const RigidDescription ball{1.0, Vec3::Zero(), J * Mat3::Identity()};
   ModelDescription d = on_bushing(ball, Vec3::Zero());
-  values(d)["spring_ry"] = PiecewisePolynomial::linear(k, 0.0);
-  values(d)["damper_ry"] = PiecewisePolynomial::linear(c, 0.0);
+  set(d, "spring_ry", PiecewisePolynomial::linear(k, 0.0));
+  set(d, "damper_ry", PiecewisePolynomial::linear(c, 0.0));
   d.joints[0].position = {0.0, 0.0, 0.0, 0.0, theta, 0.0};
   d.simulation.duration = 0.5;
   d.simulation.step = 2e-4;
@@ -141,10 +142,10 @@ TEST(Bushing, ViscousBallJointTurnsWithoutEnd) {
   const Vec3 about = Vec3(0.5, -0.7, 0.4).normalized();
   const RigidDescription ball{1.0, Vec3::Zero(), J * Mat3::Identity()};
   ModelDescription d = on_bushing(ball, Vec3::Zero());
-  values(d)["axis"] = Vec3(1.0, 1.0, 0.2);
+  set(d, "axis", Vec3(1.0, 1.0, 0.2));
   for (const char* law : {"damper_rx", "damper_ry", "damper_rz"})
-    values(d)[law] = PiecewisePolynomial::linear(c, 0.0);
-  values(d)["rotation_rate"] = std::string("angular_velocity");
+    set(d, law, PiecewisePolynomial::linear(c, 0.0));
+  std::get<Bushing>(d.forces[0].kind).rotation_rate = RotationRate::angular_velocity;
   const Vec3 w = w0 * about;
   d.joints[0].velocity = {0.0, 0.0, 0.0, w.x(), w.y(), w.z()};
   for (int k = 0; k < 3; ++k)
@@ -192,18 +193,18 @@ TEST(Bushing, BothRatesOnACone) {
   b.R = rotation_exp(across);
   const double W = 2.0 * std::numbers::pi;
   b.w = W * (Vec3::UnitZ() - b.R * Vec3::UnitZ());  // d(R)/dt = W (skew(z) R - R skew(z))
-  Model model;
-  Force f;
-  f.type = ForceType::bushing;
-  f.laws.assign(12, PiecewisePolynomial());
-  for (std::size_t i = 9; i < 12; ++i) f.laws[i] = PiecewisePolynomial::linear(c, 0.0);
-  ForceState s;
-  evaluate_force(model, f, a, b, Vec3::Zero(), 0.0, 0.0, s);
+  Bushing f;
+  f.damper_rx = f.damper_ry = f.damper_rz = PiecewisePolynomial::linear(c, 0.0);
+  ElementExample x;
+  x.markers = {a, b};
+  x.keys(f);
+  Efforts s = efforts(x);
   EXPECT_NEAR(s.damping, c * W * W * theta * theta, 1e-12 * s.damping);
-  f.numbers = {1.0};
-  evaluate_force(model, f, a, b, Vec3::Zero(), 0.0, 0.0, s);
+  f.rotation_rate = RotationRate::angular_velocity;
+  x.keys(f);
+  s = efforts(x);
   EXPECT_NEAR(s.damping, c * W * W * 2.0 * (1.0 - std::cos(theta)), 1e-12 * s.damping);
-  EXPECT_LT((s.wrench.Tb + c * b.w).norm() + (s.wrench.Ta - c * b.w).norm(), 1e-14);
+  EXPECT_LT((s.wrench[1].T + c * b.w).norm() + (s.wrench[0].T - c * b.w).norm(), 1e-14);
 }
 
 ModelDescription read(const std::string& force) {
@@ -219,22 +220,24 @@ TEST(Bushing, InModelFiles) {
       "axis: x, axis_2: z, spring_x: 1000, spring_z: {linear: {stiffness: 2000, preload: 30}}, "
       "spring_rx: 5, damper_x: 7}");
   const Model model = build_model(d);
-  const Force& f = model.forces.at(0);
-  EXPECT_EQ(f.type, ForceType::bushing);
+  const Element& f = model.elements.at(0);
+  EXPECT_EQ(f.type, ElementType::bushing);
   // The first axis is z: displacements count from the 0.1 m of the design configuration.
   EXPECT_NEAR(f.laws.at(0)(0.1).f, 0.0, 1e-12);
   EXPECT_NEAR(f.laws.at(0)(0.2).f, 100.0, 1e-12);
   EXPECT_EQ(f.laws.at(2)(0.0).f, 30.0);
   EXPECT_EQ(f.laws.at(3)(0.1).f, 0.5);
   EXPECT_EQ(f.laws.at(6)(1.0).f, 7.0);
-  const Mat3 R = model.bodies.at(0).X_WB.R * model.markers.at(f.b).X_NM.R;
+  const Mat3 R = model.bodies.at(0).X_WB.R * model.markers.at(f.markers[1]).X_NM.R;
   EXPECT_LT((R.col(0) - Vec3::UnitZ()).norm() + (R.col(2) - Vec3::UnitX()).norm(), 1e-15);
-  EXPECT_TRUE(f.numbers.empty());
   const std::string ends =
       "{type: bushing, from: {body: ground, at: [0, 0, 1]}, to: {body: block, at: [0, 0, 1]}, "
       "damper_rx: 1, rotation_rate: ";
-  EXPECT_TRUE(build_model(read(ends + "rotation_vector}")).forces.at(0).numbers.empty());
-  EXPECT_EQ(build_model(read(ends + "angular_velocity}")).forces.at(0).numbers.size(), 1u);
+  const auto rate = [&](const std::string& word) {
+    return std::get<Bushing>(read(ends + word + "}").forces.at(0).kind).rotation_rate;
+  };
+  EXPECT_EQ(rate("rotation_vector"), RotationRate::rotation_vector);
+  EXPECT_EQ(rate("angular_velocity"), RotationRate::angular_velocity);
 }
 
 TEST(Bushing, InvalidBushingsAreErrors) {

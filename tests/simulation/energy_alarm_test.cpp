@@ -61,7 +61,7 @@ forces:
 simulation: {step: 0.002, duration: 2}
 )");
   ModelDescription table = d;
-  auto& spring = std::get<JointSpringDescription>(table.forces[0].kind);
+  auto& spring = std::get<JointSpring>(table.forces[0].kind);
   // The same, of pieces.
   spring.target->pieces = PiecewisePolynomial({1.0}, {{0.0, {0.0}}, {1.0, {0.0}}});
   const EnergySummary a = alarm_run(d, Coordinates::relative).energy,

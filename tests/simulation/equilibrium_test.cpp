@@ -50,7 +50,8 @@ TEST(Equilibrium, OfTooManyCoordinatesIsRefused) {
 /// Displacement of the node of the first force.
 Vec3 loaded_tip(const Model& model, const StaticsResult& s) {
   const FlexibleBody& body = *model.bodies[0].data;
-  return body.nodes.at(model.markers.at(model.forces[0].b).node).X * s.bodies[0].amplitudes;
+  return body.nodes.at(model.markers.at(model.elements[0].markers.back()).node).X *
+         s.bodies[0].amplitudes;
 }
 
 // Balance is measured against the forces that act: without weight, rounding of the elastic forces

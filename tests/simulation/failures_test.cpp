@@ -86,7 +86,7 @@ ModelDescription jump() {
   d.joints = {
       make_joint("rail", JointType::prismatic, "ground", "carriage", Vec3::Zero(), Vec3::UnitX())};
   d.joints[0].velocity = {1.0};
-  JointSpringDescription spring;
+  JointSpring spring;
   spring.joint = "rail";
   spring.spring = PiecewisePolynomial::linear(1.0, 0.0);
   d.forces = {{"wall", spring, {}}};
@@ -98,7 +98,7 @@ TEST(Failures, StepThatCannotConverge) {
   ModelDescription d = jump();
   Model model = build_model(d);
   // A description with a jump is refused: the wall comes into the built model.
-  model.forces[0].spring = PiecewisePolynomial({0.105}, {{0.0, {0.0}}, {0.0, {1e6}}});
+  model.elements[0].laws[0] = PiecewisePolynomial({0.105}, {{0.0, {0.0}}, {0.0, {1e6}}});
   for (const double min_step : {0.01, 0.0}) {
     both_formulations([&](const Combination& c) {
       SimulationDescription s = with(d.simulation, c, 0.01, 1.0);
@@ -149,13 +149,12 @@ TEST(Failures, ArmWithoutMassThatNothingHoldsAnyMoreIsNamed) {
               rigid("stone", 1.0, Vec3(0, 0, 2), 0.1 * Mat3::Identity())};
   d.joints = {
       make_joint("hinge", JointType::revolute, "ground", "arm", Vec3::Zero(), Vec3::UnitY())};
-  JointSpringDescription spring;
+  JointSpring spring;
   spring.joint = "hinge";
   spring.spring = PiecewisePolynomial::polynomial({0.0, 10.0, -10.0});
-  AppliedLoadDescription load;
+  AppliedTorque load;
   load.at.body = "arm";
   load.direction = Vec3::UnitY();
-  load.torque = true;
   load.magnitude.pieces = PiecewisePolynomial::polynomial({0.0, 5.0});
   d.forces = {{"spring", spring, {}}, {"load", load, {}}};
   d.outputs = {make_output("x", place_on("arm", Vec3(1, 0, 0)), 0)};

@@ -26,9 +26,9 @@ TEST(IltisRigid, NominalForces) {
   f.velocities(v);
   f.forces();
   const auto nominal = [&](const std::string& name, double printed, int decimals) {
-    for (std::size_t k = 0; k < model.forces.size(); ++k)
-      if (model.forces[k].name == name)
-        return expect_digits("nominal " + name + " [N]", f.force(static_cast<int>(k)).force,
+    for (std::size_t k = 0; k < model.elements.size(); ++k)
+      if (model.elements[k].name == name)
+        return expect_digits("nominal " + name + " [N]", f.effort(static_cast<int>(k)).force,
                              printed, decimals);
     ADD_FAILURE() << name;
   };

@@ -128,8 +128,8 @@ TEST(Range, ShaftThatTurnsAboutItsOwnAxis) {
 // step.
 TEST(Range, OscillationThatTheStepDoesNotResolve) {
   ModelDescription d = read_model(RANGE("springs"), {{"step", "0.01"}});
-  std::erase_if(d.forces, [](const ForceDescription& f) { return f.name != "strut"; });
-  auto& strut = std::get<SpringDamperDescription>(d.forces.at(0).kind);
+  std::erase_if(d.forces, [](const ElementDescription& f) { return f.name != "strut"; });
+  auto& strut = std::get<SpringDamper>(d.forces.at(0).kind);
   strut.spring = PiecewisePolynomial::polynomial({-0.9 * 74000.0, 74000.0});
   strut.damper = {};
   strut.actuator.reset();

@@ -157,7 +157,7 @@ TEST(Reactions, BalanceEveryBodyOfRandomMechanismsAndAreThoseOfEitherFormulation
       worst_balance = std::max({worst_balance, br.error, ba.error});
       ++compared;
       redundant += r.started.report().redundant.empty() ? 0 : 1;
-      rods += model.rods.empty() ? 0 : 1;
+      rods += !model.elements.empty() && model.elements.back().holds ? 1 : 0;
       for (std::size_t j = 0; j < model.joints.size(); ++j) {
         driven += model.joints[j].motion ? 1 : 0;
         const Reactions::Wrench &x = r.solver.reactions().joints[j],

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <complex>
 
-#include "floatframe/model/road_spectrum.hpp"
+#include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
 #include "simulation/figures.hpp"

@@ -32,8 +32,8 @@ struct AbsoluteStart {
       if (p.owner.kind != ConstraintOwner::Kind::joint || p.owner.index != joint) continue;
       for (int r = 0; r < p.rows(); ++r) {
         const double lambda = state.lambda[f.constraint_set().offset(k) + r];
-        sum.head<3>() -= lambda * rows[r].gradient.Fb;
-        sum.tail<3>() -= lambda * rows[r].gradient.Tb;
+        sum.head<3>() -= lambda * rows[r].gradient.b.F;
+        sum.tail<3>() -= lambda * rows[r].gradient.b.T;
       }
     }
     return sum;

@@ -207,8 +207,8 @@ TEST(SteppingMisuse, StatesOfOtherSimulations) {
   cases.push_back({[](Simulation&) { SimulationState().to_bytes(); }, "missing"});
   const std::vector<std::function<void(Model&)>> changes = {
       [](Model& m) { m.gravity.z() = -9.82; },
-      [](Model& m) { m.forces[0].name = "other"; },
-      [](Model& m) { m.forces[0].spring = PiecewisePolynomial::linear(3.0000001, 0.0); },
+      [](Model& m) { m.elements[0].name = "other"; },
+      [](Model& m) { m.elements[0].laws[0] = PiecewisePolynomial::linear(3.0000001, 0.0); },
       [](Model& m) { m.inputs[0].high = 51.0; },
       [](Model& m) { m.outputs.pop_back(); },
       [](Model& m) { m.joints[0].motion->phase = 0.1; },

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/formulation/absolute.hpp"
-#include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "support/completed_run.hpp"
 #include "support/descriptions.hpp"
@@ -34,7 +34,7 @@ ModelDescription disc(bool cut, bool reversed) {
   j.position = {start_angle};
   j.cut = cut;
   d.joints.push_back(j);
-  JointSpringDescription s;
+  JointSpring s;
   s.joint = "hinge";
   s.spring = PiecewisePolynomial::linear(stiffness, 0.0);
   d.forces = {{"spring", s, {}}};
@@ -132,7 +132,7 @@ void expect_forgotten(F& f, const VecX& q, const std::vector<VecX>& astray, cons
     f.positions(0.0, at);
     f.velocities(v);
     f.forces();
-    return f.force(0).length;
+    return f.effort(0).length;
   };
   ASSERT_NEAR(angle(q), start_angle, 1e-12);
   f.stepping(true);

@@ -54,11 +54,11 @@ inline BodyBalance body_balance(const Formulation& f, const Reactions& reactions
     sum[i].tail(nm) += model.bodies[i].data->K * b.y + model.bodies[i].data->D * b.yd;
   }
   for (const VecX& h : sum) largest = std::max(largest, h.head<3>().norm());
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& force = model.forces[k];
-    const WrenchRow& w = motion.forces[k].wrench;
-    if (force.a >= 0) add(force.a, w.Fa, w.Ta);
-    add(force.b, w.Fb, w.Tb);
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& force = model.elements[k];
+    const Efforts& x = motion.efforts[k];
+    for (std::size_t i = 0; i < x.markers(); ++i)
+      add(force.markers[i], x.wrench[i].F, x.wrench[i].T);
   }
   const auto between = [&](int a, int b, const Reactions::Wrench& w) {
     const Vec3 d = motion.marker(b).r - motion.marker(a).r;
@@ -67,8 +67,9 @@ inline BodyBalance body_balance(const Formulation& f, const Reactions& reactions
   };
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     between(model.joints[j].frame_F, model.joints[j].frame_M, reactions.joints[j]);
-  for (std::size_t r = 0; r < model.rods.size(); ++r)
-    between(model.rods[r].a, model.rods[r].b, reactions.rods[r]);
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    if (const Element& e = model.elements[k]; e.holds)
+      between(e.markers[0], e.markers[1], reactions.elements[k]);
   // The largest displacement of a mode is what a force does to it at most.
   const auto shape_size = [&](std::size_t body, Eigen::Index mode) {
     double most = 0.0;

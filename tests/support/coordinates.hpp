@@ -2,7 +2,7 @@
 // Both formulations, for tests that hold in each, and their names.
 #include <string>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe::test {
 
@@ -34,9 +34,10 @@ inline JointDescription make_joint(const std::string& name, JointType type,
   return j;
 }
 
-inline RodDescription make_rod(const std::string& name, const AttachmentDescription& a,
-                               const AttachmentDescription& b, std::optional<double> length = {}) {
-  return {name, a, b, length, {}};
+inline ElementDescription make_rod(const std::string& name, const AttachmentDescription& a,
+                                   const AttachmentDescription& b,
+                                   std::optional<double> length = {}) {
+  return {name, Rod{a, b, length}, {}};
 }
 
 /// Of a joint or a force.

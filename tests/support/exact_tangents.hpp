@@ -1,22 +1,9 @@
 #pragma once
-// The exact derivatives of elements, by their lists: each kind of force and of constraint part
-// defines its own beside its law. Steps use shorter ways, which tests hold to these.
-#include <iterator>
-
-#include "floatframe/model/force_kind.hpp"
+// The exact derivatives of constraint parts, by their list: each kind defines its own next to its
+// rows. Steps use shorter ways, which tests compare with these.
+#include "floatframe/model/constraint_part.hpp"
 
 namespace floatframe::test {
-
-inline ForceTangent exact_tangent(const ForceInput& in) {
-  ForceTangent out;
-  out.K.setZero();
-  out.C.setZero();
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((in.force.type == force_types[I] ? force_tangent_of<force_types[I]>(in, out) : void()), ...);
-  }
-  (std::make_index_sequence<std::size(force_types)>{});
-  return out;
-}
 
 /// d(sum lambda_r gradient_r)/d(motion)
 inline Mat12 exact_curvature(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,

@@ -42,13 +42,13 @@ auto derivative(const F& f, double h = 2e-4) {
   return ((8.0 * (f1 - f2) - (f3 - f4)) / (12.0 * h)).eval();
 }
 
-/// d f(x)/dx at 0, column by column; f returns a vector.
+/// d f(x)/dx at 0, of `n` numbers x, column by column; f returns a vector.
 template <class F>
-MatX jacobian(const F& f) {
+MatX jacobian(const F& f, Eigen::Index n = 12) {
   MatX J;
-  for (int k = 0; k < 12; ++k) {
-    const VecX column = derivative([&](double h) { return VecX(f(Vec12(h * Vec12::Unit(k)))); });
-    if (k == 0) J.resize(column.size(), 12);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const VecX column = derivative([&](double h) { return VecX(f(VecX(h * VecX::Unit(n, k)))); });
+    if (k == 0) J.resize(column.size(), n);
     J.col(k) = column;
   }
   return J;

@@ -69,7 +69,7 @@ class MechanismBuilder {
   FlexibleDescription bar_frame(double length, bool straight, Nodes& nodes);
   int add_bars(const Vec3& at, const Vec3* to);
   int add_known(BodyDescription b, Nodes nodes, double mass);
-  void add_tyre(ForceDescription& f);
+  void add_tyre(ElementDescription& f);
 
   std::vector<Nodes> nodes_;  ///< of flexible bodies; empty for rigid ones
   std::vector<double> masses_;

@@ -126,8 +126,8 @@ SignalDescription MechanismBuilder::signal(double scale) {
 }
 
 /// Just touching its own road at the start.
-void MechanismBuilder::add_tyre(ForceDescription& f) {
-  TyreDescription t;
+void MechanismBuilder::add_tyre(ElementDescription& f) {
+  Tyre t;
   const int body = pick(bodies());
   t.centre = somewhere(body);
   const Vec3 c = t.centre.point;
@@ -158,7 +158,7 @@ void MechanismBuilder::add_tyre(ForceDescription& f) {
 }
 
 void MechanismBuilder::add_force() {
-  ForceDescription f;
+  ElementDescription f;
   f.name = "force_" + std::to_string(d.forces.size());
   const int a = pick(bodies() + 1) - 1, b = pick(bodies());
   const double share = std::max(0.2, std::min(mass(a), mass(b)));
@@ -170,7 +170,7 @@ void MechanismBuilder::add_force() {
     case 0:
     case 1: {
       if (a == b || length < 0.1) return;
-      SpringDamperDescription s;
+      SpringDamper s;
       s.a = on_a;
       s.b = on_b;
       s.spring = spring_law(stiffness, length);
@@ -181,7 +181,7 @@ void MechanismBuilder::add_force() {
     }
     case 2: {
       if (a == b) return;
-      GuidedSpringDescription g;
+      GuidedSpring g;
       g.reference = on_a;
       g.tip = on_b;
       g.axis = direction();
@@ -192,7 +192,7 @@ void MechanismBuilder::add_force() {
       break;
     }
     case 3: {
-      JointSpringDescription s;
+      JointSpring s;
       for (const JointDescription& j : d.joints)
         if ((j.type == JointType::revolute || j.type == JointType::prismatic) &&
             (s.joint.empty() || chance(0.3)))
@@ -210,13 +210,13 @@ void MechanismBuilder::add_force() {
       add_tyre(f);
       break;
     default: {
-      AppliedLoadDescription load;
+      AppliedLoad load;
       load.at = on_b;
       load.direction = direction();
-      load.torque = chance(0.4);
-      load.magnitude = signal(load.torque ? 0.3 : 3.0 * share);
+      const bool torque = chance(0.4);
+      load.magnitude = signal(torque ? 0.3 : 3.0 * share);
       load.follows = chance(0.5);
-      f.kind = load;
+      torque ? f.kind = AppliedTorque{load} : f.kind = AppliedForce{load};
     }
   }
   d.forces.push_back(std::move(f));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "floatframe/model/constraint_part.hpp"
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "support/mechanism_check.hpp"
 
 namespace floatframe::test {
@@ -32,9 +32,10 @@ int kinks_in_time(const TimeFunction& f, double end) {
 /// Of a table of results: where a quantity of a force element is.
 std::size_t column_of(const Model& model, OutputType quantity, std::size_t force) {
   for (std::size_t c = 0; c < model.outputs.size(); ++c)
-    if (model.outputs[c].type == quantity && model.outputs[c].force == static_cast<int>(force))
+    if (model.outputs[c].type == quantity && model.outputs[c].element == static_cast<int>(force))
       return c + 1;
-  throw std::logic_error("the results do not hold all of force '" + model.forces[force].name + "'");
+  throw std::logic_error("the results do not hold all of force '" + model.elements[force].name +
+                         "'");
 }
 
 }  // namespace
@@ -48,11 +49,8 @@ double steps_on_kinks(const Model& model, double steps) {
   };
   for (const Joint& j : model.joints)
     if (j.motion) add(*j.motion);
-  for (const Force& f : model.forces) {
-    add(f.magnitude);
-    add(f.target.function);
-    add(f.target_rate.function);
-  }
+  for (const Element& f : model.elements)
+    for (const Signal& signal : f.signals) add(signal.function);
   double best = steps;
   std::ptrdiff_t most = 0;
   for (int more = 0; more < 20; ++more) {
@@ -70,34 +68,36 @@ double steps_on_kinks(const Model& model, double steps) {
 }
 
 bool passes_kinks(const Model& model, const ResultTable& t) {
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& f = model.forces[k];
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& f = model.elements[k];
     const double end = model.simulation.duration;
-    if (kinks_in_time(f.magnitude, end) || kinks_in_time(f.target.function, end) ||
-        kinks_in_time(f.target_rate.function, end))
-      return true;
-    if (!force_has(f.type, ForceQuantity::length)) continue;  // a load: time alone decides
+    for (const Signal& signal : f.signals)
+      if (kinks_in_time(signal.function, end)) return true;
+    if (!f.acts || !element_has(f.type, ElementQuantity::length))
+      continue;  // a load: time alone decides
     const std::size_t force_column = column_of(model, OutputType::force, k),
                       length_column = column_of(model, OutputType::length, k),
                       rate_column = column_of(model, OutputType::rate, k);
+    const auto value = [&](std::size_t port, double time) {
+      PiecewisePolynomial::Value x = evaluate(f.signals[port].function, time);
+      if (f.signals[port].input >= 0) x.f += model.inputs[f.signals[port].input].initial;
+      return x;
+    };
     const auto side = [&](std::size_t row) {
       const double time = t.at(row, 0), force = t.at(row, force_column);
       double length = t.at(row, length_column), rate = t.at(row, rate_column);
-      if (f.type == ForceType::tyre) return force > 0.0 ? 1 : 0;
-      if (f.targeted) {
-        const auto input = [&](const Signal& s) {
-          return s.input < 0 ? 0.0 : model.inputs[s.input].initial;
-        };
-        const PiecewisePolynomial::Value target = evaluate(f.target.function, time);
-        length -= target.f + input(f.target);
-        rate -= f.derived_rate ? target.df
-                               : evaluate(f.target_rate.function, time).f + input(f.target_rate);
+      if (f.road >= 0) return force > 0.0 ? 1 : 0;
+      if (f.type == ElementType::joint_spring) {  // signals: actuator, target, target rate
+        const PiecewisePolynomial::Value target = value(1, time);
+        length -= target.f;
+        rate -= f.signals[2].given ? value(2, time).f : target.df;
       }
-      return kinks_below(f.spring, length) + 100 * kinks_below(f.damper, rate);
+      if (f.laws.size() != 2) return 0;
+      return kinks_below(f.laws[0], length) + 100 * kinks_below(f.laws[1], rate);
     };
     for (std::size_t r = 1; r < t.rows(); ++r)
       if (side(r) != side(0)) return true;
-    if (f.type == ForceType::tyre && side(0) == 1) {
+    if (f.road >= 0 && side(0) == 1) {
       // The centre of a wheel stays within its speed times the time; edges of a road are kinks.
       const Road& road = model.roads[f.road];
       if (kinks_below(road.pieces, 1e9) > 0) return true;

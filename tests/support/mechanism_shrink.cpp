@@ -2,7 +2,7 @@
 #include <functional>
 #include <set>
 
-#include "floatframe/model/force_keys.hpp"
+#include "floatframe/model/element_keys.hpp"
 #include "support/mechanism_check.hpp"
 
 namespace floatframe::test {
@@ -15,20 +15,20 @@ void tidy(ModelDescription& d) {
   for (const BodyDescription& b : d.bodies) bodies.insert(b.name);
   const auto gone = [&](const AttachmentDescription& a) { return !bodies.contains(a.body); };
   std::erase_if(d.joints, [&](const auto& j) { return gone(j.parent) || gone(j.child); });
-  std::erase_if(d.rods, [&](const auto& r) { return gone(r.a) || gone(r.b); });
   for (const JointDescription& j : d.joints) joints.insert(j.name);
-  const auto loose = [&](const ForceDescription& f) {
-    for (const ForceKey& key : force_keys(f.type())) {
-      const auto value = force_value(f, key);
+  const auto loose = [&](const ElementDescription& f) {
+    for (const ElementKey& key : element_keys(f.type())) {
+      const auto value = key_value(f, key);
       const auto* at = value ? std::get_if<AttachmentDescription>(&*value) : nullptr;
       if (at && gone(*at)) return true;
-      if (key.kind == ForceKeyKind::joint && !joints.contains(ForceView(f).text(key.name)))
+      if (key.kind == KeyKind::joint && !joints.contains(ElementView(f).text(key.name)))
         return true;
     }
     return false;
   };
+  std::erase_if(d.rods, loose);
   std::erase_if(d.forces, loose);
-  for (const ForceDescription& f : d.forces) forces.insert(f.name);
+  for (const ElementDescription& f : d.forces) forces.insert(f.name);
   std::erase_if(d.outputs, [&](const OutputDescription& o) {
     return gone(o.at) ||
            (!o.entity.empty() && !joints.contains(o.entity) && !forces.contains(o.entity));

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "floatframe/model/force_keys.hpp"
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_keys.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "support/random_mechanism.hpp"
 
@@ -58,6 +58,9 @@ struct ValueText {
   std::string operator()(int k) const { return std::to_string(k); }
   std::string operator()(bool yes) const { return yes ? "true" : "false"; }
   std::string operator()(const std::string& s) const { return s; }
+  std::string operator()(const MatX& m) const {
+    return fmt::format("{} x {}: {:.17g}", m.rows(), m.cols(), fmt::join(m.reshaped(), ", "));
+  }
   template <class T>
   std::string operator()(const T& x) const {
     return text(x);
@@ -65,10 +68,10 @@ struct ValueText {
 };
 
 /// "spring_damper from ..., to ..."
-std::string text(const ForceDescription& f) {
-  std::string s = force_type_name(f.type());
-  for (const ForceKey& key : force_keys(f.type()))
-    if (const auto value = force_value(f, key))
+std::string text(const ElementDescription& f) {
+  std::string s = element_type_name(f.type());
+  for (const ElementKey& key : element_keys(f.type()))
+    if (const auto value = key_value(f, key))
       s += std::string(" ") + key.name + " " + std::visit(ValueText(), *value) + ",";
   return s;
 }
@@ -90,8 +93,8 @@ std::string summary_of(const ModelDescription& d) {
     ++counts[std::string(joint_type_name(j.type)) + (j.cut ? " cut" : "") +
              (j.motion ? " driven" : "")];
   if (!d.rods.empty()) counts["rod"] = static_cast<int>(d.rods.size());
-  for (const ForceDescription& f : d.forces) {
-    ++counts[force_type_name(f.type())];
+  for (const ElementDescription& f : d.forces) {
+    ++counts[element_type_name(f.type())];
   }
   std::string s;
   for (const auto& [what, count] : counts)
@@ -119,9 +122,8 @@ std::string text_of(const ModelDescription& d) {
                      joint_type_name(j.type), j.cut ? " cut" : "", text(j.parent), text(j.child),
                      text(j.axis), text(j.axis_2), text(j.position), text(j.velocity),
                      j.motion ? " motion " + text(*j.motion) : "");
-  for (const RodDescription& r : d.rods)
-    s += fmt::format("  {} {} to {}\n", r.name, text(r.a), text(r.b));
-  for (const ForceDescription& f : d.forces) s += "  " + f.name + " " + text(f) + '\n';
+  for (const ElementDescription& r : d.rods) s += "  " + r.name + " " + text(r) + '\n';
+  for (const ElementDescription& f : d.forces) s += "  " + f.name + " " + text(f) + '\n';
   for (const RoadDescription& r : d.roads) {
     s += "  " + r.name + " " + text(r.pieces);
     for (const CosineBump& b : r.bumps)
@@ -146,15 +148,14 @@ bool is_conservative(const ModelDescription& d) {
   }
   for (const JointDescription& j : d.joints)
     if (j.motion) return false;
-  for (const ForceDescription& f : d.forces) {
+  for (const ElementDescription& f : d.forces) {
     if (energy_category(f.type()) != EnergyCategory::springs) return false;
-    const ForceView values(f);
-    for (const ForceKey& key : force_keys(f.type())) {
+    const ElementView values(f);
+    for (const ElementKey& key : element_keys(f.type())) {
       const auto signal = values.signal(key.name);
-      if (key.kind == ForceKeyKind::damper && acts(values.law(key.name))) return false;
-      if (key.kind == ForceKeyKind::damping_matrix && !values.matrix(key.name).isZero(0.0))
-        return false;
-      if (signal && (key.kind != ForceKeyKind::target || moves(*signal))) return false;
+      if (key.kind == KeyKind::damper && acts(values.law(key.name))) return false;
+      if (key.kind == KeyKind::damping_matrix && !values.matrix(key.name).isZero(0.0)) return false;
+      if (signal && (key.kind != KeyKind::target || moves(*signal))) return false;
     }
   }
   return d.simulation.spectral_radius >= 1.0;

@@ -2,20 +2,22 @@
 
 #include <algorithm>
 
-#include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/element_kind.hpp"
 
 namespace floatframe::test {
 
-ForceDescription random_force(ForceType type, const RandomForceEnds& ends,
-                              ExampleNumbers& numbers) {
-  ForceValues values{type, {}};
-  bool first = true;
-  const auto value = [&](const ForceKey& key) -> std::optional<ForceValue> {
-    using K = ForceKeyKind;
-    const double size = key.axis == ForceAxis::about ? ends.length * ends.length : 1.0;
+ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
+                                ExampleNumbers& numbers) {
+  ElementDescription f;
+  f.name = std::string("random_") + element_type_name(type);
+  f.kind = element_kind(type).blank();
+  int places = 0;
+  const auto value = [&](const ElementKey& key) -> std::optional<KeyValue> {
+    using K = KeyKind;
+    const double size = key.axis == ElementAxis::about ? ends.length * ends.length : 1.0;
     switch (key.kind) {
       case K::place:
-        return std::exchange(first, false) ? ends.a : ends.b;
+        return places++ % 2 == 0 ? ends.a : ends.b;
       case K::own_place:
         return ends.b;
       case K::joint:
@@ -60,15 +62,17 @@ ForceDescription random_force(ForceType type, const RandomForceEnds& ends,
           }
         return M;
       }
-      default:
-        return std::nullopt;  // stops have kinks; targets are those of motors
+      case K::bump_stop:
+      case K::rebound_stop:  // they have kinks
+      case K::target:
+      case K::target_rate:  // those of motors
+      case K::speed_table:
+        return std::nullopt;
     }
+    return std::nullopt;
   };
-  for (const ForceKey& key : force_keys(type))
-    if (const auto x = value(key)) values.values.emplace(key.name, *x);
-  ForceDescription f;
-  f.name = std::string("random_") + force_type_name(type);
-  f.kind = std::move(values);
+  for (const ElementKey& key : element_keys(type))
+    if (const auto x = value(key)) set_key_value(f, key, *x);
   return f;
 }
 

@@ -13,6 +13,7 @@ struct RandomForceEnds {
   double stiffness = 100.0, damping = 5.0;  ///< of displacements [N/m], [N s/m]
   double length = 0.1;                      ///< rotational ones are smaller by its square [m]
 };
-ForceDescription random_force(ForceType type, const RandomForceEnds& ends, ExampleNumbers& numbers);
+ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
+                                ExampleNumbers& numbers);
 
 }  // namespace floatframe::test

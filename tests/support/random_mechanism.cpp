@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "support/mechanism_builder.hpp"
 #include "support/random_force.hpp"
 
@@ -86,11 +86,7 @@ bool MechanismBuilder::close_somewhere() {
   const AttachmentDescription on_b = somewhere(b), on_a = somewhere(a);
   if (chance(0.4)) {
     if ((on_a.point - on_b.point).norm() < 0.05) return false;
-    RodDescription rod;
-    rod.name = "rod_" + std::to_string(d.rods.size());
-    rod.a = on_a;
-    rod.b = on_b;
-    d.rods.push_back(rod);
+    d.rods.push_back({"rod_" + std::to_string(d.rods.size()), Rod{on_a, on_b, {}}, {}});
     return true;
   }
   if (is_flexible(a) && is_flexible(b)) return false;
@@ -229,9 +225,9 @@ void MechanismBuilder::add_outputs() {
     if (j.type != JointType::spherical && j.type != JointType::free)
       for (int c = 0; c < joint_velocities(j.type); ++c)
         add(OutputType::joint_position, {}, j.name, c);
-  for (const ForceDescription& f : d.forces) {
+  for (const ElementDescription& f : d.forces) {
     add(OutputType::force, {}, f.name, 0);
-    if (!force_has(f.type(), ForceQuantity::length)) continue;
+    if (!element_has(f.type(), ElementQuantity::length)) continue;
     for (const OutputType type : {OutputType::length, OutputType::rate}) add(type, {}, f.name, 0);
   }
 }
@@ -292,7 +288,7 @@ Mechanism with_joints(Mechanism m, JointType type) {
   return m;
 }
 
-std::optional<Mechanism> with_force(Mechanism m, ForceType type, unsigned seed) {
+std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed) {
   ModelDescription& d = m.description;
   ExampleNumbers numbers(seed);
   std::vector<AttachmentDescription> places;

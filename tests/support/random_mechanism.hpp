@@ -36,7 +36,7 @@ Mechanism with_joints(Mechanism mechanism, JointType type);
 
 /// With one more force element, smooth and soft, between two of the places that joints use. For
 /// types that are not drawn. nullopt: there are no two such bodies.
-std::optional<Mechanism> with_force(Mechanism mechanism, ForceType type, unsigned seed);
+std::optional<Mechanism> with_force(Mechanism mechanism, ElementType type, unsigned seed);
 
 /// Largest rate at which a model can change at its start [1/s]: square root of the eigenvalues of
 /// (K, M) and norm of M^-1/2 C M^-1/2 on the motions that the constraints leave free and that have

@@ -91,26 +91,26 @@ inline ModelDescription valid_description() {
   d.joints[2].child.node = "n0";
   d.rods = {make_rod("rod", place_on("ground", {3, 0, 0}), place_on("block", {0, 0, 1.5}), 4.0)};
 
-  SpringDamperDescription spring;
+  SpringDamper spring;
   spring.a = place_on("ground", {0, 0, 3});
   spring.b = place_on("block", {0, 0, 1});
   spring.spring = two_pieces(1.0, 1000.0, 1000.0);
   spring.actuator.emplace();
   spring.actuator->input = "push";
-  GuidedSpringDescription guide;
+  GuidedSpring guide;
   guide.reference = place_on("block", {0, 0, 1});
   guide.tip = place_on("part", {0.5, 0, 0});
   guide.damper = PiecewisePolynomial::linear(5.0, 0.0);
-  JointSpringDescription motor;
+  JointSpring motor;
   motor.joint = "slide";
   motor.spring = PiecewisePolynomial::linear(5.0, 0.0);
   motor.target.emplace();
-  TyreDescription tyre;
+  Tyre tyre;
   tyre.centre = place_on("block", {0, 0, 1});
   tyre.radius = 0.3;
   tyre.stiffness = 1e5;
   tyre.road = "track";
-  AppliedLoadDescription load;
+  AppliedForce load;
   load.at = place_on("block", {0, 0, 1});
   d.forces = {{"spring", spring, {}},
               {"guide", guide, {}},

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "floatframe/bench/chain_model.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/simulation/bench_stepper.hpp"
 
 namespace floatframe {

@@ -13,7 +13,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/bench_stepper.hpp"
 #include "floatframe/simulation/simulation.hpp"

@@ -10,7 +10,7 @@
 // (links, 0, 0).
 #include <string>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe {
 

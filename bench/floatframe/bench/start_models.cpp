@@ -50,16 +50,13 @@ class Builder {
     d_.joints.push_back(j);
   }
   void rod(const std::string& a, const Vec3& at_a, const std::string& b, const Vec3& at_b) {
-    RodDescription r;
-    r.name = "rod_" + std::to_string(d_.rods.size() + 1);
-    r.a = place(a, at_a);
-    r.b = place(b, at_b);
-    d_.rods.push_back(r);
+    d_.rods.push_back(
+        {"rod_" + std::to_string(d_.rods.size() + 1), Rod{place(a, at_a), place(b, at_b), {}}, {}});
   }
   void spring(const std::string& a, const Vec3& at_a, const std::string& b, const Vec3& at_b) {
-    ForceDescription f;
+    ElementDescription f;
     f.name = "spring_" + std::to_string(d_.forces.size() + 1);
-    SpringDamperDescription s;
+    SpringDamper s;
     s.a = place(a, at_a);
     s.b = place(b, at_b);
     s.spring = PiecewisePolynomial::linear(2e4, (at_b - at_a).norm());

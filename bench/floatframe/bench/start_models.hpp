@@ -3,7 +3,7 @@
 // loop per field, vehicles side by side, each with four wheels on closed suspensions.
 #include <string>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe {
 

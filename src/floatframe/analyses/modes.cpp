@@ -32,12 +32,10 @@ constexpr int default_number = 40;
 constexpr std::size_t few_bodies = 100;  ///< for absolute coordinates
 
 /// The largest shares, each at least 5 %, at most three.
-std::string shares_text(std::vector<EnergyShare> shares) {
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const EnergyShare& a, const EnergyShare& b) { return a.part > b.part; });
+std::string shares_text(const std::vector<EnergyShare>& shares) {
   std::string text;
   int shown = 0;
-  for (const EnergyShare& s : shares) {
+  for (const EnergyShare& s : largest_first(shares)) {
     if (s.part < 0.05 || shown == 3) break;
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", s.name, 100.0 * s.part);
     ++shown;
@@ -64,8 +62,8 @@ std::vector<EnergyShare> potential_shares(const Model& model, const ModeParts& p
   std::vector<EnergyShare> shares;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (model.bodies[i].modes() > 0) shares.push_back({model.bodies[i].name, parts.bending[i]});
-  for (std::size_t k = 0; k < model.forces.size(); ++k)
-    shares.push_back({model.forces[k].name, parts.springs[k]});
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    shares.push_back({model.elements[k].name, parts.springs[k]});
   return shares;
 }
 

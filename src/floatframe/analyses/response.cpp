@@ -10,7 +10,7 @@
 #include "floatframe/analyses/unbalance_report.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/text_pieces.hpp"
-#include "floatframe/model/road_spectrum.hpp"
+#include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
 #include "floatframe/simulation/operating_point.hpp"
 

@@ -7,7 +7,7 @@
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/notes_text.hpp"
@@ -30,16 +30,12 @@ std::string forces_text(const Model& model, const StaticsResult& statics) {
   TextTable table({"force element", "type", "force", "", "measure", ""}, {1, 3, 5});
   for (std::size_t k = 0; k < statics.forces.size(); ++k) {
     const StaticsForce& f = statics.forces[k];
-    if (k >= model.forces.size()) {  // rods follow the force elements
-      table.add(
-          {f.name, f.type, starred(fixed(f.force, 4), f.unique), "N", fixed(f.length, 9), "m"});
-      continue;
-    }
-    const Force& element = model.forces[k];
-    const bool measured = force_has(element.type, ForceQuantity::length);
+    const Element& element = model.elements[k];
+    const bool measured = element_has(element.type, ElementQuantity::length);
     table.add({f.name, f.type, starred(fixed(f.force, 4), f.unique),
-               force_output_unit(element, ForceQuantity::force), measured ? fixed(f.length, 9) : "",
-               force_output_unit(element, ForceQuantity::length)});
+               element_output_unit(element, ElementQuantity::force),
+               measured ? fixed(f.length, 9) : "",
+               element_output_unit(element, ElementQuantity::length)});
   }
   return table.empty() ? "" : "\n" + table.text();
 }

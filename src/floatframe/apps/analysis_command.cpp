@@ -9,8 +9,8 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/work_progress.hpp"
-#include "floatframe/model/inertia_choice.hpp"
-#include "floatframe/model/validate.hpp"
+#include "floatframe/description/inertia_choice.hpp"
+#include "floatframe/description/validate.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/simulation/run_error.hpp"
 

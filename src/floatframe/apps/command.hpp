@@ -9,7 +9,7 @@
 #include "floatframe/core/options.hpp"
 #include "floatframe/core/output_files.hpp"
 #include "floatframe/core/plural.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe {
 

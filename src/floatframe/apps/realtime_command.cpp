@@ -10,7 +10,7 @@
 #include "floatframe/apps/stop_signal.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "floatframe/body/body_shape.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/report/scene_mesh.hpp"
 
 namespace floatframe {
@@ -19,8 +20,8 @@ class PictureBuilder {
 
   BodyPicture build() {
     surface();
-    for (const Force& f : model_.forces)
-      if (f.type == ForceType::tyre && model_.markers[f.b].body == index_) wheel(f);
+    for (const Element& e : model_.elements)
+      if (is_wheel_of(model_, e, index_)) wheel(picture_of(e));
     if (points_.empty()) box();
     for (const int n : named_nodes(*body_.data)) {
       const ModalNode& node = body_.data->nodes[static_cast<std::size_t>(n)];
@@ -57,12 +58,12 @@ class PictureBuilder {
   }
 
   /// A cylinder as wide as a car wheel: the model does not give the width.
-  void wheel(const Force& tyre) {
+  void wheel(const Picture& tyre) {
     constexpr int corners = 48;
-    const Marker& m = model_.markers[tyre.b];
+    const Marker& m = model_.markers[tyre.a];
     const Vec3 axis = (m.X_NM.R * tyre.axis).normalized();
     const Vec3 across = axis.unitOrthogonal(), third = axis.cross(across);
-    const double half = 0.2 * tyre.radius;
+    const double half = 0.5 * tyre.width;
     const auto ring = [&](double side) {
       const int first = static_cast<int>(points_.size());
       for (int k = 0; k < corners; ++k) {

@@ -37,7 +37,7 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
     : Formulation(model, all_joints(model)),
       kinematics_(model_, constraint_set_),
       terms_(terms_at_rest(kinematics_, method)),
-      tangent_(kinematics_, constraint_set_, force_set_, terms_) {
+      tangent_(kinematics_, constraint_set_, element_set_, terms_) {
   omega2_ = work_ = VecX::Zero(velocities());
   const double* accelerations = kinematics_.accelerations().data();
   for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -48,6 +48,7 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
     show_body(b.A, b.w_WB, b.y, b.yd, accelerations + b.offset + 12);
   }
   for (const AbsoluteMarker& m : kinematics_.markers()) show_marker(m.s, m);
+  connect_elements();
 }
 
 void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree_q,
@@ -58,8 +59,8 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
   tree.velocities(tree_v);
   tree.forces();
   const SystemMotion& motion = tree.motion();
-  for (std::size_t k = 0; k < model_.forces.size(); ++k)
-    if (model_.forces[k].rotational) force_set_.set_angle(k, motion.forces[k].length);
+  for (std::size_t k = 0; k < model_.elements.size(); ++k)
+    if (model_.elements[k].rotational) element_set_.set_angle(k, motion.efforts[k].length);
   for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
     const AbsoluteBody& b = kinematics_.bodies()[i];
     const BodyKinematics& from = motion.bodies[i];

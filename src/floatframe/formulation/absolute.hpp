@@ -2,7 +2,7 @@
 // Equations of motion in natural coordinates (paper section 6.1, theory section 10), composed of
 //   AbsoluteKinematics  positions and velocities of bodies and markers, the bodies' own constraints
 //   BodyTerms           M and Qv of each body, (25)-(45)
-//   ForceSet            force elements
+//   ElementSet            force elements
 //   ConstraintSet       joints, rods and prescribed motions
 //   AbsoluteTangent     the factorised tangent
 //
@@ -27,7 +27,7 @@ class AbsoluteFormulation final : public Formulation {
   static constexpr Coordinates coordinates_of = Coordinates::absolute;
   Coordinates coordinates() const noexcept override { return coordinates_of; }
   const AbsoluteKinematics& kinematics() const noexcept { return kinematics_; }
-  ForceSide force_side(std::size_t force) const noexcept override;
+  Ports ports(std::size_t element) const noexcept override;
 
   /// The same configuration and velocities as a relative state. Axes do not determine turns: the
   /// angles of joint springs are continued from those of the tree.
@@ -42,7 +42,7 @@ class AbsoluteFormulation final : public Formulation {
   int configurations() const noexcept override { return kinematics_.size(); }
   /// All markers are updated, also during steps.
   void stepping(bool on, bool accepted = true) noexcept override {
-    force_set_.stepping(on, accepted);
+    element_set_.stepping(on, accepted);
   }
   void positions(double t, const VecX& q) noexcept override;
   void velocities(const VecX& v) noexcept override;

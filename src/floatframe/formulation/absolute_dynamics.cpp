@@ -7,6 +7,12 @@
 
 namespace floatframe {
 
+namespace {
+
+const Vec3 world_origin = Vec3::Zero();
+
+}  // namespace
+
 void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
   assert(std::isfinite(t));
   time_ = t;
@@ -37,16 +43,12 @@ void AbsoluteFormulation::dynamics() noexcept {
 
 void AbsoluteFormulation::forces() noexcept {
   assert(calls_.has(CallOrder::velocities));
-  force_set_.evaluate(Vec3::Zero(), time_, [&](int marker) -> const MarkerState& {
-    return kinematics_.markers()[marker].s;
-  });
+  element_set_.evaluate(world_origin, time_);
 }
 
-ForceSide AbsoluteFormulation::force_side(std::size_t force) const noexcept {
-  assert(calls_.has(CallOrder::velocities) && force < model_.forces.size());
-  return force_set_.side(force, Vec3::Zero(), time_, [&](int marker) -> const MarkerState& {
-    return kinematics_.markers()[marker].s;
-  });
+Ports AbsoluteFormulation::ports(std::size_t element) const noexcept {
+  assert(calls_.has(CallOrder::velocities) && element < model_.elements.size());
+  return element_set_.ports(element, world_origin, time_);
 }
 
 void AbsoluteFormulation::add_constraint_forces(const VecX& w, VecX& out) const noexcept {
@@ -86,7 +88,7 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
       out.segment(b.offset + 12, b.nm).noalias() += data.D * b.yd;
     }
   }
-  force_set_.add_wrenches([&](int marker, const Vec3& force, const Vec3& torque) {
+  element_set_.add_wrenches([&](int marker, const Vec3& force, const Vec3& torque) {
     kinematics_.add_wrench(marker, false, force, torque, out);
   });
   add_constraint_forces(constraint_set_.weights(), out);

@@ -32,7 +32,7 @@ bool AbsoluteTangent::lacks_mass(int body) const {
 
 /// A block per body, coupled by parts or forces between two.
 AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
-                                 const ConstraintSet& constraints, const ForceSet& forces,
+                                 const ConstraintSet& constraints, const ElementSet& forces,
                                  const std::vector<BodyTerms>& terms)
     : model_(kinematics.model()),
       kinematics_(kinematics),
@@ -59,6 +59,13 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
   const auto couple = [&](int a, int b) {
     if (body_of(a) >= 0 && body_of(b) >= 0) edges.emplace_back(body_of(a), body_of(b));
   };
+  std::size_t most_markers = 2;
+  for (const Element& e : model_.elements) {
+    if (!e.acts) continue;
+    most_markers = std::max(most_markers, e.markers.size());
+    for (std::size_t i = 0; i < e.markers.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) couple(e.markers[j], e.markers[i]);
+  }
   std::vector<int> rows(bodies_.size(), 0), on_ground = rows;
   for (const ConstraintPart& p : constraints_.parts()) {
     couple(p.a, p.b);
@@ -69,7 +76,6 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
       if (a < 0 || b < 0) on_ground[body] += p.rows();
     }
   }
-  for (const Force& f : model_.forces) couple(f.a, f.b);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     blocks[i].held = rows[i] >= 6 && on_ground[i] > 0;
   const std::vector<int> order = BlockLdlt::elimination_order(blocks, edges);
@@ -89,7 +95,7 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
     places_.push_back(place);
   }
   factors_[0] = factors_[1] = BlockLdlt(blocks, edges);
-  ga_.z = gb_.z = VecX::Zero(widest);
+  gradients_.assign(most_markers, {-1, VecX::Zero(widest)});
   motions_[0] = motions_[1] = product_ = MatX::Zero(widest, 6);
   unknowns_ = VecX::Zero(factors_[0].unknowns());
   correction_ = VecX::Zero(kinematics_.size());

@@ -90,8 +90,8 @@ SparseRowMatrix AbsoluteFormulation::constraint_rows() {
       w[i] = 1.0;
       const WrenchRow g = constraint_set_.wrench(k, w);
       w[i] = 0.0;
-      kinematics_.add_wrench(parts[k].a, true, g.Fa, g.Ta, row);
-      kinematics_.add_wrench(parts[k].b, true, g.Fb, g.Tb, row);
+      kinematics_.add_wrench(parts[k].a, true, g.a.F, g.a.T, row);
+      kinematics_.add_wrench(parts[k].b, true, g.b.F, g.b.T, row);
       const int a = model_.markers[parts[k].a].body, b = model_.markers[parts[k].b].body;
       keep(i, a);
       if (b != a) keep(i, b);

@@ -23,39 +23,63 @@ void AbsoluteTangent::gradient(int marker, const Vec3& force, const Vec3& torque
   }
 }
 
-void AbsoluteTangent::gradients(int a, int b, const WrenchRow& w) noexcept {
-  gradient(a, w.Fa, w.Ta, ga_);
-  gradient(b, w.Fb, w.Tb, gb_);
-  if (ga_.body < 0 || ga_.body != gb_.body) return;
-  const int n = 6 + bodies_[ga_.body].nm;
-  ga_.z.head(n) += gb_.z.head(n);
-  gb_.body = -1;
+void AbsoluteTangent::join_gradient(std::size_t i) noexcept {
+  Gradient& g = gradients_[i];
+  if (g.body < 0) return;
+  for (std::size_t k = 0; k < i; ++k) {
+    if (gradients_[k].body != g.body) continue;
+    const int n = 6 + bodies_[g.body].nm;
+    gradients_[k].z.head(n) += g.z.head(n);
+    g.body = -1;
+    return;
+  }
 }
 
-/// weight (g_a + g_b) (g_a + g_b)^T
-void AbsoluteTangent::add_rank_one(BlockLdlt& matrix, double weight) noexcept {
-  for (const Gradient* g : {&ga_, &gb_}) {
-    if (g->body < 0) continue;
-    MatX& f = matrix.front(g->body);
-    const int n = 6 + bodies_[g->body].nm;
-    for (int j = 0; j < n; ++j) {
-      const double w = weight * g->z[j];
-      double* column = f.data() + static_cast<Eigen::Index>(j) * f.rows();
-      for (int i = j; i < n; ++i) column[i] += w * g->z[i];
-    }
+void AbsoluteTangent::gradients(std::span<const int> markers, const Wrench* w) noexcept {
+  gradient_count_ = markers.size();
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    gradient(markers[i], w[i].F, w[i].T, gradients_[i]);
+    join_gradient(i);
   }
-  if (ga_.body < 0 || gb_.body < 0) return;
+}
+
+void AbsoluteTangent::gradients(const ConstraintPart& p, const WrenchRow& w) noexcept {
+  gradient_count_ = 2;
+  gradient(p.a, w.a.F, w.a.T, gradients_[0]);
+  gradient(p.b, w.b.F, w.b.T, gradients_[1]);
+  join_gradient(1);
+}
+
+void AbsoluteTangent::add_product(const Gradient& a, const Gradient& b, double weight,
+                                  BlockLdlt& matrix) noexcept {
   int oa = 0, ob = 0;
-  MatX& f = matrix.front(ga_.body, gb_.body, oa, ob);
+  MatX& f = matrix.front(a.body, b.body, oa, ob);
   const bool a_first = oa < ob;
-  const Gradient& first = a_first ? ga_ : gb_;
-  const Gradient& second = a_first ? gb_ : ga_;
+  const Gradient& first = a_first ? a : b;
+  const Gradient& second = a_first ? b : a;
   const int below = a_first ? ob : oa;
   const int nf = 6 + bodies_[first.body].nm, ns = 6 + bodies_[second.body].nm;
   for (int j = 0; j < nf; ++j) {
     const double w = weight * first.z[j];
     double* column = f.data() + static_cast<Eigen::Index>(j) * f.rows() + below;
     for (int i = 0; i < ns; ++i) column[i] += w * second.z[i];
+  }
+}
+
+/// weight g g^T, g the sum of the gradients
+void AbsoluteTangent::add_rank_one(BlockLdlt& matrix, double weight) noexcept {
+  for (std::size_t a = 0; a < gradient_count_; ++a) {
+    const Gradient& g = gradients_[a];
+    if (g.body < 0) continue;
+    MatX& f = matrix.front(g.body);
+    const int n = 6 + bodies_[g.body].nm;
+    for (int j = 0; j < n; ++j) {
+      const double w = weight * g.z[j];
+      double* column = f.data() + static_cast<Eigen::Index>(j) * f.rows();
+      for (int i = j; i < n; ++i) column[i] += w * g.z[i];
+    }
+    for (std::size_t b = a + 1; b < gradient_count_; ++b)
+      if (gradients_[b].body >= 0) add_product(g, gradients_[b], weight, matrix);
   }
 }
 
@@ -66,10 +90,10 @@ void AbsoluteTangent::add_curvature(int a, int b, const Mat12& K, BlockLdlt& mat
   for (int k = 0; k < 2; ++k) {
     for (int c = 0; c < 6; ++c) {
       gradient(markers[k], c < 3 ? Vec3(Vec3::Unit(c)) : Vec3(Vec3::Zero()),
-               c < 3 ? Vec3(Vec3::Zero()) : Vec3(Vec3::Unit(c - 3)), ga_);
-      if (ga_.body >= 0) motions_[k].col(c) = ga_.z;
+               c < 3 ? Vec3(Vec3::Zero()) : Vec3(Vec3::Unit(c - 3)), gradients_[0]);
+      if (gradients_[0].body >= 0) motions_[k].col(c) = gradients_[0].z;
     }
-    bodies[k] = ga_.body;
+    bodies[k] = gradients_[0].body;
     if (bodies[k] >= 0) sizes[k] = 6 + bodies_[bodies[k]].nm;
   }
   const Mat12 S = 0.5 * (K + K.transpose());
@@ -188,34 +212,33 @@ void AbsoluteTangent::assemble_stiffening(const Weights& t, BlockLdlt& matrix) n
 }
 
 void AbsoluteTangent::assemble_forces(const Weights& t, BlockLdlt& matrix) noexcept {
-  for (std::size_t k = 0; k < model_.forces.size(); ++k) {
-    const Force& force = model_.forces[k];
-    const ForceState& state = forces_.state(k);
-    for (int r = 0; r < state.row_count; ++r) {
-      const TangentRow& row = state.rows[r];
-      const double weight = t.s * row.k + t.damping * row.c;
+  for (std::size_t k = 0; k < model_.elements.size(); ++k) {
+    const Efforts& efforts = forces_.state(k);
+    for (int r = 0; r < efforts.row_count; ++r) {
+      const double weight = t.s * efforts.rows[r].k + t.damping * efforts.rows[r].c;
       if (weight == 0.0) continue;
-      gradients(force.a, force.b, row.g);
+      gradients(model_.elements[k].markers, efforts.gradient(r));
       add_rank_one(matrix, weight);
     }
   }
 }
 
-/// Row r of a part with its gradients in ga_ and gb_: G of (6).
+/// Row r of a part with its gradients in gradients_: G of (6).
 void AbsoluteTangent::assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept {
   assert(place.home >= 0 && r >= 0);
   MatX& f = matrix.front(place.home);
   const int at = place.at + r;
-  for (const Gradient* g : {&ga_, &gb_}) {
-    if (g->body < 0) continue;
-    const int n = 6 + bodies_[g->body].nm;
-    if (g->body == place.home) {
-      for (int j = 0; j < n; ++j) f(at, j) = g->z[j];
+  for (std::size_t k = 0; k < gradient_count_; ++k) {
+    const Gradient& g = gradients_[k];
+    if (g.body < 0) continue;
+    const int n = 6 + bodies_[g.body].nm;
+    if (g.body == place.home) {
+      for (int j = 0; j < n; ++j) f(at, j) = g.z[j];
       continue;
     }
     int home = 0, other = 0;
-    matrix.front(place.home, g->body, home, other);
-    for (int j = 0; j < n; ++j) f(other + j, at) = g->z[j];
+    matrix.front(place.home, g.body, home, other);
+    for (int j = 0; j < n; ++j) f(other + j, at) = g.z[j];
   }
 }
 
@@ -232,7 +255,7 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
         continue;
       }
       matrix.front(place.home)(at, at) = -1.0 / t.penalty;
-      gradients(p.a, p.b, constraints_.row(row + r).gradient);
+      gradients(p, constraints_.row(row + r).gradient);
       assemble_row(place, r, matrix);
     }
     if (!t.geometric) continue;
@@ -247,10 +270,10 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
       const double w = t.s * constraints_.multipliers()[row] / p.scale;
       for (int c = 0; c < 3; ++c) {
         WrenchRow unit;
-        unit.Fa = -Vec3::Unit(c);
-        unit.Fb = Vec3::Unit(c);
-        unit.Ta = unit.Tb = Vec3::Zero();
-        gradients(p.a, p.b, unit);
+        unit.a.F = -Vec3::Unit(c);
+        unit.b.F = Vec3::Unit(c);
+        unit.a.T = unit.b.T = Vec3::Zero();
+        gradients(p, unit);
         add_rank_one(matrix, w);
       }
     }

@@ -24,7 +24,7 @@
 
 #include "floatframe/formulation/absolute_kinematics.hpp"
 #include "floatframe/formulation/body_inertia.hpp"
-#include "floatframe/formulation/force_set.hpp"
+#include "floatframe/formulation/element_set.hpp"
 #include "floatframe/math/block_ldlt.hpp"
 
 namespace floatframe {
@@ -40,7 +40,7 @@ class AbsoluteTangent {
   /// The references must outlive this, with constant addresses; `terms` are of the undeformed
   /// bodies now, of the last evaluation in steps. Allocates.
   AbsoluteTangent(const AbsoluteKinematics& kinematics, const ConstraintSet& constraints,
-                  const ForceSet& forces, const std::vector<BodyTerms>& terms);
+                  const ElementSet& forces, const std::vector<BodyTerms>& terms);
 
   // Step time: noexcept, free of allocation. EquationsOfMotion says what they return.
   int factorize(const Weights& t, int slot) noexcept;
@@ -64,9 +64,13 @@ class AbsoluteTangent {
 
   bool lacks_mass(int body) const;
   void gradient(int marker, const Vec3& force, const Vec3& torque, Gradient& g) const noexcept;
-  /// The gradients of a wrench on two markers into ga_ and gb_; one body is one gradient.
-  void gradients(int a, int b, const WrenchRow& w) noexcept;
+  /// The gradients of wrenches on markers into gradients_; those of a body in the first one of it.
+  void gradients(std::span<const int> markers, const Wrench* w) noexcept;
+  void gradients(const ConstraintPart& p, const WrenchRow& w) noexcept;
+  /// Adds gradient i to that of the same body before it.
+  void join_gradient(std::size_t i) noexcept;
   void add_rank_one(BlockLdlt& matrix, double weight) noexcept;
+  void add_product(const Gradient& a, const Gradient& b, double weight, BlockLdlt& matrix) noexcept;
   void add_curvature(int a, int b, const Mat12& K, BlockLdlt& matrix) noexcept;
   void add_mass(int body, double mass, const Mat3& stretch, MatX& f) const noexcept;
   void assemble_body(const Weights& t, int i, BlockLdlt& matrix) const noexcept;
@@ -84,11 +88,12 @@ class AbsoluteTangent {
   const std::vector<AbsoluteBody>& bodies_;
   const std::vector<AbsoluteMarker>& markers_;
   const ConstraintSet& constraints_;
-  const ForceSet& forces_;
+  const ElementSet& forces_;
   const std::vector<BodyTerms>& terms_;
-  std::vector<PartPlace> places_;  ///< of the constraint parts
-  BlockLdlt factors_[2];           ///< of (6)
-  Gradient ga_, gb_;
+  std::vector<PartPlace> places_;    ///< of the constraint parts
+  BlockLdlt factors_[2];             ///< of (6)
+  std::vector<Gradient> gradients_;  ///< of one row
+  std::size_t gradient_count_ = 0;
   MatX motions_[2], product_;  ///< of the markers of a part with z, transposed
   VecX unknowns_;              ///< of (6)
   VecX correction_, across_;   ///< increment that satisfies (1), (2); its part in (3)

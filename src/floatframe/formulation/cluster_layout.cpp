@@ -7,7 +7,7 @@
 namespace floatframe {
 
 ClusterTangent::ClusterTangent(const TreeKinematics& tree, const ConstraintSet& constraints,
-                               const ForceSet& forces, std::vector<Cluster> clusters)
+                               const ElementSet& forces, std::vector<Cluster> clusters)
     : tree_(tree),
       constraints_(constraints),
       forces_(forces),
@@ -60,22 +60,26 @@ void ClusterTangent::make_elements() {
   int gradients = 0;
   for (std::size_t k = 0; k < constraints_.parts().size(); ++k) {
     const ConstraintPart& part = constraints_.parts()[k];
-    TreeElement e = make_element(tree_, clusters_, cluster_of_body, part.a, part.b);
+    const int markers[2] = {part.a, part.b};
+    TreeElement e = make_element(tree_, clusters_, cluster_of_body, markers);
     e.gradient = gradients;
     gradients += e.width * part.rows();
     if (e.cluster >= 0) fronts_[e.cluster].parts.push_back(static_cast<int>(k));
     part_elements_.push_back(std::move(e));
   }
-  for (const Force& f : tree_.model().forces) {
-    const int body_a = f.a >= 0 ? tree_.marker(f.a).body : -1, body_b = tree_.marker(f.b).body;
-    if (body_a >= 0 && body_b >= 0) {
-      force_elements_.push_back(make_element(tree_, clusters_, cluster_of_body, f.a, f.b));
+  for (const Element& element : tree_.model().elements) {
+    if (!element.acts) {
+      force_elements_.emplace_back();
+      continue;
+    }
+    const std::vector<int> bodies = bodies_of(tree_, element.markers);
+    if (bodies.size() > 1) {
+      force_elements_.push_back(make_element(tree_, clusters_, cluster_of_body, element.markers));
     } else {
       TreeElement e;
-      e.a = f.a;
-      e.b = f.b;
-      e.body = body_b >= 0 ? body_b : body_a;
-      force_elements_.push_back(e);
+      e.markers = element.markers;
+      e.body = bodies.empty() ? -1 : bodies[0];
+      force_elements_.push_back(std::move(e));
     }
   }
 }
@@ -120,7 +124,9 @@ SparseRowMatrix ClusterTangent::constraint_rows() {
     const Cluster& c = clusters_[e.cluster];
     for (int r = 0; r < constraints_.parts()[k].rows(); ++r) {
       const int row = constraints_.offset(k) + r;
-      fill_gradient(tree_, e, constraints_.row(row).gradient, scratch_.data());
+      const WrenchRow& gradient = constraints_.row(row).gradient;
+      const Wrench wrenches[2] = {gradient.a, gradient.b};
+      fill_gradient(tree_, e, wrenches, scratch_.data());
       for (int j = 0; j < e.width; ++j) {
         const int front = e.first + j;
         // Never touched: the parent's twist, and the padding rows of the last lanes.

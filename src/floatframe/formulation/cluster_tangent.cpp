@@ -112,40 +112,42 @@ void ClusterTangent::add_stiffening(const std::vector<BodyTerms>& terms, double 
 
 // elements
 
-void ClusterTangent::assemble_ground_force(const TreeElement& e, const WrenchRow& row,
-                                           double weight) noexcept {
+void ClusterTangent::assemble_own_row(const TreeElement& e, const Wrench* row,
+                                      double weight) noexcept {
   BodyTangent& b = bodies_[e.body];
-  const bool side_b = tree_.marker(e.b).body >= 0;
-  const TreeMarker& m = tree_.marker(side_b ? e.b : e.a);
-  const Vec3& force = side_b ? row.Fb : row.Fa;
-  const Vec3& torque = side_b ? row.Tb : row.Ta;
   const Eigen::Index nm = b.G_modal.cols();
-  assert(scratch_.size() >= 6 + nm && m.body == e.body);
+  assert(scratch_.size() >= 6 + nm);
   auto g = scratch_.head(6 + nm);
-  g.head<3>() = force;
-  g.segment<3>(3) = m.s.r.cross(force) + torque;
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
   g.tail(nm).setZero();
-  if (m.local) {
+  for (std::size_t i = 0; i < e.markers.size(); ++i) {
+    const TreeMarker& m = tree_.marker(e.markers[i]);
+    if (m.body < 0) continue;
+    const auto& [force, torque] = row[i];
+    sum += force;
+    moment += m.s.r.cross(force) + torque;
+    if (!m.local) continue;
     g.tail(nm).noalias() += m.Jr.transpose() * force;
     if (m.rotates) g.tail(nm).noalias() += m.Jw.transpose() * torque;
   }
+  g.head<3>() = sum;
+  g.segment<3>(3) = moment;
   for (Eigen::Index j = 0; j < g.size(); ++j) b.T.col(j) += (weight * g[j]) * g;
 }
 
 void ClusterTangent::assemble_forces(const Weights& w, Factors& factors) noexcept {
   for (std::size_t k = 0; k < force_elements_.size(); ++k) {
-    const ForceState& f = forces_.state(k);
+    const Efforts& f = forces_.state(k);
     const TreeElement& e = force_elements_[k];
     assert(f.row_count >= 0 && f.row_count <= std::ssize(f.rows));
     for (int r = 0; r < f.row_count; ++r) {
-      const TangentRow& row = f.rows[r];
-      const double weight = w.s * row.k + w.damping * row.c;
+      const double weight = w.s * f.rows[r].k + w.damping * f.rows[r].c;
       if (weight == 0.0) continue;
       if (e.cluster >= 0) {
-        fill_gradient(tree_, e, row.g, scratch_.data());
+        fill_gradient(tree_, e, f.gradient(r), scratch_.data());
         add_outer(factors.fronts[e.cluster], e.first, e.width, scratch_.data(), weight);
-      } else if (e.body >= 0) {  // a body against the ground: into its own matrix
-        assemble_ground_force(e, row.g, weight);
+      } else if (e.body >= 0) {  // one body: into its own matrix
+        assemble_own_row(e, f.gradient(r), weight);
       }
     }
   }
@@ -167,7 +169,9 @@ void ClusterTangent::assemble_parts(const Weights& w, Factors& factors) noexcept
     }
     const int row = constraints_.offset(k);
     for (int r = 0; r < part.rows(); ++r, g += e.width) {
-      fill_gradient(tree_, e, constraints_.row(row + r).gradient, g);
+      const WrenchRow& gradient = constraints_.row(row + r).gradient;
+      const Wrench wrenches[2] = {gradient.a, gradient.b};
+      fill_gradient(tree_, e, wrenches, g);
       add_outer(front, e.first, e.width, g, w.penalty);
     }
     if (w.geometric && gradients == PartGradients::line) {

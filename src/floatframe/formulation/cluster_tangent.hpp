@@ -27,7 +27,7 @@
 #include "floatframe/formulation/body_inertia.hpp"
 #include "floatframe/formulation/clusters.hpp"
 #include "floatframe/formulation/constraint_set.hpp"
-#include "floatframe/formulation/force_set.hpp"
+#include "floatframe/formulation/element_set.hpp"
 #include "floatframe/formulation/tree_element.hpp"
 #include "floatframe/formulation/tree_kinematics.hpp"
 #include "floatframe/math/independent_rows.hpp"
@@ -45,7 +45,7 @@ class ClusterTangent {
 
   /// The references must outlive this, with constant addresses and final numbering. Allocates.
   ClusterTangent(const TreeKinematics& tree, const ConstraintSet& constraints,
-                 const ForceSet& forces, std::vector<Cluster> clusters);
+                 const ElementSet& forces, std::vector<Cluster> clusters);
   ClusterTangent(const ClusterTangent&) = delete;
   ClusterTangent& operator=(const ClusterTangent&) = delete;
 
@@ -106,7 +106,7 @@ class ClusterTangent {
   void add_stiffening(const std::vector<BodyTerms>& terms, double s) noexcept;
   void load_bodies(const std::vector<BodyTerms>& terms, const Weights& w, Factors& f) noexcept;
   void assemble_forces(const Weights& w, Factors& f) noexcept;
-  void assemble_ground_force(const TreeElement& e, const WrenchRow& g, double weight) noexcept;
+  void assemble_own_row(const TreeElement& e, const Wrench* g, double weight) noexcept;
   void assemble_parts(const Weights& w, Factors& f) noexcept;
   void assemble_cluster(const Cluster& c, MatX& front) noexcept;
   void find_products(int i) noexcept;                                       // (2)
@@ -122,7 +122,7 @@ class ClusterTangent {
 
   const TreeKinematics& tree_;
   const ConstraintSet& constraints_;
-  const ForceSet& forces_;
+  const ElementSet& forces_;
   std::vector<Cluster> clusters_;  ///< parents before children
   std::vector<Front> fronts_;
   std::vector<BodyTangent> bodies_;

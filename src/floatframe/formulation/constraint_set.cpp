@@ -6,8 +6,8 @@ namespace floatframe {
 
 ConstraintSet::ConstraintSet(const Model& model, std::span<const int> joints) : model_(model) {
   for (const int j : joints) append_joint_parts(model, j, parts_);
-  for (std::size_t j = 0; j < model.rods.size(); ++j)
-    append_rod_parts(model, static_cast<int>(j), parts_);
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    append_element_parts(model, static_cast<int>(k), parts_);
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     append_motion_parts(model, static_cast<int>(j), parts_);
 }
@@ -40,22 +40,22 @@ std::string ConstraintSet::owner_of_row(int i) const {
 WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept {
   assert(part < parts_.size() && w.size() == count_);
   WrenchRow sum;
-  sum.Fa.setZero();
-  sum.Ta.setZero();
-  sum.Fb.setZero();
-  sum.Tb.setZero();
+  sum.a.F.setZero();
+  sum.a.T.setZero();
+  sum.b.F.setZero();
+  sum.b.T.setZero();
   if (constraint_kind(parts_[part].type).gradients == PartGradients::unit) {
-    sum.Fb = w.segment<3>(offsets_[part]);
-    sum.Fa = -sum.Fb;
+    sum.b.F = w.segment<3>(offsets_[part]);
+    sum.a.F = -sum.b.F;
     return sum;
   }
   for (int r = 0; r < parts_[part].rows(); ++r) {
     const double x = w[offsets_[part] + r];
     const WrenchRow& g = row_of(part, r).gradient;
-    sum.Fa += x * g.Fa;
-    sum.Ta += x * g.Ta;
-    sum.Fb += x * g.Fb;
-    sum.Tb += x * g.Tb;
+    sum.a.F += x * g.a.F;
+    sum.a.T += x * g.a.T;
+    sum.b.F += x * g.b.F;
+    sum.b.T += x * g.b.T;
   }
   return sum;
 }

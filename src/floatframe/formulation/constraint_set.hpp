@@ -1,6 +1,6 @@
 #pragma once
-// Constraints between markers that a formulation enforces with multipliers: parts of joints, rods
-// and prescribed motions (model/constraint_part.hpp), numbered row by row,
+// Constraints between markers that a formulation enforces with multipliers: parts of joints,
+// elements and prescribed motions (model/constraint_part.hpp), numbered row by row,
 //   Phi_i(q, t) = 0,
 //   Phidot_i  = F_a.v_a + T_a.w_a + F_b.v_b + T_b.w_b + dPhi/dt                     (1)
 //   Phiddot_i = F_a.a_a + T_a.alpha_a + F_b.a_b + T_b.alpha_b + quad + d2Phi/dt2    (2)
@@ -25,7 +25,7 @@ namespace floatframe {
 
 class ConstraintSet {
  public:
-  /// Parts of these joints, then of all rods, then of all prescribed motions. Allocates.
+  /// Parts of these joints, then of all elements, then of all prescribed motions. Allocates.
   ConstraintSet(const Model& model, std::span<const int> joints);
   /// Numbers the rows, starting at `first`. Allocates.
   void number_rows(int first);
@@ -85,7 +85,7 @@ class ConstraintSet {
         const ConstraintRow& row = row_of(k, r);
         const WrenchRow& g = row.gradient;
         out[offsets_[k] + r] =
-            g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
+            g.a.F.dot(a.v) + g.a.T.dot(a.w) + g.b.F.dot(b.v) + g.b.T.dot(b.w) + row.phi_t;
       }
     }
   }
@@ -100,7 +100,7 @@ class ConstraintSet {
       for (int r = 0; r < p.rows(); ++r) {
         const WrenchRow& g = row_of(k, r).gradient;
         out[offsets_[k] + r] =
-            g.Fa.dot(a.linear) + g.Ta.dot(a.angular) + g.Fb.dot(b.linear) + g.Tb.dot(b.angular);
+            g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) + g.b.T.dot(b.angular);
       }
     }
   }
@@ -115,8 +115,8 @@ class ConstraintSet {
       for (int r = 0; r < p.rows(); ++r) {
         const ConstraintRow& row = row_of(k, r);
         const WrenchRow& g = row.gradient;
-        out[offsets_[k] + r] = g.Fa.dot(a.linear) + g.Ta.dot(a.angular) + g.Fb.dot(b.linear) +
-                               g.Tb.dot(b.angular) + row.quad + row.phi_tt;
+        out[offsets_[k] + r] = g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) +
+                               g.b.T.dot(b.angular) + row.quad + row.phi_tt;
       }
     }
   }
@@ -128,8 +128,8 @@ class ConstraintSet {
   void add_wrenches(const VecX& w, const Add& add) const noexcept {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const WrenchRow sum = wrench(k, w);
-      add(parts_[k].a, sum.Fa, sum.Ta);
-      add(parts_[k].b, sum.Fb, sum.Tb);
+      add(parts_[k].a, sum.a.F, sum.a.T);
+      add(parts_[k].b, sum.b.F, sum.b.T);
     }
   }
 

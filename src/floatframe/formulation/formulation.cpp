@@ -11,8 +11,11 @@
 namespace floatframe {
 
 Formulation::Formulation(const Model& model, const std::vector<int>& constrained_joints)
-    : model_(model), constraint_set_(model, constrained_joints), force_set_(model), motion_(model) {
-  motion_.forces = force_set_.states().data();
+    : model_(model),
+      constraint_set_(model, constrained_joints),
+      element_set_(model),
+      motion_(model) {
+  motion_.efforts = element_set_.states().data();
   motion_.bodies.reserve(model.bodies.size());
 }
 

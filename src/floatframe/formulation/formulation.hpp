@@ -14,7 +14,7 @@
 #include "floatframe/formulation/call_order.hpp"
 #include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/formulation/counts.hpp"
-#include "floatframe/formulation/force_set.hpp"
+#include "floatframe/formulation/element_set.hpp"
 #include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/independent_rows.hpp"
@@ -40,22 +40,30 @@ class Formulation {
   const ConstraintSet& constraint_set() const noexcept { return constraint_set_; }
 
   /// Values of `model().inputs`, constant until set again; at first their initial values.
-  void set_inputs(std::span<const double> values) noexcept { force_set_.set_inputs(values); }
-  std::span<const double> inputs() const noexcept { return force_set_.inputs(); }
+  void set_inputs(std::span<const double> values) noexcept { element_set_.set_inputs(values); }
+  std::span<const double> inputs() const noexcept { return element_set_.inputs(); }
   /// Angles of the joint springs at the last evaluation (a number for each force): they determine
   /// the turn of the next angle, so they are a part of the state that q does not contain.
-  std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
-  void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
+  std::span<const double> spring_angles() const noexcept { return element_set_.angles(); }
+  void set_spring_angles(std::span<const double> angles) noexcept {
+    element_set_.set_angles(angles);
+  }
   /// Held branches of the laws of forces, and the side of a force whose law has branches at the
-  /// present positions and velocities (model/force_evaluation.hpp).
-  std::span<const std::int64_t> force_branches() const noexcept { return force_set_.branches(); }
+  /// present positions and velocities (model/element_evaluation.hpp).
+  std::span<const std::int64_t> force_branches() const noexcept { return element_set_.branches(); }
   void hold_force_branches(std::span<const std::int64_t> branches) noexcept {
-    force_set_.hold_branches(branches);
+    element_set_.hold_branches(branches);
   }
   void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
-    force_set_.hold_branch(force, branch);
+    element_set_.hold_branch(force, branch);
   }
-  virtual ForceSide force_side(std::size_t force) const noexcept = 0;
+  /// What an element acts on at the present positions and velocities; valid until the next call.
+  virtual Ports ports(std::size_t element) const noexcept = 0;
+  BranchSide branch_side(std::size_t element) const noexcept {
+    return floatframe::branch_side(ports(element));
+  }
+  /// While held, efforts stay those of the last evaluation: for derivatives without theirs.
+  void hold_efforts(bool on) noexcept { element_set_.hold(on); }
 
   // -- EquationsOfMotion
 
@@ -96,7 +104,7 @@ class Formulation {
                              const Reactions* reactions = nullptr) const noexcept;
   /// Of the motion, at hand without filling it.
   const MarkerState& marker(int i) const noexcept { return motion_.marker(i); }
-  const ForceState& force(int i) const noexcept { return motion_.force(i); }
+  const Efforts& effort(int i) const noexcept { return motion_.effort(i); }
   /// The accelerations of `MotionNeeds::accelerations` (`residual` and `constraint_accelerations`
   /// set them too).
   virtual void set_accelerations(const VecX& a) noexcept = 0;
@@ -124,16 +132,18 @@ class Formulation {
   virtual void add_tree_wrenches(Reactions&) const noexcept {}
 
  protected:
-  /// With constraints for these joints, for all rods and all prescribed motions. Allocates.
+  /// With constraints for these joints, of all elements and all prescribed motions. Allocates.
   Formulation(const Model& model, const std::vector<int>& constrained_joints);
   /// Adds a view of a body, a marker; in the order of the model.
   void show_body(const Mat3& R_WB, const Vec3& w_WB, const VecX& y, const VecX& yd,
                  const double* ydd);
   void show_marker(const MarkerState& state, const LocalMarker& local);
+  /// After all markers are shown.
+  void connect_elements() { element_set_.connect(motion_.markers); }
 
   const Model& model_;
   ConstraintSet constraint_set_;
-  ForceSet force_set_;
+  ElementSet element_set_;
   [[no_unique_address]] CallOrder calls_;
   double time_ = 0.0;
   VecX omega2_;

@@ -15,9 +15,9 @@ namespace {
 std::vector<Cluster> number(TreeKinematics& tree, ConstraintSet& constraints) {
   std::vector<std::pair<int, int>> ties;
   for (const ConstraintPart& p : constraints.parts()) ties.emplace_back(p.a, p.b);
-  for (const Force& f : tree.model().forces)
-    if (f.a >= 0 && tree.marker(f.a).body >= 0 && tree.marker(f.b).body >= 0)
-      ties.emplace_back(f.a, f.b);
+  for (const Element& e : tree.model().elements)
+    if (e.acts && bodies_of(tree, e.markers).size() > 1)
+      for (const int marker : e.markers) ties.emplace_back(e.markers[0], marker);
   std::vector<Cluster> clusters = find_clusters(tree, ties);
   number_coordinates(tree, clusters);
   constraints.number_rows(0);
@@ -28,10 +28,8 @@ std::vector<Cluster> number(TreeKinematics& tree, ConstraintSet& constraints) {
 std::vector<char> needed_markers(const Model& model, const ConstraintSet& constraints) {
   std::vector<char> needed(model.markers.size(), 0);
   for (const ConstraintPart& p : constraints.parts()) needed[p.a] = needed[p.b] = 1;
-  for (const Force& f : model.forces) {
-    if (f.a >= 0) needed[f.a] = 1;
-    needed[f.b] = 1;
-  }
+  for (const Element& e : model.elements)
+    for (const int marker : e.markers) needed[marker] = 1;
   return needed;
 }
 
@@ -56,7 +54,7 @@ std::vector<char> bodies_without_mass(const TreeKinematics& tree,
 RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod method)
     : Formulation(model, find_topology(model).cut_joints),
       tree_(model),
-      tangent_(tree_, constraint_set_, force_set_, number(tree_, constraint_set_)),
+      tangent_(tree_, constraint_set_, element_set_, number(tree_, constraint_set_)),
       wrenches_(tree_.body_vectors()),
       increments_(wrenches_) {
   tree_.need_markers(needed_markers(model, constraint_set_));
@@ -78,19 +76,20 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
     if (without[i]) omega2_.segment(tree_.body(i).iv, tree_.body(i).nj).setConstant(no_inertia);
   // The angle of a spring on a tree joint is the joint coordinate, however far it rotates in a
   // step.
-  for (const Force& f : model.forces)
-    spring_body_.push_back(f.rotational ? tree_.body_between(f.a, f.b) : -1);
-  force_set_.count_turns_from(model, 0.0);
+  for (const Element& e : model.elements)
+    spring_body_.push_back(e.rotational ? tree_.body_between(e.markers[0], e.markers[1]) : -1);
+  element_set_.count_turns_from(model, 0.0);
   for (const TreeBody& b : tree_.bodies()) show_body(b.R_WB, b.w_WB, b.y, b.yd, b.ydd.data());
   for (std::size_t k = 0; k < model.markers.size(); ++k) {
     const TreeMarker& m = tree_.marker(static_cast<int>(k));
     show_marker(m.s, m);
   }
+  connect_elements();
 }
 
 void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v) {
   assert(values.joints.size() == model_.joints.size());
-  force_set_.count_turns_from(values, t);
+  element_set_.count_turns_from(values, t);
   tree_.start(values, t, q, v);
 }
 

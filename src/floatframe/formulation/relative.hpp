@@ -3,7 +3,7 @@
 // theory section 10), composed of
 //   TreeKinematics   positions, velocities, accelerations of bodies; wrenches back to coordinates
 //   BodyTerms        M and Qv of each body about the common origin, (46)-(63)
-//   ForceSet         force elements
+//   ElementSet         force elements
 //   ConstraintSet    cut joints, rods and prescribed motions
 //   ClusterTangent   the factorised tangent
 //
@@ -31,7 +31,7 @@ class RelativeFormulation final : public Formulation {
   static constexpr Coordinates coordinates_of = Coordinates::relative;
   Coordinates coordinates() const noexcept override { return coordinates_of; }
   const TreeKinematics& tree() const noexcept { return tree_; }
-  ForceSide force_side(std::size_t force) const noexcept override;
+  Ports ports(std::size_t element) const noexcept override;
 
   /// Start values of the model in these coordinates (before loops are closed). Resets the turns of
   /// the springs on cut joints.
@@ -49,7 +49,7 @@ class RelativeFormulation final : public Formulation {
   /// next `positions` and `velocities`.
   void stepping(bool on, bool accepted = true) noexcept override {
     tree_.stepping(on);
-    force_set_.stepping(on, accepted);
+    element_set_.stepping(on, accepted);
   }
   void positions(double t, const VecX& q) noexcept override;
   void velocities(const VecX& v) noexcept override;

@@ -37,15 +37,13 @@ void RelativeFormulation::dynamics() noexcept {
 void RelativeFormulation::forces() noexcept {
   assert(calls_.has(CallOrder::velocities));
   for (std::size_t k = 0; k < spring_body_.size(); ++k)
-    if (spring_body_[k] >= 0) force_set_.set_angle(k, tree_.body(spring_body_[k]).angle);
-  force_set_.evaluate(tree_.origin(), time_,
-                      [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
+    if (spring_body_[k] >= 0) element_set_.set_angle(k, tree_.body(spring_body_[k]).angle);
+  element_set_.evaluate(tree_.origin(), time_);
 }
 
-ForceSide RelativeFormulation::force_side(std::size_t force) const noexcept {
-  assert(calls_.has(CallOrder::velocities) && force < model_.forces.size());
-  return force_set_.side(force, tree_.origin(), time_,
-                         [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
+Ports RelativeFormulation::ports(std::size_t element) const noexcept {
+  assert(calls_.has(CallOrder::velocities) && element < model_.elements.size());
+  return element_set_.ports(element, tree_.origin(), time_);
 }
 
 void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
@@ -73,7 +71,7 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
   const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
     tree_.add_wrench(marker, force, torque, wrenches_);
   };
-  force_set_.add_wrenches(add);
+  element_set_.add_wrenches(add);
   constraint_set_.add_wrenches(constraint_set_.weights(), add);
   tree_.project(wrenches_, out);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <ranges>
 
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -17,9 +18,9 @@ int mode_front(const TreeKinematics& tree, const Cluster& c, int i) {
 
 /// The coordinates that move a marker: those of the bodies of its path, and the modes of its body.
 void add_path(const TreeKinematics& tree, const Cluster& c, const std::vector<int>& path,
-              int marker, bool side_b, std::vector<PathEntry>& entries) {
+              int marker, int port, std::vector<PathEntry>& entries) {
   const auto add = [&](PathEntry::What what, int body, int front, int count) {
-    if (count > 0) entries.push_back({what, body, marker, side_b, front, count});
+    if (count > 0) entries.push_back({what, body, marker, port, front, count});
   };
   for (const int i : path) {
     const TreeBody& d = tree.body(i);
@@ -42,27 +43,42 @@ const double* directions(const TreeKinematics& tree, const PathEntry& p) noexcep
 
 }  // namespace
 
-TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
-                         const std::vector<int>& cluster_of_body, int a, int b) {
-  assert(b >= 0 && std::ssize(cluster_of_body) == tree.body_count());
-  TreeElement e;
-  e.a = a;
-  e.b = b;
-  std::vector<int> path_a = path_to_root(tree, a < 0 ? -1 : tree.marker(a).body);
-  std::vector<int> path_b = path_to_root(tree, tree.marker(b).body);
-  int ancestor = -1;
-  while (!path_a.empty() && !path_b.empty() && path_a.back() == path_b.back()) {
-    ancestor = path_a.back();
-    path_a.pop_back();
-    path_b.pop_back();
+std::vector<int> bodies_of(const TreeKinematics& tree, std::span<const int> markers) {
+  std::vector<int> bodies;
+  for (const int marker : markers) {
+    const int body = tree.marker(marker).body;
+    if (body >= 0 && std::find(bodies.begin(), bodies.end(), body) == bodies.end())
+      bodies.push_back(body);
   }
-  const int lead = !path_a.empty() ? path_a.front() : !path_b.empty() ? path_b.front() : ancestor;
+  return bodies;
+}
+
+TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
+                         const std::vector<int>& cluster_of_body, std::span<const int> markers) {
+  assert(!markers.empty() && std::ssize(cluster_of_body) == tree.body_count());
+  TreeElement e;
+  e.markers.assign(markers.begin(), markers.end());
+  std::vector<std::vector<int>> paths;
+  for (const int marker : markers) paths.push_back(path_to_root(tree, tree.marker(marker).body));
+  int ancestor = -1;
+  const auto shared = [&] {
+    return std::all_of(paths.begin(), paths.end(), [&](const std::vector<int>& path) {
+      return !path.empty() && path.back() == paths[0].back();
+    });
+  };
+  while (shared()) {
+    ancestor = paths[0].back();
+    for (std::vector<int>& path : paths) path.pop_back();
+  }
+  int lead = ancestor;
+  for (const std::vector<int>& path : std::views::reverse(paths))
+    if (!path.empty()) lead = path.front();
   if (lead < 0) return e;
-  // Both markers on one body: the element depends on its modes only, in the front of its cluster.
+  // All markers on one body: the element depends on its modes only, in the front of its cluster.
   e.cluster = cluster_of_body[lead];
   const Cluster& c = clusters[e.cluster];
-  if (a >= 0) add_path(tree, c, path_a, a, false, e.path);
-  add_path(tree, c, path_b, b, true, e.path);
+  for (std::size_t i = 0; i < markers.size(); ++i)
+    add_path(tree, c, paths[i], markers[i], static_cast<int>(i), e.path);
   if (e.path.empty()) return e;
   e.first = c.n;
   int last = 0;
@@ -76,15 +92,14 @@ TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>&
   return e;
 }
 
-void fill_gradient(const TreeKinematics& tree, const TreeElement& e, const WrenchRow& gradient,
+void fill_gradient(const TreeKinematics& tree, const TreeElement& e, const Wrench* gradient,
                    double* row) noexcept {
   assert(row || e.width == 0);
   for (int j = 0; j < e.width; ++j) row[j] = 0.0;
   for (const PathEntry& p : e.path) {
     const TreeMarker& m = tree.marker(p.marker);
     assert(p.front >= e.first && p.front + p.count <= e.first + e.width);
-    const Vec3& force = p.side_b ? gradient.Fb : gradient.Fa;
-    const Vec3& torque = p.side_b ? gradient.Tb : gradient.Ta;
+    const auto& [force, torque] = gradient[p.port];
     double* out = row + (p.front - e.first);
     if (p.what == PathEntry::What::marker_modes) {
       for (int j = 0; j < p.count; ++j) {
@@ -106,7 +121,7 @@ void fill_distance(const TreeKinematics& tree, const TreeElement& e, double* row
   for (const PathEntry& p : e.path) {
     const TreeMarker& m = tree.marker(p.marker);
     assert(p.front >= e.first && p.front + p.count <= e.first + e.width);
-    const double sign = p.side_b ? 1.0 : -1.0;
+    const double sign = p.port == 1 ? 1.0 : -1.0;
     double* x = rows + (p.front - e.first);
     double* y = x + e.width;
     double* z = y + e.width;

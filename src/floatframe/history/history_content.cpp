@@ -11,8 +11,8 @@
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/model/model_hash.hpp"
-#include "floatframe/model/rules.hpp"
 
 namespace floatframe {
 namespace {

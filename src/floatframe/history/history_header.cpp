@@ -8,7 +8,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/number_rule.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/simulation/state_layout.hpp"
 
 namespace floatframe {

@@ -40,14 +40,8 @@ class RecordedParts {
       marker(output, model_.joints[output.joint].frame_F);
       marker(output, model_.joints[output.joint].frame_M);
     }
-    if (output.force >= 0) {
-      marker(output, model_.forces[output.force].a);
-      marker(output, model_.forces[output.force].b);
-    }
-    if (output.rod >= 0) {
-      marker(output, model_.rods[output.rod].a);
-      marker(output, model_.rods[output.rod].b);
-    }
+    if (output.element >= 0)
+      for (const int port : model_.elements[output.element].markers) marker(output, port);
   }
 
  private:

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/description/validate.hpp"
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {

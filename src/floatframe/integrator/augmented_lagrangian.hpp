@@ -19,9 +19,9 @@
 //   T = M + (c1/c2) C + s (K + Phi_q^T alpha Phi_q)                                             (g)
 //   x (+)= dx,  lambda += alpha (Phi + Phi_q dx)                                                (h)
 // where (h) is alpha Phi(q) up to the curvature of the constraints. C and K contain modal damping
-// and stiffness, the rows of force tangents (force_evaluation.hpp) and geometric stiffness; T omits
-// the derivatives of M and Q_v, which costs iterations, not accuracy. Multipliers act with -Phi_q^T
-// lambda.
+// and stiffness, the rows of force tangents (element_evaluation.hpp) and geometric stiffness; T
+// omits the derivatives of M and Q_v, which costs iterations, not accuracy. Multipliers act with
+// -Phi_q^T lambda.
 // Projections, (2), with a separate metric, factorised once per step with the Jacobian frozen:
 //   W = M + 0.01 s K,  T_p = W + 30 s Phi_q^T alpha Phi_q                                       (i)
 //   v -= T_p^-1 30 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 30 s Phi_q^T alpha Phi_ddot(a),     (j)

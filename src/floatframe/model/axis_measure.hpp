@@ -1,11 +1,9 @@
 #pragma once
 // Distance of marker b from marker a along a direction e that turns with a:
 //   s = e.d,  d = r_b - r_a,  sdot = e.(v_b - v_a) + (w_a x e).d
-// with the derivatives used by guided springs, joint springs and the constraints along an axis.
+// with the derivatives that elements and constraints along an axis use.
 // With de = dpi_a x e:
 //   gradient      g  = (-e, e x d, e, 0)                     = ds/d(motion) = dsdot/d(rates)
-//   of the rate   g' = (-w x e, e x (v + d x w), w x e, 0)   = dsdot/d(motion) at fixed rates,
-//                 v = v_b - v_a, w = w_a
 //   curvature     dg/d(motion): not symmetric in (dpi_a, dpi_a), because increments of a rotation
 //                 multiply from the left
 #include "floatframe/math/so3.hpp"
@@ -13,21 +11,18 @@
 
 namespace floatframe {
 
+template <class S>
 struct AxisMeasure {
-  double s = 0.0, rate = 0.0;
-  WrenchRow g;
+  S s = 0.0, rate = 0.0;
+  WrenchPair<S> g;
 };
 
-inline AxisMeasure axis_measure(const Vec3& e, const MarkerState& a,
-                                const MarkerState& b) noexcept {
-  const Vec3 d = b.r - a.r;
-  return {e.dot(d), e.dot(b.v - a.v) + a.w.cross(e).dot(d), {-e, e.cross(d), e, Vec3::Zero()}};
-}
-
-inline Vec12 axis_rate_gradient(const Vec3& e, const MarkerState& a,
-                                const MarkerState& b) noexcept {
-  const Vec3 e_dot = a.w.cross(e);
-  return stacked({-e_dot, e.cross(b.v - a.v + (b.r - a.r).cross(a.w)), e_dot, Vec3::Zero()});
+template <class S, class Marker>
+AxisMeasure<S> axis_measure(const Eigen::Matrix<S, 3, 1>& e, const Marker& a,
+                            const Marker& b) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const V d = b.r - a.r;
+  return {e.dot(d), e.dot(b.v - a.v) + a.w.cross(e).dot(d), {{-e, e.cross(d)}, {e, V::Zero()}}};
 }
 
 /// K += weight dg/d(motion).

@@ -9,7 +9,7 @@ namespace floatframe {
 
 inline void fill_axis_row(const Vec3& n, const MarkerState& a, const MarkerState& b,
                           ConstraintRow& row) noexcept {
-  const AxisMeasure m = axis_measure(n, a, b);
+  const AxisMeasure<double> m = axis_measure(n, a, b);
   row.phi = m.s;
   row.gradient = m.g;
   const Vec3 n_dot = a.w.cross(n);

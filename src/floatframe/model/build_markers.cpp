@@ -4,10 +4,10 @@
 
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/model_builder.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/model_builder.hpp"
-#include "floatframe/model/sentences.hpp"
 #include "floatframe/model/snap.hpp"
-#include "floatframe/model/validate.hpp"
+#include "floatframe/model/validate_model.hpp"
 
 namespace floatframe {
 
@@ -22,25 +22,6 @@ void ModelBuilder::inputs() {
     if (i.low) input.low = *i.low;
     if (i.high) input.high = *i.high;
     model.inputs.push_back(std::move(input));
-  }
-}
-
-void ModelBuilder::rods() {
-  for (const RodDescription& r : d.rods) {
-    Rod rod;
-    rod.name = r.name;
-    rod.a =
-        add_marker(r.a, Mat3::Identity(), false, r.origin.of("from"), "rods." + r.name + ".from");
-    rod.b = add_marker(r.b, Mat3::Identity(), false, r.origin.of("to"), "rods." + r.name + ".to");
-    if (rod.a < 0 || rod.b < 0) continue;
-    rod.length = r.length ? *r.length : (design_point(rod.b) - design_point(rod.a)).norm();
-    if (!r.length)  // of two nodes: their positions are only known now
-      if (const auto complaint = sentences::rod_ends(design_point(rod.a), design_point(rod.b))) {
-        errors.add(ErrorCode::geometry, r.origin.mark, "rods." + r.name + ": " + *complaint);
-        continue;
-      }
-    rod_names.add(rod.name);
-    model.rods.push_back(rod);
   }
 }
 
@@ -75,10 +56,11 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.roads();
   b.inputs();
   b.joints();
-  b.rods();
+  b.elements(ElementList::rods, b.rods);
   ModelHints found;
   if (b.errors.empty()) found.notes = snap_joints(b.model, description.snap, found.locked);
-  b.forces();
+  b.elements(ElementList::forces, b.model.elements);
+  std::move(b.rods.begin(), b.rods.end(), std::back_inserter(b.model.elements));
   b.outputs();
   b.errors.throw_if_any();
   b.free_joints();

@@ -1,11 +1,11 @@
 // Result columns: the markers, bodies, joints and forces they refer to, and their units.
 #include <algorithm>
 
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/gauge_place.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
@@ -52,12 +52,12 @@ void ModelBuilder::outputs() {
         built = out.joint >= 0;
         break;
       case OutputOf::force:
-        out.force = force_names.index(o.entity);
-        built = out.force >= 0;
+        out.element = element(ElementList::forces, o.entity);
+        built = out.element >= 0;
         break;
       case OutputOf::rod:
-        out.rod = rod_names.index(o.entity);
-        built = out.rod >= 0;
+        out.element = element(ElementList::rods, o.entity);
+        built = out.element >= 0;
         break;
       case OutputOf::motion:
         out.joint = joint_names.index(o.entity);
@@ -114,9 +114,16 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
   return true;
 }
 
+int ModelBuilder::element(ElementList list, const std::string& name) const {
+  const int k = element_names[index_of(list)].index(name);
+  const bool last = list == ElementList::rods;
+  return k >= 0 && last ? static_cast<int>(model.elements.size() - rods.size()) + k : k;
+}
+
 bool ModelBuilder::reaction(const OutputDescription& o, Output& out, const std::string& who) {
-  (o.rod ? out.rod : out.joint) = o.rod ? rod_names.index(o.entity) : joint_names.index(o.entity);
-  if (out.rod < 0 && out.joint < 0) return false;
+  (o.rod ? out.element : out.joint) =
+      o.rod ? element(ElementList::rods, o.entity) : joint_names.index(o.entity);
+  if (out.element < 0 && out.joint < 0) return false;
   if (o.about) {
     out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark, who + ".about");
     if (out.marker < 0) return false;

@@ -48,7 +48,7 @@ constexpr std::make_index_sequence<std::size(constraint_types)> all_part_types;
 #ifndef NDEBUG
 /// NaN until a kind has filled it.
 void poison_row(ConstraintRow& row) noexcept {
-  for (Vec3* x : {&row.gradient.Fa, &row.gradient.Ta, &row.gradient.Fb, &row.gradient.Tb})
+  for (Vec3* x : {&row.gradient.a.F, &row.gradient.a.T, &row.gradient.b.F, &row.gradient.b.T})
     poison(*x);
   for (double* x : {&row.phi, &row.quad, &row.phi_t, &row.phi_tt}) poison(*x);
 }

@@ -111,7 +111,8 @@ void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
 /// The prescribed motion of joint `index`, if it has one.
 void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
-void append_rod_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
+/// The constraints of an element, if it has any.
+void append_element_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
 
 /// "joint 'hinge'" or "rod 'link'".
 std::string owner_name(const Model& model, const ConstraintOwner& owner);

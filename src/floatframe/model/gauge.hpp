@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "floatframe/body/body_stress.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/math/types.hpp"
-#include "floatframe/model/description.hpp"
 
 namespace floatframe {
 

@@ -3,8 +3,8 @@
 // description refers to. An ambiguous description is an error; rounding never selects one.
 #include <string>
 
+#include "floatframe/description/description.hpp"
 #include "floatframe/math/types.hpp"
-#include "floatframe/model/description.hpp"
 
 namespace floatframe {
 

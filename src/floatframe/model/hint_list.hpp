@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {

@@ -12,11 +12,11 @@
 #include <numbers>
 #include <span>
 
+#include "floatframe/description/placement.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/model/placement.hpp"
 
 namespace floatframe {
 

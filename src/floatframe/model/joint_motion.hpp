@@ -8,8 +8,8 @@
 // exp(skew(Theta)) R.
 #include <string>
 
+#include "floatframe/description/description.hpp"
 #include "floatframe/math/types.hpp"
-#include "floatframe/model/description.hpp"
 
 namespace floatframe {
 

@@ -1,7 +1,8 @@
-// The constraint parts of joints, of prescribed motions and of rods.
+// The constraint parts of joints, of prescribed motions and of elements.
 #include <cassert>
 
 #include "floatframe/math/contracts.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -52,21 +53,20 @@ void append_motion_parts(const Model& model, int index, std::vector<ConstraintPa
   parts.push_back(p);
 }
 
-void append_rod_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
-  const Rod& rod = model.rods[index];
-  assert(rod.length > 0.0 && rod.a >= 0 && rod.b >= 0);
-  ConstraintPart p;
-  p.type = ConstraintType::distance;
-  p.a = rod.a;
-  p.b = rod.b;
-  p.scale = rod.length;
-  p.owner = {ConstraintOwner::Kind::rod, index};
-  parts.push_back(p);
+void append_element_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
+  const Element& element = model.elements[index];
+  if (!element.holds) return;
+  ConstraintPart part;
+  part.owner = {ConstraintOwner::Kind::element, index};
+  element_kind(element.type).rows(element, part, parts);
 }
 
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {
   const std::size_t i = owner.index;
-  if (owner.kind == ConstraintOwner::Kind::rod) return "rod '" + model.rods[i].name + "'";
+  if (owner.kind == ConstraintOwner::Kind::element) {
+    const Element& element = model.elements[i];
+    return std::string(element_type_name(element.type)) + " '" + element.name + "'";
+  }
   return "joint '" + model.joints[i].name + "'";
 }
 

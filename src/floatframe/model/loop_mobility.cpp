@@ -12,11 +12,11 @@ namespace {
 
 struct Edge {
   int a = 0, b = 0;  ///< vertices: bodies, the last one the ground
-  bool rod = false;
+  bool element = false;
   int index = -1;
 };
 
-/// Joints that constrain something, then rods.
+/// Joints that constrain something, then elements that hold two bodies.
 std::vector<Edge> edges_of(const Model& model) {
   const int ground = std::ssize(model.bodies);
   const auto vertex = [&](int body) { return body < 0 ? ground : body; };
@@ -26,9 +26,11 @@ std::vector<Edge> edges_of(const Model& model) {
     if (joint_velocities(joint.type) < 6)
       edges.push_back({vertex(joint.parent), vertex(joint.child), false, j});
   }
-  for (int k = 0; k < std::ssize(model.rods); ++k)
-    edges.push_back({vertex(model.markers[model.rods[k].a].body),
-                     vertex(model.markers[model.rods[k].b].body), true, k});
+  for (int k = 0; k < std::ssize(model.elements); ++k)
+    if (const Element& e = model.elements[k]; e.holds)
+      for (std::size_t i = 1; i < e.markers.size(); ++i)
+        edges.push_back({vertex(model.markers[e.markers[0]].body),
+                         vertex(model.markers[e.markers[i]].body), true, k});
   return edges;
 }
 
@@ -93,7 +95,7 @@ std::vector<LoopBlock> loop_blocks(const Model& model) {
   for (const std::vector<int>& of : found) {
     LoopBlock& block = blocks.emplace_back();
     for (const int e : of) {
-      (edges[e].rod ? block.rods : block.joints).push_back(edges[e].index);
+      (edges[e].element ? block.elements : block.joints).push_back(edges[e].index);
       for (const int v : {edges[e].a, edges[e].b}) {
         block.grounded = block.grounded || v == ground;
         if (v != ground) block.bodies.push_back(v);
@@ -159,11 +161,10 @@ LoopMobility::LoopMobility(const Model& model, const LoopBlock& block,
     socket(joint.frame_M, {places[k].p, places[k].R});
     renumbered(parts);
   }
-  for (const int k : block.rods) {
+  for (const int k : block.elements) {
     std::vector<ConstraintPart> parts;
-    append_rod_parts(model, k, parts);
-    for (const int marker : {model.rods[k].a, model.rods[k].b})
-      socket(marker, design_pose(model, marker));
+    append_element_parts(model, k, parts);
+    for (const int marker : model.elements[k].markers) socket(marker, design_pose(model, marker));
     renumbered(parts);
   }
   pose_ = start_;
@@ -189,7 +190,7 @@ void LoopMobility::evaluate() {
     for (int r = 0; r < p.rows(); ++r, ++row) {
       phi_[row] = found[r].phi;
       const WrenchRow& g = found[r].gradient;
-      for (const auto& [k, F, T] : {std::tuple(p.a, g.Fa, g.Ta), std::tuple(p.b, g.Fb, g.Tb)}) {
+      for (const auto& [k, F, T] : {std::tuple(p.a, g.a.F, g.a.T), std::tuple(p.b, g.b.F, g.b.T)}) {
         const Socket& s = sockets_[k];
         if (s.place < 0 || first_[s.place] < 0) continue;
         const int c = first_[s.place];

@@ -13,7 +13,7 @@ namespace floatframe {
 /// bodies and the ground.
 struct LoopBlock {
   std::vector<int> bodies;  ///< without the ground
-  std::vector<int> joints, rods;
+  std::vector<int> joints, elements;
   bool grounded = false;  ///< it contains the ground
 };
 

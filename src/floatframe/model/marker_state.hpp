@@ -27,11 +27,28 @@ inline void poison_state(MarkerState& s) noexcept {
   poison_rates(s);
 }
 
-/// Gradient of a scalar measure of two markers: d(measure) = Fa.dr_a + Ta.dpi_a + Fb.dr_b +
-/// Tb.dpi_b.
-struct WrenchRow {
-  Vec3 Fa, Ta, Fb, Tb;
+/// Pose and twist of a marker over any scalar, for laws that are differentiated (math/dual.hpp).
+template <class S>
+struct MarkerMotion {
+  Eigen::Matrix<S, 3, 1> r;
+  Eigen::Matrix<S, 3, 3> R;
+  Eigen::Matrix<S, 3, 1> v, w;
 };
+
+/// Force and torque on a marker, world axes, at its point.
+template <class S>
+struct WrenchOf {
+  Eigen::Matrix<S, 3, 1> F, T;
+};
+using Wrench = WrenchOf<double>;
+
+/// Gradient of a scalar measure of two markers: d(measure) = a.F.dr_a + a.T.dpi_a + b.F.dr_b +
+/// b.T.dpi_b.
+template <class S>
+struct WrenchPair {
+  WrenchOf<S> a, b;
+};
+using WrenchRow = WrenchPair<double>;
 
 /// Small motions of two markers: (dr_a, dpi_a, dr_b, dpi_b), translations and rotations in world
 /// axes, R_new = exp(skew(dpi)) R. Rates: (v_a, w_a, v_b, w_b).
@@ -45,7 +62,7 @@ inline constexpr int r_a = 0, pi_a = 3, r_b = 6, pi_b = 9;
 
 inline Vec12 stacked(const WrenchRow& g) noexcept {
   Vec12 x;
-  x << g.Fa, g.Ta, g.Fb, g.Tb;
+  x << g.a.F, g.a.T, g.b.F, g.b.T;
   return x;
 }
 

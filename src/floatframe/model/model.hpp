@@ -2,7 +2,7 @@
 // The built system: immutable, shared by threads; names are resolved to indices. Made by
 // `build_model`.
 //
-// Markers are the only interface: a joint, rod or force has two markers and never accesses
+// Markers are the only interface: joints and elements have markers and never access
 // coordinates. A marker is attached to a node of a flexible body and moves with its deformation, or
 // is fixed in a rigid body or in the ground:
 //   p_BM = p + X y + exp(skew(X_theta y)) p_NM,   R_BM = exp(skew(X_theta y)) R_NM.
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/model_hints.hpp"
 
@@ -53,46 +53,36 @@ struct Joint {
   bool automatic = false;  ///< a free joint added for a body that no joint leads to
 };
 
-struct Rod {
-  std::string name;
-  int a = -1, b = -1;
-  double length = 0.0;
-};
-
 struct Road {
   std::string name;
   PiecewisePolynomial pieces;
   std::vector<CosineBump> bumps;
 };
 
-/// A function of time plus, with `input` >= 0, the value of that input.
+/// A signal port: a function of time plus, with `input` >= 0, the value of that input.
 struct Signal {
   TimeFunction function;
   int input = -1;
+  bool given = false;
+  bool differentiated = false;  ///< the rate of the function is used as well
 };
 
-/// One flat record for all force elements: the fields a type does not use stay at their defaults.
-struct Force {
+/// An element: what it is connected to, by index, and what it does. The table of
+/// keys of its kind gives the key of each law and signal.
+struct Element {
   std::string name;
-  ForceType type = ForceType::spring_damper;
-  int a = -1, b = -1;  ///< markers; one-point forces use b only (a = -1)
-  PiecewisePolynomial spring, damper;
-  Vec3 axis = Vec3::UnitZ();  ///< in marker a (guided), marker b (tyre axis, following load) or
-                              ///< world (load)
-  bool rotational = false;    ///< its measure is an angle, followed over several turns
-  double radius = 0, stiffness = 0, damping = 0;
-  TyreLaw law = TyreLaw::vertical;
+  ElementType type{};
+  std::vector<int> markers;               ///< its ports on bodies, in the order of its kind
+  std::vector<PiecewisePolynomial> laws;  ///< those of its keys, in their order
+  std::vector<Signal> signals;            ///< those of its keys, in their order
   int road = -1;
-  TimeFunction magnitude;      ///< of a load; of the actuator of the other elements
-  int input = -1;              ///< added to the magnitude
-  bool driven = false;         ///< the element has an actuator
-  Signal target, target_rate;  ///< of a joint_spring
-  bool targeted = false;       ///< it has a target or a rate
-  bool derived_rate = false;   ///< the rate of the target is the derivative of its function
-  bool follows = false;
-  /// Further laws and numbers of the type, in a type-specific order.
-  std::vector<PiecewisePolynomial> laws;
-  std::vector<double> numbers;
+  bool acts = true;           ///< by a law
+  bool holds = false;         ///< its markers, by constraints
+  bool rotational = false;    ///< its measure is an angle, followed over several turns
+  bool driven = false;        ///< a signal that it follows, or that is a force, is given
+  bool target_jumps = false;  ///< one that it follows may jump
+  std::shared_ptr<const ElementKeys> keys;  ///< what the user has said
+  std::shared_ptr<const void> data;         ///< what the kind has computed from it
 };
 
 /// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
@@ -109,14 +99,15 @@ struct Output {
   std::string name, unit;
   OutputType type = OutputType::position;
   int marker = -1, to = -1;  ///< of points; `to`: the second of two
-  int body = -1, joint = -1, force = -1, rod = -1;
+  int body = -1, joint = -1;
+  int element = -1;  ///< of a force, or of a reaction
   int component = 0;
   int gauge = -1;
 };
 
 /// The origin of a constraint row, for messages: "joint 'front_left.ball'".
 struct ConstraintOwner {
-  enum class Kind { joint, rod } kind = Kind::joint;
+  enum class Kind { joint, element } kind = Kind::joint;
   int index = -1;
 };
 
@@ -124,9 +115,8 @@ struct Model {
   std::string name;
   Vec3 gravity = Vec3::Zero();
   std::vector<Body> bodies;
-  std::vector<Joint> joints;  ///< automatic free joints last
-  std::vector<Rod> rods;
-  std::vector<Force> forces;
+  std::vector<Joint> joints;      ///< automatic free joints last
+  std::vector<Element> elements;  ///< rods last
   std::vector<Road> roads;
   std::vector<Input> inputs;
   std::vector<Marker> markers;

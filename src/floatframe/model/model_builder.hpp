@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "floatframe/description/name_index.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/name_index.hpp"
 
 namespace floatframe {
 
@@ -21,7 +21,9 @@ struct ModelBuilder {
 
   const ModelDescription& d;
   const NameIndex body_names, road_names, input_names;
-  NameIndex joint_names, force_names, rod_names;  ///< of those that are built
+  NameIndex joint_names;       ///< of those that are built
+  NameIndex element_names[2];  ///< of each ElementList
+  std::vector<Element> rods;   ///< built before axes are made exact, elements last
   /// Body, node, rotation with the node, position and orientation of each marker on a body.
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
@@ -42,10 +44,12 @@ struct ModelBuilder {
   /// Bodies without a path of joints from the ground get a free joint to it (the first in file
   /// order each time).
   void free_joints();
-  void rods();
-  void forces();
+  /// Appends the built ones to `out`.
+  void elements(ElementList list, std::vector<Element>& out);
   void outputs();
-  /// Data for a joint or rod: false if something it refers to is missing.
+  /// Index of an element by its name, -1 if it is not built.
+  int element(ElementList list, const std::string& name) const;
+  /// Data of a reaction: false if something it refers to is missing.
   bool reaction(const OutputDescription& o, Output& out, const std::string& who);
   /// Location of a stress: false, with an error, if there is none.
   bool gauge(const OutputDescription& o, Output& out, const std::string& who);

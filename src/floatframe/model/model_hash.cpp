@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "floatframe/core/content_hash.hpp"
+#include "floatframe/model/element_keys.hpp"
 
 namespace floatframe {
 namespace {
@@ -49,10 +50,6 @@ class ModelHash {
     const auto& [pieces, amplitude, frequency, phase] = f;
     all(pieces, amplitude, frequency, phase);
   }
-  void add(const Signal& s) {
-    const auto& [function, input] = s;
-    all(function, input);
-  }
   void add(const CosineBump& b) {
     const auto& [start, length, height] = b;
     all(start, length, height);
@@ -71,26 +68,31 @@ class ModelHash {
     all(name, type, parent, child, F, M, axis_2, motion.has_value(), cut, automatic);
     if (motion) add(*motion);
   }
-  void add(const Rod& r) {
-    const auto& [name, a, b, length] = r;
-    all(name, a, b, length);
+  void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
+  void add(const SignalDescription& s) {
+    add(static_cast<const TimeFunction&>(s));
+    add(s.input);
   }
-  void add(const Force& f) {
-    const auto& [name, type, a, b, spring, damper, axis, rotational, radius, stiffness, damping,
-                 law, road, magnitude, input, driven, target, target_rate, targeted, derived_rate,
-                 follows, laws, numbers] = f;
-    all(name, type, a, b, spring, damper, axis, rotational, radius, stiffness, damping, law, road);
-    all(magnitude, input, driven, target, target_rate, targeted, derived_rate, follows, laws,
-        numbers);
+  void add(const Signal& s) {
+    const auto& [function, input, given, differentiated] = s;
+    all(function, input, given);
+  }
+  void add(const Element& e) {
+    const auto& [name, type, markers, laws, signals, road, acts, holds, rotational, driven, jumps,
+                 keys, data] = e;
+    all(name, type, markers, laws, signals, road, rotational);
+    const ElementDescription described{name, *keys, {}};
+    for (const ElementKey& key : element_keys(type))
+      if (const auto value = key_value(described, key))
+        std::visit([&](const auto& x) { add(x); }, *value);
   }
   void add(const Input& i) {
     const auto& [name, unit, initial, low, high, clamp] = i;
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, type, marker, to, body, joint, force, rod, component, gauge] = o;
-    all(name, type, marker, to, body, joint, force, component);
-    if (rod >= 0) all(rod);
+    const auto& [name, unit, type, marker, to, body, joint, element, component, gauge] = o;
+    all(name, type, marker, to, body, joint, element, component);
     if (gauge >= 0) all(gauge);
   }
   void add(const Gauge& g) {
@@ -143,9 +145,9 @@ class ModelHash {
     all(p, X, X_theta);
   }
   void add(const Model& model) {
-    const auto& [name, gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs,
-                 gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
-    all(gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs, mean_mass);
+    const auto& [name, gravity, bodies, joints, elements, roads, inputs, markers, outputs, gauges,
+                 amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
+    all(gravity, bodies, joints, elements, roads, inputs, markers, outputs, mean_mass);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);

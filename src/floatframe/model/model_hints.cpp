@@ -12,6 +12,7 @@
 
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/union_find.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -96,7 +97,7 @@ void hint_at_angle_of_time(const std::string& kind, const std::string& name,
 }
 
 /// A law whose entries are all beyond a turn, on both sides of zero or on one.
-void hint_at_law_of_angle(const Force& force, const PiecewisePolynomial& law, HintList& out) {
+void hint_at_law_of_angle(const Element& force, const PiecewisePolynomial& law, HintList& out) {
   double least = 0.0;
   for (const double b : law.breaks())
     if (b != 0.0) least = least == 0.0 || std::abs(b) < std::abs(least) ? b : least;
@@ -121,11 +122,12 @@ void hint_at_angles(const ModelDescription& description, const Model& model, Hin
     if (joint.motion && turns(0))
       hint_at_angle_of_time("joint", joint.name, "its motion", *joint.motion, out);
   }
-  for (const Force& force : model.forces) {
-    if (!force.rotational) continue;
-    hint_at_law_of_angle(force, force.spring, out);
-    if (force.targeted)
-      hint_at_angle_of_time("force", force.name, "its target", force.target.function, out);
+  for (const Element& e : model.elements) {
+    if (!e.rotational) continue;
+    if (!e.laws.empty()) hint_at_law_of_angle(e, e.laws[0], out);
+    for (const ElementSignal& s : signals_of(e))
+      if (std::string(s.unit) == "rad")
+        hint_at_angle_of_time("force", e.name, "its " + s.what, s.signal->function, out);
   }
   for (const auto& [body, offset] : description.simulation.offset)
     if (offset.rotation && beyond_a_turn(offset.rotation->norm()))
@@ -232,8 +234,8 @@ std::vector<HeldNodes> held_nodes(const Model& model) {
     add_nodes_on_axis(model, j.frame_F, held);
     add_nodes_on_axis(model, j.frame_M, held);
   }
-  for (const Rod& r : model.rods) use(r.a, false), use(r.b, false);
-  for (const Force& f : model.forces) use(f.a, false), use(f.b, false);
+  for (const Element& e : model.elements)
+    for (const int marker : e.markers) use(marker, false);
   return held;
 }
 

@@ -5,8 +5,8 @@
 // data of an OutputKind are used at load time.
 #include <span>
 
-#include "floatframe/model/force_outputs.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
@@ -55,13 +55,13 @@ struct OutputKind {
   const char* unit;
   const char* (*unit_of)(const Model& model, const Output& output) = nullptr;
   /// For a force element: the required property.
-  ForceQuantity needs = ForceQuantity::force;
+  ElementQuantity needs = ElementQuantity::force;
   MotionNeeds needs_of_motion = {};
 };
 
-template <ForceQuantity quantity>
+template <ElementQuantity quantity>
 const char* unit_of_force(const Model& model, const Output& output) {
-  return force_output_unit(model.forces[output.force], quantity);
+  return element_output_unit(model.elements[output.element], quantity);
 }
 
 const OutputKind& output_kind(OutputType type) noexcept;

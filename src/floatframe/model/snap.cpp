@@ -8,6 +8,7 @@
 
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/alignment.hpp"
+#include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
 namespace {
@@ -73,7 +74,7 @@ class Snapping {
     int rows = 0;
     for (const int j : block_.joints) rows += 6 - joint_velocities(model_.joints[j].type);
     return 6 * std::ssize(block_.bodies) - (block_.grounded ? 0 : 6) - rows -
-               std::ssize(block_.rods) >
+               std::ssize(block_.elements) >
            0;
   }
 

@@ -32,4 +32,15 @@ double modal_damping_power(const SystemMotion& motion) noexcept {
   return sum;
 }
 
+double SystemMotion::power(int element) const noexcept {
+  const std::vector<int>& markers = model.elements[static_cast<std::size_t>(element)].markers;
+  const Efforts& e = effort(element);
+  double power = 0.0;
+  for (std::size_t i = e.markers(); i-- > 0;) {
+    const MarkerState& m = marker(markers[i]);
+    power += e.wrench[i].F.dot(m.v) + e.wrench[i].T.dot(m.w);
+  }
+  return power;
+}
+
 }  // namespace floatframe

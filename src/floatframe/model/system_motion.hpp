@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "floatframe/math/contracts.hpp"
-#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/model/reactions.hpp"
@@ -49,7 +49,7 @@ struct SystemMotion {
   std::vector<BodyKinematics> bodies;
   std::vector<const MarkerState*> markers;
   std::vector<Vec3> marker_accelerations;  ///< of the points [m/s2]
-  const ForceState* forces = nullptr;      ///< one for each force
+  const Efforts* efforts = nullptr;        ///< one for each element
   const Reactions* reactions = nullptr;    ///< if an output needs them
 
   explicit SystemMotion(const Model& m) : model(m), marker_accelerations(m.markers.size()) {}
@@ -66,14 +66,12 @@ struct SystemMotion {
   }
   /// Position of a marker in the world [m].
   Vec3 place(int i) const noexcept { return marker(i).r + origin; }
-  const ForceState& force(int i) const noexcept {
-    assert(is_index(i, model.forces));
-    return forces[i];
+  const Efforts& effort(int i) const noexcept {
+    assert(is_index(i, model.elements));
+    return efforts[i];
   }
-  /// The marker a of a force, b if it has none.
-  const MarkerState& first_marker(const Force& f) const noexcept {
-    return marker(f.a >= 0 ? f.a : f.b);
-  }
+  /// Power of an element on its markers [W].
+  double power(int element) const noexcept;
   /// Debug builds: NaN until it is filled.
   void poison_filled() noexcept {
     for (BodyKinematics& b : bodies) {

@@ -1,8 +1,8 @@
-// Joints, rods and inputs.
+// Joints.
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/joint_kind.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
-#include "floatframe/model/validate.hpp"
+#include "floatframe/model/validate_model.hpp"
 
 namespace floatframe::validation {
 
@@ -71,62 +71,6 @@ void joints(const ModelDescription& d, const Names& names, ErrorList& errors) {
     const Entity entity{errors, j.origin, "joints." + j.name};
     name("joints", j.name, taken, entity);
     joint(j, names, entity);
-  }
-}
-
-void rods(const ModelDescription& d, const Names& names, ErrorList& errors) {
-  std::set<std::string> taken;
-  for (const RodDescription& r : d.rods) {
-    const Entity entity{errors, r.origin, "rods." + r.name};
-    name("rods", r.name, taken, entity);
-    const bool a = entity.place("from", r.a, names), b = entity.place("to", r.b, names);
-    if (r.length) entity.number("length", *r.length, rules::rod_length);
-    if (!a || !b) continue;
-    if (r.a.body == r.b.body) {
-      entity.error(ErrorCode::geometry, sentences::both_ends_on(r.a.body));
-    } else if (!r.length && !r.a.node && !r.b.node) {
-      if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point))
-        entity.error(ErrorCode::geometry, *complaint);
-    }
-  }
-}
-
-namespace {
-
-void initial_value(const InputDescription& i, const Entity& entity) {
-  const auto complaint = sentences::input_initial(i.initial, i.low, i.high);
-  if (!complaint) return;
-  // A key that is missing in a file has no position.
-  if (i.origin.keys.empty() || i.origin.keys.contains("initial"))
-    entity.error(ErrorCode::out_of_range, "initial", *complaint);
-  else
-    entity.error(ErrorCode::out_of_range, "initial: " + *complaint);
-}
-
-}  // namespace
-
-void input(const InputDescription& i, const Entity& entity) {
-  if (const auto complaint = sentences::unit(i.unit))
-    entity.error(ErrorCode::wrong_value, "unit", "found '" + i.unit + "', " + *complaint);
-  const char* unit = i.unit.c_str();
-  bool good = entity.number("initial", i.initial, any_number(unit));
-  if (i.low) good = entity.number("min", *i.low, any_number(unit)) && good;
-  if (i.high) good = entity.number("max", *i.high, any_number(unit)) && good;
-  if (!good) return;
-  if (const auto complaint = sentences::clamp_without_limits(i.clamp, i.low, i.high))
-    entity.error(ErrorCode::out_of_range, "clamp", *complaint);
-  else if (const auto limits = sentences::input_limits(i.low, i.high))
-    entity.error(ErrorCode::contradiction, "max", *limits);
-  else
-    initial_value(i, entity);
-}
-
-void inputs(const ModelDescription& d, ErrorList& errors) {
-  std::set<std::string> taken;
-  for (const InputDescription& i : d.inputs) {
-    const Entity entity{errors, i.origin, "inputs." + i.name};
-    name("inputs", i.name, taken, entity);
-    input(i, entity);
   }
 }
 

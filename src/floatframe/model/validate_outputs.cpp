@@ -2,11 +2,11 @@
 #include <set>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
-#include "floatframe/model/validate.hpp"
+#include "floatframe/model/validate_model.hpp"
 
 namespace floatframe::validation {
 
@@ -30,11 +30,11 @@ void joint_output(const OutputDescription& o, const ModelDescription& d, const N
 void force_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {
   if (!entity.reference(output_type_name(o.type), "force", o.entity, names.forces)) return;
-  const ForceType type = d.forces[*names.forces.find(o.entity)].type();
-  if (word_complaint(static_cast<int>(type), force_words)) return;
-  if (!force_has(type, output_kind(o.type).needs))
+  const ElementType type = d.forces[*names.forces.find(o.entity)].type();
+  if (word_complaint(static_cast<int>(type), element_words)) return;
+  if (!element_has(type, output_kind(o.type).needs))
     entity.error(ErrorCode::wrong_value, output_type_name(o.type),
-                 sentences::load_without(force_type_name(type), output_type_name(o.type)));
+                 sentences::load_without(element_type_name(type), output_type_name(o.type)));
 }
 
 void reaction(const OutputDescription& o, const Names& names, const Entity& entity) {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/description/model_source.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/model_source.hpp"
 #include "floatframe/model_file/parameter_override.hpp"
 
 namespace floatframe {

@@ -2,7 +2,7 @@
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/mirrored.hpp"
-#include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -28,15 +28,10 @@ void place(JointDescription& j, const Placement& x) {
   joint_kind(j.type).mirror(j, x);
 }
 
-void place(RodDescription& r, const Placement& x) {
-  place(r.a, x);
-  place(r.b, x);
-}
-
-void place(ForceDescription& f, const Placement& x) {
-  const ForceKind& kind = force_kind(f.type());
-  for (const ForceKey& key : kind.keys) {
-    auto value = force_value(f, key);
+void place(ElementDescription& f, const Placement& x) {
+  const ElementKind& kind = element_kind(f.type());
+  for (const ElementKey& key : kind.keys) {
+    auto value = key_value(f, key);
     if (!value) continue;
     if (auto* at = std::get_if<AttachmentDescription>(&*value))
       place(*at, x);
@@ -44,7 +39,7 @@ void place(ForceDescription& f, const Placement& x) {
       *v = key.axial ? x.axial(*v) : x.polar(*v);
     else
       continue;
-    set_force_value(f, key, *value);
+    set_key_value(f, key, *value);
   }
   if (kind.mirror) kind.mirror(f, x);
 }

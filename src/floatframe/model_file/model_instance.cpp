@@ -1,7 +1,7 @@
 #include "floatframe/model_file/model_instance.hpp"
 
 #include "floatframe/core/enum_index.hpp"
-#include "floatframe/model/sentences.hpp"
+#include "floatframe/description/sentences.hpp"
 
 namespace floatframe {
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model_file/load_instances.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/resolved_text.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "floatframe/core/number_rule.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/parameter_override.hpp"
 

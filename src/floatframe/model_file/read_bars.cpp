@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {

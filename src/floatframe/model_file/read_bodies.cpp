@@ -4,8 +4,8 @@
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {

@@ -1,7 +1,7 @@
 // The key `damping` of bars and parts: a fraction, or a map with one of fraction, fractions, bands
 // and rayleigh.
 #include "floatframe/body/modal_damping.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {

@@ -4,9 +4,9 @@
 #include <set>
 #include <sstream>
 
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {

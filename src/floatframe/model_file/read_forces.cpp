@@ -1,28 +1,28 @@
-// Force elements and roads.
+// Elements and roads.
 #include <limits>
 
-#include "floatframe/model/force_kind.hpp"
+#include "floatframe/description/road_spectrum.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/model/road_spectrum.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/yaml/read_table.hpp"
 
 namespace floatframe {
 namespace {
 
-/// The keys of one force element, according to the table of its type.
-class ForceReader {
+/// The keys of one element, according to the table of its type.
+class ElementReader {
  public:
-  ForceReader(const ModelInstance& self, ReadModel& model, YamlSection& s, ForceDescription& f)
+  ElementReader(const ModelInstance& self, ReadModel& model, YamlSection& s, ElementDescription& f)
       : self_(self), model_(model), s_(s), f_(f), check_(f) {}
 
   void read() {
-    const ForceKind& kind = force_kind(f_.type());
-    for (const ForceKey& key : kind.keys) {
+    const ElementKind& kind = element_kind(f_.type());
+    for (const ElementKey& key : kind.keys) {
       const std::size_t before = self_.context.errors->size();
-      if (const auto value = read(key)) set_force_value(f_, key, *value);
+      if (const auto value = read(key)) set_key_value(f_, key, *value);
       if (self_.context.errors->size() != before) check_.wrong.insert(key.name);
     }
     check_.from_file = true;
@@ -41,45 +41,44 @@ class ForceReader {
     return it == model_.joints.end() ? std::nullopt : std::optional(it->second);
   }
 
-  ForceAxisUnits units(const ForceKey& key) const {
-    bool turning = key.axis != ForceAxis::along;
-    if (key.axis == ForceAxis::coordinate) {
+  AxisUnits units(const ElementKey& key) const {
+    bool turning = key.axis != ElementAxis::along;
+    if (key.axis == ElementAxis::coordinate) {
       const auto type = joint_type(check_.text("joint"));
       turning =
           !type || (joint_has_one_coordinate(*type) && joint_unit(*type, 0) == JointUnit::rad);
     }
-    return force_axis_units(turning);
+    return axis_units(turning);
   }
 
   /// The free value of a law that is written as a number.
-  double free_value(const ForceKey& key) const {
-    const auto free = force_kind(f_.type()).free_value;
+  double free_value(const ElementKey& key) const {
+    const auto free = element_kind(f_.type()).free_value;
     return free && check_.wrong.empty() ? free(check_, key) : 0.0;
   }
 
-  std::optional<ForceValue> stop(const ForceKey& key, const YamlValue& value) const {
+  std::optional<KeyValue> stop(const ElementKey& key, const YamlValue& value) const {
     auto stop = value.section("a map with length and stiffness");
     if (!stop) return std::nullopt;
     const double length = stop->required_number("length", any_number("m"), 0.0);
     const double stiffness = stop->required_number("stiffness", positive_number("N/m"), 1.0);
     stop->finish();
-    const bool bump = key.kind == ForceKeyKind::bump_stop;
-    const ForceKey& spring = check_.key(key.of);
-    set_force_value(f_, spring,
-                    check_.law(spring.name) +
-                        (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness)));
+    const bool bump = key.kind == KeyKind::bump_stop;
+    const ElementKey& spring = check_.key(key.of);
+    set_key_value(f_, spring,
+                  check_.law(spring.name) +
+                      (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness)));
     return std::nullopt;
   }
 
-  std::optional<ForceValue> direction(const YamlValue& value, bool as_given) const {
+  std::optional<KeyValue> direction(const YamlValue& value, bool as_given) const {
     const auto v = read_direction(value);
     if (!v) return std::nullopt;
-    return ForceValue(as_given ? *v : Vec3(v->stableNormalized()));
+    return KeyValue(as_given ? *v : Vec3(v->stableNormalized()));
   }
 
   /// The rows of a matrix, with the given count of numbers each.
-  static std::optional<ForceValue> rows_of(const std::vector<YamlValue>& rows,
-                                           std::size_t columns) {
+  static std::optional<KeyValue> rows_of(const std::vector<YamlValue>& rows, std::size_t columns) {
     const std::string what = std::to_string(columns) + " numbers";
     MatX M(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
     bool good = true;
@@ -88,11 +87,11 @@ class ForceReader {
       if (row) M.row(static_cast<Eigen::Index>(i)) = VecX::Map(row->data(), M.cols()).transpose();
       good = good && row;
     }
-    return good ? std::optional(ForceValue(std::move(M))) : std::nullopt;
+    return good ? std::optional(KeyValue(std::move(M))) : std::nullopt;
   }
 
   /// 6 x 6 or 2 x 2
-  static std::optional<ForceValue> matrix(const YamlValue& value) {
+  static std::optional<KeyValue> matrix(const YamlValue& value) {
     const auto rows = value.list("6 rows of 6 numbers, or 2 rows of 2");
     if (!value.is_list()) return std::nullopt;
     if (rows.size() == 2 || rows.size() == 6) return rows_of(rows, rows.size());
@@ -100,22 +99,22 @@ class ForceReader {
     return std::nullopt;
   }
 
-  static std::optional<ForceValue> speed_table(const YamlValue& value) {
+  static std::optional<KeyValue> speed_table(const YamlValue& value) {
     const auto rows = value.list("rows of 9 numbers: a speed, four stiffnesses, four dampings");
     return value.is_list() ? rows_of(rows, 9) : std::nullopt;
   }
 
-  std::optional<ForceValue> place_of(const YamlValue& value) const {
+  std::optional<KeyValue> place_of(const YamlValue& value) const {
     auto section = value.section("a place {body, at}");
     return section ? read_attachment(self_, model_, *section) : std::nullopt;
   }
 
-  std::optional<ForceValue> read(const ForceKey& key) {
-    using K = ForceKeyKind;
+  std::optional<KeyValue> read(const ElementKey& key) {
+    using K = KeyKind;
     if (key.kind == K::own_place) return read_attachment(self_, model_, s_, AttachedBy::own_keys);
     const auto value = key.required ? s_.require(key.name) : s_.get(key.name);
     if (!value) return std::nullopt;
-    const ForceAxisUnits u = units(key);
+    const AxisUnits u = units(key);
     switch (key.kind) {
       case K::own_place:
       case K::place:
@@ -131,7 +130,7 @@ class ForceReader {
         return value->number(key.rule);
       case K::word: {
         const auto k = value->word(key.words);
-        return k ? std::optional(ForceValue(static_cast<int>(*k))) : std::nullopt;
+        return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
       }
       case K::flag:
         return value->boolean();
@@ -160,8 +159,8 @@ class ForceReader {
   const ModelInstance& self_;
   ReadModel& model_;
   YamlSection& s_;
-  ForceDescription& f_;
-  ForceCheck check_;
+  ElementDescription& f_;
+  ElementCheck check_;
 };
 
 /// Points [x, z] of a road; two with the same x are a step.
@@ -188,22 +187,36 @@ PiecewisePolynomial read_profile(const YamlValue& value) {
   return points.empty() ? PiecewisePolynomial() : profile_function(points);
 }
 
+ElementDescription read_element(const ModelInstance& self, const std::string& name, YamlSection& s,
+                                ElementType type, ReadModel& model) {
+  ElementDescription e;
+  e.name = self.prefix + name;
+  e.origin = s.origin();
+  e.kind = element_kind(type).blank();
+  ElementReader(self, model, s, e).read();
+  s.finish();
+  place(e, self.world);
+  return e;
+}
+
 }  // namespace
 
+void read_rods(const ModelInstance& self, ReadModel& model) {
+  const ElementType type = types_of(ElementList::rods).front();  // the only one: no key names it
+  for (auto& [name, s] : active_entities(self, EntityKind::rod))
+    model.description.rods.push_back(read_element(self, name, s, type, model));
+}
+
 void read_forces(const ModelInstance& self, ReadModel& model) {
+  const std::vector<ElementType> types = types_of(ElementList::forces);
+  std::vector<const char*> words;
+  for (const ElementType type : types) words.push_back(element_type_name(type));
   for (auto& [name, s] : active_entities(self, EntityKind::force)) {
-    ForceDescription f;
-    f.name = self.prefix + name;
-    f.origin = s.origin();
     const auto value = s.require("type");
-    const auto type = value ? value->word(force_words) : std::nullopt;
+    const auto type = value ? value->word(words) : std::nullopt;
     if (!type) continue;
-    const auto blank = force_kind(force_types[*type]).blank;
-    f.kind = blank ? blank() : ForceDescription::Values(ForceValues{force_types[*type], {}});
-    ForceReader(self, model, s, f).read();
-    s.finish();
-    model.force_types.emplace(f.name, f.type());
-    place(f, self.world);
+    ElementDescription f = read_element(self, name, s, types[*type], model);
+    model.element_types.emplace(f.name, f.type());
     model.description.forces.push_back(std::move(f));
   }
 }

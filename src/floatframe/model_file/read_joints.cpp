@@ -1,9 +1,10 @@
-// Joints and rods, and the attachment points on bodies used by them and by forces.
+// Joints, and the attachment points on bodies used by them and by forces.
 #include <algorithm>
 
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/joint_kind.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
+#include "floatframe/model/validate_model.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
@@ -235,32 +236,6 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
 void read_joints(const ModelInstance& self, ReadModel& model) {
   for (auto& [name, section] : active_entities(self, EntityKind::joint))
     read_joint(self, name, section, model);
-}
-
-void read_rods(const ModelInstance& self, ReadModel& model) {
-  for (auto& [name, s] : active_entities(self, EntityKind::rod)) {
-    RodDescription r;
-    r.name = self.prefix + name;
-    r.origin = s.origin();
-    std::optional<AttachmentDescription> ends[2];
-    const char* keys[2] = {"from", "to"};
-    for (int i = 0; i < 2; ++i)
-      if (const auto v = s.require(keys[i]))
-        if (auto end = v->section("a place {body, at}"))
-          ends[i] = read_attachment(self, model, *end);
-    if (const auto v = s.get("length")) r.length = v->number(rules::rod_length);
-    s.finish();
-    if (!ends[0] || !ends[1]) continue;
-    r.a = *ends[0];
-    r.b = *ends[1];
-    if (r.a.body == r.b.body)
-      s.error(ErrorCode::geometry, sentences::both_ends_on(self.written(r.a.body)));
-    else if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point);
-             complaint && !s.has("length"))
-      s.error(ErrorCode::geometry, *complaint);
-    place(r, self.world);
-    model.description.rods.push_back(std::move(r));
-  }
 }
 
 }  // namespace floatframe

@@ -1,8 +1,8 @@
 // Laws of springs, dampers and loads: functions of a length, rate, angle or time.
 #include <cmath>
 
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/yaml/read_table.hpp"
 

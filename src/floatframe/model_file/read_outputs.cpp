@@ -3,9 +3,9 @@
 #include <span>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
@@ -165,10 +165,10 @@ class OutputReader {
 
   bool force(const OutputKind& kind, const YamlValue& what, OutputDescription& o) {
     if (!put(self_.reference(EntityKind::force, what), o.entity)) return false;
-    const auto type = model_.force_types.find(o.entity);
-    if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
-      what.error(ErrorCode::wrong_value,
-                 sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
+    const auto type = model_.element_types.find(o.entity);
+    if (type != model_.element_types.end() && !element_has(type->second, kind.needs))
+      what.error(ErrorCode::wrong_value, sentences::load_without(element_type_name(type->second),
+                                                                 output_type_name(o.type)));
     return true;
   }
 

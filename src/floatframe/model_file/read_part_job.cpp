@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "floatframe/model/rules.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/parts/node_ways.hpp"
 #include "floatframe/parts/part_options.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/description/validate.hpp"
 #include "floatframe/math/piecewise_build.hpp"
-#include "floatframe/model/validate.hpp"
 #include "floatframe/model_file/model_instance.hpp"
 
 namespace floatframe {
@@ -32,10 +32,10 @@ struct KnownBody {
 
 struct ReadModel {
   ModelDescription description;
-  std::map<std::string, KnownBody> bodies;       ///< by full name
-  std::map<std::string, JointType> joints;       ///< by full name
-  std::map<std::string, ForceType> force_types;  ///< by full name
-  std::set<std::string> columns;                 ///< names of outputs
+  std::map<std::string, KnownBody> bodies;           ///< by full name
+  std::map<std::string, JointType> joints;           ///< by full name
+  std::map<std::string, ElementType> element_types;  ///< by full name
+  std::set<std::string> columns;                     ///< names of outputs
   ReadOptions options;
 };
 

@@ -1,6 +1,6 @@
 // Start and options of a run: `simulation` and `initial`.
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/state_json.hpp"

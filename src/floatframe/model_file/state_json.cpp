@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/json_text.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/yaml/yaml_tree.hpp"
 
 namespace floatframe {

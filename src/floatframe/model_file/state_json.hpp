@@ -2,7 +2,7 @@
 // States of a model as JSON files, with enough digits to reproduce the same numbers.
 #include <string>
 
-#include "floatframe/model/system_state.hpp"
+#include "floatframe/description/system_state.hpp"
 
 namespace floatframe {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "floatframe/core/histogram.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/realtime/realtime_options.hpp"
 #include "floatframe/realtime/signal_port.hpp"

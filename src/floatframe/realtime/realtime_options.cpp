@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/model/validate.hpp"
+#include "floatframe/description/validate.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

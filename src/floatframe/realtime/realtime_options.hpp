@@ -2,7 +2,7 @@
 // Options of a paced run.
 #include <atomic>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe {
 

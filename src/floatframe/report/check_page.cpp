@@ -6,7 +6,7 @@
 
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/model/output_list.hpp"
+#include "floatframe/description/output_list.hpp"
 #include "floatframe/report/page_json.hpp"
 #include "floatframe/report/scene_json.hpp"
 
@@ -40,9 +40,11 @@ Json joint_table(const Model& model) {
 
 Json force_table(const Model& model) {
   Json rows = Json::array();
-  for (const Force& f : model.forces)
-    rows.push_back(
-        {f.name, force_words[index_of(f.type)], body_at(model, f.a), body_at(model, f.b)});
+  for (const Element& e : model.elements)
+    if (e.acts)
+      rows.push_back({e.name, element_type_name(e.type),
+                      body_at(model, e.markers.size() > 1 ? e.markers.front() : -1),
+                      body_at(model, e.markers.back())});
   return {{"heading", "Forces"}, {"columns", {"force", "type", "from", "to"}}, {"rows", rows}};
 }
 

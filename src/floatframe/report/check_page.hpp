@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/system_state.hpp"
 #include "floatframe/report/run_report.hpp"
 
 namespace floatframe {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/description/model_source.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/model_source.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {

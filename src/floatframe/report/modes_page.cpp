@@ -1,6 +1,7 @@
 #include "floatframe/report/modes_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/build_info.hpp"
@@ -13,13 +14,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The largest shares, each at least a hundredth, at most five.
-Json largest_shares(std::vector<EnergyShare> shares) {
+Json largest_shares(const std::vector<EnergyShare>& shares) {
   constexpr std::size_t most = 5;
   constexpr double least = 0.01;
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const EnergyShare& a, const EnergyShare& b) { return a.part > b.part; });
   Json out = Json::array();
-  for (const EnergyShare& s : shares)
+  for (const EnergyShare& s : largest_first(shares))
     if (s.part >= least && out.size() < most) out.push_back({s.name, s.part});
   return out;
 }
@@ -36,6 +35,14 @@ std::vector<float> parts_of(const MatX& rows_of, const std::vector<ShownMotion>&
 }
 
 }  // namespace
+
+std::vector<EnergyShare> largest_first(std::vector<EnergyShare> shares) {
+  const auto rounded = [](const EnergyShare& s) { return std::round(1e6 * s.part); };
+  std::stable_sort(shares.begin(), shares.end(), [&](const EnergyShare& a, const EnergyShare& b) {
+    return rounded(a) > rounded(b);
+  });
+  return shares;
+}
 
 Json scene_vibrations(const LinearSystem& system, const std::vector<ShownMotion>& motions,
                       PageBuffer& buffer) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/model/system_state.hpp"
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/report/page_writer.hpp"
 #include "floatframe/report/run_report.hpp"
 #include "floatframe/simulation/linear_system.hpp"
@@ -21,6 +21,9 @@ struct EnergyShare {
   std::string name;
   double part;
 };
+
+/// Equal ones, as those of symmetric bodies are to 1e-6, in the order of the model.
+std::vector<EnergyShare> largest_first(std::vector<EnergyShare> shares);
 
 /// A motion in the table and in the scene.
 struct ShownMotion {

@@ -6,8 +6,8 @@
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/core/text_pieces.hpp"
+#include "floatframe/description/joint_list.hpp"
 #include "floatframe/history/history_content.hpp"
-#include "floatframe/model/joint_list.hpp"
 
 namespace floatframe {
 namespace {

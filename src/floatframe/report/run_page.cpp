@@ -8,9 +8,9 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/plural.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/history/state_history.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/system_state.hpp"
 #include "floatframe/report/html_text.hpp"
 #include "floatframe/report/page_json.hpp"
 #include "floatframe/report/page_trust.hpp"
@@ -140,9 +140,8 @@ Json step_times_json(const StepTimes& t) {
 }
 
 std::string subject_of(const Model& model, const Output& o) {
-  if (o.rod >= 0) return model.rods[o.rod].name;
   if (o.joint >= 0) return model.joints[o.joint].name;
-  if (o.force >= 0) return model.forces[o.force].name;
+  if (o.element >= 0) return model.elements[o.element].name;
   if (o.body >= 0) return model.bodies[o.body].name;
   if (o.marker >= 0 && model.markers[o.marker].body >= 0)
     return model.bodies[model.markers[o.marker].body].name;

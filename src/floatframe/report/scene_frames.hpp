@@ -2,8 +2,8 @@
 // Poses and loads of the bodies of a scene, at instants of a run or in one state.
 #include <vector>
 
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/system_state.hpp"
 
 namespace floatframe {
 

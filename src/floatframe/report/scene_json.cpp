@@ -13,6 +13,7 @@
 #include "floatframe/body/alike.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/history/history_content.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/road.hpp"
 #include "floatframe/report/scene_mesh.hpp"
 #include "floatframe/report/scene_stress.hpp"
@@ -149,36 +150,39 @@ class SceneWriter {
                          {"axes", quaternion_json(R)},
                          {"cut", j.cut}});
     }
-    for (std::size_t k = 0; k < model_.forces.size(); ++k) forces_.push_back(force(k));
-    for (const Rod& r : model_.rods)
-      rods_.push_back({{"name", r.name}, {"a", point(r.a)}, {"b", point(r.b)}});
+    for (std::size_t k = 0; k < model_.elements.size(); ++k) {
+      const Element& e = model_.elements[k];
+      const Picture bar = picture_of(e);
+      if (bar.symbol == Picture::Symbol::bar)
+        rods_.push_back({{"name", e.name}, {"a", point(bar.a)}, {"b", point(bar.b)}});
+      else
+        forces_.push_back(force(k));
+    }
   }
 
   Json force(std::size_t index) {
-    const Force& f = model_.forces[index];
-    // Elements acting at a single point name it as the first.
-    Json out{{"name", f.name},
-             {"type", force_words[index_of(f.type)]},
-             {"a", point(f.a < 0 ? f.b : f.a)},
-             {"b", f.a < 0 ? -1 : point(f.b)},
+    const Element& e = model_.elements[index];
+    const Picture picture = picture_of(e);
+    Json out{{"name", e.name},
+             {"type", element_type_name(e.type)},
+             {"picture", symbol_name(picture.symbol)},
+             {"a", point(picture.a)},
+             {"b", picture.b < 0 ? -1 : point(picture.b)},
              {"axis", nullptr},
+             {"follows", picture.axis_of >= 0},
              {"radius", nullptr},
              {"width", nullptr},
              {"channel", nullptr}};
-    const bool load = f.type == ForceType::force || f.type == ForceType::torque;
-    if (f.type == ForceType::guided_spring)
-      out["axis"] = triple(model_.markers[f.a].X_NM.R * f.axis);
-    else if (f.type == ForceType::tyre || (load && f.follows))
-      out["axis"] = triple(model_.markers[f.b].X_NM.R * f.axis);
-    else if (load)
-      out["axis"] = triple(f.axis);  // of the world
-    if (load) out["follows"] = f.follows;
-    if (f.type == ForceType::tyre) {
-      out["radius"] = f.radius;
-      out["width"] = 0.4 * f.radius;  // not in the model; typical of a car's wheel
+    if (!picture.axis.isZero(0.0))
+      out["axis"] =
+          triple(picture.axis_of < 0 ? picture.axis
+                                     : Vec3(model_.markers[picture.axis_of].X_NM.R * picture.axis));
+    if (picture.radius > 0.0) {
+      out["radius"] = picture.radius;
+      out["width"] = picture.width;
     }
     for (const Output& o : model_.outputs)
-      if (o.type == OutputType::force && o.force == static_cast<int>(index))
+      if (o.type == OutputType::force && o.element == static_cast<int>(index))
         out["channel"] = o.name;
     return out;
   }
@@ -209,10 +213,9 @@ class SceneWriter {
 
   /// A wheel is drawn as its tyre; a box would extend beyond it.
   bool has_tyre(std::size_t body) const {
-    for (const Force& f : model_.forces)
-      if (f.type == ForceType::tyre && model_.markers[f.b].body == static_cast<int>(body))
-        return true;
-    return false;
+    return std::any_of(model_.elements.begin(), model_.elements.end(), [&](const Element& e) {
+      return is_wheel_of(model_, e, static_cast<int>(body));
+    });
   }
 
   static Json body_facts(const FlexibleBody& data) {
@@ -290,10 +293,11 @@ class SceneWriter {
     for (std::size_t r = 0; r < model_.roads.size(); ++r) {
       Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
       double radius = 0.0;
-      for (const Force& f : model_.forces) {
-        if (f.type != ForceType::tyre || f.road != static_cast<int>(r)) continue;
-        const int body = model_.markers[f.b].body;
-        radius = std::max(radius, f.radius);
+      for (const Element& e : model_.elements) {
+        if (e.road != static_cast<int>(r)) continue;
+        const Picture wheel = picture_of(e);
+        const int body = model_.markers[wheel.a].body;
+        radius = std::max(radius, wheel.radius);
         for (std::size_t k = 0; body >= 0 && k < frames_.time.size(); ++k) {
           const Vec3 p = Eigen::Map<const Vec3>(frames_.pose(k, static_cast<std::size_t>(body)));
           low = low.cwiseMin(p);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/road.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -14,28 +15,12 @@
 namespace floatframe {
 namespace {
 
-/// Wheels far above their road or deep in it.
-void note_wheel_heights(const SystemMotion& motion, std::vector<std::string>& notes) {
-  constexpr double high = 3.0, low = 0.6;  // relative to the radius
-  const Model& model = motion.model;
-  for (const Force& tyre : model.forces) {
-    if (tyre.road < 0) continue;
-    const Vec3 centre = motion.place(tyre.b);
-    const double height = centre.z() - road_at(model.roads[tyre.road], centre.x()).z;
-    if (height > low * tyre.radius && height < high * tyre.radius) continue;
-    const double gap = height - tyre.radius;
-    notes.push_back(
-        fmt::format("tyre '{}': its wheel centre is {:.4g} m above the road and its radius is "
-                    "{:.4g} m, so that at the start {}",
-                    tyre.name, height, tyre.radius,
-                    gap > 0.0 ? fmt::format("the wheel hangs {:.4g} m in the air", gap)
-                              : fmt::format("the road presses {:.4g} m into it with {:.4g} N", -gap,
-                                            -gap * tyre.stiffness)));
-  }
+/// What is odd about elements at the start.
+void note_elements(const SystemMotion& motion, std::vector<std::string>& notes) {
+  for (const Element& e : motion.model.elements)
+    if (const auto note = element_kind(e.type).note) note(e, motion, notes);
 }
 
-/// Checks whether a run would start from an unstable equilibrium. Other errors of the start are
-/// reported by the run.
 void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
   if (model.simulation.start != Start::equilibrium) return;
   constexpr int most = 300;  // unknowns: a check takes a moment
@@ -61,7 +46,8 @@ bool out_of_proportion(const Model& model, const StaticsResult& s) {
   constexpr double most = 1e4;
   double load = 0.0, reaction = 0.0;
   for (const Body& b : model.bodies) load += b.data->invariants.m * model.gravity.norm();
-  for (const StaticsForce& f : s.forces) (f.type == "rod" ? reaction : load) += std::abs(f.force);
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    (model.elements[k].holds ? reaction : load) += std::abs(s.forces[k].force);
   for (const StaticsJoint& j : s.joints) reaction = std::max(reaction, j.force.norm());
   return load > 0.0 && reaction > most * load;
 }
@@ -93,7 +79,7 @@ ModelCounts check(const Model& model) {
   c.degrees_of_freedom = relative.velocities() - rank;
   c.redundant_constraints = relative.constraints() - rank;
   c.start.notes.insert(c.start.notes.end(), model.hints.notes.begin(), model.hints.notes.end());
-  note_wheel_heights(relative.motion(), c.start.notes);
+  note_elements(relative.motion(), c.start.notes);
   note_unstable_start(model, c.start.notes);
   return c;
 }
@@ -120,10 +106,10 @@ StaticsResult statics(const Model& model) {
   s.iterations = e.iterations;
   s.residual = e.residual;
   const SystemMotion& motion = f.motion();
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const ForceState& x = motion.forces[k];
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Efforts& x = motion.efforts[k];
     s.forces.push_back(
-        {model.forces[k].name, force_type_name(model.forces[k].type), x.force, x.length});
+        {model.elements[k].name, element_type_name(model.elements[k].type), x.force, x.length});
   }
   Reactions tree;
   tree.joints.resize(model.joints.size());
@@ -137,18 +123,19 @@ StaticsResult statics(const Model& model) {
     s.joints.push_back(joint);
   }
   for (std::size_t k = 0; k < f.constraint_set().parts().size();
-       ++k) {  // multipliers of cut joints, motions and rods
+       ++k) {  // multipliers of cut joints, motions and elements
     const ConstraintPart& p = f.constraint_set().parts()[k];
     for (int row = 0; row < p.rows(); ++row) {
       const double lambda = e.lambda[f.constraint_set().offset(k) + row];
       const WrenchRow& g = f.constraint_set().row(f.constraint_set().offset(k) + row).gradient;
-      if (p.owner.kind == ConstraintOwner::Kind::rod) {
-        const Rod& rod = model.rods[p.owner.index];
-        s.forces.push_back({rod.name, "rod", lambda, rod.length});
+      if (p.owner.kind == ConstraintOwner::Kind::element) {
+        StaticsForce& force = s.forces[p.owner.index];
+        force.force = lambda;
+        force.length = p.scale;
       } else {
         StaticsJoint& joint = s.joints[p.owner.index];
-        joint.force -= lambda * g.Fb;
-        joint.torque -= lambda * g.Tb;
+        joint.force -= lambda * g.b.F;
+        joint.torque -= lambda * g.b.T;
       }
     }
   }

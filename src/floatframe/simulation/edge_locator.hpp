@@ -1,5 +1,5 @@
 #pragma once
-// Divides steps where the law of a force changes its branch (model/force_evaluation.hpp): across
+// Divides steps where the law of a force changes its branch (model/element_evaluation.hpp): across
 // such an edge the force or its slope jumps, and an undivided step over it is only of first
 // order.
 //
@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/simulation/edge_watch.hpp"
 #include "floatframe/simulation/explicit_move.hpp"
 
@@ -31,7 +31,7 @@ class EdgeLocator {
  public:
   EdgeLocator(F& formulation, AugmentedLagrangian<F>& integrator)
       : f_(formulation), integrator_(integrator), move_(formulation, integrator) {
-    const std::vector<Force>& forces = f_.model().forces;
+    const std::vector<Element>& forces = f_.model().elements;
     for (std::size_t k = 0; k < forces.size(); ++k)
       if (has_branches(forces[k])) forces_.push_back(k);
     first_.resize(forces_.size());
@@ -49,7 +49,7 @@ class EdgeLocator {
 
   /// Holds the branches of the forces at this state.
   void hold(const State& state) noexcept {
-    assert(free_.size() == f_.model().forces.size() && state.q.size() == q_.size());
+    assert(free_.size() == f_.model().elements.size() && state.q.size() == q_.size());
     f_.hold_force_branches(free_);
     look(state, here_);
     for (std::size_t k = 0; k < forces_.size(); ++k)
@@ -108,7 +108,7 @@ class EdgeLocator {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   static constexpr double shortest = 0.02;  ///< of the step: the shortest that is made as a step
   static constexpr double close = 1e-6;     ///< of the step: tolerance of the located edge
-  using Sides = std::vector<ForceSide>;
+  using Sides = std::vector<BranchSide>;
 
   struct Crossing {
     std::size_t force = none;  ///< index into `forces_`
@@ -118,7 +118,7 @@ class EdgeLocator {
   void look(const State& state, Sides& sides) noexcept {
     assert(sides.size() == forces_.size());
     kinematics_at(f_, state);
-    for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.force_side(forces_[k]);
+    for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.branch_side(forces_[k]);
   }
 
   /// Looks in the middle of a step of size h, from `from_` to the state.
@@ -128,7 +128,7 @@ class EdgeLocator {
     f_.retract(from_.q, x_, q_);
     x_ = 0.5 * (from_.v + state.v) + (0.125 * h) * (from_.a - state.a);
     kinematics_at(f_, state.t - 0.5 * h, q_, x_);
-    for (std::size_t k = 0; k < forces_.size(); ++k) between_[k] = f_.force_side(forces_[k]);
+    for (std::size_t k = 0; k < forces_.size(); ++k) between_[k] = f_.branch_side(forces_[k]);
   }
 
   void attempt(State& state, double h, StepAttempt& total) noexcept {

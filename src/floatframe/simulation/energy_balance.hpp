@@ -15,19 +15,11 @@
 #include <cmath>
 
 #include "floatframe/formulation/constraint_set.hpp"
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/system_motion.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
-
-/// Power of a force element on the markers it acts on [W]; a is ignored by one-point forces.
-inline double wrench_power(const Force& force, const WrenchRow& w, const MarkerState& a,
-                           const MarkerState& b) noexcept {
-  double power = w.Fb.dot(b.v) + w.Tb.dot(b.w);
-  if (force.a >= 0) power += w.Fa.dot(a.v) + w.Ta.dot(a.w);
-  return power;
-}
 
 /// Powers [W], positive into the system, and the energies stored in tyres and in springs whose
 /// target may jump [J].
@@ -36,25 +28,17 @@ struct FlowSample {
   double tyres = 0.0, targeted = 0.0;
 };
 
-/// True if the target may jump, between two steps or within one.
-inline bool target_may_jump(const Force& force) noexcept {
-  return force.targeted &&
-         (force.target.input >= 0 || !force.target.function.pieces.breaks().empty());
-}
-
 /// In a motion; `reactions`: the multipliers of the constraints.
 inline FlowSample flows(const SystemMotion& motion, const ConstraintSet& constraints,
                         const VecX& reactions) noexcept {
   FlowSample sample;
   EnergyFlows& p = sample.power;
   const Model& model = motion.model;
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& force = model.forces[k];
-    const ForceState& s = motion.forces[k];
-    const MarkerState& b = motion.marker(force.b);
-    const MarkerState& a = motion.first_marker(force);
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& force = model.elements[k];
+    const Efforts& s = motion.efforts[k];
     // Power of the wrench that the spring neither stores nor releases.
-    const double rest = wrench_power(force, s.wrench, a, b) + s.energy_rate;
+    const double rest = motion.power(static_cast<int>(k)) + s.energy_rate;
     const EnergyCategory category = energy_category(force.type);
     if (category == EnergyCategory::tyres) {
       p[EnergyFlow::tyres] += rest;
@@ -63,10 +47,10 @@ inline FlowSample flows(const SystemMotion& motion, const ConstraintSet& constra
       p[EnergyFlow::loads] += rest;
     } else {
       p[EnergyFlow::dampers] -= s.damping;
-      if (target_may_jump(force)) {
+      if (force.target_jumps) {
         p[EnergyFlow::actuators] += rest - s.energy_rate + s.damping;
         sample.targeted += s.energy;
-      } else if (force.driven || force.targeted)
+      } else if (force.driven)
         p[EnergyFlow::actuators] += rest + s.damping;
     }
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
@@ -110,19 +110,10 @@ std::string energy_cause(const Model& model, double from, double to, double step
   CauseFinder finder(from, to, step, corners);
   for (const Joint& j : model.joints)
     if (j.motion) finder.motion(j.name, *j.motion, joint_unit_name(j.type, 0));
-  for (const Force& f : model.forces) {
-    const bool load = energy_category(f.type) == EnergyCategory::loads;
-    const std::string owner = fmt::format(" of force '{}'", f.name);
-    if (load || f.driven)
-      finder.sampled((load ? "the magnitude" : "the actuator") + owner, f.magnitude,
-                     force_output_unit(f, ForceQuantity::force));
-    if (!f.targeted) continue;
-    finder.sampled("the target" + owner, f.target.function,
-                   force_output_unit(f, ForceQuantity::length));
-    if (!f.derived_rate)
-      finder.sampled("the target rate" + owner, f.target_rate.function,
-                     force_output_unit(f, ForceQuantity::rate));
-  }
+  for (const Element& e : model.elements)
+    for (const ElementSignal& s : signals_of(e))
+      finder.sampled(fmt::format("the {} of force '{}'", s.what, e.name), s.signal->function,
+                     s.unit);
   return finder.text();
 }
 

@@ -95,10 +95,9 @@ class Statics {
   /// Magnitude of the weight and the forces at the state of `f`.
   double acting() const {
     double most = own_weight_;
-    for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
-      const WrenchRow& w = f_.force(static_cast<int>(k)).wrench;
-      most = std::max({most, w.Fb.norm(), w.Tb.norm()});
-    }
+    for (std::size_t k = 0; k < f_.model().elements.size(); ++k)
+      for (const Wrench& w : f_.effort(static_cast<int>(k)).wrench)
+        most = std::max({most, w.F.norm(), w.T.norm()});
     return most;
   }
 

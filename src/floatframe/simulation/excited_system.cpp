@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/model/element_outputs.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -17,8 +19,8 @@ TimeFunction parabola(double t, const Vec3& at) {
 Model with_lifts(const Model& model, std::vector<Output> outputs) {
   Model copy = model;
   copy.outputs = std::move(outputs);
-  for (Force& force : copy.forces)
-    if (force.type == ForceType::tyre) force.targeted = true;
+  for (Element& e : copy.elements)
+    if (*lifted_by(e.type)) lift(e, TimeFunction());
   return copy;
 }
 
@@ -73,7 +75,7 @@ void ExcitedSystem::move(const LinearInput& input, const Vec3& by) {
     *model_.joints[k].motion = parabola(state_.t, Vec3(v.f, v.df, v.ddf) + by);
   } else {
     for (const int wheel : input.wheels)
-      model_.forces[static_cast<std::size_t>(wheel)].target.function = parabola(state_.t, by);
+      lift(model_.elements[static_cast<std::size_t>(wheel)], parabola(state_.t, by));
   }
 }
 

@@ -137,7 +137,7 @@ void LeastReactions::fill(const Formulation& f, const SystemMotion& motion, cons
   double* out = rows_of_J_.data() + side.at + (all_.offset(part) - group.row) * side.size;
   for (int r = 0; r < p.rows(); ++r, out += side.size) {
     const WrenchRow& g = all_.row(all_.offset(part) + r).gradient;
-    const Vec3 &force = of_b ? g.Fb : g.Fa, &torque = of_b ? g.Tb : g.Ta;
+    const Vec3 &force = of_b ? g.b.F : g.a.F, &torque = of_b ? g.b.T : g.a.T;
     Eigen::Map<Vec3> frame(out), turning(out + 3);
     frame = force;
     turning = per_length * (arm.cross(force) + torque);
@@ -228,7 +228,7 @@ void LeastReactions::add_load(const LocalMarker& m, const SystemMotion& motion, 
 
 void LeastReactions::find_load(const Formulation& f, const Reactions& reactions) noexcept {
   assert(reactions.joints.size() == model_.joints.size());
-  assert(reactions.rods.size() == model_.rods.size());
+  assert(reactions.elements.size() == model_.elements.size());
   load_.setZero();
   const SystemMotion& motion = f.motion();
   // The reaction acts back on a, with a moment if the points are apart.
@@ -239,8 +239,9 @@ void LeastReactions::find_load(const Formulation& f, const Reactions& reactions)
   };
   for (std::size_t j = 0; j < model_.joints.size(); ++j)
     add(model_.joints[j].frame_F, model_.joints[j].frame_M, reactions.joints[j]);
-  for (std::size_t k = 0; k < model_.rods.size(); ++k)
-    add(model_.rods[k].a, model_.rods[k].b, reactions.rods[k]);
+  for (std::size_t k = 0; k < model_.elements.size(); ++k)
+    if (const Element& e = model_.elements[k]; e.holds)
+      add(e.markers[0], e.markers[1], reactions.elements[k]);
 }
 
 bool LeastReactions::solve_sparse() noexcept {
@@ -315,17 +316,17 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
   lambda.setZero();
   std::size_t k = 0;
   const std::size_t parts = all_.parts().size();
-  // Motions and rods first: the wrench of a joint includes that of its motion.
+  // Motions and elements first: the wrench of a joint includes that of its motion.
   for (k = 0; k < parts; ++k) {
     const ConstraintPart& p = all_.parts()[k];
-    if (p.owner.kind == ConstraintOwner::Kind::rod)
-      lambda[all_.offset(k)] = reactions.tensions[p.owner.index];
+    if (p.owner.kind == ConstraintOwner::Kind::element)
+      lambda[all_.offset(k)] = reactions.multipliers[p.owner.index];
     else if (is_motion(p))
       lambda[all_.offset(k)] = reactions.motions[p.owner.index] / motion_scale(p);
   }
   for (k = 0; k < parts;) {
     const ConstraintPart& first = all_.parts()[k];
-    if (first.owner.kind == ConstraintOwner::Kind::rod || is_motion(first)) {
+    if (first.owner.kind == ConstraintOwner::Kind::element || is_motion(first)) {
       ++k;
       continue;
     }
@@ -340,17 +341,17 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
     Reactions::Wrench wrench = reactions.joints[joint];
     if (const int m = motion_[joint]; m >= 0) {
       const int at = all_.offset(m);
-      wrench.force += lambda[at] * all_.row(at).gradient.Fb;
-      wrench.torque += lambda[at] * all_.row(at).gradient.Tb;
+      wrench.force += lambda[at] * all_.row(at).gradient.b.F;
+      wrench.torque += lambda[at] * all_.row(at).gradient.b.T;
     }
     Mat6 A = Mat6::Zero();
     Vec6 x = Vec6::Zero();
     for (int i = 0; i < n; ++i) {
       const WrenchRow& gi = all_.row(row + i).gradient;
-      x[i] = -(gi.Fb.dot(wrench.force) + gi.Tb.dot(wrench.torque) / (length * length));
+      x[i] = -(gi.b.F.dot(wrench.force) + gi.b.T.dot(wrench.torque) / (length * length));
       for (int j = 0; j < n; ++j) {
         const WrenchRow& gj = all_.row(row + j).gradient;
-        A(i, j) = gi.Fb.dot(gj.Fb) + gi.Tb.dot(gj.Tb) / (length * length);
+        A(i, j) = gi.b.F.dot(gj.b.F) + gi.b.T.dot(gj.b.T) / (length * length);
       }
     }
     solve_small(A, n, x);
@@ -376,16 +377,16 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintPart& p = set.parts()[k];
     const WrenchRow w = set.wrench(k, lambda);
-    if (p.owner.kind == ConstraintOwner::Kind::rod) {
-      assert(is_index(p.owner.index, reactions.rods));
-      reactions.rods[p.owner.index] = {-w.Fb, -w.Tb};
-      reactions.tensions[p.owner.index] = lambda[set.offset(k)];
+    if (p.owner.kind == ConstraintOwner::Kind::element) {
+      assert(is_index(p.owner.index, reactions.elements));
+      reactions.elements[p.owner.index] = {-w.b.F, -w.b.T};
+      reactions.multipliers[p.owner.index] = lambda[set.offset(k)];
       continue;
     }
     assert(is_index(p.owner.index, reactions.joints));
     Reactions::Wrench& joint = reactions.joints[p.owner.index];
-    joint.force -= w.Fb;
-    joint.torque -= w.Tb;
+    joint.force -= w.b.F;
+    joint.torque -= w.b.T;
     if (is_motion(p)) reactions.motions[p.owner.index] = motion_scale(p) * lambda[set.offset(k)];
   }
 }

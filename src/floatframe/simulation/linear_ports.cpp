@@ -8,6 +8,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/excited_system.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
@@ -114,8 +115,8 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   kinematics_at(f, excited.state());
   for (LinearInput& input : linear.inputs)
     if (input.wheels.size() == 1) {
-      const Force& wheel = model.forces[static_cast<std::size_t>(input.wheels[0])];
-      input.place = f.motion().place(wheel.b).x();
+      const Element& wheel = model.elements[static_cast<std::size_t>(input.wheels[0])];
+      input.place = f.motion().place(wheel.markers[0]).x();
     }
   LinearInputs moved;
   linear.system = linear_system_at(f, excited.state(), &motions, &moved);
@@ -149,12 +150,12 @@ std::vector<LinearInput> linear_inputs(const Model& model) {
                         {},
                         0.0});
   std::vector<int> wheels;
-  for (std::size_t k = 0; k < model.forces.size(); ++k)
-    if (model.forces[k].type == ForceType::tyre) wheels.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    if (*lifted_by(model.elements[k].type)) wheels.push_back(static_cast<int>(k));
   if (!wheels.empty()) inputs.push_back({"road", "m", Kind::road, -1, wheels, 0.0});
   if (wheels.size() > 1)
     for (const int k : wheels)
-      inputs.push_back({"road at " + model.forces[static_cast<std::size_t>(k)].name,
+      inputs.push_back({"road at " + model.elements[static_cast<std::size_t>(k)].name,
                         "m",
                         Kind::road,
                         -1,

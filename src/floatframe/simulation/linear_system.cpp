@@ -19,21 +19,25 @@ namespace floatframe {
 
 namespace {
 
+/// Of an element, in `springs_of`.
+constexpr int spring_rows = Efforts::most_rows;
+
 /// Components of the motions of each state at bodies and force elements.
 void describe_motions(Formulation& f, const State& state, LinearSystem& system) {
   const Model& model = f.model();
   Eigen::Index rates = 0, bends = 0;
   for (const Body& b : model.bodies) rates += 6 + b.modes(), bends += b.modes();
-  const Eigen::Index nz = system.A.rows(), forces = static_cast<Eigen::Index>(model.forces.size());
+  const Eigen::Index nz = system.A.rows(),
+                     forces = static_cast<Eigen::Index>(model.elements.size());
   system.rates_of = MatX::Zero(rates, nz);
   system.bends_of = MatX::Zero(bends, nz);
-  system.springs_of = MatX::Zero(6 * forces, nz);
+  system.springs_of = MatX::Zero(spring_rows * forces, nz);
   system.places_of = MatX::Zero(6 * static_cast<Eigen::Index>(model.bodies.size()), nz);
   // The stiffness of forces at the present state; their measures in the motions, below.
   dynamics_at(f, state);
   for (const BodyKinematics& b : f.motion().bodies) system.amplitudes.push_back(b.y);
-  std::vector<ForceState> found;
-  for (Eigen::Index k = 0; k < forces; ++k) found.push_back(f.force(static_cast<int>(k)));
+  std::vector<Efforts> found;
+  for (Eigen::Index k = 0; k < forces; ++k) found.push_back(f.effort(static_cast<int>(k)));
   for (Eigen::Index z = 0; z < nz; ++z) {
     f.velocities(VecX(system.v_of.col(z)));
     Eigen::Index row = 0, bend = 0;
@@ -56,16 +60,17 @@ void describe_motions(Formulation& f, const State& state, LinearSystem& system) 
       bend += b.yd.size();
     }
     for (Eigen::Index k = 0; k < forces; ++k) {
-      const Force& force = model.forces[static_cast<std::size_t>(k)];
-      const MarkerState& b = f.marker(force.b);
-      const MarkerState& a = force.a >= 0 ? f.marker(force.a) : b;
-      Vec12 motion;
-      motion << a.v, a.w, b.v, b.w;
-      const ForceState& s = found[static_cast<std::size_t>(k)];
-      for (int r = 0; r < s.row_count; ++r)
-        if (s.rows[r].k > 0.0)
-          system.springs_of(6 * k + r, z) =
-              std::sqrt(s.rows[r].k) * stacked(s.rows[r].g).dot(motion);
+      const std::vector<int>& markers = model.elements[static_cast<std::size_t>(k)].markers;
+      const Efforts& s = found[static_cast<std::size_t>(k)];
+      for (int r = 0; r < s.row_count; ++r) {
+        if (!(s.rows[r].k > 0.0)) continue;
+        double moved = 0.0;
+        for (std::size_t i = 0; i < markers.size(); ++i) {
+          const Wrench& g = s.gradient(r)[i];
+          moved += g.F.dot(f.marker(markers[i]).v) + g.T.dot(f.marker(markers[i]).w);
+        }
+        system.springs_of(spring_rows * k + r, z) = std::sqrt(s.rows[r].k) * moved;
+      }
     }
   }
   dynamics_at(f, state);
@@ -142,7 +147,7 @@ std::vector<LinearMode> linear_modes(const LinearSystem& system) {
 ModeParts mode_parts(const Model& model, const LinearSystem& system, const LinearMode& mode) {
   ModeParts parts;
   const VecX z[2] = {mode.z.real(), mode.z.imag()};
-  const std::size_t bodies = model.bodies.size(), forces = model.forces.size();
+  const std::size_t bodies = model.bodies.size(), forces = model.elements.size();
   parts.kinetic.assign(bodies, 0.0);
   parts.bending.assign(bodies, 0.0);
   parts.springs.assign(forces, 0.0);
@@ -164,7 +169,9 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
       bend += nm;
     }
     for (std::size_t k = 0; k < forces; ++k)
-      parts.springs[k] += 0.5 * springs.segment<6>(6 * static_cast<Eigen::Index>(k)).squaredNorm();
+      parts.springs[k] +=
+          0.5 *
+          springs.segment<spring_rows>(spring_rows * static_cast<Eigen::Index>(k)).squaredNorm();
   }
   double kinetic = 0.0, potential = 0.0;
   for (const double t : parts.kinetic) kinetic += t;

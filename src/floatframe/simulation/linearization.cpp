@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "floatframe/simulation/element_tangents.hpp"
+
 namespace floatframe {
 
 VecX equilibration(const MatX& A) {
@@ -36,11 +38,12 @@ MatX mass_matrix(Formulation& f, const VecX& sizes, const VecX& r0, const VecX& 
 
 MatX stiffness_matrix(Formulation& f, const State& s) {
   constexpr double step = 1e-6;  // [m, rad, amplitudes]
+  const ElementTangents elements(f, s, VecX::Constant(f.velocities(), step));
   VecX q = s.q;
-  return central_differences(f.velocities(), step, [&](const VecX& x) {
-    f.retract(s.q, x, q);
-    return residual_at(f, s.t, q, s.v, s.lambda);
-  });
+  return elements.K + central_differences(f.velocities(), step, [&](const VecX& x) {
+           f.retract(s.q, x, q);
+           return residual_at(f, s.t, q, s.v, s.lambda);
+         });
 }
 
 }  // namespace floatframe

@@ -7,9 +7,9 @@
 //   M = dr/da,  C = dr/dv,  K = dr/dx,  J = Phi_q.
 // r is linear in a: a column of M is a difference of two residuals, exact up to round-off, which is
 // smallest if M times the trial acceleration is at least as large as the forces. C and K are
-// central differences (K contains the geometric stiffness of forces and multipliers), here at a =
-// 0, as needed for statics; small_motions.hpp computes them at given accelerations. Dense,
-// allocates: load time only.
+// exact in the efforts of elements (element_tangents.hpp), else central differences (K contains the
+// geometric stiffness of forces and multipliers), here at a = 0, as needed for statics;
+// small_motions.hpp computes them at given accelerations. Dense, allocates: load time only.
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 

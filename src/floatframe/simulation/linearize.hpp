@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/start_report.hpp"
 #include "floatframe/simulation/stepping.hpp"
 

@@ -18,7 +18,8 @@ constexpr double least_share = 1e-4;
 /// Amplitudes change last: as if the modes were heavier by this factor.
 constexpr double elastic_cost = 100.0;
 
-/// Bodies at both ends of loop closures: joints outside of the tree, and rods.
+/// Bodies at both ends of loop closures: joints outside of the tree, and elements that hold two
+/// bodies.
 std::vector<std::array<int, 3>> closing_edges(const RelativeFormulation& f) {
   const Model& model = f.model();
   std::vector<char> in_tree(model.joints.size(), 0);
@@ -28,8 +29,10 @@ std::vector<std::array<int, 3>> closing_edges(const RelativeFormulation& f) {
   for (const Joint& joint : model.joints)
     if (!in_tree[++j] && (!joint_is_free(joint.type) || !joint.position.empty()))
       edges.push_back({j, joint.parent, joint.child});
-  for (const Rod& r : model.rods)
-    edges.push_back({-1, model.markers[r.a].body, model.markers[r.b].body});
+  for (const Element& e : model.elements)
+    if (e.holds)
+      for (std::size_t i = 1; i < e.markers.size(); ++i)
+        edges.push_back({-1, model.markers[e.markers[0]].body, model.markers[e.markers[i]].body});
   return edges;
 }
 

@@ -87,7 +87,9 @@ void LoopPath::measure_size() {
   Eigen::AlignedBox3d box;
   for (std::size_t j = 0; j < f_.model().joints.size(); ++j)
     if (members_.joint[j]) box.extend(f_.marker(f_.model().joints[j].frame_M).r);
-  for (const Rod& r : f_.model().rods) box.extend(f_.marker(r.a).r).extend(f_.marker(r.b).r);
+  for (const Element& e : f_.model().elements)
+    if (e.holds)
+      for (const int marker : e.markers) box.extend(f_.marker(marker).r);
   size_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
   for (std::size_t i = 0; i < members_.body.size(); ++i)
     if (members_.body[i]) size_ = std::max(size_, f_.model().bodies[i].length);

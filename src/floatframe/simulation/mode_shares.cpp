@@ -9,6 +9,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/model.hpp"
 
 namespace floatframe {
 namespace {
@@ -40,15 +41,15 @@ VecX frequencies(const MatX& K, const MatX& M) {
   return f;
 }
 
-/// Markers through which joints, rods and forces act on a body; outputs do not load it.
+/// Markers through which joints and elements act on a body; outputs do not load it.
 std::set<int> loaded_markers(const Model& model, int body) {
   std::set<int> markers;
   const auto add = [&](int m) {
     if (m >= 0 && model.markers[m].body == body) markers.insert(m);
   };
   for (const Joint& j : model.joints) add(j.frame_F), add(j.frame_M);
-  for (const Rod& r : model.rods) add(r.a), add(r.b);
-  for (const Force& f : model.forces) add(f.a), add(f.b);
+  for (const Element& e : model.elements)
+    for (const int marker : e.markers) add(marker);
   return markers;
 }
 

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "floatframe/core/json_text.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/system_state.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/stepping.hpp"
 

@@ -33,16 +33,18 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
       return fmt::format("body '{}' moves at {} m/s", model.bodies[i].name, n);
     });
   }
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& force = model.forces[k];
-    const ForceState& now = motion.forces[k];
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& force = model.elements[k];
+    const Efforts& now = motion.efforts[k];
     const auto slope = [&](const char* law, const char* unit) {
       return [&force, law, unit](const std::string& n) {
         return fmt::format("the {} of '{}' has a slope of {} [{}]", law, force.name, n, unit);
       };
     };
-    look(force.spring(now.length).df, slope("spring", "N/m, N m/rad"));
-    look(force.damper(now.rate).df, slope("damper", "N s/m, N m s/rad"));
+    if (force.laws.size() == 2) {  // of its measure
+      look(force.laws[0](now.length).df, slope("spring", "N/m, N m/rad"));
+      look(force.laws[1](now.rate).df, slope("damper", "N s/m, N m s/rad"));
+    }
     look(now.force, [&](const std::string& n) {
       return fmt::format("the force of '{}' is {} [N, N m]", force.name, n);
     });

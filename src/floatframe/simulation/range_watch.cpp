@@ -192,8 +192,8 @@ double PhaseMeter::phase() const noexcept {
 }
 
 TurnWatch::TurnWatch(const Model& model, double step) : model_(model), step_(step) {
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& force = model.forces[k];
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& force = model.elements[k];
     const bool counts = force.rotational;
     if (!counts && !ends_at_half_turn(force)) continue;
     Watched x;
@@ -212,8 +212,8 @@ void TurnWatch::warn(std::vector<RangeWarning>& out) const {
     if (first == nullptr || x.first < first->first) first = &x;
   }
   if (first == nullptr) return;
-  const Force& force = model_.forces[first->force];
-  const std::string who = fmt::format("{} '{}'{}", force_type_name(force.type), force.name,
+  const Element& force = model_.elements[first->force];
+  const std::string who = fmt::format("{} '{}'{}", element_type_name(force.type), force.name,
                                       others > 0 ? fmt::format(" (and {} more)", others) : "");
   if (first->counts) {
     out.push_back({RangeLimit::half_turn,

@@ -13,7 +13,7 @@
 
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/system_motion.hpp"
 #include "floatframe/simulation/range_warning.hpp"
 #include "floatframe/simulation/results.hpp"
@@ -156,8 +156,9 @@ class TurnWatch {
   void follow(const SystemMotion& motion) noexcept {
     for (Watched& x : watched_) {
       if (x.counts) {
-        const Force& force = model_.forces[x.force];
-        const MarkerState &a = motion.marker(force.a), &b = motion.marker(force.b);
+        const Element& force = model_.elements[x.force];
+        const MarkerState &a = motion.marker(force.markers[0]),
+                          &b = motion.marker(force.markers[1]);
         const double turn = step_ * std::abs(a.R.col(2).dot(b.w - a.w));
         if (turn > std::numbers::pi && x.first < 0.0) x.first = motion.t;
         x.most = std::max(x.most, turn);
@@ -192,9 +193,9 @@ class TurnWatch {
   };
   static bool quarter(const Vec3& theta) noexcept { return theta.norm() > 0.5 * std::numbers::pi; }
   Vec3 rotation(const SystemMotion& motion, const Watched& x) const noexcept {
-    const Force& force = model_.forces[x.force];
-    assert(force.a >= 0 && force.b >= 0);
-    const Mat3 R = motion.marker(force.a).R.transpose() * motion.marker(force.b).R;
+    const Element& force = model_.elements[x.force];
+    const Mat3 R =
+        motion.marker(force.markers[0]).R.transpose() * motion.marker(force.markers[1]).R;
     return quaternion_log(Eigen::Quaterniond(R));
   }
 

@@ -43,10 +43,10 @@ ReactionSolver::ReactionSolver(Coordinates coordinates, const Model& model, Iner
   lambda_ = gamma_ = work_ = best_lambda_ = VecX::Zero(nc);
   reactions_.joints.resize(model.joints.size());
   reactions_.motions.assign(model.joints.size(), 0.0);
-  reactions_.rods.resize(model.rods.size());
-  reactions_.tensions.assign(model.rods.size(), 0.0);
+  reactions_.elements.resize(model.elements.size());
+  reactions_.multipliers.assign(model.elements.size(), 0.0);
   reactions_.joint_impulses.assign(model.joints.size(), Vec3::Zero());
-  reactions_.rod_impulses.assign(model.rods.size(), Vec3::Zero());
+  reactions_.element_impulses.assign(model.elements.size(), Vec3::Zero());
   if (options.redundant) {
     // The penalty of absolute coordinates is already as large as digits allow.
     if (coordinates == Coordinates::relative) options_.penalty_mass *= stiffer;
@@ -71,7 +71,7 @@ void ReactionSolver::solve(const State& state, std::span<const double> inputs,
   assert(state.v.size() == f_.velocities() && state.lambda.size() == f_.constraints());
   assert(state.a.size() == f_.velocities() && all_finite(state.a));
   FLOATFRAME_DEBUG(for (Vec3& x : reactions_.joint_impulses) poison(x);)
-  FLOATFRAME_DEBUG(for (Vec3& x : reactions_.rod_impulses) poison(x);)
+  FLOATFRAME_DEBUG(for (Vec3& x : reactions_.element_impulses) poison(x);)
   if (!force_branches.empty()) f_.hold_force_branches(force_branches);
   f_.set_inputs(inputs);
   f_.set_spring_angles(spring_angles);
@@ -163,9 +163,9 @@ void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses
   for (Vec3& x : reactions_.joint_impulses) x.setZero();
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintOwner& owner = set.parts()[k].owner;
-    const Vec3 on_b = -set.wrench(k, impulses).Fb;
-    if (owner.kind == ConstraintOwner::Kind::rod)
-      reactions_.rod_impulses[owner.index] = on_b;
+    const Vec3 on_b = -set.wrench(k, impulses).b.F;
+    if (owner.kind == ConstraintOwner::Kind::element)
+      reactions_.element_impulses[owner.index] = on_b;
     else
       reactions_.joint_impulses[owner.index] += on_b;
   }

@@ -32,8 +32,8 @@ std::string line_text(const Vec3& direction) {
 std::string direction_text(const ConstraintPart& part, const ConstraintRow& row) {
   const ConstraintKind& kind = constraint_kind(part.type);
   if (kind.holds) return kind.holds;
-  if (!kind.points) return "rotation about " + line_text(row.gradient.Tb);
-  return "translation along " + line_text(row.gradient.Fb);
+  if (!kind.points) return "rotation about " + line_text(row.gradient.b.T);
+  return "translation along " + line_text(row.gradient.b.F);
 }
 
 /// The motions x of a body, as columns, that satisfy its internal constraints J x = 0.
@@ -184,18 +184,15 @@ bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
     for (int r = 0; r < p.rows(); ++r) {
       const Eigen::Index i = row_of(k) + r;
       const WrenchRow& g = rows_[i].gradient;
-      if (p.owner.kind == ConstraintOwner::Kind::rod) {
-        for (StaticsForce& f : statics.forces)
-          if (f.type == "rod" && f.name == model_.rods[owner].name) {
-            f.force = lambda[i];
-            f.unique = !(balanced.row(i).norm() > 1e-7);
-          }
+      if (p.owner.kind == ConstraintOwner::Kind::element) {
+        statics.forces[owner].force = lambda[i];
+        statics.forces[owner].unique = !(balanced.row(i).norm() > 1e-7);
         continue;
       }
-      statics.joints[owner].force -= lambda[i] * g.Fb;
-      statics.joints[owner].torque -= lambda[i] * g.Tb;
-      force[owner] -= g.Fb * balanced.row(i);
-      torque[owner] -= g.Tb * balanced.row(i);
+      statics.joints[owner].force -= lambda[i] * g.b.F;
+      statics.joints[owner].torque -= lambda[i] * g.b.T;
+      force[owner] -= g.b.F * balanced.row(i);
+      torque[owner] -= g.b.T * balanced.row(i);
     }
   }
   for (std::size_t j = 0; j < joints; ++j) {

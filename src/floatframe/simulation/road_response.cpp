@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/model/road_spectrum.hpp"
+#include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
 
 namespace floatframe {
@@ -59,7 +59,7 @@ RoadResponse road_response(const Model& model, const std::vector<std::string>& o
   for (const LinearInput& input : linear_inputs(model)) {
     if (input.kind != LinearInput::Kind::road || input.wheels.size() != 1) continue;
     ports.inputs.push_back(input.name);
-    road_of_input.push_back(model.forces[static_cast<std::size_t>(input.wheels[0])].road);
+    road_of_input.push_back(model.elements[static_cast<std::size_t>(input.wheels[0])].road);
   }
   if (ports.inputs.empty())
     throw InputError(ErrorCode::missing, "the model has no tyres, and so nothing of a road");

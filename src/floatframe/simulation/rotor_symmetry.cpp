@@ -8,6 +8,7 @@
 
 #include "floatframe/body/cut_pair.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/simulation/run_error.hpp"
 
 namespace floatframe {
@@ -101,9 +102,11 @@ std::optional<int> axis_of_bearings(const Model& model, const std::vector<int>& 
   };
   std::vector<int> along{0, 1, 2};
   bool bearings = false;
-  for (const Force& force : model.forces) {
-    if (force.type != ForceType::bearing || on_rotor(force.a) == on_rotor(force.b)) continue;
-    const Marker& m = model.markers[on_rotor(force.a) ? force.a : force.b];
+  for (const Element& force : model.elements) {
+    if (!is_bearing(force.type)) continue;
+    const int a = force.markers[0], b = force.markers[1];
+    if (on_rotor(a) == on_rotor(b)) continue;
+    const Marker& m = model.markers[on_rotor(a) ? a : b];
     const Vec3 z = model.bodies[m.body].X_WB.R * m.X_NM.R.col(2);
     bearings = true;
     std::erase_if(along, [&](int k) { return z.cross(axes.col(k)).norm() > 1e-6; });

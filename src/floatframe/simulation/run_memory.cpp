@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/rules.hpp"
 #include "floatframe/model/model_hash.hpp"
-#include "floatframe/model/rules.hpp"
 #include "floatframe/simulation/memory_check.hpp"
 
 namespace floatframe {

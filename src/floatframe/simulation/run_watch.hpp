@@ -142,11 +142,11 @@ class RunWatch {
   /// All energies except the kinetic one.
   void add_stored(const SystemMotion& motion, EnergyBalance::Energies& e) const noexcept {
     e.potential = e.gravity = f_.gravity_energy();
-    for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
-      const double energy = motion.forces[k].energy;
+    for (std::size_t k = 0; k < f_.model().elements.size(); ++k) {
+      const double energy = motion.efforts[k].energy;
       e.potential += energy;
-      (energy_category(f_.model().forces[k].type) == EnergyCategory::tyres ? e.tyres : e.springs) +=
-          energy;
+      (energy_category(f_.model().elements[k].type) == EnergyCategory::tyres ? e.tyres
+                                                                             : e.springs) += energy;
     }
     e.elastic = elastic_energy(motion);
   }

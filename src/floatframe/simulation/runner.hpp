@@ -162,8 +162,8 @@ class Runner {
     kinematics_at(f_, state_);
     f_.forces();
     double sum = f_.gravity_energy();
-    for (std::size_t k = 0; k < f_.model().forces.size(); ++k)
-      sum += f_.force(static_cast<int>(k)).energy;
+    for (std::size_t k = 0; k < f_.model().elements.size(); ++k)
+      sum += f_.effort(static_cast<int>(k)).energy;
     return sum;
   }
   /// After `potential_energy`.
@@ -193,8 +193,8 @@ class Runner {
         fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
                     smallest(), what, who);
     if (force >= 0)
-      text += fmt::format(" (largest force: '{}', {:.3g} N)", f_.model().forces[force].name,
-                          f_.force(force).force);
+      text += fmt::format(" (largest force: '{}', {:.3g} N)", f_.model().elements[force].name,
+                          f_.effort(force).force);
     return text + singular_position();
   }
 
@@ -214,8 +214,8 @@ class Runner {
   int largest_force() const noexcept {
     double worst = 0.0;
     int force = -1;
-    for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
-      const double x = std::abs(f_.force(static_cast<int>(k)).force);
+    for (std::size_t k = 0; k < f_.model().elements.size(); ++k) {
+      const double x = std::abs(f_.effort(static_cast<int>(k)).force);
       if (!(x <= worst)) {
         worst = x;
         force = static_cast<int>(k);

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/validate.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/model/rules.hpp"
-#include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/run_loop.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/results.hpp"
 #include "floatframe/simulation/run_error.hpp"

@@ -1,6 +1,6 @@
 #include "floatframe/simulation/simulation_options.hpp"
 
-#include "floatframe/model/validate.hpp"
+#include "floatframe/description/validate.hpp"
 
 namespace floatframe {
 

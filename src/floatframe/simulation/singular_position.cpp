@@ -72,7 +72,7 @@ SingularPosition singular_position(const RelativeFormulation& f, double nearly) 
     found.only_there += free - lasting;
     std::vector<std::string> names;
     for (const int j : block.joints) names.push_back(model.joints[j].name);
-    for (const int k : block.rods) names.push_back(model.rods[k].name);
+    for (const int k : block.elements) names.push_back(model.elements[k].name);
     constexpr std::size_t most = 6;
     const std::size_t more = names.size() > most ? names.size() - most : 0;
     names.resize(names.size() - more);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "floatframe/core/memory_room.hpp"
+#include "floatframe/simulation/element_tangents.hpp"
 #include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
 #include "floatframe/simulation/run_error.hpp"
@@ -71,6 +72,7 @@ SmallMotions small_motions(Formulation& f, const State& s) {
   m.scale = possible_masses(f, s);
 
   const VecX steps = motion_steps(f.model(), m.scale);
+  const ElementTangents elements(f, s, steps);
   const auto terms = [&](const VecX& q, const VecX& v) {
     VecX all(nv + 2 * nc), part(nc), r(nv);
     kinematics_at(f, s.t, q, v);
@@ -93,10 +95,10 @@ SmallMotions small_motions(Formulation& f, const State& s) {
       "stiffness");
   const PreciseDifferences rates = precise_differences(
       10.0 * steps, nv, [&](const VecX& x) { return terms(s.q, VecX(s.v + x)); }, "damping");
-  m.K = along.columns.topRows(nv);
+  m.K = elements.K + along.columns.topRows(nv);
   m.G = along.columns.middleRows(nv, nc);
   m.H = along.columns.bottomRows(nc);
-  m.C = rates.columns.topRows(nv);
+  m.C = elements.C + rates.columns.topRows(nv);
   m.D = rates.columns.bottomRows(nc);
   m.kinks = along.kinks;
   for (const int j : rates.kinks)

@@ -8,9 +8,10 @@
 // between angular velocities and the rates of rotation vectors: with the composition of two
 // increments, x * d = x + d + b(x, d) + ..., Gamma x = b(x, v) - b(v, x).
 //
-// Differences over steps h and h/2 on both sides, extrapolated: the error decreases with h^4. A
-// force whose slope jumps within the steps is detected by second differences that decrease with h
-// instead of h^2. Dense, allocates: load time only.
+// Efforts of elements are exact (element_tangents.hpp), the rest differences over steps h and h/2
+// on both sides, extrapolated: the error decreases with h^4. Near an edge of the law of an element
+// all of it is differences: a force whose slope jumps within the steps is detected by second
+// differences that decrease with h instead of h^2. Dense, allocates: load time only.
 #include <cstddef>
 #include <vector>
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
+#include "floatframe/description/description.hpp"
 #include "floatframe/formulation/relative.hpp"
-#include "floatframe/model/description.hpp"
 
 namespace floatframe {
 

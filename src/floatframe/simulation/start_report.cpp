@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -78,9 +78,9 @@ class Changes {
 
 /// Springs whose ends are made coincident (within 1e-9 m) by start values.
 void report_coinciding_ends(const SystemMotion& motion, StartReport& report) {
-  for (const Force& force : motion.model.forces)
-    if (force_kind(force.type).along_line &&
-        (motion.marker(force.b).r - motion.marker(force.a).r).norm() < 1e-9)
+  for (const Element& force : motion.model.elements)
+    if (element_kind(force.type).along_line &&
+        (motion.marker(force.markers[1]).r - motion.marker(force.markers[0]).r).norm() < 1e-9)
       report.notes.push_back(fmt::format(
           "the ends of force '{}' coincide at the start: it has no direction there, and acts along "
           "x until they part",

@@ -19,7 +19,7 @@ class Simulation::EngineOf final : public Simulation::Engine {
     owners_ = coordinate_owners(steps_.formulation());
     for (std::string& owner : constraint_owners(steps_.formulation()))
       owners_.push_back(std::move(owner));
-    for (const Force& force : model().forces) owners_.push_back("force '" + force.name + "'");
+    for (const Element& force : model().elements) owners_.push_back("force '" + force.name + "'");
     sample();
   }
 

@@ -22,8 +22,8 @@
 #include <string_view>
 #include <vector>
 
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/simulation_state.hpp"
 #include "floatframe/simulation/start_report.hpp"
 #include "floatframe/simulation/step_report.hpp"

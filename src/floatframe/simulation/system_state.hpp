@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "floatframe/description/system_state.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/step.hpp"
-#include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
@@ -153,16 +153,13 @@ std::vector<Forcing> all_forcing(const Model& model) {
       out.push_back({Kind::motion, "the motion of joint '" + j.name + "'", &*j.motion, false,
                      static_cast<int>(k)});
   }
-  for (const Force& f : model.forces) {
-    const bool load = energy_category(f.type) == EnergyCategory::loads;
-    const std::string owner = " '" + f.name + "'";
-    if (load || f.driven)
-      out.push_back({Kind::load, (load ? "the load" : "the actuator of") + owner, &f.magnitude});
-    if (!f.targeted) continue;
-    out.push_back({Kind::target, "the target of" + owner, &f.target.function, f.derived_rate});
-    if (!f.derived_rate)
-      out.push_back({Kind::target, "the target rate of" + owner, &f.target_rate.function});
-  }
+  for (const Element& e : model.elements)
+    for (const ElementSignal& s : signals_of(e)) {
+      const bool load = energy_category(e.type) == EnergyCategory::loads;
+      out.push_back({s.target ? Kind::target : Kind::load,
+                     (load ? "the load '" : "the " + s.what + " of '") + e.name + "'",
+                     &s.signal->function, s.signal->differentiated});
+    }
   return out;
 }
 

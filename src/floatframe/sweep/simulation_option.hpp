@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 
 namespace floatframe {
 

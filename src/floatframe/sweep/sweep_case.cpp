@@ -6,7 +6,7 @@
 
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model_file/parsed_files.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 

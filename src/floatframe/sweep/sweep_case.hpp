@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/description/description.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/sweep/sweep_plan.hpp"
 

@@ -138,13 +138,17 @@ export interface JointJson {
   cut?: boolean | null;
 }
 
+export type PictureSymbol = 'none' | 'spring' | 'ring' | 'wheel' | 'force' | 'torque';
+
 export interface ForceJson {
   name: string;
   type: string;
+  /** How it is drawn. */
+  picture: PictureSymbol;
   a: number;
   b: number;
   axis?: Triple | null;
-  /** Of loads: whether the axis turns with b's body or stands in the world. */
+  /** Whether the axis turns with the body of a or stands in the world. */
   follows?: boolean | null;
   radius?: number | null;
   width?: number | null;

@@ -43,7 +43,7 @@ export class Annotations {
       if (index < 0) continue;
       const a = scene.points[index];
       const b = force.a >= 0 && force.b >= 0 ? scene.points[force.b] : a;
-      const tyre = /tyre|tire/.test((force.type ?? '').toLowerCase());
+      const tyre = force.picture === 'wheel';
       this.names.push({
         text: force.name,
         strong: false,

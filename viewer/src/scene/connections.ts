@@ -107,31 +107,28 @@ export class Connections {
   }
 
   private addForce(force: ForceJson, history: History | null): void {
-    const type = (force.type ?? '').toLowerCase();
-    if (/tyre|tire|wheel/.test(type)) this.addTyre(force, history);
-    else if (/torque|moment/.test(type)) this.addLoad(force, history, 2);
-    else if (force.a >= 0 && force.b >= 0 && /spring|damper|strut|actuator|bump|rubber/.test(type) && !/joint|torsion|rotational/.test(type)) this.addStrut(force, type);
-    else if (/joint|bushing|torsion|rotational|mount/.test(type)) this.addRing(force);
-    else this.addLoad(force, history, 1);
+    if (force.picture === 'wheel') this.addTyre(force, history);
+    else if (force.picture === 'torque') this.addLoad(force, history, 2);
+    else if (force.picture === 'spring') this.addStrut(force);
+    else if (force.picture === 'ring') this.addRing(force);
+    else if (force.picture === 'force') this.addLoad(force, history, 1);
   }
 
   /** A coil about a telescope. */
-  private addStrut(force: ForceJson, type: string): void {
+  private addStrut(force: ForceJson): void {
     const start = this.length(force);
     const radius = Math.min(0.2 * start, 0.021 * this.size);
     if (!(radius > 0)) return;
     const group = new Group();
-    const coil = /spring|strut|rubber/.test(type) ? new Coil(7, radius, 0.17 * radius, SPRING_COLOUR) : null;
-    if (coil) group.add(coil.mesh);
-    const tube = /damper|strut|actuator/.test(type) || !coil ? bar([0, 0, 0], [0, 0, 1], 0.5 * radius, plain(DAMPER_COLOUR)) : null;
-    const piston = tube ? bar([0, 0, 0], [0, 0, 1], 0.24 * radius, plain('#c9cfd6')) : null;
-    if (tube && piston) group.add(tube, piston);
+    const coil = new Coil(7, radius, 0.17 * radius, SPRING_COLOUR);
+    const tube = bar([0, 0, 0], [0, 0, 1], 0.5 * radius, plain(DAMPER_COLOUR));
+    const piston = bar([0, 0, 0], [0, 0, 1], 0.24 * radius, plain('#c9cfd6'));
+    group.add(coil.mesh, tube, piston);
     this.own(group, 'springs', force.a, force.b);
     this.updates.push((motion, scale) => {
       const a = this.at(force.a, motion, scale);
       const b = this.at(force.b, motion, scale);
-      coil?.place(a, b);
-      if (!tube || !piston) return;
+      coil.place(a, b);
       const length = Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
       const part = length > 0 ? Math.min(1, (0.55 * start) / length) : 0;
       const end: [number, number, number] = [a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])];

@@ -73,7 +73,7 @@ export class Stage {
     this.size = this.modelSize();
     const bends = scene.bodies.some((body) => body.mesh);
     // A wheel is shown by its tyre.
-    const wheels = new Set(scene.forces.filter((force) => force.a >= 0 && /tyre|tire/.test((force.type ?? '').toLowerCase())).map((force) => scene.points[force.a].body));
+    const wheels = new Set(scene.forces.filter((force) => force.a >= 0 && force.picture === 'wheel').map((force) => scene.points[force.a].body));
     for (const body of scene.bodies) {
       const look = { empty: wheels.has(body.index), ghost: bends };
       const view = new BodyView(scene, body, this.shared, this.size, look);
@@ -366,7 +366,7 @@ export class Stage {
     const y = 1 - ((clientY - box.top) / box.height) * 2;
     this.root.updateMatrixWorld(true);
     const tyres = this.scene.forces
-      .filter((force) => /tyre|tire|wheel/.test((force.type ?? '').toLowerCase()) && force.a >= 0)
+      .filter((force) => force.picture === 'wheel' && force.a >= 0)
       .map((force, k) => ({ object: this.connections.layers.tyres.children[k], body: this.scene.points[force.a].body }))
       .filter((tyre) => tyre.object && tyre.body >= 0);
     return pick(this.bodies, this.motion, this.deformation, rayThrough(x, y, this.camera), tyres);

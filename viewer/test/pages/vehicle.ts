@@ -185,8 +185,8 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
     const seat = point({ name: '', body: 1 + k, p: [0.66 * ARM, 0, 0.03], modes: Array.from({ length: MODES }, (_, j) => modeShape(j, ARM, 0.66 * ARM, 0, 0.03)) });
     joints.push({ name: `${names[k]}_pivot`, type: 'revolute', a: foot, b: root, axis: [1, 0, 0], cut: false });
     joints.push({ name: `${names[k]}_bearing`, type: 'revolute', a: hub, b: end, axis: [0, 1, 0], cut: k === 3 });
-    forces.push({ name: `${names[k]}_spring`, type: 'spring_damper', a: seat, b: top, channel: null });
-    forces.push({ name: `${names[k]}_tyre${k === 0 ? evil : ''}`, type: 'tyre', a: hub, b: -1, axis: [0, 1, 0], radius: RADIUS, width: 0.19, channel: `${names[k]}_tyre_force` });
+    forces.push({ name: `${names[k]}_spring`, type: 'spring_damper', picture: 'spring', a: seat, b: top, channel: null });
+    forces.push({ name: `${names[k]}_tyre${k === 0 ? evil : ''}`, type: 'tyre', picture: 'wheel', a: hub, b: -1, axis: [0, 1, 0], radius: RADIUS, width: 0.19, channel: `${names[k]}_tyre_force` });
   });
   const profile: number[] = [];
   for (let x = -4; x <= 16; x += 0.1) profile.push(x, road(x));

@@ -6,13 +6,13 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::force>(const SystemMotion& motion, const Output& output,
                                           FollowedOutput&) noexcept {
-  return motion.force(output.force).force;
+  return motion.effort(output.element).force;
 }
 
 constinit const OutputKind force_output = {
     .about = "force or torque, tension positive; of a tyre the contact force",
     .of = OutputOf::force,
     .unit = "N or N m",
-    .unit_of = unit_of_force<ForceQuantity::force>};
+    .unit_of = unit_of_force<ElementQuantity::force>};
 
 }  // namespace floatframe

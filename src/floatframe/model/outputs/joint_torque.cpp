@@ -12,14 +12,15 @@ template <>
 double output_value_of<OutputType::joint_torque>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
   assert(output.component >= 0 && output.component < 3);
-  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
+  assert(motion.reactions && (output.element >= 0 || output.joint >= 0));
   const Model& model = motion.model;
-  const bool rod = output.rod >= 0;
+  const bool rod = output.element >= 0;
   const Reactions& all = *motion.reactions;
-  const Reactions::Wrench& w = rod ? all.rods[output.rod] : all.joints[output.joint];
+  const Reactions::Wrench& w = rod ? all.elements[output.element] : all.joints[output.joint];
   Vec3 torque = w.torque;
   if (output.marker >= 0) {
-    const int own = rod ? model.rods[output.rod].b : model.joints[output.joint].frame_M;
+    const int own =
+        rod ? model.elements[output.element].markers[1] : model.joints[output.joint].frame_M;
     torque += (motion.marker(own).r - motion.marker(output.marker).r).cross(w.force);
   }
   if (output.to < 0) return torque[output.component];

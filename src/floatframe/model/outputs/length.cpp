@@ -6,14 +6,14 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::length>(const SystemMotion& motion, const Output& output,
                                            FollowedOutput&) noexcept {
-  return motion.force(output.force).length;
+  return motion.effort(output.element).length;
 }
 
 constinit const OutputKind length_output = {
     .about = "length, deflection or angle; not of applied loads",
     .of = OutputOf::force,
     .unit = "m or rad",
-    .unit_of = unit_of_force<ForceQuantity::length>,
-    .needs = ForceQuantity::length};
+    .unit_of = unit_of_force<ElementQuantity::length>,
+    .needs = ElementQuantity::length};
 
 }  // namespace floatframe

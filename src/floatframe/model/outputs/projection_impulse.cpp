@@ -11,10 +11,10 @@ double output_value_of<OutputType::projection_impulse>(const SystemMotion& motio
                                                        const Output& output,
                                                        FollowedOutput&) noexcept {
   assert(output.component >= 0 && output.component < 3);
-  assert(motion.reactions && (output.rod >= 0 || output.joint >= 0));
+  assert(motion.reactions && (output.element >= 0 || output.joint >= 0));
   const Reactions& all = *motion.reactions;
   const Vec3& impulse =
-      output.rod >= 0 ? all.rod_impulses[output.rod] : all.joint_impulses[output.joint];
+      output.element >= 0 ? all.element_impulses[output.element] : all.joint_impulses[output.joint];
   if (output.to < 0) return impulse[output.component];
   return motion.marker(output.to).R.col(output.component).dot(impulse);
 }

@@ -6,14 +6,14 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::rate>(const SystemMotion& motion, const Output& output,
                                          FollowedOutput&) noexcept {
-  return motion.force(output.force).rate;
+  return motion.effort(output.element).rate;
 }
 
 constinit const OutputKind rate_output = {
     .about = "rate of the length, deflection or angle; not of applied loads",
     .of = OutputOf::force,
     .unit = "m/s or rad/s",
-    .unit_of = unit_of_force<ForceQuantity::rate>,
-    .needs = ForceQuantity::rate};
+    .unit_of = unit_of_force<ElementQuantity::rate>,
+    .needs = ElementQuantity::rate};
 
 }  // namespace floatframe

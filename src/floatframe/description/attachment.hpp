@@ -1,0 +1,37 @@
+#pragma once
+// Places on bodies and signals over time, as the user names them: what joints, rods, elements and
+// outputs are attached to and driven by.
+#include <optional>
+#include <string>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/piecewise_polynomial.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+inline constexpr const char* ground_name = "ground";
+
+/// A point on a body. With `node` a named node of a flexible body; otherwise `point`, on a flexible
+/// body one of its nodes or else the origin of its frame, which no mode moves (within 1e-6 m).
+struct AttachmentDescription {
+  std::string body = ground_name;
+  Vec3 point = Vec3::Zero();  ///< design configuration [m]
+  std::optional<std::string> node;
+  Origin origin;
+};
+
+/// A function of time: offset polynomial pieces plus a sine: f = pieces(t) + amplitude sin(2 pi
+/// frequency t + phase).
+struct TimeFunction {
+  PiecewisePolynomial pieces;
+  double amplitude = 0.0, frequency = 0.0, phase = 0.0;
+};
+
+/// The signal of a load, an actuator or a motor: a function of time, plus the value of an input if
+/// one is named.
+struct SignalDescription : TimeFunction {
+  std::string input;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,155 @@
+#pragma once
+// All elements: the struct of each type, with which a program describes one, and the list. An entry
+// is the word of model files, the enumerator of ElementType and the name of the source file
+// model/elements/<name>.cpp, which reflects the struct in a table of keys and ends in the
+// ElementKind `<name>_element`; then the struct. Everything else runs over this
+// list. Numbers and messages follow its order.
+//
+// Points and directions are those of the design configuration. Laws are functions of a measure.
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/attachment.hpp"
+
+namespace floatframe {
+
+/// Along the line between two points. Tension positive: F = spring(length) + damper(rate).
+struct SpringDamper {
+  AttachmentDescription a, b;
+  PiecewisePolynomial
+      spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
+  PiecewisePolynomial damper;                 ///< of the rate of the length [m/s] -> [N]
+  std::optional<SignalDescription> actuator;  ///< added to both [N]
+};
+
+/// Along an axis fixed in a body, between a tip and the body point that slides with it (leaf
+/// spring): length L = axis . (reference - tip); F = spring(L) + damper(dL/dt), tension pulls the
+/// tip along +axis.
+struct GuidedSpring {
+  AttachmentDescription reference;  ///< on the body that carries the axis
+  AttachmentDescription tip;
+  Vec3 axis = Vec3::UnitZ();
+  PiecewisePolynomial spring, damper;
+  std::optional<SignalDescription> actuator;  ///< added to both [N]
+};
+
+/// About the axis of a revolute (angle) or along that of a prismatic joint (displacement):
+/// generalised force on the coordinate = actuator - spring(q - target) - damper(qdot - rate of the
+/// target). With a target it is a position-controlled motor, with the rate of a target alone
+/// a speed-controlled one. Without `target_rate` the rate is the derivative of the function of time
+/// in `target`; that of an input is not known and taken as zero.
+struct JointSpring {
+  std::string joint;
+  PiecewisePolynomial spring, damper;
+  std::optional<SignalDescription> actuator;     ///< [N] or [N m], positive raises the coordinate
+  std::optional<SignalDescription> target;       ///< [m] or [rad]
+  std::optional<SignalDescription> target_rate;  ///< [m/s] or [rad/s]
+};
+
+enum class TyreLaw { vertical, radial };
+
+/// Penalty tyre on a road profile. With h = z_c - z_road(x_c) the height of the wheel centre above
+/// the road below it, hdot its rate (zdot_c - s xdot_c on a road of slope s) and
+/// f = max(0, k (R - h) - c hdot) while h < R: vertical: f upwards at the centre; radial:
+/// f / sqrt(1 + s^2) along the road normal, at the contact point.
+struct Tyre {
+  AttachmentDescription centre;
+  double radius = 0.0;     ///< unloaded [m]
+  double stiffness = 0.0;  ///< [N/m]
+  double damping = 0.0;    ///< [N s/m]
+  TyreLaw law = TyreLaw::vertical;
+  Vec3 axis = Vec3::UnitY();  ///< of the wheel
+  std::string road;
+};
+
+/// The rates that the rotational dampers of a bushing are laws of: those of the components of the
+/// rotation vector, or the components of the angular velocity.
+enum class RotationRate { rotation_vector, angular_velocity };
+
+/// Elastic connection of two bodies, with a law for each displacement along and each rotation about
+/// axes fixed in the body of `from`: e3 = axis, e1 = axis_2 without its part along e3, e2 = e3 x
+/// e1.
+struct Bushing {
+  AttachmentDescription from, to;
+  Vec3 axis = Vec3::UnitZ(), axis_2 = Vec3::UnitX();
+  PiecewisePolynomial spring_x, spring_y, spring_z;     ///< [m] -> [N]
+  PiecewisePolynomial spring_rx, spring_ry, spring_rz;  ///< [rad] -> [N m]
+  PiecewisePolynomial damper_x, damper_y, damper_z;     ///< [m/s] -> [N]
+  PiecewisePolynomial damper_rx, damper_ry, damper_rz;  ///< [rad/s] -> [N m]
+  RotationRate rotation_rate = RotationRate::rotation_vector;
+};
+
+/// Force or torque: direction * magnitude(t), at a point of a body; the direction turns with the
+/// body if `follows`.
+struct AppliedLoad {
+  AttachmentDescription at;
+  Vec3 direction = Vec3::UnitX();  ///< used as given (not normalised)
+  SignalDescription magnitude;     ///< [N] or [N m] per unit of direction
+  bool follows = false;
+};
+struct AppliedForce : AppliedLoad {};
+struct AppliedTorque : AppliedLoad {};
+
+/// A shaft (`to`) in a housing (`from`), which carries the axes of a bushing; the shaft may turn
+/// about e3 without end. Matrices are 6 x 6 - three displacements, two tilts, the spin - or 2 x 2
+/// in the plane of e1, e2; 0 x 0: none.
+struct Bearing {
+  AttachmentDescription from, to;
+  Vec3 axis = Vec3::UnitZ(), axis_2 = Vec3::UnitX();
+  MatX stiffness;    ///< [N/m, N, N m/m, N m/rad]
+  MatX damping;      ///< [N s/m, N s, N m s/m, N m s/rad]
+  MatX speed_table;  ///< n x 9, added to both over the spin
+};
+
+/// Without mass, keeps the distance between two points.
+struct Rod {
+  AttachmentDescription a, b;
+  std::optional<double> length;  ///< [m]; as drawn if absent
+};
+
+// clang-format off
+#define FLOATFRAME_ELEMENTS(entry)      \
+  entry(spring_damper, SpringDamper)    \
+  entry(guided_spring, GuidedSpring)    \
+  entry(joint_spring, JointSpring)      \
+  entry(tyre, Tyre)                     \
+  entry(bushing, Bushing)               \
+  entry(force, AppliedForce)            \
+  entry(torque, AppliedTorque)          \
+  entry(bearing, Bearing)               \
+  entry(rod, Rod)
+// clang-format on
+
+#define FLOATFRAME_ENTRY(name, Keys) name,
+enum class ElementType { FLOATFRAME_ELEMENTS(FLOATFRAME_ENTRY) };
+#undef FLOATFRAME_ENTRY
+
+#define FLOATFRAME_ENTRY(name, Keys) ElementType::name,
+inline constexpr ElementType element_types[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_ENTRY)};
+#undef FLOATFRAME_ENTRY
+
+#define FLOATFRAME_ENTRY(name, Keys) #name,
+inline constexpr const char* element_words[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_ENTRY)};
+#undef FLOATFRAME_ENTRY
+
+/// "spring_damper", "tyre", ...
+constexpr const char* element_type_name(ElementType type) noexcept {
+  return element_words[index_of(type)];
+}
+
+/// The lists of a description, sections of model files: each has names of its own.
+enum class ElementList { forces, rods };
+constexpr const char* element_list_name(ElementList list) noexcept {
+  return list == ElementList::rods ? "rods" : "forces";
+}
+
+template <class, class... Keys>
+using VariantOf = std::variant<Keys...>;
+/// What the user says about one element: one of the structs above, in the order of the list.
+#define FLOATFRAME_ENTRY(name, Keys) , Keys
+using ElementKeys = VariantOf<void FLOATFRAME_ELEMENTS(FLOATFRAME_ENTRY)>;
+#undef FLOATFRAME_ENTRY
+
+}  // namespace floatframe

@@ -1,0 +1,98 @@
+#pragma once
+// Rules of descriptions beyond single numbers, each with its one sentence. The reader of model
+// files and `validate` prepend the path and the position. nullopt: valid.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/math/piecewise_polynomial.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe::sentences {
+
+using Complaint = std::optional<std::string>;
+
+// Bodies.
+/// Principal moments below zero, or one larger than the sum of the others.
+Complaint inertia(const Mat3& J);
+Complaint tube(double outer, double inner);
+Complaint bar_length(double length);
+/// For a bar along `axis`.
+Complaint bar_reference(const Vec3& axis, const Vec3& reference);
+bool parallel_to_bar(const Vec3& axis, const Vec3& direction);
+Complaint section_inertia(bool section_inertia, bool isoparametric);
+Complaint analytic_shapes(std::size_t bars, std::size_t masses);
+Complaint more_modes_than_dofs(int modes, std::size_t nodes, bool isoparametric);
+std::string dof_twice(const std::string& node, unsigned dof);
+std::string no_modes();
+std::string no_bars();
+/// `hint`: ", did you mean ...?" or nothing.
+std::string unknown_bar(const std::string& name, const std::string& hint);
+std::string no_end_point(const std::string& name);
+std::string bar_not_connected(const std::string& first_bar);
+/// Positions of the clamped degrees of freedom, each with its direction 0..5 = x y z rx ry rz.
+Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped);
+
+// Points on bodies, and requirements on bodies without modes.
+std::string ground_is_no_body();
+std::string node_on_ground();
+std::string node_on_rigid_body(const std::string& body);
+/// No node of that name, on a flexible body or one that is switched to rigid.
+std::string no_node_named(const std::string& body, bool flexible, const std::string& node);
+/// `nearest`: nullptr if the body has no nodes.
+std::string no_node_at(const Vec3& point, const std::string& body, const Vec3* nearest);
+std::string rigid_body_has_no_modes(bool switched);
+
+// Joints, forces, roads.
+Complaint direction(const Vec3& v);
+Complaint second_axis(const Vec3& axis, const Vec3& axis_2);
+std::string ground_as_child();
+std::string child_is_parent();
+std::string both_ends_on(const std::string& body);
+std::string element_of_another_list(const std::string& type);
+Complaint rod_ends(const Vec3& a, const Vec3& b);
+Complaint spring_ends(const Vec3& a, const Vec3& b);
+/// `laws`: the keys, one of which is needed.
+std::string no_law(const std::vector<const char*>& laws);
+/// 6 x 6 or 2 x 2, finite.
+Complaint force_matrix(const MatX& M);
+std::string force_matrix_rows(std::size_t rows);
+/// Rows of a speed and eight coefficients.
+Complaint speed_table(const MatX& rows);
+/// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
+Complaint bearing_stiffness(const MatX& K);
+std::string target_without_law();
+std::string motion_and_start_value();
+std::string keep_without_start_value();
+std::string weld_has_no_coordinates();
+std::string not_used_by_joint(const std::string& type);
+/// The piece at whose beginning the law jumps, and the sentence.
+std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f);
+
+// Inputs, outputs, the run.
+Complaint unit(const std::string& unit);
+Complaint clamp_without_limits(bool clamp, const std::optional<double>& low,
+                               const std::optional<double>& high);
+Complaint input_limits(const std::optional<double>& low, const std::optional<double>& high);
+Complaint input_initial(double initial, const std::optional<double>& low,
+                        const std::optional<double>& high);
+/// A component, counted from 0, that is not one of the `n`; a model file counts them from 1.
+std::string number_of(const char* what, int component, int n, bool from_file);
+std::string weld_does_not_move();
+/// For the force or torque of a motor.
+std::string joint_without_motion();
+std::string rod_has_no_axes();
+std::string force_without_point();
+/// A prescribed force or torque has no length and no rate.
+std::string load_without(const std::string& type, const std::string& quantity);
+Complaint column_name(const std::string& name);
+/// For the whole name of a column: it already exists (`exists`), or is that of the time.
+Complaint column_taken(const std::string& name, bool exists);
+Complaint model_name(const std::string& name);
+Complaint min_step(double min_step, double step);
+std::string offset_alone();
+/// More steps than a run can count and store.
+Complaint steps(double duration, double step);
+
+}  // namespace floatframe::sentences

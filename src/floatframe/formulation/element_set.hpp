@@ -1,0 +1,100 @@
+#pragma once
+// The elements of a model in a formulation: their inputs, their states at the last
+// evaluation, and the turns counted by the angles of joint springs. An angle is known up to whole
+// turns; the value nearest to the angle of the last evaluation is used, so the angles are a part of
+// the state that q does not contain. Step time: no heap, noexcept.
+#include <algorithm>
+#include <cassert>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "floatframe/model/element_evaluation.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+class ElementSet {
+ public:
+  /// All angles start at zero (`count_turns_from`). Allocates.
+  explicit ElementSet(const Model& model);
+  ElementSet(const ElementSet&) = delete;
+  ElementSet& operator=(const ElementSet&) = delete;
+
+  /// Values of `model.inputs`, constant until they are set again; at first their initial values.
+  void set_inputs(std::span<const double> values) noexcept {
+    assert(values.size() == inputs_.size());
+    std::copy(values.begin(), values.end(), inputs_.begin());
+  }
+  std::span<const double> inputs() const noexcept { return inputs_; }
+
+  /// Angles of the joint springs at the last evaluation, a number for each force [rad].
+  std::span<const double> angles() const noexcept { return angles_; }
+  void set_angles(std::span<const double> angles) noexcept {
+    assert(angles.size() == angles_.size());
+    std::copy(angles.begin(), angles.end(), angles_.begin());
+  }
+  void set_angle(std::size_t force, double angle) noexcept { angles_[force] = angle; }
+  /// Turns are counted starting at the start values of these joints, or their motions at time t.
+  void count_turns_from(const Model& values, double t) noexcept;
+
+  /// Held branches of the laws (`branch_side`), a number for each force; `free_branch` if none is
+  /// held.
+  std::span<const std::int64_t> branches() const noexcept { return branches_; }
+  void hold_branches(std::span<const std::int64_t> branches) noexcept {
+    assert(branches.size() == branches_.size());
+    std::copy(branches.begin(), branches.end(), branches_.begin());
+  }
+  void hold_branch(std::size_t force, std::int64_t branch) noexcept { branches_[force] = branch; }
+  /// Where the markers of the model are: their addresses do not change. Allocates.
+  void connect(const std::vector<const MarkerState*>& markers);
+  /// What element k acts on, with positions from `p_WO`.
+  Ports ports(std::size_t k, const Vec3& p_WO, double t) const noexcept {
+    return {model_,  model_.elements[k], markers_[k].data(), p_WO, t, angles_[k],
+            inputs_, branches_[k]};
+  }
+
+  /// The beginning of a step, and its end: changes of the angles in a rejected step are
+  /// discarded.
+  void stepping(bool on, bool accepted) noexcept {
+    if (on)
+      std::copy(angles_.begin(), angles_.end(), kept_angles_.begin());
+    else if (!accepted)
+      std::copy(kept_angles_.begin(), kept_angles_.end(), angles_.begin());
+  }
+
+  /// Efforts stay those of the last evaluation.
+  void hold(bool on) noexcept { held_ = on; }
+  const Efforts& state(std::size_t k) const noexcept { return states_[k]; }
+  std::span<const Efforts> states() const noexcept { return states_; }
+
+  /// All efforts at time t.
+  void evaluate(const Vec3& p_WO, double t) noexcept {
+    if (held_) return;
+    for (const std::size_t k : acting_) {
+      const Ports in = ports(k, p_WO, t);
+      evaluate_element(in, states_[k]);
+      if (in.element.rotational) angles_[k] = states_[k].length;
+    }
+  }
+
+  /// Left-hand side of the elements, -Q: calls add(marker, force, torque) for each marker of each.
+  template <class Add>
+  void add_wrenches(const Add& add) const noexcept {
+    for (const auto& [marker, w] : wrenches_) add(marker, -w->F, -w->T);
+  }
+
+ private:
+  const Model& model_;
+  std::vector<Efforts> states_;
+  std::vector<double> angles_;       ///< select the turn of the next evaluation [rad]
+  std::vector<double> kept_angles_;  ///< those at the beginning of the step
+  std::vector<double> inputs_;
+  std::vector<std::int64_t> branches_;
+  bool held_ = false;
+  std::vector<std::vector<const MarkerState*>> markers_;  ///< of each element
+  std::vector<std::size_t> acting_;                       ///< elements with a law
+  std::vector<std::pair<int, const Wrench*>> wrenches_;   ///< on markers, of all elements
+};
+
+}  // namespace floatframe

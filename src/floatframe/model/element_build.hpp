@@ -1,0 +1,39 @@
+#pragma once
+// Builds an element of the model from its description. Load time only.
+#include "floatframe/model/element_keys.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+struct ModelBuilder;
+
+class ElementBuild : public ElementView {
+ public:
+  /// The element has its name, its keys, and their laws and signals.
+  ElementBuild(ModelBuilder& builder, const ElementDescription& description);
+  Element element;
+
+  /// The next port of the element: a marker at a place, with the design orientation R; false after
+  /// an error, which is reported. `oriented`: its orientation matters.
+  bool connect(const std::string& key, bool oriented, const Mat3& R = Mat3::Identity());
+  /// Its ports: the two markers of a joint; nullptr if that has an error.
+  const Joint* connect_joint(const std::string& key);
+  int road(const std::string& key) const;
+  /// World position of a port in the design configuration.
+  Vec3 design_point(std::size_t port) const;
+  /// Reports an error of the element.
+  void error(ErrorCode code, const std::string& sentence);
+  /// A change of the keys of the built element.
+  template <class Keys>
+  Keys& keys() {
+    return *std::get_if<Keys>(keys_.get());
+  }
+
+ private:
+  std::string path() const;  ///< "forces.spring"
+
+  ModelBuilder& builder_;
+  std::shared_ptr<ElementKeys> keys_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,156 @@
+#pragma once
+// What an element does in a motion: the wrenches on its markers, and the part of the tangent that a
+// symmetric factorisation can use: rows g with weights, -dQ/dq ~ sum k g g^T, -dQ/dqdot ~ sum c g
+// g^T. Most are a scalar f(s, sdot) of a measure s with gradient g, tension positive: generalised
+// force Q = -f g. The formulas are given in the file of each type (model/elements/<type>.cpp).
+//
+// Steps use the rows. The exact derivatives come from the same law with dual numbers
+// (math/dual.hpp): linear systems use them, and the tests compare the rows with them. What the rows
+// leave out is listed for each kind in its regimes and checked by the tests: the dependence of
+// rates on positions (smaller than the damping by h |v| / s, h the step), the rotation of axes and
+// loads, all nonsymmetric terms. This costs iterations, not accuracy.
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "floatframe/math/dual.hpp"
+#include "floatframe/model/law_energy.hpp"
+#include "floatframe/model/marker_state.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+/// What an element gives back, over any scalar; rows for doubles only.
+template <class S>
+struct EffortsOf {
+  static constexpr int most_rows = 12;
+  std::vector<WrenchOf<S>> wrench;  ///< on each marker
+  S force = 0.0, length = 0.0, rate = 0.0;
+  S energy = 0.0;  ///< potential energy [J]
+  /// For springs: rate of the energy in the present motion, including that of targets, and power
+  /// dissipated by the damper [W]. Tyres leave both at zero: their energy jumps with the road.
+  S energy_rate = 0.0, damping = 0.0;
+
+  /// Weights of g g^T in -dQ/dq [N/m] and in -dQ/dqdot [N s/m].
+  struct Weights {
+    double k = 0.0, c = 0.0;
+  };
+  int row_count = 0;
+  Weights rows[most_rows];
+  std::vector<WrenchOf<S>> gradients;  ///< of row r on marker i: [r markers + i]
+
+  EffortsOf() = default;
+  explicit EffortsOf(std::size_t markers)
+      : wrench(markers), gradients(std::is_same_v<S, double> ? most_rows * markers : 0) {}
+  std::size_t markers() const noexcept { return wrench.size(); }
+  const WrenchOf<S>* gradient(int row) const noexcept {
+    return gradients.data() + static_cast<std::size_t>(row) * wrench.size();
+  }
+  WrenchOf<S>* gradient(int row) noexcept {
+    return gradients.data() + static_cast<std::size_t>(row) * wrench.size();
+  }
+  /// Everything to zero.
+  void clear() noexcept {
+    for (WrenchOf<S>& w : wrench) w.F = w.T = Eigen::Matrix<S, 3, 1>::Zero();
+    row_count = 0;
+    force = length = rate = energy = energy_rate = damping = 0.0;
+  }
+  /// The wrenches f g on markers 0 and 1 and no others.
+  void set_pair(const S& f, const WrenchPair<S>& g) noexcept {
+    wrench[0] = {f * g.a.F, f * g.a.T};
+    wrench[1] = {f * g.b.F, f * g.b.T};
+  }
+  /// Adds the wrenches f g on markers 0 and 1.
+  void add_pair(const S& f, const WrenchPair<S>& g) noexcept {
+    wrench[0].F += f * g.a.F;
+    wrench[0].T += f * g.a.T;
+    wrench[1].F += f * g.b.F;
+    wrench[1].T += f * g.b.T;
+  }
+  /// A row; its gradients are to be filled, on every marker. None for dual numbers.
+  WrenchOf<S>* add_row(double k, double c) noexcept requires std::is_same_v<S, double> {
+    assert(row_count < most_rows && !gradients.empty());
+    rows[row_count] = {k, c};
+    return gradient(row_count++);
+  }
+  /// A row of an element of two markers.
+  void add_pair_row(const WrenchPair<S>& g, double k, double c) noexcept {
+    if constexpr (std::is_same_v<S, double>) {
+      WrenchOf<S>* row = add_row(k, c);
+      row[0] = g.a;
+      row[1] = g.b;
+    }
+  }
+};
+using Efforts = EffortsOf<double>;
+
+/// No branch is held: the law is evaluated on the branch of the present position.
+inline constexpr std::int64_t free_branch = -1;
+
+/// What an element acts on in one configuration.
+template <class S>
+struct PortsOf {
+  using Scalar = S;
+  using Marker = std::conditional_t<std::is_same_v<S, double>, MarkerState, MarkerMotion<S>>;
+  const Model& model;
+  const Element& element;
+  const Marker* const* markers;       ///< those of the element
+  const Vec3& origin;                 ///< reference point of the markers' positions
+  double t;                           ///< [s]
+  double reference_angle = 0.0;       ///< selects the turn of a joint angle [rad]
+  std::span<const double> inputs;     ///< values of model.inputs, constant in tangents
+  std::int64_t branch = free_branch;  ///< the held branch
+
+  const Marker& marker(int i) const noexcept { return *markers[i]; }
+  template <class Keys>
+  const Keys& keys() const noexcept {
+    return *std::get_if<Keys>(element.keys.get());
+  }
+  template <class Data>
+  const Data& data() const noexcept {
+    return *static_cast<const Data*>(element.data.get());
+  }
+  /// Value and derivatives in time of a signal port; zero if it is not given.
+  PiecewisePolynomial::Value signal(std::size_t port) const noexcept {
+    return element.signals[port].given ? given_signal(element.signals[port])
+                                       : PiecewisePolynomial::Value{};
+  }
+  PiecewisePolynomial::Value given_signal(const Signal& signal) const noexcept;
+};
+using Ports = PortsOf<double>;
+using DualPorts = PortsOf<Dual>;
+
+/// Derivatives of the wrenches (torques in world axes about the marker points) with respect to
+/// small motions and rates of the markers: per marker (dr, dpi), R_new = exp(skew(dpi)) R, and
+/// (v, w).
+struct EffortTangent {
+  MatX K;  ///< -d(wrenches)/d(motion)
+  MatX C;  ///< -d(wrenches)/d(rates)
+};
+
+/// Event function of the active branch of a law: see `branch_side`.
+struct BranchSide {
+  /// Continuous distance of the motion from the edge of the branch: positive beyond the edge.
+  double beyond = -1.0;
+  std::int64_t next = 0;  ///< the branch that follows across the nearest edge
+};
+
+/// `in.reference_angle`: the angle that results is within half a turn of it. `out` has room for the
+/// markers of the element.
+void evaluate_element(const Ports& in, Efforts& out) noexcept;
+
+/// The exact derivatives, by dual numbers. Allocates.
+EffortTangent exact_tangent(const Ports& in);
+/// With respect to the motion and rates of marker `moving`: directions (dr, dpi, v, w).
+void evaluate_element(const Ports& in, int moving, EffortsOf<Dual>& out) noexcept;
+
+/// Where the force of an element or its slope jumps - an edge of the road, contact, a corner of a
+/// law - the element changes from one branch of its law to another. Each branch is smooth and
+/// extends beyond its edges, so a step may end on the wrong side of an edge and be repeated up to
+/// it. Without a held branch: returns the branch of the present position in `next`.
+bool has_branches(const Element& element) noexcept;
+BranchSide branch_side(const Ports& in) noexcept;
+
+}  // namespace floatframe

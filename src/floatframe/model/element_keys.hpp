@@ -1,0 +1,176 @@
+#pragma once
+// The keys of a force element: their names in model files, and their members in a description.
+// Reader, validation, mirror and the table of the documentation use these tables. Load time
+// only.
+#include <array>
+#include <functional>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/description/description.hpp"
+
+namespace floatframe {
+
+enum class KeyKind {
+  place,             ///< {body, at} or {body, node}, also on the ground
+  own_place,         ///< `body`, and `at` or `node`, among the keys of the force; not on the ground
+  joint,             ///< the name of one
+  road,              ///< the name of one
+  direction,         ///< its length does not matter
+  vector,            ///< the same, but used as given
+  number,            ///< valid range as in `rule`
+  word,              ///< one of `words`
+  flag,              ///< true or false
+  spring,            ///< law of a displacement
+  damper,            ///< law of a rate
+  bump_stop,         ///< {length, stiffness}: a ramp below, added to the law `of` ...
+  rebound_stop,      ///< ... or above
+  load,              ///< signal, a force
+  target,            ///< signal, a displacement; its tables are smooth
+  target_rate,       ///< signal, a rate
+  stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
+  damping_matrix,    ///< the same of their rates
+  speed_table        ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
+};
+
+/// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of
+/// the joint given by the key `joint`.
+enum class ElementAxis { along, about, coordinate };
+
+struct AxisUnits {
+  const char *displacement, *rate, *force, *stiffness, *damping;
+};
+constexpr AxisUnits axis_units(bool turning) noexcept {
+  return turning ? AxisUnits{"rad", "rad/s", "N m", "N m/rad", "N m s/rad"}
+                 : AxisUnits{"m", "m/s", "N", "N/m", "N s/m"};
+}
+
+/// A value of a key: number, word by its place in the list of words, flag, name, direction, place,
+/// law, signal, matrix.
+using KeyValue = std::variant<double, int, bool, std::string, Vec3, AttachmentDescription,
+                              PiecewisePolynomial, SignalDescription, MatX>;
+
+/// A member of the struct of a type; none: a stop, which is part of its spring.
+struct KeyMember {
+  std::optional<KeyValue> (*read)(const ElementDescription&) = nullptr;
+  void (*write)(ElementDescription&, const KeyValue&) = nullptr;
+};
+
+struct ElementKey {
+  const char* name;
+  KeyKind kind;
+  const char* about;  ///< the documentation: a phrase in Markdown, without units
+  bool required = false;
+  ElementAxis axis = ElementAxis::along;
+  NumberRule rule = any_number("");
+  std::span<const char* const> words = {};
+  double fallback = 0.0;                           ///< number or index of the word without the key
+  std::array<double, 3> vector = {0.0, 0.0, 1.0};  ///< direction without the key
+  bool axial = false;                              ///< how a direction reflects
+  const char* of = nullptr;                        ///< of a stop: the key of the spring
+  KeyMember member = {};
+};
+
+namespace key_member {
+template <class T>
+struct Optional : std::false_type {};
+template <class T>
+struct Optional<std::optional<T>> : std::true_type {};
+
+template <class S, auto member>
+std::optional<KeyValue> read(const ElementDescription& f) {
+  const auto& x = std::get<S>(f.kind).*member;
+  using T = std::remove_cvref_t<decltype(x)>;
+  if constexpr (Optional<T>::value)
+    return x ? std::optional(KeyValue(*x)) : std::nullopt;
+  else if constexpr (std::is_enum_v<T>)
+    return KeyValue(static_cast<int>(x));
+  else
+    return KeyValue(x);
+}
+template <class S, auto member>
+void write(ElementDescription& f, const KeyValue& value) {
+  auto& x = std::get<S>(f.kind).*member;
+  using T = std::remove_cvref_t<decltype(x)>;
+  if constexpr (Optional<T>::value)
+    x = std::get<typename T::value_type>(value);
+  else if constexpr (std::is_enum_v<T>)
+    x = static_cast<T>(std::get<int>(value));
+  else
+    x = std::get<T>(value);
+}
+template <class S, class T>
+S owner(T S::*);
+}  // namespace key_member
+
+/// `.member = member<Tyre, &Tyre::radius>`, or `described_by<&Tyre::radius>`
+template <class S, auto m>
+inline constexpr KeyMember member = {key_member::read<S, m>, key_member::write<S, m>};
+template <auto m>
+inline constexpr KeyMember described_by = member<decltype(key_member::owner(m)), m>;
+
+/// A required point on a body.
+constexpr ElementKey place_key(const char* name, const char* about, KeyMember member = {}) {
+  return {.name = name, .kind = KeyKind::place, .about = about, .required = true, .member = member};
+}
+/// A law, a stop or a signal.
+constexpr ElementKey law_key(const char* name, KeyKind kind, const char* about,
+                             KeyMember member = {}, ElementAxis axis = ElementAxis::along) {
+  return {.name = name, .kind = kind, .about = about, .axis = axis, .member = member};
+}
+
+/// The keys of a type.
+std::span<const ElementKey> element_keys(ElementType type) noexcept;
+/// The value of a key; none: not given.
+std::optional<KeyValue> key_value(const ElementDescription& force, const ElementKey& key);
+void set_key_value(ElementDescription& force, const ElementKey& key, const KeyValue& value);
+
+/// The values of a description by key; missing values are the defaults.
+class ElementView {
+ public:
+  explicit ElementView(const ElementDescription& force) : force_(&force) {}
+  const ElementDescription& description() const { return *force_; }
+  const ElementKey& key(const std::string& name) const;
+  bool has(const std::string& name) const { return key_value(*force_, key(name)).has_value(); }
+
+  AttachmentDescription place(const std::string& name) const;
+  std::string text(const std::string& name) const;
+  Vec3 direction(const std::string& name) const;
+  double number(const std::string& name) const;
+  int word(const std::string& name) const;
+  bool flag(const std::string& name) const;
+  PiecewisePolynomial law(const std::string& name) const;
+  std::optional<SignalDescription> signal(const std::string& name) const;
+  MatX matrix(const std::string& name) const;  ///< 0 x 0: not given
+
+ private:
+  const ElementDescription* force_;
+};
+
+/// Checks of the values of a force in combination: called by the reader, with the words of its
+/// file, and by `validate`. Each value is valid by itself, or listed in `wrong`.
+struct ElementCheck : ElementView {
+  using ElementView::ElementView;
+  std::set<std::string> wrong;  ///< keys
+  bool from_file = false;       ///< places that name a node have its point
+  /// Adds a sentence about a key, or with "" about the force.
+  std::function<void(ErrorCode code, const std::string& key, const std::string& sentence)> error;
+  /// The full name of an entity as written by the user.
+  std::function<std::string(const std::string&)> written;
+  /// For a valid joint.
+  std::function<std::optional<JointType>(const std::string&)> joint_type;
+
+  /// The value is given and valid.
+  bool good(const std::string& key) const { return !wrong.contains(key) && has(key); }
+  /// The user has given a value; for a law or matrix in a struct: other than zero.
+  bool given(const std::string& key) const;
+  /// The points are on two bodies; true if so and both are valid.
+  bool two_bodies(const std::string& a, const std::string& b) const;
+  /// At least one of the laws, stops and actuators is given.
+  void some_law() const;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,285 @@
+// Dispatch of the elements: data for load time, direct calls for step time.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/model/element_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+#define FLOATFRAME_KIND(name, Keys) &name##_element,
+constexpr const ElementKind* element_list[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_KIND)};
+#undef FLOATFRAME_KIND
+
+/// Calls f<type> for the element's type: a chain of comparisons with direct calls, up to the match.
+template <std::size_t... I>
+void evaluate_of(std::index_sequence<I...>, const Ports& in, Efforts& out) noexcept {
+  (void)((in.element.type == static_cast<ElementType>(I) &&
+          (efforts_of<static_cast<ElementType>(I)>(in, out), true)) ||
+         ...);
+}
+
+using Types = std::make_index_sequence<std::size(element_types)>;
+
+bool is_law(const ElementKey& key) noexcept {
+  return key.kind == KeyKind::spring || key.kind == KeyKind::damper;
+}
+bool is_signal(const ElementKey& key) noexcept {
+  return key.kind == KeyKind::load || key.kind == KeyKind::target ||
+         key.kind == KeyKind::target_rate;
+}
+
+MarkerMotion<Dual> constant(const MarkerState& m) {
+  return {m.r.cast<Dual>(), m.R.cast<Dual>(), m.v.cast<Dual>(), m.w.cast<Dual>()};
+}
+
+/// With unit derivatives in the directions (dr, dpi, v, w).
+MarkerMotion<Dual> moving(const MarkerState& m) {
+  MarkerMotion<Dual> out = constant(m);
+  for (int c = 0; c < 3; ++c) {
+    out.r[c].d[c] = 1.0;
+    out.v[c].d[6 + c] = 1.0;
+    out.w[c].d[9 + c] = 1.0;
+    const Mat3 turned = skew(Vec3::Unit(c)) * m.R;
+    for (int k = 0; k < 9; ++k) out.R(k).d[3 + c] = turned(k);
+  }
+  return out;
+}
+
+}  // namespace
+
+const ElementKind& element_kind(ElementType type) noexcept { return *element_list[index_of(type)]; }
+
+EnergyCategory energy_category(ElementType type) noexcept { return element_kind(type).energy; }
+
+std::vector<ElementType> types_of(ElementList list) {
+  std::vector<ElementType> types;
+  for (const ElementType type : element_types)
+    if (element_kind(type).list == list) types.push_back(type);
+  return types;
+}
+
+bool is_bearing(ElementType type) noexcept { return element_kind(type).bears; }
+
+bool ends_at_half_turn(const Element& element) noexcept {
+  const auto ends = element_kind(element.type).ends_at_half_turn;
+  return ends != nullptr && ends(element);
+}
+
+bool element_has(ElementType type, ElementQuantity quantity) noexcept {
+  return quantity == ElementQuantity::force || element_kind(type).measured;
+}
+
+const char* element_output_unit(const Element& element, ElementQuantity quantity) noexcept {
+  if (!element_has(element.type, quantity)) return "";
+  const ElementAxis axis = element_kind(element.type).axis;
+  const AxisUnits units = axis_units(axis == ElementAxis::about ||
+                                     (axis == ElementAxis::coordinate && element.rotational));
+  const char* of[] = {units.force, units.displacement, units.rate};
+  return of[index_of(quantity)];
+}
+
+std::vector<ElementSignal> signals_of(const Element& element) {
+  std::vector<ElementSignal> out;
+  std::size_t port = 0;
+  for (const ElementKey& key : element_keys(element.type)) {
+    if (!is_signal(key)) continue;
+    const Signal& signal = element.signals[port++];
+    if (!signal.given) continue;
+    const ElementQuantity quantity = key.kind == KeyKind::load     ? ElementQuantity::force
+                                     : key.kind == KeyKind::target ? ElementQuantity::length
+                                                                   : ElementQuantity::rate;
+    std::string what = key.name;
+    std::replace(what.begin(), what.end(), '_', ' ');
+    out.push_back({&signal, std::move(what), key.kind != KeyKind::load,
+                   element_output_unit(element, quantity)});
+  }
+  return out;
+}
+
+const char* symbol_name(Picture::Symbol symbol) noexcept {
+  constexpr const char* names[] = {"none", "bar", "spring", "ring", "wheel", "force", "torque"};
+  return names[index_of(symbol)];
+}
+
+Picture picture_of(const Element& element) {
+  const auto picture = element_kind(element.type).picture;
+  return picture ? picture(element) : Picture();
+}
+
+bool is_wheel_of(const Model& model, const Element& element, int body) {
+  const Picture picture = picture_of(element);
+  return picture.symbol == Picture::Symbol::wheel && model.markers[picture.a].body == body;
+}
+
+const char* lifted_by(ElementType type) noexcept {
+  const char* lifted = element_kind(type).lifted;
+  return lifted ? lifted : "";
+}
+
+void lift(Element& element, const TimeFunction& height) {
+  element.signals.back() = {.function = height, .given = true};
+}
+
+void take_keys(Element& element, const Model& model) {
+  const ElementDescription d{element.name, *element.keys, {}};
+  const ElementView values(d);
+  element.type = d.type();
+  element.laws.clear();
+  element.signals.clear();
+  element.acts = element_kind(element.type).dual != nullptr;
+  element.holds = element_kind(element.type).rows != nullptr;
+  element.driven = element.target_jumps = false;
+  bool rate = false;
+  for (const ElementKey& key : element_keys(element.type)) {
+    if (is_law(key)) element.laws.push_back(values.law(key.name));
+    if (!is_signal(key)) continue;
+    const std::optional<SignalDescription> s = values.signal(key.name);
+    Signal signal;
+    signal.given = s.has_value();
+    if (s) {
+      signal.function = *s;
+      for (std::size_t k = 0; k < model.inputs.size(); ++k)
+        if (model.inputs[k].name == s->input) signal.input = static_cast<int>(k);
+    }
+    signal.differentiated = key.kind == KeyKind::target;
+    element.driven = element.driven || signal.given;
+    if (s && key.kind == KeyKind::target)
+      element.target_jumps = signal.input >= 0 || !s->pieces.breaks().empty();
+    rate = rate || (s && key.kind == KeyKind::target_rate);
+    element.signals.push_back(std::move(signal));
+  }
+  for (Signal& signal : element.signals)
+    signal.differentiated = signal.differentiated && signal.given && !rate;
+  if (element_kind(element.type).lifted) element.signals.emplace_back();
+}
+
+template <class S>
+PiecewisePolynomial::Value PortsOf<S>::given_signal(const Signal& signal) const noexcept {
+  PiecewisePolynomial::Value value = evaluate(signal.function, t);
+  if (signal.input >= 0) value.f += inputs[static_cast<std::size_t>(signal.input)];
+  return value;
+}
+template struct PortsOf<double>;
+template struct PortsOf<Dual>;
+
+void evaluate_element(const Ports& in, Efforts& out) noexcept {
+  assert(out.markers() == in.element.markers.size());
+  out.clear();
+  evaluate_of(Types{}, in, out);
+}
+
+void evaluate_element(const Ports& in, int moving_marker, EffortsOf<Dual>& out) noexcept {
+  const std::size_t n = in.element.markers.size();
+  std::vector<MarkerMotion<Dual>> motions;
+  std::vector<const MarkerMotion<Dual>*> markers;
+  for (std::size_t i = 0; i < n; ++i) {
+    const MarkerState& m = in.marker(static_cast<int>(i));
+    motions.push_back(static_cast<int>(i) == moving_marker ? moving(m) : constant(m));
+  }
+  for (const MarkerMotion<Dual>& m : motions) markers.push_back(&m);
+  out = EffortsOf<Dual>(n);
+  out.clear();
+  if (!in.element.acts) return;
+  element_kind(in.element.type)
+      .dual({in.model, in.element, markers.data(), in.origin, in.t, in.reference_angle, in.inputs,
+             in.branch},
+            out);
+}
+
+EffortTangent exact_tangent(const Ports& in) {
+  const auto n = static_cast<Eigen::Index>(in.element.markers.size());
+  EffortTangent out{MatX(6 * n, 6 * n), MatX(6 * n, 6 * n)};
+  EffortsOf<Dual> efforts;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    evaluate_element(in, static_cast<int>(j), efforts);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (int c = 0; c < 6; ++c) {
+        const WrenchOf<Dual>& w = efforts.wrench[static_cast<std::size_t>(i)];
+        const Dual& x = c < 3 ? w.F[c] : w.T[c - 3];
+        out.K.row(6 * i + c).segment<6>(6 * j) = -x.d.head<6>().matrix().transpose();
+        out.C.row(6 * i + c).segment<6>(6 * j) = -x.d.tail<6>().matrix().transpose();
+      }
+  }
+  return out;
+}
+
+bool has_branches(const Element& element) noexcept {
+  if (element_kind(element.type).side == nullptr) return false;
+  return element.road >= 0 ||
+         std::any_of(element.laws.begin(), element.laws.end(),
+                     [](const PiecewisePolynomial& law) { return !law.edges().empty(); });
+}
+
+BranchSide branch_side(const Ports& in) noexcept { return element_kind(in.element.type).side(in); }
+
+Mat3 element_axes(const ElementView& values) {
+  const Vec3 z = values.direction("axis").stableNormalized(),
+             v = values.direction("axis_2").stableNormalized();
+  Mat3 R;
+  R.col(2) = z;
+  R.col(0) = (v - z.dot(v) * z).normalized();
+  R.col(1) = z.cross(R.col(0));
+  return R;
+}
+
+void validate_framed(const ElementCheck& check) {
+  check.two_bodies("from", "to");
+  if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
+    if (const auto complaint =
+            sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
+      check.error(ErrorCode::geometry, "axis_2", *complaint);
+  check.some_law();
+}
+
+Picture picture_of_load(const Element& element, Picture::Symbol symbol, const AppliedLoad& load) {
+  const int at = element.markers[0];
+  return {.symbol = symbol, .a = at, .axis = load.direction, .axis_of = load.follows ? at : -1};
+}
+
+StretchSide stretch_side(const PiecewisePolynomial& f, std::size_t k, double x) noexcept {
+  const std::vector<double>& edges = f.edges();
+  constexpr double nowhere = -std::numeric_limits<double>::max();
+  k = std::min(k, edges.size());
+  const double left = k > 0 ? edges[k - 1] - x : nowhere;
+  const double right = k < edges.size() ? x - edges[k] : nowhere;
+  if (left > right) return {left, k - 1};
+  return {right, std::min(k + 1, edges.size())};
+}
+
+BranchSide spring_side(const Ports& in, double x, double rate) noexcept {
+  const PiecewisePolynomial &spring = in.element.laws[0], &damper = in.element.laws[1];
+  if (in.branch == free_branch)
+    return {-1.0, SpringBranch::of(spring.stretch_index(x), damper.stretch_index(rate))};
+  const SpringBranch held{in.branch};
+  const StretchSide s = stretch_side(spring, held.spring(), x);
+  const StretchSide d = stretch_side(damper, held.damper(), rate);
+  if (s.beyond > d.beyond) return {s.beyond, SpringBranch::of(s.next, held.damper())};
+  return {d.beyond, SpringBranch::of(held.spring(), d.next)};
+}
+
+SignalDescription ElementExample::signal(ExampleNumbers& numbers) {
+  SignalDescription s;
+  s.pieces = PiecewisePolynomial::polynomial({numbers(-5.0, 5.0), numbers(1.0, 3.0)});
+  s.amplitude = numbers(1.0, 3.0);
+  s.frequency = 2.0;
+  s.input = "u" + std::to_string(inputs.size());
+  model.inputs.emplace_back().name = s.input;
+  inputs.push_back(numbers(-50.0, 50.0));
+  return s;
+}
+
+PiecewisePolynomial example_spring(ExampleNumbers& numbers) {
+  return PiecewisePolynomial::polynomial(
+      {numbers(-80.0, 80.0), numbers(100.0, 400.0), numbers(-60.0, 60.0), numbers(10.0, 90.0)});
+}
+
+PiecewisePolynomial example_damper(ExampleNumbers& numbers) {
+  return PiecewisePolynomial::polynomial({0.0, numbers(10.0, 50.0), numbers(-4.0, 4.0), 1.5});
+}
+
+}  // namespace floatframe

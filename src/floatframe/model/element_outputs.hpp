@@ -1,0 +1,70 @@
+#pragma once
+// Result quantities of an element, their units, and the category of its energy.
+#include <string>
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+/// The scalar force or torque, its measure (length, deflection, angle) and the rate of that.
+enum class ElementQuantity { force, length, rate };
+
+/// "N", "rad/s", ...; empty if elements of its type have no such quantity.
+const char* element_output_unit(const Element& element, ElementQuantity quantity) noexcept;
+/// Prescribed loads have no length and no rate.
+bool element_has(ElementType type, ElementQuantity quantity) noexcept;
+
+/// Category of the energy that an element exchanges (simulation/energy_balance.hpp).
+enum class EnergyCategory {
+  springs,  ///< it keeps Efforts::energy (zero if it only damps); Efforts::damping is of
+            ///< dampers, the rest of actuators and targets
+  tyres,    ///< the same, but its energy may jump
+  loads     ///< it stores no energy
+};
+EnergyCategory energy_category(ElementType type) noexcept;
+
+/// A law of the element is one of a rotation vector, which jumps at half a turn.
+bool ends_at_half_turn(const Element& element) noexcept;
+
+/// One signal of an element, for messages and for what looks for corners in time.
+struct ElementSignal {
+  const Signal* signal;
+  std::string what;  ///< "actuator", "target rate", ...: the name of its key
+  bool target;       ///< it is followed; else it is a force
+  const char* unit;
+};
+/// Those that are given.
+std::vector<ElementSignal> signals_of(const Element& element);
+
+/// How an element is drawn. Axes and anchors are those of its markers.
+struct Picture {
+  enum class Symbol {
+    none,
+    bar,     ///< a straight line between two anchors
+    spring,  ///< a coil about a telescope between two anchors
+    ring,    ///< an elastic connection at one place, about its axis
+    wheel,   ///< a cylinder about its axis, and an arrow of its force upwards
+    force,   ///< an arrow along its axis
+    torque   ///< an arrow with two heads
+  } symbol = Symbol::none;
+  int a = -1, b = -1;                ///< markers of the anchors; -1: there is no second
+  Vec3 axis = Vec3::Zero();          ///< in the axes of marker `axis_of`; zero: none
+  int axis_of = -1;                  ///< -1: the world
+  double radius = 0.0, width = 0.0;  ///< of a wheel [m]
+};
+const char* symbol_name(Picture::Symbol symbol) noexcept;
+Picture picture_of(const Element& element);
+/// It is drawn as a wheel on this body.
+bool is_wheel_of(const Model& model, const Element& element, int body);
+
+/// What stands under the element and can be moved, as an input of linear systems: "road"; empty if
+/// nothing. `lift` moves it.
+const char* lifted_by(ElementType type) noexcept;
+/// Lifts it by a function of time [m].
+void lift(Element& element, const TimeFunction& height);
+
+/// It keeps an axis, z of its markers, about which one side may turn without end.
+bool is_bearing(ElementType type) noexcept;
+
+}  // namespace floatframe

@@ -1,0 +1,171 @@
+// Spring on the coordinate of a prismatic or revolute joint, z the axis of marker a:
+// f = spring(s - target) + damper(sdot - rate of the target) - actuator, and -f acts on the
+// coordinate; with a target it is a motor.
+//   along   s = z.d (axis_measure.hpp), Q = -f g
+//   about   s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
+//           sdot = z.(w_b - w_a)
+// The markers of a hinge share the axis. Where they do not (cut joints before they close) the
+// torque stays along z. The row of the step contains f_s g g^T and the damping f_sdot g g^T.
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/model/axis_measure.hpp"
+#include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
+
+namespace floatframe {
+
+namespace {
+
+template <class S>
+AxisMeasure<S> coordinate(const PortsOf<S>& in) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const auto &a = in.marker(0), &b = in.marker(1);
+  const V z = a.R.col(2);
+  if (!in.element.rotational) return axis_measure(z, a, b);
+  using std::atan2;
+  const V x = b.R.col(0);
+  const S angle = atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0))));
+  const double near = std::remainder(value_of(angle) - in.reference_angle, 2.0 * std::numbers::pi);
+  const V zero = V::Zero();
+  return {
+      chained(in.reference_angle + near, 1.0, angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
+}
+
+/// Ports of its signals.
+constexpr std::size_t actuator = 0, target = 1, target_rate = 2;
+
+/// What spring and damper are laws of: they act towards the target.
+template <class S>
+struct Toward {
+  S stretch;     ///< s - target
+  S rate;        ///< sdot - rate of the target
+  double moves;  ///< rate of the target in the present motion: an input is constant in a step
+};
+
+template <class S>
+Toward<S> toward_target(const PortsOf<S>& in, const AxisMeasure<S>& m) noexcept {
+  const PiecewisePolynomial::Value at = in.signal(target);
+  const double rate = in.element.signals[target_rate].given ? in.signal(target_rate).f : at.df;
+  return {m.s - at.f, m.rate - rate, at.df};
+}
+
+template <class S>
+void joint_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  const AxisMeasure<S> m = coordinate(in);
+  const Toward<S> x = toward_target(in, m);
+  const LawValue<S> s = spring_of(in, x.stretch), c = damper_of(in, x.rate);
+  out.length = m.s;
+  out.rate = m.rate;
+  out.force = s.f + c.f - in.signal(actuator).f;
+  out.set_pair(-out.force, m.g);
+  out.add_pair_row(m.g, s.df, c.df);
+  out.energy = energy_of(in.element.laws[0], x.stretch);
+  out.energy_rate = s.f * (m.rate - x.moves);
+  out.damping = c.f * x.rate;
+}
+
+BranchSide joint_spring_side(const Ports& in) noexcept {
+  const Toward<double> x = toward_target(in, coordinate(in));
+  return spring_side(in, x.stretch, x.rate);
+}
+
+}  // namespace
+
+FLOATFRAME_LAW(joint_spring)
+
+namespace {
+
+constexpr const char* turning_joint_axis = "the turning of the axis with its body";
+constexpr ElementRegime joint_spring_regimes[] = {
+    {.name = "along", .rows_leave_out = turning_joint_axis},
+    {.name = "about", .rows_leave_out = turning_joint_axis},
+    {.name = "about_after_turns", .rows_leave_out = turning_joint_axis},
+    {.name = "motor_along", .rows_leave_out = turning_joint_axis, .conservative = false},
+    {.name = "motor_about", .rows_leave_out = turning_joint_axis, .conservative = false}};
+
+ElementExample joint_spring_example(std::size_t regime, ExampleNumbers& numbers) {
+  ElementExample x;
+  JointSpring f;
+  f.spring = example_spring(numbers);
+  f.damper = example_damper(numbers);
+  const bool turns = regime == 1 || regime == 2 || regime == 4;
+  const MarkerState a = numbers.marker();
+  x.markers = {a, turns ? numbers.marker_on_axis(a) : numbers.marker()};
+  if (regime >= 3) {
+    f.actuator = x.signal(numbers);
+    f.target = x.signal(numbers);
+    f.target->pieces = PiecewisePolynomial::polynomial({0.1, numbers(-1.0, 1.0)});
+    f.target->amplitude = 0.0;
+    f.target_rate = x.signal(numbers);
+    x.inputs[1] *= 0.01;
+    x.t = numbers(0.0, 1.0);
+  }
+  x.keys(f);
+  x.element.rotational = turns;
+  if (regime == 2) x.reference_angle = 6.0 * std::numbers::pi;
+  return x;
+}
+
+constexpr ElementAxis on_q = ElementAxis::coordinate;
+constexpr ElementKey joint_spring_keys[] = {
+    {.name = "joint",
+     .kind = KeyKind::joint,
+     .about = "one with one coordinate q",
+     .required = true,
+     .member = described_by<&JointSpring::joint>},
+    law_key("spring", KeyKind::spring, "of q - target", described_by<&JointSpring::spring>, on_q),
+    law_key("damper", KeyKind::damper, "of q̇ - rate of the target",
+            described_by<&JointSpring::damper>, on_q),
+    law_key("actuator", KeyKind::load, "added to the force on q, which it raises",
+            described_by<&JointSpring::actuator>, on_q),
+    law_key("target", KeyKind::target, "the place that `spring` pulls to",
+            described_by<&JointSpring::target>, on_q),
+    law_key("target_rate", KeyKind::target_rate, "the rate that `damper` pulls to",
+            described_by<&JointSpring::target_rate>, on_q)};
+
+void joint_spring_validate(const ElementCheck& check) {
+  if (check.good("joint")) {
+    const std::string joint = check.text("joint");
+    const auto type = check.joint_type(joint);
+    if (type && !joint_has_one_coordinate(*type))
+      check.error(ErrorCode::wrong_value, "joint",
+                  "found '" + check.written(joint) + "', expected a " + joints_of_one_coordinate() +
+                      " joint");
+  }
+  if (!check.given("target") && !check.given("target_rate")) check.some_law();
+  if (check.given("spring") || check.given("damper")) return;
+  for (const char* key : {"target", "target_rate"})
+    if (check.given(key)) check.error(ErrorCode::incomplete, key, sentences::target_without_law());
+}
+
+bool joint_spring_build(ElementBuild& b) {
+  const Joint* joint = b.connect_joint("joint");
+  if (!joint) return false;
+  b.element.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
+  return true;
+}
+
+Picture joint_spring_picture(const Element& element) {
+  return {.symbol = Picture::Symbol::ring, .a = element.markers[0], .b = element.markers[1]};
+}
+
+}  // namespace
+
+constinit const ElementKind joint_spring_element = {
+    .about =
+        "spring, damper and motor on the coordinate of a joint: the force on it is actuator - "
+        "spring(q - target) - damper(q̇ - rate)",
+    .keys = joint_spring_keys,
+    .axis = ElementAxis::coordinate,
+    .blank = [] { return ElementKeys(JointSpring()); },
+    .validate = joint_spring_validate,
+    .build = joint_spring_build,
+    .dual = joint_spring_law<Dual>,
+    .side = joint_spring_side,
+    .picture = joint_spring_picture,
+    .regimes = joint_spring_regimes,
+    .example = joint_spring_example};
+
+}  // namespace floatframe

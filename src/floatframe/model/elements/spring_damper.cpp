@@ -1,0 +1,139 @@
+// Spring and damper along the line between two points: s = |d|, d = r_b - r_a, n = d/s,
+// f = spring(s) + damper(sdot) + actuator.
+//   wrench       f n on a, -f n on b
+//   rows         f_s n n^T + f/s (I - n n^T) and the damping f_sdot n n^T, between the points
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/model/element_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// Points closer than this define no line: the force keeps the direction x, and the tangent only
+/// contains the slope of the law [m].
+constexpr double coincident = 1e-12;
+
+template <class S>
+struct Line {
+  Eigen::Matrix<S, 3, 1> n;
+  S length, rate;
+};
+
+template <class S>
+Line<S> line_between(const PortsOf<S>& in) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const auto &a = in.marker(0), &b = in.marker(1);
+  const V d = b.r - a.r;
+  S length = value_of(d.squaredNorm()) > 0.0 ? S(d.norm()) : d.x();
+  const V n = length > coincident ? V(d / length) : V(V::UnitX());
+  const S rate = n.dot(b.v - a.v);
+  return {n, length, rate};
+}
+
+template <class S>
+void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const auto [n, length, rate] = line_between(in);
+  const LawValue<S> s = spring_of(in, length), c = damper_of(in, rate);
+  const V zero = V::Zero();
+  out.length = length;
+  out.rate = rate;
+  out.force = s.f + c.f + in.signal(0).f;
+  const V pull = out.force * n;
+  out.wrench[0] = {pull, zero};
+  out.wrench[1] = {-pull, zero};
+  out.add_pair_row({{-n, zero}, {n, zero}}, s.df, c.df);
+  if constexpr (std::is_same_v<S, double>)
+    if (length > coincident) {
+      Vec3 t1, t2;
+      orthonormal_complement(n, t1, t2);
+      const double k = out.force / length;
+      out.add_pair_row({{-t1, zero}, {t1, zero}}, k, 0.0);
+      out.add_pair_row({{-t2, zero}, {t2, zero}}, k, 0.0);
+    }
+  out.energy = energy_of(in.element.laws[0], length);
+  out.energy_rate = s.f * rate;
+  out.damping = c.f * rate;
+}
+
+}  // namespace
+
+FLOATFRAME_LAW(spring_damper)
+
+namespace {
+
+BranchSide spring_damper_side(const Ports& in) noexcept {
+  const auto [n, length, rate] = line_between(in);
+  return spring_side(in, length, rate);
+}
+
+constexpr ElementRegime spring_damper_regimes[] = {{.name = "anywhere"},
+                                                   {.name = "short"},
+                                                   {.name = "points_coincide", .regular = false},
+                                                   {.name = "actuated", .conservative = false}};
+
+ElementExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers) {
+  ElementExample x;
+  SpringDamper f;
+  f.spring = example_spring(numbers);
+  f.damper = example_damper(numbers);
+  MarkerState a = numbers.marker(), b = numbers.marker();
+  if (regime == 1) b.r = a.r + 0.1 * numbers.direction();
+  if (regime == 2) b.r = a.r;
+  if (regime == 3) f.actuator = x.signal(numbers);
+  x.markers = {a, b};
+  x.keys(f);
+  return x;
+}
+
+constexpr ElementKey spring_damper_keys[] = {
+    place_key("from", "one end", described_by<&SpringDamper::a>),
+    place_key("to", "the other end", described_by<&SpringDamper::b>),
+    law_key("spring", KeyKind::spring, "of the length", described_by<&SpringDamper::spring>),
+    law_key("damper", KeyKind::damper, "of the rate of the length",
+            described_by<&SpringDamper::damper>),
+    bump_stop_key,
+    rebound_stop_key,
+    law_key("actuator", KeyKind::load, "tension added to both",
+            described_by<&SpringDamper::actuator>)};
+
+double distance_in_design(const ElementView& values, const ElementKey&) {
+  return (values.place("from").point - values.place("to").point).norm();
+}
+
+void spring_damper_validate(const ElementCheck& check) {
+  if (check.two_bodies("from", "to")) {
+    const AttachmentDescription a = check.place("from"), b = check.place("to");
+    if (check.from_file || (!a.node && !b.node))
+      if (const auto complaint = sentences::spring_ends(a.point, b.point))
+        check.error(ErrorCode::out_of_range, "", *complaint);
+  }
+  check.some_law();
+}
+
+bool spring_damper_build(ElementBuild& b) {
+  const bool from = b.connect("from", false), to = b.connect("to", false);
+  return from && to;
+}
+
+Picture spring_damper_picture(const Element& element) {
+  return {.symbol = Picture::Symbol::spring, .a = element.markers[0], .b = element.markers[1]};
+}
+
+}  // namespace
+
+constinit const ElementKind spring_damper_element = {
+    .about = "spring and damper along the line between two points; tension is positive",
+    .keys = spring_damper_keys,
+    .blank = [] { return ElementKeys(SpringDamper()); },
+    .free_value = distance_in_design,
+    .validate = spring_damper_validate,
+    .build = spring_damper_build,
+    .along_line = true,
+    .dual = spring_damper_law<Dual>,
+    .side = spring_damper_side,
+    .picture = spring_damper_picture,
+    .regimes = spring_damper_regimes,
+    .example = spring_damper_example};
+
+}  // namespace floatframe

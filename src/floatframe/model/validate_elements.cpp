@@ -1,0 +1,132 @@
+// Force elements, by the tables of their keys and the checks of their types, and roads.
+#include <algorithm>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/validate_model.hpp"
+
+namespace floatframe::validation {
+
+namespace {
+
+struct ElementValidation {
+  const ModelDescription& d;
+  const Names& names;
+  const Entity& entity;
+  const ElementDescription& force;
+
+  /// True if the value itself is valid.
+  bool value(const ElementKey& key) const {
+    using K = KeyKind;
+    const auto x = key_value(force, key);
+    if (!x) {
+      if (key.required)
+        entity.error(ErrorCode::missing, std::string("missing key '") + key.name + "'");
+      return !key.required;
+    }
+    const std::size_t before = entity.errors.size();
+    switch (key.kind) {
+      case K::place:
+        entity.place(key.name, std::get<AttachmentDescription>(*x), names);
+        break;
+      case K::own_place:
+        entity.place("", std::get<AttachmentDescription>(*x), names, false);
+        break;
+      case K::joint:
+        entity.reference(key.name, "joint", std::get<std::string>(*x), names.joints);
+        break;
+      case K::road:
+        entity.reference(key.name, "road", std::get<std::string>(*x), names.roads);
+        break;
+      case K::direction:
+      case K::vector:
+        entity.direction(key.name, std::get<Vec3>(*x));
+        break;
+      case K::number:
+        entity.number(key.name, std::get<double>(*x), key.rule);
+        break;
+      case K::word:
+        entity.complain(ErrorCode::out_of_range, key.name,
+                        word_complaint(std::get<int>(*x), key.words));
+        break;
+      case K::spring:
+      case K::damper:
+        entity.pieces(key.name, std::get<PiecewisePolynomial>(*x));
+        break;
+      case K::stiffness_matrix:
+      case K::damping_matrix:
+        if (std::get<MatX>(*x).size() == 0) break;
+        entity.complain(ErrorCode::wrong_value, key.name,
+                        sentences::force_matrix(std::get<MatX>(*x)));
+        break;
+      case K::speed_table:
+        if (std::get<MatX>(*x).size() == 0) break;
+        entity.complain(ErrorCode::wrong_value, key.name,
+                        sentences::speed_table(std::get<MatX>(*x)));
+        break;
+      case K::load:
+      case K::target:
+      case K::target_rate:
+        entity.signal(key.name, std::get<SignalDescription>(*x), names);
+        break;
+      case K::flag:
+      case K::bump_stop:
+      case K::rebound_stop:
+        break;
+    }
+    return entity.errors.size() == before;
+  }
+
+  void all() const {
+    ElementCheck check(force);
+    for (const ElementKey& key : element_keys(force.type()))
+      if (!value(key)) check.wrong.insert(key.name);
+    check.from_file = !force.origin.mark.file.empty();
+    check.error = [&](ErrorCode code, const std::string& key, const std::string& sentence) {
+      key.empty() ? entity.error(code, sentence) : entity.error(code, key, sentence);
+    };
+    check.written = [](const std::string& name) { return name; };
+    check.joint_type = [&](const std::string& joint) -> std::optional<JointType> {
+      const auto k = names.joints.find(joint);
+      return k ? std::optional(d.joints[*k].type) : std::nullopt;
+    };
+    if (const auto validate = element_kind(force.type()).validate) validate(check);
+  }
+};
+
+}  // namespace
+
+void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
+  for (const ElementList list : {ElementList::rods, ElementList::forces}) {
+    const std::string section = element_list_name(list);
+    std::set<std::string> taken;
+    for (const ElementDescription& e : d.elements(list)) {
+      const Entity entity{errors, e.origin, section + "." + e.name};
+      name(section.c_str(), e.name, taken, entity);
+      if (element_kind(e.type()).list != list)
+        entity.error(ErrorCode::wrong_value, "type",
+                     sentences::element_of_another_list(element_type_name(e.type())));
+      else
+        ElementValidation{d, names, entity, e}.all();
+    }
+  }
+}
+
+void roads(const ModelDescription& d, ErrorList& errors) {
+  std::set<std::string> taken;
+  for (const RoadDescription& r : d.roads) {
+    const Entity entity{errors, r.origin, "roads." + r.name};
+    name("roads", r.name, taken, entity);
+    entity.pieces("profile", r.pieces, true);
+    for (std::size_t i = 0; i < r.bumps.size(); ++i) {
+      const std::string bump = "bumps[" + std::to_string(i + 1) + "].";
+      entity.number(bump + "start", r.bumps[i].start, any_number("m"));
+      entity.number(bump + "length", r.bumps[i].length, rules::bump_length);
+      entity.number(bump + "height", r.bumps[i].height, any_number("m"));
+    }
+  }
+}
+
+}  // namespace floatframe::validation

@@ -1,0 +1,31 @@
+#pragma once
+// The part of K and C (linearization.hpp) that comes from the efforts of elements, exact: with J_i
+// the motion of marker i per increment of the coordinates, w its wrench and k, c the derivatives of
+// the law (`exact_tangent`),
+//   C = sum J^T c J,   K = sum J^T (k J + c V),   V = d(velocities of the markers)/dx.          (1)
+// What is left of K, the change of J under constant wrenches, is a smooth function: differences
+// while the efforts are held. (1) is dense: where it would take longer than the differences of
+// everything, these are taken. Allocates: load time only.
+#include "floatframe/formulation/formulation.hpp"
+#include "floatframe/integrator/step.hpp"
+
+namespace floatframe {
+
+class ElementTangents {
+ public:
+  /// At t, q, v of the state, where `f` is afterwards with its efforts held until the end of this
+  /// object. `reach`: sizes of the increments of the differences that follow. If an element passes
+  /// an edge of its law within them, it has no one slope: nothing is held, and K and C are zero.
+  /// The same for large models.
+  ElementTangents(Formulation& f, const State& s, const VecX& reach);
+  ~ElementTangents() { f_.hold_efforts(false); }
+  ElementTangents(const ElementTangents&) = delete;
+  ElementTangents& operator=(const ElementTangents&) = delete;
+
+  MatX K, C;  ///< nv x nv; parts of dr/dx and dr/dv
+
+ private:
+  Formulation& f_;
+};
+
+}  // namespace floatframe
