@@ -84,14 +84,13 @@ void bearing_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   if constexpr (std::is_same_v<S, double>)
     for (int i = 0; i < 6; ++i) {
       Wrench* row = out.add_row(corner.rows->k[i], corner.rows->c[i]);
-      row[0] = row[1] = {Vec3::Zero(), Vec3::Zero()};
-      for (int j = 0; j < 6; ++j) {
-        const double t = corner.rows->T(j, i);
-        row[0].F += t * x.m[j].g.a.F;
-        row[0].T += t * x.m[j].g.a.T;
-        row[1].F += t * x.m[j].g.b.F;
-        row[1].T += t * x.m[j].g.b.T;
-      }
+      const Mat6& T = corner.rows->T;
+      const auto& m = x.m;  // displacements push at the points, tilts and spin only turn
+      row[0].F = T(0, i) * m[0].g.a.F + T(1, i) * m[1].g.a.F + T(2, i) * m[2].g.a.F;
+      row[0].T = T(0, i) * m[0].g.a.T + T(1, i) * m[1].g.a.T + T(2, i) * m[2].g.a.T +
+                 T(3, i) * m[3].g.a.T + T(4, i) * m[4].g.a.T + T(5, i) * m[5].g.a.T;
+      row[1].F = -row[0].F;
+      row[1].T = T(3, i) * m[3].g.b.T + T(4, i) * m[4].g.b.T + T(5, i) * m[5].g.b.T;
     }
   const V force(f[0], f[1], f[2]), s(x.s[0], x.s[1], x.s[2]);
   out.force = force.norm();
