@@ -57,7 +57,7 @@ class Formulation {
   void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
     element_set_.hold_branch(force, branch);
   }
-  /// What an element acts on at the present positions and velocities; valid until the next call.
+  /// What an element acts on at the present positions and velocities.
   virtual Ports ports(std::size_t element) const noexcept = 0;
   BranchSide branch_side(std::size_t element) const noexcept {
     return floatframe::branch_side(ports(element));

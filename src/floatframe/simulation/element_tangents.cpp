@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "floatframe/model/element_keys.hpp"
 #include "floatframe/simulation/small_motions.hpp"
 
 namespace floatframe {
@@ -9,6 +10,17 @@ namespace {
 
 /// Products of numbers in (1) that take a second or two.
 constexpr double most_products = 4e9;
+
+/// Of an element without branches: a law or a table with corners.
+bool has_corners(const Element& e) {
+  for (const PiecewisePolynomial& law : e.laws)
+    if (!law.edges().empty()) return true;
+  const ElementDescription described{e.name, *e.keys, {}};
+  for (const ElementKey& key : element_keys(e.type))
+    if (key.kind == KeyKind::speed_table && ElementView(described).matrix(key.name).size() > 0)
+      return true;
+  return false;
+}
 
 /// The law is smooth wherever the differences go.
 class Smooth {
@@ -21,8 +33,7 @@ class Smooth {
         watched_.push_back(k);
         branches_.push_back(branch(k));
       } else {
-        for (const PiecewisePolynomial& law : elements[k].laws)
-          unknown_ = unknown_ || !law.edges().empty();
+        unknown_ = unknown_ || has_corners(elements[k]);
       }
     }
   }
