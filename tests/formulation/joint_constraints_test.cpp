@@ -187,8 +187,7 @@ TEST_P(JointConstraints, JacobianAnnihilatesTheMotionSubspace) {
     while (k > 0 && absolute_.constraint_set().offset(k - 1) > i) --k;
     if (k > 0) {
       const ConstraintOwner& owner = absolute_.constraint_set().parts()[k - 1].owner;
-      const bool in_tree = owner.kind == ConstraintOwner::Kind::joint &&
-                           relative_.tree().body_of_joint(owner.index) >= 0;
+      const bool in_tree = owner.joint >= 0 && relative_.tree().body_of_joint(owner.joint) >= 0;
       if (!in_tree) continue;
     }
     ++checked;

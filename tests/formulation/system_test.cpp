@@ -201,8 +201,8 @@ TEST_P(TwoFormulations, MassAndResidualAgree) {
       const ConstraintPart& p = relative.constraint_set().parts()[k];
       for (std::size_t l = 0; l < absolute.constraint_set().parts().size(); ++l) {
         const ConstraintPart& o = absolute.constraint_set().parts()[l];
-        if (o.owner.kind == p.owner.kind && o.owner.index == p.owner.index && o.type == p.type &&
-            o.e_a == p.e_a && o.n_b == p.n_b)
+        if (o.owner.joint == p.owner.joint && o.owner.element == p.owner.element &&
+            o.type == p.type && o.e_a == p.e_a && o.n_b == p.n_b)
           lambda_abs.segment(absolute.constraint_set().offset(l), o.rows()) =
               lambda.segment(relative.constraint_set().offset(k), p.rows());
       }

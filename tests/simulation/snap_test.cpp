@@ -198,6 +198,28 @@ TEST(Snap, ADoorWithTwoHinges) {
   EXPECT_EQ(freedoms(ball), (std::array<int, 2>{1, 0}));
 }
 
+TEST(Snap, TwoCranksCoupledByParallelRods) {
+  const Vec3 across(1, 0, 0), high(0, 0.2, 0.3), low(0.15, -0.1, -0.3);
+  const auto rod = [&](const char* name, const Vec3& p) {
+    return fmt::format("  {}: {{from: {{body: a, at: {}}}, to: {{body: b, at: {}}}}}\n", name,
+                       triple(p), triple(p + across));
+  };
+  const std::string cranks = "bodies:\n" + body_text("a", Vec3::Zero()) + body_text("b", across) +
+                             "joints:\n" +
+                             joint_text("A", "revolute", "ground", "a", Vec3::Zero(), {0, 0, 1},
+                                        ", motion: {polynomial: [0, 1]}") +
+                             joint_text("B", "revolute", "ground", "b", across, {0, 1e-3, 1}) +
+                             "rods:\n" + rod("high", high) + rod("low", low);
+  const Model model = model_of(cranks);
+  EXPECT_EQ(model.hints.notes.size(), 1U);
+  EXPECT_TRUE(model.hints.locked.empty());
+  // The motion drives the exact axis, and is at its end after one second.
+  const RunResult r = completed_run(model_of(
+      cranks + "outputs: {b: {joint_position: B}}\nsimulation: {step: 0.01, duration: 1}\n"));
+  EXPECT_NEAR(r.table.data.back(), 1.0, 1e-9);
+  EXPECT_FALSE(model_of(cranks + "snap: false\n").hints.locked.empty());
+}
+
 TEST(Snap, ASphericalLinkage) {
   const Vec3 a(1, 0, 0), b = Vec3(1, 0.3, 0.2).normalized(), c = Vec3(0.6, 1, 0.5).normalized(),
                          d = Vec3(0, 1, 0.1).normalized();

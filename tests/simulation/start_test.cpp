@@ -29,7 +29,7 @@ struct AbsoluteStart {
       const ConstraintPart& p = f.constraint_set().parts()[k];
       ConstraintRow rows[3];
       evaluate_constraint(p, f.marker(p.a), f.marker(p.b), 0.0, rows);
-      if (p.owner.kind != ConstraintOwner::Kind::joint || p.owner.index != joint) continue;
+      if (p.owner.joint != joint) continue;
       for (int r = 0; r < p.rows(); ++r) {
         const double lambda = state.lambda[f.constraint_set().offset(k) + r];
         sum.head<3>() -= lambda * rows[r].gradient.b.F;

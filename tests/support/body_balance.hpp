@@ -68,7 +68,7 @@ inline BodyBalance body_balance(const Formulation& f, const Reactions& reactions
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     between(model.joints[j].frame_F, model.joints[j].frame_M, reactions.joints[j]);
   for (std::size_t k = 0; k < model.elements.size(); ++k)
-    if (const Element& e = model.elements[k]; e.holds)
+    if (const Element& e = model.elements[k]; e.links())
       between(e.markers[0], e.markers[1], reactions.elements[k]);
   // The largest displacement of a mode is what a force does to it at most.
   const auto shape_size = [&](std::size_t body, Eigen::Index mode) {

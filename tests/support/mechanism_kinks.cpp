@@ -47,8 +47,6 @@ double steps_on_kinks(const Model& model, double steps) {
     for (const double at : f.pieces.breaks())
       if (at > 0.0 && at < end) kinks.push_back(at);
   };
-  for (const Joint& j : model.joints)
-    if (j.motion) add(*j.motion);
   for (const Element& f : model.elements)
     for (const Signal& signal : f.signals) add(signal.function);
   double best = steps;

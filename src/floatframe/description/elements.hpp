@@ -109,6 +109,12 @@ struct Rod {
   std::optional<double> length;  ///< [m]; as drawn if absent
 };
 
+/// Prescribes the only coordinate of a joint [m or rad]: the key `motion` of joints.
+struct PrescribedMotion {
+  std::string joint;
+  SignalDescription motion;
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -119,7 +125,8 @@ struct Rod {
   entry(force, AppliedForce)            \
   entry(torque, AppliedTorque)          \
   entry(bearing, Bearing)               \
-  entry(rod, Rod)
+  entry(rod, Rod)                       \
+  entry(motion, PrescribedMotion)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,
@@ -139,10 +146,12 @@ constexpr const char* element_type_name(ElementType type) noexcept {
   return element_words[index_of(type)];
 }
 
-/// The lists of a description, sections of model files: each has names of its own.
-enum class ElementList { forces, rods };
+/// The lists of a description, each with names of its own. Motions are described with their joints.
+enum class ElementList { forces, rods, motions };
+/// The section of model files.
 constexpr const char* element_list_name(ElementList list) noexcept {
-  return list == ElementList::rods ? "rods" : "forces";
+  constexpr const char* names[] = {"forces", "rods", "joints"};
+  return names[index_of(list)];
 }
 
 template <class, class... Keys>

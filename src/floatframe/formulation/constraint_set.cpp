@@ -8,8 +8,6 @@ ConstraintSet::ConstraintSet(const Model& model, std::span<const int> joints) : 
   for (const int j : joints) append_joint_parts(model, j, parts_);
   for (std::size_t k = 0; k < model.elements.size(); ++k)
     append_element_parts(model, static_cast<int>(k), parts_);
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    append_motion_parts(model, static_cast<int>(j), parts_);
 }
 
 void ConstraintSet::number_rows(int first) {

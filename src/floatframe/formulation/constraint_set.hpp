@@ -1,6 +1,6 @@
 #pragma once
-// Constraints between markers that a formulation enforces with multipliers: parts of joints,
-// elements and prescribed motions (model/constraint_part.hpp), numbered row by row,
+// Constraints between markers that a formulation enforces with multipliers: parts of joints and
+// elements (model/constraint_part.hpp), numbered row by row,
 //   Phi_i(q, t) = 0,
 //   Phidot_i  = F_a.v_a + T_a.w_a + F_b.v_b + T_b.w_b + dPhi/dt                     (1)
 //   Phiddot_i = F_a.a_a + T_a.alpha_a + F_b.a_b + T_b.alpha_b + quad + d2Phi/dt2    (2)
@@ -25,7 +25,7 @@ namespace floatframe {
 
 class ConstraintSet {
  public:
-  /// Parts of these joints, then of all elements, then of all prescribed motions. Allocates.
+  /// Parts of these joints, then of all elements. Allocates.
   ConstraintSet(const Model& model, std::span<const int> joints);
   /// Numbers the rows, starting at `first`. Allocates.
   void number_rows(int first);

@@ -32,14 +32,12 @@ void ElementSet::count_turns_from(const Model& values, double t) noexcept {
   for (std::size_t k = 0; k < model_.elements.size(); ++k) {
     const Element& e = model_.elements[k];
     angles_[k] = 0.0;
-    if (!e.rotational) continue;
-    for (const Joint& joint : values.joints) {
-      if (joint.frame_F != e.markers[0] || joint.frame_M != e.markers[1]) continue;
-      if (joint.motion)
-        angles_[k] = floatframe::evaluate(*joint.motion, t).f;
-      else if (!joint.position.empty())
-        angles_[k] = joint.position[0];
-    }
+    if (!e.counts_turns()) continue;
+    const Joint& joint = values.joints[e.joint];
+    if (const TimeFunction* motion = values.motion_of(joint))
+      angles_[k] = floatframe::evaluate(*motion, t).f;
+    else if (!joint.position.empty())
+      angles_[k] = joint.position[0];
   }
 }
 

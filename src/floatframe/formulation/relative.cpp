@@ -77,7 +77,7 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
   // The angle of a spring on a tree joint is the joint coordinate, however far it rotates in a
   // step.
   for (const Element& e : model.elements)
-    spring_body_.push_back(e.rotational ? tree_.body_between(e.markers[0], e.markers[1]) : -1);
+    spring_body_.push_back(e.counts_turns() ? tree_.body_between(e.markers[0], e.markers[1]) : -1);
   element_set_.count_turns_from(model, 0.0);
   for (const TreeBody& b : tree_.bodies()) show_body(b.R_WB, b.w_WB, b.y, b.yd, b.ydd.data());
   for (std::size_t k = 0; k < model.markers.size(); ++k) {

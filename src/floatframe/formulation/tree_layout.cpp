@@ -90,8 +90,8 @@ void TreeKinematics::start(const Model& values, double t, VecX& q, VecX& v) cons
       if (k < joint.position.size()) position[k] = joint.position[k];
       if (k < joint.velocity.size()) velocity[k] = joint.velocity[k];
     }
-    if (joint.motion && b.nj == 1) {
-      const PiecewisePolynomial::Value f = evaluate(*joint.motion, t);
+    if (const TimeFunction* motion = values.motion_of(joint); motion && b.nj == 1) {
+      const PiecewisePolynomial::Value f = evaluate(*motion, t);
       position[0] = f.f;
       velocity[0] = f.df;
     }

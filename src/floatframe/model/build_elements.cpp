@@ -1,4 +1,6 @@
 // Elements of the description: their markers, laws and parameters.
+#include <algorithm>
+
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/model_builder.hpp"
 
@@ -29,6 +31,7 @@ const Joint* ElementBuild::connect_joint(const std::string& key) {
   const auto k = builder_.joint_names.find(text(key));
   if (!k) return nullptr;
   const Joint& joint = builder_.model.joints[*k];
+  element.joint = *k;
   element.markers = {joint.frame_F, joint.frame_M};
   return &joint;
 }
@@ -49,13 +52,32 @@ int ElementBuild::road(const std::string& key) const {
   return builder_.road_names.index(text(key));
 }
 
-void ModelBuilder::elements(ElementList list, std::vector<Element>& out) {
-  for (const ElementDescription& e : d.elements(list)) {
-    ElementBuild b(*this, e);
-    if (!element_kind(e.type()).build(b)) continue;
-    element_names[index_of(list)].add(e.name);
-    out.push_back(std::move(b.element));
+bool ModelBuilder::add_element(const ElementDescription& e) {
+  ElementBuild b(*this, e);
+  const ElementKind& kind = element_kind(e.type());
+  if (!kind.build(b)) return false;
+  element_names[index_of(kind.list)].add(e.name);
+  model.elements.push_back(std::move(b.element));
+  return true;
+}
+
+void ModelBuilder::holding_elements() {
+  for (const ElementDescription& e : d.rods) add_element(e);
+  for (const JointDescription& j : d.joints) {
+    if (!j.motion) continue;
+    const PrescribedMotion keys{j.name, {*j.motion, {}}};
+    if (add_element({j.name, keys, j.origin}))
+      model.joints[model.elements.back().joint].motion = std::ssize(model.elements) - 1;
   }
+}
+
+void ModelBuilder::forces() {
+  const auto holding = std::ssize(model.elements);
+  for (const ElementDescription& e : d.forces) add_element(e);
+  const int acting = static_cast<int>(std::ssize(model.elements) - holding);
+  std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());
+  for (Joint& joint : model.joints)
+    if (joint.motion >= 0) joint.motion += acting;
 }
 
 }  // namespace floatframe

@@ -45,7 +45,7 @@ bool turns_without_inertia(const Model& model, const Joint& joint) {
   constexpr double near_plane = 0.5;  // within 30 degrees
   const bool universal =
       joint_kind(joint.type).axes == JointAxes::two && joint_velocities(joint.type) == 2;
-  if (!universal || joint.motion) return false;
+  if (!universal) return false;
   const Pose X_WF = design_pose(model, joint.frame_F);
   const Vec3 normal = (X_WF.R * Vec3::UnitZ().cross(joint.axis_2)).normalized();
   return std::ranges::any_of(std::array{joint.parent, joint.child}, [&](int body) {
@@ -73,7 +73,6 @@ void ModelBuilder::joints() {
     joint.position = j.position;
     joint.velocity = j.velocity;
     joint.keep = j.keep;
-    joint.motion = j.motion;
     joint.cut = j.cut;
     joint.parent = body_index(j.parent.body);
     joint.child = body_index(j.child.body);

@@ -56,11 +56,10 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.roads();
   b.inputs();
   b.joints();
-  b.elements(ElementList::rods, b.rods);
+  b.holding_elements();
   ModelHints found;
   if (b.errors.empty()) found.notes = snap_joints(b.model, description.snap, found.locked);
-  b.elements(ElementList::forces, b.model.elements);
-  std::move(b.rods.begin(), b.rods.end(), std::back_inserter(b.model.elements));
+  b.forces();
   b.outputs();
   b.errors.throw_if_any();
   b.free_joints();

@@ -60,8 +60,8 @@ void ModelBuilder::outputs() {
         built = out.element >= 0;
         break;
       case OutputOf::motion:
-        out.joint = joint_names.index(o.entity);
-        built = out.joint >= 0;
+        out.element = element(ElementList::motions, o.entity);
+        built = out.element >= 0;
         break;
       case OutputOf::gauge:
         built = gauge(o, out, who);
@@ -116,8 +116,10 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
 
 int ModelBuilder::element(ElementList list, const std::string& name) const {
   const int k = element_names[index_of(list)].index(name);
-  const bool last = list == ElementList::rods;
-  return k >= 0 && last ? static_cast<int>(model.elements.size() - rods.size()) + k : k;
+  std::size_t before = 0;
+  for (std::size_t other = 0; other < index_of(list); ++other)
+    before += element_names[other].names().size();
+  return k < 0 ? -1 : static_cast<int>(before) + k;
 }
 
 bool ModelBuilder::reaction(const OutputDescription& o, Output& out, const std::string& who) {

@@ -24,6 +24,7 @@ struct ConstraintPart {
   Vec3 e_a = Vec3::UnitZ(), n_b = Vec3::UnitX();
   double c = 0.0;      ///< perpendicular: value of e_a.n_b to keep
   double scale = 1.0;  ///< l, or L of a distance
+  double force = 1.0;  ///< of an element: its force per multiplier, tension or along a coordinate
   const TimeFunction* motion = nullptr;
   ConstraintOwner owner;
   int rows() const noexcept;
@@ -109,8 +110,6 @@ void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
 
 /// Parts that constrain joint `index` of the model (without its motion).
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
-/// The prescribed motion of joint `index`, if it has one.
-void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
 /// The constraints of an element, if it has any.
 void append_element_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
 

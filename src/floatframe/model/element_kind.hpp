@@ -93,7 +93,7 @@ struct ElementKind {
   /// Connects `build.element` to its markers; false after an error.
   bool (*build)(ElementBuild& build);
   /// Appends its constraints between its markers; `part` carries the element as their owner.
-  void (*rows)(const Element& element, ConstraintPart part,
+  void (*rows)(const Model& model, const Element& element, ConstraintPart part,
                std::vector<ConstraintPart>& parts) = nullptr;
   /// Changes of the mirrored element besides mirrored points and directions.
   void (*mirror)(ElementDescription& element, const Placement& x) = nullptr;

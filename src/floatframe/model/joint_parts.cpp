@@ -1,4 +1,4 @@
-// The constraint parts of joints, of prescribed motions and of elements.
+// The constraint parts of joints and of elements.
 #include <cassert>
 
 #include "floatframe/math/contracts.hpp"
@@ -13,7 +13,7 @@ JointParts::JointParts(const Joint& joint, int index, double length,
   assert(length > 0.0 && joint.frame_F >= 0 && joint.frame_M >= 0);
   base_.a = joint.frame_F;
   base_.b = joint.frame_M;
-  base_.owner = {ConstraintOwner::Kind::joint, index};
+  base_.owner.joint = index;
 }
 
 ConstraintPart& JointParts::add(ConstraintType type) {
@@ -38,36 +38,18 @@ void append_joint_parts(const Model& model, int index, std::vector<ConstraintPar
   joint_kind(joint.type).parts(collected);
 }
 
-void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
-  const Joint& joint = model.joints[index];
-  if (!joint.motion) return;
-  assert(joint_has_one_coordinate(joint.type));
-  ConstraintPart p;
-  const bool angle = joint_unit(joint.type, 0) == JointUnit::rad;
-  p.type = angle ? ConstraintType::drive_angle : ConstraintType::drive_position;
-  p.a = joint.frame_F;
-  p.b = joint.frame_M;
-  if (angle) p.scale = model.bodies[joint.child].length;
-  p.motion = &*joint.motion;
-  p.owner = {ConstraintOwner::Kind::joint, index};
-  parts.push_back(p);
-}
-
 void append_element_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
   const Element& element = model.elements[index];
   if (!element.holds) return;
   ConstraintPart part;
-  part.owner = {ConstraintOwner::Kind::element, index};
-  element_kind(element.type).rows(element, part, parts);
+  part.owner = {element.joint, index};
+  element_kind(element.type).rows(model, element, part, parts);
 }
 
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {
-  const std::size_t i = owner.index;
-  if (owner.kind == ConstraintOwner::Kind::element) {
-    const Element& element = model.elements[i];
-    return std::string(element_type_name(element.type)) + " '" + element.name + "'";
-  }
-  return "joint '" + model.joints[i].name + "'";
+  if (owner.joint >= 0) return "joint '" + model.joints[owner.joint].name + "'";
+  const Element& element = model.elements[owner.element];
+  return std::string(element_type_name(element.type)) + " '" + element.name + "'";
 }
 
 }  // namespace floatframe

@@ -27,7 +27,7 @@ std::vector<Edge> edges_of(const Model& model) {
       edges.push_back({vertex(joint.parent), vertex(joint.child), false, j});
   }
   for (int k = 0; k < std::ssize(model.elements); ++k)
-    if (const Element& e = model.elements[k]; e.holds)
+    if (const Element& e = model.elements[k]; e.links())
       for (std::size_t i = 1; i < e.markers.size(); ++i)
         edges.push_back({vertex(model.markers[e.markers[0]].body),
                          vertex(model.markers[e.markers[i]].body), true, k});

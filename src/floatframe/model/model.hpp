@@ -48,9 +48,9 @@ struct Joint {
   Vec3 axis_2 = Vec3::UnitX();             ///< in the joint frame
   std::vector<double> position, velocity;  ///< start values, in the user's form
   bool keep = false;                       ///< they must not move when loops are closed
-  std::optional<TimeFunction> motion;
-  bool cut = false;        ///< marked as cut by the user, for relative coordinates
-  bool automatic = false;  ///< a free joint added for a body that no joint leads to
+  int motion = -1;                         ///< the element that prescribes its coordinate
+  bool cut = false;                        ///< marked as cut by the user, for relative coordinates
+  bool automatic = false;                  ///< a free joint added for a body that no joint leads to
 };
 
 struct Road {
@@ -76,13 +76,18 @@ struct Element {
   std::vector<PiecewisePolynomial> laws;  ///< those of its keys, in their order
   std::vector<Signal> signals;            ///< those of its keys, in their order
   int road = -1;
+  int joint = -1;             ///< whose coordinate it acts on or prescribes
   bool acts = true;           ///< by a law
   bool holds = false;         ///< its markers, by constraints
-  bool rotational = false;    ///< its measure is an angle, followed over several turns
+  bool rotational = false;    ///< its measure is an angle
   bool driven = false;        ///< a signal that it follows, or that is a force, is given
   bool target_jumps = false;  ///< one that it follows may jump
   std::shared_ptr<const ElementKeys> keys;  ///< what the user has said
   std::shared_ptr<const void> data;         ///< what the kind has computed from it
+  /// Its angle is followed over several turns.
+  bool counts_turns() const noexcept { return acts && rotational; }
+  /// It holds bodies to each other, as a joint does.
+  bool links() const noexcept { return holds && joint < 0; }
 };
 
 /// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
@@ -105,10 +110,9 @@ struct Output {
   int gauge = -1;
 };
 
-/// The origin of a constraint row, for messages: "joint 'front_left.ball'".
+/// The origin of a constraint row: a joint, an element, or an element that belongs to a joint.
 struct ConstraintOwner {
-  enum class Kind { joint, element } kind = Kind::joint;
-  int index = -1;
+  int joint = -1, element = -1;
 };
 
 struct Model {
@@ -116,7 +120,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();
   std::vector<Body> bodies;
   std::vector<Joint> joints;      ///< automatic free joints last
-  std::vector<Element> elements;  ///< rods last
+  std::vector<Element> elements;  ///< those of forces, rods, motions
   std::vector<Road> roads;
   std::vector<Input> inputs;
   std::vector<Marker> markers;
@@ -126,6 +130,10 @@ struct Model {
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
   ModelHints hints;  ///< for checks of the model; nothing else depends on them
+  /// What prescribes the coordinate of a joint; nullptr: nothing.
+  const TimeFunction* motion_of(const Joint& joint) const noexcept {
+    return joint.motion < 0 ? nullptr : &elements[joint.motion].signals[0].function;
+  }
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free

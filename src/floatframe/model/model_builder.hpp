@@ -22,8 +22,7 @@ struct ModelBuilder {
   const ModelDescription& d;
   const NameIndex body_names, road_names, input_names;
   NameIndex joint_names;       ///< of those that are built
-  NameIndex element_names[2];  ///< of each ElementList
-  std::vector<Element> rods;   ///< built before axes are made exact, elements last
+  NameIndex element_names[3];  ///< of each ElementList
   /// Body, node, rotation with the node, position and orientation of each marker on a body.
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
@@ -44,8 +43,12 @@ struct ModelBuilder {
   /// Bodies without a path of joints from the ground get a free joint to it (the first in file
   /// order each time).
   void free_joints();
-  /// Appends the built ones to `out`.
-  void elements(ElementList list, std::vector<Element>& out);
+  /// Rods and motions, which are known before axes are made exact.
+  void holding_elements();
+  /// Builds them, and puts them first.
+  void forces();
+  /// False after an error.
+  bool add_element(const ElementDescription& e);
   void outputs();
   /// Index of an element by its name, -1 if it is not built.
   int element(ElementList list, const std::string& name) const;

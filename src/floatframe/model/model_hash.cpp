@@ -65,8 +65,7 @@ class ModelHash {
   void add(const Joint& j) {
     const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, cut,
                  automatic] = j;
-    all(name, type, parent, child, F, M, axis_2, motion.has_value(), cut, automatic);
-    if (motion) add(*motion);
+    all(name, type, parent, child, F, M, axis_2, motion, cut, automatic);
   }
   void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
   void add(const SignalDescription& s) {
@@ -78,8 +77,8 @@ class ModelHash {
     all(function, input, given);
   }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, road, acts, holds, rotational, driven, jumps,
-                 keys, data] = e;
+    const auto& [name, type, markers, laws, signals, road, joint, acts, holds, rotational, driven,
+                 jumps, keys, data] = e;
     all(name, type, markers, laws, signals, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))

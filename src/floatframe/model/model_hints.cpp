@@ -119,11 +119,11 @@ void hint_at_angles(const ModelDescription& description, const Model& model, Hin
         out.add("joint", joint.name, turns_text("its position", joint.position[k]));
         break;
       }
-    if (joint.motion && turns(0))
-      hint_at_angle_of_time("joint", joint.name, "its motion", *joint.motion, out);
+    if (const TimeFunction* motion = model.motion_of(joint); motion && turns(0))
+      hint_at_angle_of_time("joint", joint.name, "its motion", *motion, out);
   }
   for (const Element& e : model.elements) {
-    if (!e.rotational) continue;
+    if (!e.counts_turns()) continue;
     if (!e.laws.empty()) hint_at_law_of_angle(e, e.laws[0], out);
     for (const ElementSignal& s : signals_of(e))
       if (std::string(s.unit) == "rad")

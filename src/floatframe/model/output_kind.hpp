@@ -33,7 +33,7 @@ enum class OutputOf {
   reaction,    ///< what a joint (`joint`) or a rod (`rod`) transmits, about the point of `marker`,
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
-  motion,      ///< a joint with a prescribed motion: `joint`
+  motion,      ///< a joint with a prescribed motion: `element`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 

@@ -16,10 +16,9 @@ struct Reactions {
   std::vector<Wrench> joints;  ///< of each joint, its motion included: on the child, about M
   /// Of each element with constraints: on the body of its second marker, about that.
   std::vector<Wrench> elements;
-  std::vector<double> multipliers;  ///< of each element, its first one: the tension of a rod [N]
-  /// For each joint: the force or torque of its prescribed motion along the coordinate, on the
-  /// child [N, N m]; zero without one.
-  std::vector<double> motions;
+  /// Of each element with constraints: the tension of a rod [N], the force or torque of a motion
+  /// along the coordinate, on the child [N, N m]; zero for others.
+  std::vector<double> forces;
   /// For each joint and element, in the velocity projection of the last step: on the child, on the
   /// body at `to` [N s].
   std::vector<Vec3> joint_impulses, element_impulses;

@@ -109,7 +109,7 @@ class Snapping {
                                "without that",
                                text, listed(all_names()), free, free == 1 ? "" : "s");
     for (const int j : block_.joints) {
-      const std::optional<TimeFunction>& motion = model_.joints[j].motion;
+      const TimeFunction* motion = model_.motion_of(model_.joints[j]);
       found.driven =
           found.driven || (free == 0 && motion && changes(*motion, model_.simulation.duration));
     }
@@ -265,6 +265,7 @@ void move_frames(Model& model, int index, const JointPlace& from, const JointPla
     model.markers.push_back(m);
   }
   joint.axis_2 = to.axis_2;
+  if (joint.motion >= 0) model.elements[joint.motion].markers = {joint.frame_F, joint.frame_M};
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ class SceneWriter {
       const Picture bar = picture_of(e);
       if (bar.symbol == Picture::Symbol::bar)
         rods_.push_back({{"name", e.name}, {"a", point(bar.a)}, {"b", point(bar.b)}});
-      else
+      else if (e.acts)
         forces_.push_back(force(k));
     }
   }

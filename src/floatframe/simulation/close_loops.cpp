@@ -108,8 +108,8 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
   LoopMembers members = loop_members(f);
   for (const ConstraintPart& p : f.constraint_set().parts()) {
     if (p.motion == nullptr) continue;
-    const Joint& joint = f.model().joints[p.owner.index];
-    members.joint[p.owner.index] = 1;
+    const Joint& joint = f.model().joints[p.owner.joint];
+    members.joint[p.owner.joint] = 1;
     for (const int body : {joint.parent, joint.child})
       if (body >= 0) members.body[body] = 1;
   }
@@ -178,7 +178,7 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
   for (std::size_t k = 0; k < constraints.parts().size(); ++k) {
     const double x = std::abs(e[constraints.offset(k)]);
     if (constraints.parts()[k].motion == nullptr || !(x > counts)) continue;
-    names.push_back(f.model().joints[constraints.parts()[k].owner.index].name);
+    names.push_back(f.model().joints[constraints.parts()[k].owner.joint].name);
     if (x > (1.0 + 1e-6) * most) {  // of equal ones the first
       most = x;
       worst = k;

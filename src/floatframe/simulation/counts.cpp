@@ -47,7 +47,7 @@ bool out_of_proportion(const Model& model, const StaticsResult& s) {
   double load = 0.0, reaction = 0.0;
   for (const Body& b : model.bodies) load += b.data->invariants.m * model.gravity.norm();
   for (std::size_t k = 0; k < model.elements.size(); ++k)
-    (model.elements[k].holds ? reaction : load) += std::abs(s.forces[k].force);
+    (model.elements[k].links() ? reaction : load) += std::abs(s.forces[k].force);
   for (const StaticsJoint& j : s.joints) reaction = std::max(reaction, j.force.norm());
   return load > 0.0 && reaction > most * load;
 }
@@ -128,15 +128,15 @@ StaticsResult statics(const Model& model) {
     for (int row = 0; row < p.rows(); ++row) {
       const double lambda = e.lambda[f.constraint_set().offset(k) + row];
       const WrenchRow& g = f.constraint_set().row(f.constraint_set().offset(k) + row).gradient;
-      if (p.owner.kind == ConstraintOwner::Kind::element) {
-        StaticsForce& force = s.forces[p.owner.index];
-        force.force = lambda;
-        force.length = p.scale;
-      } else {
-        StaticsJoint& joint = s.joints[p.owner.index];
-        joint.force -= lambda * g.b.F;
-        joint.torque -= lambda * g.b.T;
+      if (p.owner.element >= 0) {
+        StaticsForce& force = s.forces[p.owner.element];
+        force.force = p.force * lambda;
+        force.length = p.motion ? evaluate(*p.motion, 0.0).f : p.scale;
       }
+      if (p.owner.joint < 0) continue;
+      StaticsJoint& joint = s.joints[p.owner.joint];
+      joint.force -= lambda * g.b.F;
+      joint.torque -= lambda * g.b.T;
     }
   }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {

@@ -109,11 +109,13 @@ std::string energy_cause(const Model& model, double from, double to, double step
                          std::span<const TimeCorner> corners) {
   CauseFinder finder(from, to, step, corners);
   for (const Joint& j : model.joints)
-    if (j.motion) finder.motion(j.name, *j.motion, joint_unit_name(j.type, 0));
+    if (const TimeFunction* motion = model.motion_of(j))
+      finder.motion(j.name, *motion, joint_unit_name(j.type, 0));
   for (const Element& e : model.elements)
     for (const ElementSignal& s : signals_of(e))
-      finder.sampled(fmt::format("the {} of force '{}'", s.what, e.name), s.signal->function,
-                     s.unit);
+      if (e.acts)
+        finder.sampled(fmt::format("the {} of force '{}'", s.what, e.name), s.signal->function,
+                       s.unit);
   return finder.text();
 }
 

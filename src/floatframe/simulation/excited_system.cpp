@@ -31,12 +31,12 @@ ExcitedSystem::ExcitedSystem(InitialisedModel& started, std::vector<Output> outp
       own_(make_formulation(started.formulation().coordinates(), model_, started.inertia())),
       f_(*own_),
       state_(started.state()),
+      original_(started.model()),
       followed_(model_.outputs.size()) {
   f_.set_spring_angles(started.formulation().spring_angles());
   const std::span<const double> values = started.formulation().inputs();
   inputs_.assign(values.begin(), values.end());
   f_.set_inputs(inputs_);
-  for (const Joint& joint : model_.joints) laws_.push_back(joint.motion.value_or(TimeFunction()));
   if (needs_of_outputs(model_).reactions)
     reactions_.emplace(f_.coordinates(), model_, started.inertia(), state_,
                        ReactionOptions{started.step_options().penalty_mass, step,
@@ -57,7 +57,7 @@ double ExcitedSystem::value(const LinearInput& input) const {
     case LinearInput::Kind::signal:
       return inputs_[k];
     case LinearInput::Kind::motion:
-      return evaluate(laws_[k], state_.t).f;
+      return evaluate(original_.elements[k].signals[0].function, state_.t).f;
     default:
       return 0.0;
   }
@@ -70,9 +70,10 @@ void ExcitedSystem::move(const LinearInput& input, const Vec3& by) {
     moved[k] += by[0];
     f_.set_inputs(moved);
   } else if (input.kind == LinearInput::Kind::motion) {
-    const PiecewisePolynomial::Value v = evaluate(laws_[k], state_.t);
+    const PiecewisePolynomial::Value v =
+        evaluate(original_.elements[k].signals[0].function, state_.t);
     // In place: constraints have pointers to the law.
-    *model_.joints[k].motion = parabola(state_.t, Vec3(v.f, v.df, v.ddf) + by);
+    model_.elements[k].signals[0].function = parabola(state_.t, Vec3(v.f, v.df, v.ddf) + by);
   } else {
     for (const int wheel : input.wheels)
       lift(model_.elements[static_cast<std::size_t>(wheel)], parabola(state_.t, by));

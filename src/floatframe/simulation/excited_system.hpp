@@ -16,7 +16,7 @@ namespace floatframe {
 
 class ExcitedSystem {
  public:
-  /// At the start state that was found, with these outputs only.
+  /// At the start state that was found, with these outputs only. `started` outlives it.
   ExcitedSystem(InitialisedModel& started, std::vector<Output> outputs, double step);
   ExcitedSystem(const ExcitedSystem&) = delete;
   ExcitedSystem& operator=(const ExcitedSystem&) = delete;
@@ -42,7 +42,7 @@ class ExcitedSystem {
   std::unique_ptr<Formulation> own_;
   Formulation& f_;  ///< *own_
   State state_;
-  std::vector<TimeFunction> laws_;  ///< original laws of the joints
+  const Model& original_;  ///< with the laws of motions that `move` replaces
   std::vector<double> inputs_;
   std::optional<ReactionSolver> reactions_;
   std::vector<FollowedOutput> followed_;

@@ -29,11 +29,6 @@ std::vector<int> every_joint(const Model& model) {
 
 bool is_motion(const ConstraintPart& part) noexcept { return part.motion != nullptr; }
 
-/// lambda times this factor is the force or torque along the coordinate of a motion.
-double motion_scale(const ConstraintPart& part) noexcept {
-  return constraint_kind(part.type).angle ? -part.scale : -1.0;
-}
-
 /// out += U V^T of rigid bodies, six numbers per row; four and two of a column at a time.
 void add_product(const double* u, const double* v, int rows, double* out,
                  Eigen::Index stride) noexcept {
@@ -103,7 +98,7 @@ LeastReactions::LeastReactions(const Model& model)
     if (!goes_on) groups_.push_back({{body_of(p.a)}, {body_of(p.b)}, k, 0, all_.offset(k), 0});
     ++groups_.back().parts;
     groups_.back().rows += p.rows();
-    if (is_motion(p)) motion_[p.owner.index] = k;
+    if (is_motion(p)) motion_[p.owner.joint] = k;
     ++k;
   }
   for (Group& g : groups_) {
@@ -240,7 +235,7 @@ void LeastReactions::find_load(const Formulation& f, const Reactions& reactions)
   for (std::size_t j = 0; j < model_.joints.size(); ++j)
     add(model_.joints[j].frame_F, model_.joints[j].frame_M, reactions.joints[j]);
   for (std::size_t k = 0; k < model_.elements.size(); ++k)
-    if (const Element& e = model_.elements[k]; e.holds)
+    if (const Element& e = model_.elements[k]; e.links())
       add(e.markers[0], e.markers[1], reactions.elements[k]);
 }
 
@@ -319,23 +314,19 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
   // Motions and elements first: the wrench of a joint includes that of its motion.
   for (k = 0; k < parts; ++k) {
     const ConstraintPart& p = all_.parts()[k];
-    if (p.owner.kind == ConstraintOwner::Kind::element)
-      lambda[all_.offset(k)] = reactions.multipliers[p.owner.index];
-    else if (is_motion(p))
-      lambda[all_.offset(k)] = reactions.motions[p.owner.index] / motion_scale(p);
+    if (p.owner.element >= 0) lambda[all_.offset(k)] = reactions.forces[p.owner.element] / p.force;
   }
   for (k = 0; k < parts;) {
     const ConstraintPart& first = all_.parts()[k];
-    if (first.owner.kind == ConstraintOwner::Kind::element || is_motion(first)) {
+    if (first.owner.element >= 0) {
       ++k;
       continue;
     }
     // The parts of a joint are consecutive: J_k^T lambda_k = -wrench of them, by the normal
     // equations of its at most six rows.
-    const int joint = first.owner.index, row = all_.offset(k);
+    const int joint = first.owner.joint, row = all_.offset(k);
     int n = 0;
-    while (k < parts && all_.parts()[k].owner.kind == ConstraintOwner::Kind::joint &&
-           all_.parts()[k].owner.index == joint && !is_motion(all_.parts()[k]))
+    while (k < parts && all_.parts()[k].owner.joint == joint && all_.parts()[k].owner.element < 0)
       n += all_.parts()[k++].rows();
     const double length = model_.bodies[model_.joints[joint].child].length;
     Reactions::Wrench wrench = reactions.joints[joint];
@@ -377,17 +368,16 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintPart& p = set.parts()[k];
     const WrenchRow w = set.wrench(k, lambda);
-    if (p.owner.kind == ConstraintOwner::Kind::element) {
-      assert(is_index(p.owner.index, reactions.elements));
-      reactions.elements[p.owner.index] = {-w.b.F, -w.b.T};
-      reactions.multipliers[p.owner.index] = lambda[set.offset(k)];
-      continue;
+    if (p.owner.element >= 0) {
+      assert(is_index(p.owner.element, reactions.elements));
+      reactions.elements[p.owner.element] = {-w.b.F, -w.b.T};
+      reactions.forces[p.owner.element] = p.force * lambda[set.offset(k)];
     }
-    assert(is_index(p.owner.index, reactions.joints));
-    Reactions::Wrench& joint = reactions.joints[p.owner.index];
+    if (p.owner.joint < 0) continue;
+    assert(is_index(p.owner.joint, reactions.joints));
+    Reactions::Wrench& joint = reactions.joints[p.owner.joint];
     joint.force -= w.b.F;
     joint.torque -= w.b.T;
-    if (is_motion(p)) reactions.motions[p.owner.index] = motion_scale(p) * lambda[set.offset(k)];
   }
 }
 

@@ -141,12 +141,12 @@ std::vector<LinearInput> linear_inputs(const Model& model) {
   for (std::size_t k = 0; k < model.inputs.size(); ++k)
     inputs.push_back(
         {model.inputs[k].name, model.inputs[k].unit, Kind::signal, static_cast<int>(k), {}, 0.0});
-  for (std::size_t k = 0; k < model.joints.size(); ++k)
-    if (model.joints[k].motion)
-      inputs.push_back({"motion of " + model.joints[k].name,
-                        joint_unit_name(model.joints[k].type, 0),
+  for (const Joint& joint : model.joints)
+    if (joint.motion >= 0)
+      inputs.push_back({"motion of " + joint.name,
+                        joint_unit_name(joint.type, 0),
                         Kind::motion,
-                        static_cast<int>(k),
+                        joint.motion,
                         {},
                         0.0});
   std::vector<int> wheels;

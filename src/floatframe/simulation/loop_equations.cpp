@@ -30,7 +30,7 @@ std::vector<std::array<int, 3>> closing_edges(const RelativeFormulation& f) {
     if (!in_tree[++j] && (!joint_is_free(joint.type) || !joint.position.empty()))
       edges.push_back({j, joint.parent, joint.child});
   for (const Element& e : model.elements)
-    if (e.holds)
+    if (e.links())
       for (std::size_t i = 1; i < e.markers.size(); ++i)
         edges.push_back({-1, model.markers[e.markers[0]].body, model.markers[e.markers[i]].body});
   return edges;
@@ -69,7 +69,7 @@ std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembe
   for (const Joint& joint : f.model().joints) {
     ++j;
     // A prescribed motion fixes its coordinate.
-    if (!members.joint[j] || joint.motion) continue;
+    if (!members.joint[j] || joint.motion >= 0) continue;
     const JointKind& kind = joint_kind(joint.type);
     const std::vector<double>& given = rates ? joint.velocity : joint.position;
     for (int k = 0; k < std::ssize(given); ++k) {

@@ -88,7 +88,7 @@ void LoopPath::measure_size() {
   for (std::size_t j = 0; j < f_.model().joints.size(); ++j)
     if (members_.joint[j]) box.extend(f_.marker(f_.model().joints[j].frame_M).r);
   for (const Element& e : f_.model().elements)
-    if (e.holds)
+    if (e.links())
       for (const int marker : e.markers) box.extend(f_.marker(marker).r);
   size_ = box.isEmpty() ? 0.0 : box.diagonal().norm();
   for (std::size_t i = 0; i < members_.body.size(); ++i)
@@ -100,7 +100,8 @@ bool LoopPath::starts_as_drawn() const {
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const Joint& joint = model.joints[j];
     if (!members_.joint[j]) continue;
-    if (joint.motion && evaluate(*joint.motion, t_).f != 0.0) return false;
+    if (const TimeFunction* motion = model.motion_of(joint))
+      if (evaluate(*motion, t_).f != 0.0) return false;
     for (const double x : joint.position)
       if (x != 0.0) return false;
   }
@@ -119,8 +120,8 @@ bool LoopPath::all_given() const {
   const std::vector<Joint>& joints = f_.model().joints;
   UnionFind groups(static_cast<int>(members_.body.size()) + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (members_.joint[j] &&
-        (!joints[j].position.empty() || joints[j].motion || joint_velocities(joints[j].type) == 0))
+    if (members_.joint[j] && (!joints[j].position.empty() || joints[j].motion >= 0 ||
+                              joint_velocities(joints[j].type) == 0))
       groups.join(joints[j].child + 1, joints[j].parent + 1);
   for (std::size_t j = 0; j < joints.size(); ++j)
     if (members_.joint[j] && groups.root(joints[j].child + 1) != groups.root(joints[j].parent + 1))
@@ -133,8 +134,9 @@ VecX LoopPath::drawn() const {
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     if (!members_.joint[j]) continue;
     Joint& joint = model.joints[j];
-    if (joint.motion) joint.position.assign(1, evaluate(*joint.motion, t_).f);
-    joint.motion.reset();
+    if (const TimeFunction* motion = model.motion_of(joint))
+      joint.position.assign(1, evaluate(*motion, t_).f);
+    joint.motion = -1;
     const JointKind& kind = joint_kind(joint.type);
     for (int k = 0; k < std::ssize(joint.position); ++k) {
       const bool turns =

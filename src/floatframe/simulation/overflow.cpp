@@ -14,8 +14,9 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
       text = sentence(std::isfinite(x) ? fmt::format("{:.3g}", std::abs(x)) : "more than 1e+308");
   };
   for (const Joint& j : model.joints) {
-    if (!j.motion) continue;
-    const auto motion = evaluate(*j.motion, t);
+    const TimeFunction* law = model.motion_of(j);
+    if (!law) continue;
+    const auto motion = evaluate(*law, t);
     for (const double x : {motion.f, motion.df, motion.ddf})
       look(x, [&](const std::string& n) {
         return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,

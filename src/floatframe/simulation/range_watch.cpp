@@ -194,7 +194,7 @@ double PhaseMeter::phase() const noexcept {
 TurnWatch::TurnWatch(const Model& model, double step) : model_(model), step_(step) {
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const Element& force = model.elements[k];
-    const bool counts = force.rotational;
+    const bool counts = force.counts_turns();
     if (!counts && !ends_at_half_turn(force)) continue;
     Watched x;
     x.force = static_cast<int>(k);

@@ -42,9 +42,8 @@ ReactionSolver::ReactionSolver(Coordinates coordinates, const Model& model, Iner
   a_ = residual_ = delta_ = best_a_ = VecX::Zero(nv);
   lambda_ = gamma_ = work_ = best_lambda_ = VecX::Zero(nc);
   reactions_.joints.resize(model.joints.size());
-  reactions_.motions.assign(model.joints.size(), 0.0);
   reactions_.elements.resize(model.elements.size());
-  reactions_.multipliers.assign(model.elements.size(), 0.0);
+  reactions_.forces.assign(model.elements.size(), 0.0);
   reactions_.joint_impulses.assign(model.joints.size(), Vec3::Zero());
   reactions_.element_impulses.assign(model.elements.size(), Vec3::Zero());
   if (options.redundant) {
@@ -164,10 +163,10 @@ void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintOwner& owner = set.parts()[k].owner;
     const Vec3 on_b = -set.wrench(k, impulses).b.F;
-    if (owner.kind == ConstraintOwner::Kind::element)
-      reactions_.element_impulses[owner.index] = on_b;
+    if (owner.joint >= 0)
+      reactions_.joint_impulses[owner.joint] += on_b;
     else
-      reactions_.joint_impulses[owner.index] += on_b;
+      reactions_.element_impulses[owner.element] = on_b;
   }
 }
 

@@ -159,7 +159,7 @@ bool ConstraintAnalysis::holds_motion(std::size_t part) const {
 std::vector<std::string> ConstraintAnalysis::held_motions() const {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < parts().size(); ++k)
-    if (holds_motion(k)) names.push_back(model_.joints[parts()[k].owner.index].name);
+    if (holds_motion(k)) names.push_back(model_.joints[parts()[k].owner.joint].name);
   return names;
 }
 
@@ -180,15 +180,15 @@ bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
   }
   for (std::size_t k = 0; k < parts().size(); ++k) {
     const ConstraintPart& p = parts()[k];
-    const std::size_t owner = p.owner.index;
     for (int r = 0; r < p.rows(); ++r) {
       const Eigen::Index i = row_of(k) + r;
       const WrenchRow& g = rows_[i].gradient;
-      if (p.owner.kind == ConstraintOwner::Kind::element) {
-        statics.forces[owner].force = lambda[i];
-        statics.forces[owner].unique = !(balanced.row(i).norm() > 1e-7);
-        continue;
+      if (p.owner.element >= 0) {
+        statics.forces[p.owner.element].force = p.force * lambda[i];
+        statics.forces[p.owner.element].unique = !(balanced.row(i).norm() > 1e-7);
       }
+      if (p.owner.joint < 0) continue;
+      const std::size_t owner = p.owner.joint;
       statics.joints[owner].force -= lambda[i] * g.b.F;
       statics.joints[owner].torque -= lambda[i] * g.b.T;
       force[owner] -= g.b.F * balanced.row(i);

@@ -221,7 +221,7 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
                                  name));
   const TreeBody& b = tree.body(rotor.body);
   rotor.free = joint.type == JointType::free;
-  rotor.driven = joint.motion.has_value();
+  rotor.driven = joint.motion >= 0;
   if (joint.type == JointType::revolute) {
     rotor.coordinate = b.iv;
   } else if (joint.type == JointType::cylindrical) {

@@ -181,9 +181,9 @@ void JointFollower::follow(const SystemMotion& motion) {
       const int component = static_cast<int>(i);
       const double rate = joint_velocity(joints[k], F, M, component);
       const double turned = started_ ? 0.5 * (motion.t - time_) * (j.velocity[i] + rate) : 0.0;
-      const double expected = !started_ && joints[k].motion
-                                  ? evaluate(*joints[k].motion, motion.t).f
-                                  : j.position[i] + turned;
+      const TimeFunction* prescribed = started_ ? nullptr : motion.model.motion_of(joints[k]);
+      const double expected =
+          prescribed ? evaluate(*prescribed, motion.t).f : j.position[i] + turned;
       j.position[i] = joint_position(joints[k], F, M, component, expected);
       j.velocity[i] = rate;
     }

@@ -149,12 +149,13 @@ std::vector<Forcing> all_forcing(const Model& model) {
   std::vector<Forcing> out;
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
     const Joint& j = model.joints[k];
-    if (j.motion)
-      out.push_back({Kind::motion, "the motion of joint '" + j.name + "'", &*j.motion, false,
+    if (const TimeFunction* motion = model.motion_of(j))
+      out.push_back({Kind::motion, "the motion of joint '" + j.name + "'", motion, false,
                      static_cast<int>(k)});
   }
   for (const Element& e : model.elements)
     for (const ElementSignal& s : signals_of(e)) {
+      if (!e.acts) continue;
       const bool load = energy_category(e.type) == EnergyCategory::loads;
       out.push_back({s.target ? Kind::target : Kind::load,
                      (load ? "the load '" : "the " + s.what + " of '") + e.name + "'",

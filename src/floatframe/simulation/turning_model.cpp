@@ -16,9 +16,10 @@ namespace floatframe {
 
 SteadyTurning TurningModel::Impl::steady(double speed, double angle) {
   if (rotor.driven) {
-    Joint& joint = model.joints[static_cast<std::size_t>(rotor.joint)];
+    const Joint& joint = model.joints[static_cast<std::size_t>(rotor.joint)];
     const double begin = joint.position.empty() ? 0.0 : joint.position.back();
-    joint.motion = TimeFunction{PiecewisePolynomial::polynomial({begin + angle, speed})};
+    model.elements[static_cast<std::size_t>(joint.motion)].signals[0].function =
+        TimeFunction{PiecewisePolynomial::polynomial({begin + angle, speed})};
     f = std::make_unique<RelativeFormulation>(model, model.simulation.inertia);
   }
   SteadyTurning s = steady_turning(*f, rotor, q, speed, angle);

@@ -39,7 +39,8 @@ bool rod_build(ElementBuild& build) {
   return !complaint;
 }
 
-void rod_rows(const Element& element, ConstraintPart part, std::vector<ConstraintPart>& parts) {
+void rod_rows(const Model&, const Element& element, ConstraintPart part,
+              std::vector<ConstraintPart>& parts) {
   part.type = ConstraintType::distance;
   part.a = element.markers[0];
   part.b = element.markers[1];

@@ -14,8 +14,8 @@ namespace floatframe {
 namespace {
 
 /// So that an output begins at the turn intended by the user.
-double start_position(const Joint& joint, int component, double t) noexcept {
-  if (joint.motion) return evaluate(*joint.motion, t).f;
+double start_position(const Model& model, const Joint& joint, int component, double t) noexcept {
+  if (const TimeFunction* motion = model.motion_of(joint)) return evaluate(*motion, t).f;
   const std::size_t k = component;
   return k < joint.position.size() ? joint.position[k] : 0.0;
 }
@@ -35,7 +35,7 @@ double output_value_of<OutputType::joint_position>(const SystemMotion& motion, c
   const double rate = joint_velocity(joint, F, M, output.component);
   const double expected = last.started
                               ? last.position + 0.5 * (motion.t - last.time) * (last.rate + rate)
-                              : start_position(joint, output.component, motion.t);
+                              : start_position(motion.model, joint, output.component, motion.t);
   last = {true, motion.t, joint_position(joint, F, M, output.component, expected), rate};
   return last.position;
 }

@@ -1,7 +1,6 @@
 // Power of a prescribed motion, its force times the rate of the coordinate, positive into the
 // system [W].
-#include <cassert>
-
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -10,9 +9,9 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::motion_power>(const SystemMotion& motion, const Output& output,
                                                  FollowedOutput&) noexcept {
-  const Joint& joint = motion.model.joints[output.joint];
-  assert(motion.reactions && joint.motion);
-  return motion.reactions->motions[output.joint] * evaluate(*joint.motion, motion.t).df;
+  assert(is_index(output.element, motion.reactions->forces));
+  const Signal& motor = motion.model.elements[output.element].signals[0];
+  return motion.reactions->forces[output.element] * evaluate(motor.function, motion.t).df;
 }
 
 constinit const OutputKind motion_power_output = {

@@ -9,8 +9,8 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::rod_force>(const SystemMotion& motion, const Output& output,
                                               FollowedOutput&) noexcept {
-  assert(is_index(output.element, motion.reactions->multipliers));
-  return motion.reactions->multipliers[output.element];
+  assert(is_index(output.element, motion.reactions->forces));
+  return motion.reactions->forces[output.element];
 }
 
 constinit const OutputKind rod_force_output = {.about = "force in the rod, tension positive",
