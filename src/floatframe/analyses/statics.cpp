@@ -131,7 +131,7 @@ AnalysisReport report_statics(const Model& model) {
       .text = fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
                           model.name, plural(s.iterations, "iteration"), s.residual) +
               forces_text(model, s) + joints_text(s) + poses_text(s) + amplitudes_text(s) +
-              "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on "
+              "\nForces: tension is positive, tyres: vertical force on the wheel, motions: on the child. Joints: on "
               "the child, world axes, about the\njoint's point. Bodies: origin of the body "
               "frame; angles from the design pose.\n" +
               redundancy_note(s) + notes_text(s.notes),

@@ -43,7 +43,12 @@ void append_element_parts(const Model& model, int index, std::vector<ConstraintP
   if (!element.holds) return;
   ConstraintPart part;
   part.owner = {element.joint, index};
+  const std::size_t before = parts.size();
   element_kind(element.type).rows(model, element, part, parts);
+  // What reads multipliers knows one row between the first two markers.
+  assert(parts.size() == before + 1 && parts.back().rows() == 1);
+  assert(parts.back().a == element.markers[0] && parts.back().b == element.markers[1]);
+  static_cast<void>(before);
 }
 
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {

@@ -164,6 +164,10 @@ LoopMobility::LoopMobility(const Model& model, const LoopBlock& block,
   for (const int k : block.elements) {
     std::vector<ConstraintPart> parts;
     append_element_parts(model, k, parts);
+    // A rod of another length than drawn is fitted before: what it leaves free is as if it fitted.
+    for (ConstraintPart& p : parts)
+      if (constraint_kind(p.type).gradients == PartGradients::line)
+        p.scale = std::max((design_pose(model, p.b).p - design_pose(model, p.a).p).norm(), 1e-9);
     for (const int marker : model.elements[k].markers) socket(marker, design_pose(model, marker));
     renumbered(parts);
   }
