@@ -58,7 +58,7 @@ test-all: test
 	$(MAKE) --no-print-directory test-wheel
 
 # The rooms of steps with their asserts, which a release build leaves out.
-ROOMS_OF_STEPS := math inertia model formulation integrator simulation
+ROOMS_OF_STEPS := math inertia model formulation integrator start reactions stepping run
 test-contracts: install-packages
 	cmake --preset contracts
 	cmake --build build-contracts --parallel $(JOBS) --target $(ROOMS_OF_STEPS:%=%_tests)

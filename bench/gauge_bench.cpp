@@ -10,7 +10,7 @@
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/stepped_model.hpp"
+#include "floatframe/stepping/stepper.hpp"
 
 namespace floatframe {
 namespace {
@@ -41,12 +41,11 @@ simulation: {step: 1e-4, duration: 1}
   return model;
 }
 
-template <class F>
 void gauge(benchmark::State& state, Coordinates coordinates) {
   const Model model = bar(static_cast<int>(state.range(0)), state.range(1) != 0);
   SimulationDescription options = model.simulation;
   options.coordinates = coordinates;
-  SteppedModel<F> steps(model, options, {.duration = 1.0});
+  Stepper steps(model, options, {.duration = 1.0});
   std::vector<double> row(2);
   steps.sample(row.data());
   const SystemMotion& motion = steps.formulation().motion({.accelerations = true});
@@ -54,12 +53,8 @@ void gauge(benchmark::State& state, Coordinates coordinates) {
   for (auto _ : state) benchmark::DoNotOptimize(output_value(motion, model.outputs[0], last));
 }
 
-void gauge_relative(benchmark::State& state) {
-  gauge<RelativeFormulation>(state, Coordinates::relative);
-}
-void gauge_absolute(benchmark::State& state) {
-  gauge<AbsoluteFormulation>(state, Coordinates::absolute);
-}
+void gauge_relative(benchmark::State& state) { gauge(state, Coordinates::relative); }
+void gauge_absolute(benchmark::State& state) { gauge(state, Coordinates::absolute); }
 
 void sizes_of_gauges(benchmark::internal::Benchmark* b) {
   b->ArgNames({"modes", "loads"});

@@ -14,6 +14,7 @@ import sys
 # room -> rooms it may include. CONTRIBUTING.md draws the same picture.
 FE = {"core", "math", "fe"}
 DYNAMICS = {"core", "math", "body", "inertia", "description", "model", "formulation", "integrator"}
+RUNS = {"loops", "start", "reactions", "stepping", "run"}
 ALLOWED = {
     "core": set(),
     "math": {"core"},
@@ -41,25 +42,34 @@ ALLOWED = {
     "model": FE | {"body", "reduction", "inertia", "description"},
     "formulation": {"core", "math", "body", "inertia", "description", "model"},
     "integrator": {"core", "math", "body", "inertia", "description", "model", "formulation"},
-    "simulation": DYNAMICS,
+    # From the model at rest to results: each uses those before it.
+    "loops": DYNAMICS,
+    "start": DYNAMICS | {"loops"},
+    "reactions": DYNAMICS | {"start"},
+    "stepping": DYNAMICS | {"loops", "start", "reactions"},
+    "run": DYNAMICS | {"loops", "start", "stepping"},
+    "linear": DYNAMICS | RUNS,
+    "rotors": DYNAMICS | RUNS | {"linear"},
+    "advice": DYNAMICS | RUNS | {"linear"},
     "yaml": {"core", "math"},
     "model_file": FE | {"body", "reduction", "description", "model", "formats/geometry", "formats/sid", "parts", "yaml"},
-    "history": DYNAMICS | {"simulation"},
-    "report": DYNAMICS | {"simulation", "history"},
-    "export": DYNAMICS | {"history", "report", "formats/body_file", "formats/vtk"},
-    "realtime": DYNAMICS | {"simulation"},
-    "sweep": DYNAMICS | {"simulation", "yaml", "model_file", "history", "report"},
-    "analyses": DYNAMICS | {"simulation", "report", "formats/body_file", "formats/matlab", "model_file"},
-    "apps": DYNAMICS | FE | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "simulation", "realtime",
-                             "model_file", "history", "report", "export", "analyses", "sweep"},
+    "history": DYNAMICS | RUNS,
+    "results": DYNAMICS | RUNS,
+    "page": DYNAMICS | RUNS | {"linear", "rotors", "advice", "history", "results"},
+    "export": DYNAMICS | RUNS | {"history", "page", "results", "formats/body_file", "formats/vtk"},
+    "realtime": DYNAMICS | RUNS,
+    "sweep": DYNAMICS | RUNS | {"yaml", "model_file", "history", "page", "results"},
+    "analyses": DYNAMICS | RUNS | {"linear", "rotors", "advice", "page", "results", "formats/body_file", "formats/matlab", "model_file"},
+    "apps": DYNAMICS | FE | RUNS | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "linear", "realtime",
+                             "model_file", "history", "page", "results", "export", "analyses", "sweep"},
     # The benchmarks of the program, in the folder bench of the project, which no other room may include.
-    "bench": DYNAMICS | FE | {"reduction", "simulation", "model_file", "apps"},
+    "bench": DYNAMICS | FE | RUNS | {"reduction", "model_file", "apps"},
 }
 
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
           "model", "model_file",
-          "formulation/counts.hpp", "simulation", "history", "report", "analyses", "realtime", "sweep"}
+          "formulation/counts.hpp", "loops", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.
 OUTSIDE = {"main": {"apps/command_line.hpp", "bench/bench_command.hpp"}, "mpi": {"sweep/ranks.hpp"},

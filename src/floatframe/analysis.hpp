@@ -3,6 +3,8 @@
 // linear system near a state, advice on modes. Each takes a model, most of them options, and
 // returns a plain struct.
 #include "floatframe/analyses/analysis_list.hpp"
-#include "floatframe/simulation/linearize.hpp"
-#include "floatframe/simulation/results.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/linear/linearize.hpp"
+#include "floatframe/run/results.hpp"
+#include "floatframe/run/run.hpp"
+#include "floatframe/start/check.hpp"
+#include "floatframe/start/statics.hpp"

@@ -4,4 +4,4 @@
 // Steps do not throw: they return a StepReport.
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/output_error.hpp"
-#include "floatframe/simulation/run_error.hpp"
+#include "floatframe/loops/run_error.hpp"

@@ -3,7 +3,7 @@
 // channels from these, and all files of a run that was kept in memory.
 #include "floatframe/history/new_channels.hpp"
 #include "floatframe/history/state_history.hpp"
-#include "floatframe/report/kept_run.hpp"
-#include "floatframe/report/results_csv.hpp"
-#include "floatframe/report/summary_json.hpp"
-#include "floatframe/simulation/result_table.hpp"
+#include "floatframe/page/kept_run.hpp"
+#include "floatframe/results/results_csv.hpp"
+#include "floatframe/results/summary_json.hpp"
+#include "floatframe/run/result_table.hpp"

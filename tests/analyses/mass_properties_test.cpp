@@ -11,10 +11,10 @@
 
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/simulation/run_error.hpp"
-#include "floatframe/simulation/simulation_options.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/start/system_state.hpp"
+#include "floatframe/stepping/simulation_options.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 #include "support/random_mechanism.hpp"

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/start/statics.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {

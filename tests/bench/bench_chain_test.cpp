@@ -10,7 +10,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/reduction/reduction.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
@@ -80,7 +80,7 @@ TEST(ChainModel, EqualsTheModelFile) {
 
 TEST(ChainModel, StartsLevelAndUndeformedAtRest) {
   const Model model = build_model(chain_model(5, 8, 4));
-  const auto stepper = make_bench_stepper(model, model.simulation);
+  const auto stepper = std::make_unique<BenchStepper>(model, model.simulation);
   EXPECT_LT((stepper->sample() - Eigen::Vector4d(0, 5, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(stepper->energies().kinetic, 0.0);
   EXPECT_EQ(stepper->energies().elastic, 0.0);
@@ -147,7 +147,7 @@ TEST(BenchStepper, StepsAsARunDoes) {
     options.coordinates = coordinates;
     options.duration = 0.1;
     const RunResult result = run(model, options);
-    const auto stepper = make_bench_stepper(model, options);
+    const auto stepper = std::make_unique<BenchStepper>(model, options);
     ASSERT_TRUE(stepper->advance(60));
     ASSERT_TRUE(stepper->advance(40));
     const VecX row = stepper->sample();

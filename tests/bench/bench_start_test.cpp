@@ -7,8 +7,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/redundancy.hpp"
+#include "floatframe/loops/redundancy.hpp"
+#include "floatframe/start/check.hpp"
+#include "floatframe/start/initial_state.hpp"
 
 namespace floatframe::test {
 namespace {

@@ -24,7 +24,7 @@ SOURCES = ROOT / "src" / "floatframe"
 COUNTED = "floatframe_counted_steps"
 COUNTED_START = "floatframe_counted_start"
 COMPILER = "GNU 12"
-ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "simulation"}
+ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "start", "reactions", "stepping", "run"}
 LISTS = {
     "joint": ("description/joint_list.hpp", "JointType"),
     "constraint": ("model/constraint_list.hpp", "ConstraintType"),

@@ -4,7 +4,7 @@
 
 #include "floatframe/history/history_content.hpp"
 #include "floatframe/history/state_history.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/model_text.hpp"
 #include "support/temporary_folder.hpp"
 

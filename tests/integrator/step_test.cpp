@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "floatframe/integrator/augmented_lagrangian.hpp"
-#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/start/initial_state.hpp"
 #include "support/descriptions.hpp"
 #include "support/random_model.hpp"
 
@@ -34,7 +34,7 @@ struct System {
   void run(double h, long steps) {
     AugmentedLagrangian<F> integrator(f, options);
     for (long k = 0; k < steps; ++k) {
-      const StepAttempt r = integrator.step(state, h);
+      const StepAttempt r = integrator.attempt(state, h);
       ASSERT_EQ(r.status, AttemptStatus::converged) << "step " << k;
       worst.position_violation = std::max(worst.position_violation, r.position_violation);
       worst.velocity_violation = std::max(worst.velocity_violation, r.velocity_violation);
@@ -260,7 +260,7 @@ void expect_untouched() {
     System<F> s(m, o);
     const State before = s.state;
     AugmentedLagrangian<F> integrator(s.f, s.options);
-    const StepAttempt r = integrator.step(s.state, 1e-2);
+    const StepAttempt r = integrator.attempt(s.state, 1e-2);
     EXPECT_EQ(r.status, AttemptStatus::not_converged);
     EXPECT_EQ(r.iterations, 2 * limit);  // once more with a stiffer penalty
     EXPECT_EQ(r.factorizations, 2 * limit);
@@ -274,8 +274,8 @@ void expect_untouched() {
     System<F> fresh(m, StepOptions{});
     s.options = fresh.options;
     AugmentedLagrangian<F> again(s.f, s.options), first(fresh.f, fresh.options);
-    EXPECT_EQ(again.step(s.state, 1e-3).status, AttemptStatus::converged);
-    EXPECT_EQ(first.step(fresh.state, 1e-3).status, AttemptStatus::converged);
+    EXPECT_EQ(again.attempt(s.state, 1e-3).status, AttemptStatus::converged);
+    EXPECT_EQ(first.attempt(fresh.state, 1e-3).status, AttemptStatus::converged);
     EXPECT_TRUE(same_bits(s.state, fresh.state));
   }
 }
@@ -294,7 +294,7 @@ TEST(Failure, OpenConstraintIsNamed) {
   System<RelativeFormulation> s(m, o);
   const State before = s.state;
   AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
-  const StepAttempt r = integrator.step(s.state, 1e-2);
+  const StepAttempt r = integrator.attempt(s.state, 1e-2);
   EXPECT_EQ(r.status, AttemptStatus::not_converged);
   EXPECT_EQ(r.coordinate, -1);
   EXPECT_GE(r.constraint, 0);
@@ -313,7 +313,7 @@ TEST(Failure, MasslessFreedomIsASingularTangent) {
   state.lambda = VecX::Zero(0);
   const State before = state;
   AugmentedLagrangian<RelativeFormulation> integrator(f, StepOptions{});
-  const StepAttempt r = integrator.step(state, 1e-2);
+  const StepAttempt r = integrator.attempt(state, 1e-2);
   EXPECT_EQ(r.status, AttemptStatus::singular_tangent);
   EXPECT_EQ(f.coordinate_owner(r.coordinate), "joint 'lower_hinge'");
   EXPECT_TRUE(same_bits(state, before));
@@ -371,7 +371,7 @@ TEST(Failure, StateThatIsNotFiniteIsRefused) {
   s.state.v[0] = std::numeric_limits<double>::quiet_NaN();
   const State before = s.state;
   AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
-  EXPECT_NE(integrator.step(s.state, 1e-3).status, AttemptStatus::converged);
+  EXPECT_NE(integrator.attempt(s.state, 1e-3).status, AttemptStatus::converged);
   EXPECT_TRUE(same_bits(s.state, before));
 }
 

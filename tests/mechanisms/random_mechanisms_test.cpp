@@ -13,7 +13,7 @@
 #include <set>
 
 #include "floatframe/model/element_kind.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/mechanism_check.hpp"
 #include "support/random_model.hpp"
 

@@ -27,7 +27,7 @@ class CheckIncludes(unittest.TestCase):
         self.assertTrue(text.startswith("model/a.hpp:2: 'model' must not use 'integrator'; it may use "), text)
 
     def test_a_type_that_is_only_declared_counts_as_used(self):
-        files = {"formulation/f.hpp": "class Formulation {\n};\n", "simulation/s.hpp": "class Formulation;\n"}
+        files = {"formulation/f.hpp": "class Formulation {\n};\n", "start/s.hpp": "class Formulation;\n"}
         self.assertEqual(self.check(files), (0, ""))
         files["model/a.hpp"] = "#pragma once\nclass Formulation;\n"
         self.assertEqual(self.check(files), (1, "model/a.hpp:2: 'model' must not declare Formulation of 'formulation'\n"))
@@ -64,7 +64,7 @@ class CheckIncludes(unittest.TestCase):
         self.assertIn("must not reach <yaml-cpp/yaml.h>", text)
 
     def test_headers_are_named_in_full(self):
-        for odd in ("nlohmann/json.hpp", "../simulation/run.hpp", "floatframe/core/../simulation/run.hpp"):
+        for odd in ("nlohmann/json.hpp", "../run/run.hpp", "floatframe/core/../run/run.hpp"):
             code, text = self.check({"core/a.cpp": f'#include "{odd}"\n'})
             self.assertEqual(code, 1, odd)
             self.assertIn(f'core/a.cpp:1: found "{odd}"', text)

@@ -2,7 +2,7 @@
 // results as without looking.
 #include <gtest/gtest.h>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "realtime/recorder.hpp"
 #include "support/contains.hpp"
 #include "support/coordinates.hpp"

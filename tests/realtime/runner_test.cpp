@@ -11,8 +11,7 @@
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/signal_log.hpp"
-#include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "realtime/recorder.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/temporary_folder.hpp"
@@ -21,33 +20,17 @@ namespace floatframe::test {
 namespace {
 
 /// Rows of time and outputs of steps that nobody paces: 10 whole ones and a part of one.
-template <class F>
-std::vector<double> stepped(F& f, State start, const SimulationDescription& s, long& iterations) {
-  const StepOptions options = step_options(f.model(), s);
-  Runner<F> runner(f, options, s.step / 1024.0);
-  start_accelerations(f, start, options.penalty_mass);
-  runner.state() = start;
-  const std::size_t width = f.model().outputs.size() + 1;
-  std::vector<double> rows(12 * width);
-  runner.sample(rows.data());
-  for (std::size_t k = 1; k <= 11; ++k) {
-    const double before = static_cast<double>(k - 1) * s.step;
-    EXPECT_TRUE(runner.advance(k == 11 ? s.duration - before : s.step));
-    runner.state().t = k == 11 ? s.duration : static_cast<double>(k) * s.step;
-    runner.sample(rows.data() + k * width);
-  }
-  iterations = runner.counters().iterations;
-  return rows;
-}
-
 std::vector<double> stepped(const Model& m, const SimulationDescription& s, long& iterations) {
-  RelativeFormulation tree(m, s.inertia);
-  const State start = relative_start(tree, s.start);
-  if (s.coordinates == Coordinates::relative) return stepped(tree, start, s, iterations);
-  AbsoluteFormulation f(m, s.inertia);
-  State state;
-  f.start_from(tree, start.q, start.v, state.q, state.v);
-  return stepped(f, state, s, iterations);
+  Stepper steps(m, s, {.duration = s.duration});
+  const std::size_t width = m.outputs.size() + 1;
+  std::vector<double> rows(12 * width);
+  steps.sample(rows.data());
+  for (std::size_t k = 1; k <= 11; ++k) {
+    EXPECT_TRUE(steps.advance());
+    steps.sample(rows.data() + k * width);
+  }
+  iterations = steps.counters().iterations;
+  return rows;
 }
 
 TEST(RealTime, GivesTheResultsOfPlainSteps) {
@@ -242,11 +225,11 @@ class Plain final : public SignalPort {
   double sum = 0.0;
 };
 
-template <class F>
-void check_allocations(bool paced) {
+void check_allocations(bool paced, Coordinates coordinates) {
   const Model m = model();
-  const SimulationDescription d = simulation(0.1, 0.001);
-  SteppedModel<F> steps(m, d, {.duration = d.duration});
+  SimulationDescription d = simulation(0.1, 0.001);
+  d.coordinates = coordinates;
+  Stepper steps(m, d, {.duration = d.duration});
   RealTimeOptions options{
       .paced = paced, .input_timeout = 0.003, .fallback = SilenceFallback::initial};
   const TemporaryFolder folder;
@@ -254,13 +237,13 @@ void check_allocations(bool paced) {
   options.log = &log;
   Plain port;
   RealTimeReport report;
-  RealTimeRunner<F> runner(steps, options, &port, report);
+  RealTimeRunner runner(steps, options, &port, report);
   MotionWatch watch(steps.model(), d.step);
   runner.watched_by(watch);
   const AllocationScope scope;
   const auto end = runner.run();
   EXPECT_EQ(scope.count(), 0u);
-  EXPECT_EQ(end, RealTimeRunner<F>::End::completed);
+  EXPECT_EQ(end, RealTimeRunner::End::completed);
   EXPECT_EQ(report.steps, 100);
   EXPECT_EQ(report.input_timeouts, 10);
   log.finish();
@@ -269,10 +252,8 @@ void check_allocations(bool paced) {
 
 TEST(RealTime, LoopDoesNotAllocate) {
   if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
-  for (const bool paced : {false, true}) {
-    check_allocations<RelativeFormulation>(paced);
-    check_allocations<AbsoluteFormulation>(paced);
-  }
+  for (const bool paced : {false, true})
+    for (const auto c : {Coordinates::relative, Coordinates::absolute}) check_allocations(paced, c);
 }
 
 TEST(FlushDenormals, OnlyWhileItLives) {

@@ -8,7 +8,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/error_of.hpp"
 

@@ -2,7 +2,7 @@
 // Runs that must come to their end: one that does not fails the test with its message.
 #include <stdexcept>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/coordinates.hpp"
 
 namespace floatframe::test {

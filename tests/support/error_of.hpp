@@ -4,7 +4,7 @@
 #include <string>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/simulation/run_error.hpp"
+#include "floatframe/loops/run_error.hpp"
 #include "support/contains.hpp"
 
 namespace floatframe::test {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe::test {
 

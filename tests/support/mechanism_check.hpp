@@ -27,7 +27,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/simulation/results.hpp"
+#include "floatframe/run/results.hpp"
 #include "support/random_mechanism.hpp"
 
 namespace floatframe::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "floatframe/formulation/relative.hpp"
-#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/start/initial_state.hpp"
 #include "support/random_mechanism.hpp"
 
 namespace floatframe::test {

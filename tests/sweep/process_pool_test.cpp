@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "floatframe/run/results.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 #include "floatframe/sweep/sweep_run.hpp"
 #include "support/error_of.hpp"

@@ -9,7 +9,7 @@
 #include "floatframe/bench/chain_model.hpp"
 #include "floatframe/core/thread_clock.hpp"
 #include "floatframe/math/dense_factorization.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {
@@ -97,7 +97,7 @@ std::optional<Vec3> reference_tip(const Model& model, const SimulationDescriptio
   fine.inertia = InertiaMethod::preprocessing;
   fine.step = step;
   fine.tolerance = std::min(simulation.tolerance, 1e-10);
-  const auto stepper = make_bench_stepper(model, fine);
+  const auto stepper = std::make_unique<BenchStepper>(model, fine);
   const long steps = std::lround(tip_time / step);
   if (!stepper->advance(steps)) return std::nullopt;
   return tip_of(*stepper);
@@ -107,7 +107,7 @@ ChainRow measure_chain(const Model& model, const SimulationDescription& simulati
                        const ChainOptions& options, const std::optional<Vec3>& reference) {
   ChainRow row;
   row.combination = {simulation.coordinates, simulation.inertia};
-  const auto stepper = make_bench_stepper(model, simulation);
+  const auto stepper = std::make_unique<BenchStepper>(model, simulation);
   row.freedoms = stepper->freedoms();
   const long steps = std::max(1L, std::lround(options.duration / options.step));
   const CheckRun check(*stepper, options.step, steps, 2.0 * options.seconds);

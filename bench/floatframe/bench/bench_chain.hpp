@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/bench/bench_stepper.hpp"
 #include "floatframe/bench/chain_model.hpp"
 #include "floatframe/description/description.hpp"
-#include "floatframe/simulation/bench_stepper.hpp"
 
 namespace floatframe {
 

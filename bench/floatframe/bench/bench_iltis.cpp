@@ -8,10 +8,10 @@
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/bench/bench_chain.hpp"
+#include "floatframe/bench/bench_stepper.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/bench_stepper.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {
@@ -24,7 +24,7 @@ constexpr Combination combinations[] = {{Coordinates::absolute, InertiaMethod::p
 /// Processor time of a run without input and output, in blocks of steps.
 StepTime stepping_time(const Model& model, const SimulationDescription& simulation, long steps,
                        int repeats) {
-  return time_steps(*make_bench_stepper(model, simulation), steps, repeats, 0.0);
+  return time_steps(*std::make_unique<BenchStepper>(model, simulation), steps, repeats, 0.0);
 }
 
 BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
@@ -109,7 +109,7 @@ std::vector<BenchError> errors_of_steps(const Model& model, SimulationDescriptio
 /// One full Newton iteration at the start, in relative coordinates [s].
 double iteration_seconds(const Model& model, SimulationDescription simulation) {
   simulation.coordinates = Coordinates::relative;
-  return time_iteration(*make_bench_stepper(model, simulation), 0.1);
+  return time_iteration(*std::make_unique<BenchStepper>(model, simulation), 0.1);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "floatframe/core/thread_clock.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/reduction/reduction.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {
@@ -73,7 +73,7 @@ std::vector<std::function<Point()>> points(Sweep sweep) {
 
 void measure_part(const Model& model, const SimulationDescription& simulation,
                   const ScalingOptions& options, ScalingRow& row) {
-  const auto stepper = make_bench_stepper(model, simulation);
+  const auto stepper = std::make_unique<BenchStepper>(model, simulation);
   row.freedoms = stepper->freedoms();
   row.iteration = time_iteration(*stepper, 0.5 * options.seconds);
   try {

@@ -7,11 +7,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/apps/command.hpp"
+#include "floatframe/bench/bench_stepper.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/core/thread_clock.hpp"
-#include "floatframe/simulation/bench_stepper.hpp"
 
 namespace floatframe {
 namespace {
@@ -31,7 +32,7 @@ StartRow measured(StartKind kind, bool flexible, Coordinates coordinates, int co
     double spent = 0.0;
     for (int run = 0; run < runs && (run == 0 || spent < 2.0); ++run) {
       const double before = thread_seconds();
-      stepper = make_bench_stepper(model, o);
+      stepper = std::make_unique<BenchStepper>(model, o);
       const double time = thread_seconds() - before;
       row.start = std::min(row.start, time);
       spent += time;
@@ -53,7 +54,7 @@ int coordinates_of_one(StartKind kind, bool flexible, Coordinates coordinates) {
   const Model model = build_model(start_model(kind, flexible, 1));
   SimulationDescription o = model.simulation;
   o.coordinates = coordinates;
-  return std::max(1, make_bench_stepper(model, o)->freedoms());
+  return std::max(1, std::make_unique<BenchStepper>(model, o)->freedoms());
 }
 
 const char* stiffness(bool flexible) { return flexible ? "flexible" : "rigid"; }

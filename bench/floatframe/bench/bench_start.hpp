@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "floatframe/bench/start_models.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 

@@ -8,6 +8,7 @@
 
 #include "floatframe/bench/bench_command.hpp"
 #include "floatframe/bench/bench_scaling.hpp"
+#include "floatframe/bench/bench_stepper.hpp"
 #include "floatframe/bench/chain_model.hpp"
 #include "floatframe/bench/start_models.hpp"
 #include "floatframe/core/atomic_file.hpp"
@@ -15,8 +16,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/bench_stepper.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStepper* stepper,
                                                            long steps, long iterations) noexcept {
@@ -27,7 +27,7 @@ extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStep
 /// From the built model to the first step, for the same tools.
 extern "C" [[gnu::noinline]] floatframe::BenchStepper* floatframe_counted_start(
     const floatframe::Model* model, const floatframe::SimulationDescription* options) {
-  return floatframe::make_bench_stepper(*model, *options).release();
+  return std::make_unique<floatframe::BenchStepper>(*model, *options).release();
 }
 
 namespace floatframe {

@@ -9,7 +9,7 @@
 #include "floatframe/analyses/model_order.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/json_values.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

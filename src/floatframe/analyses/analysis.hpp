@@ -14,7 +14,7 @@ namespace floatframe {
 /// The result of an analysis, for people and for programs.
 struct AnalysisReport {
   std::string text;  ///< tables (core/text_table.hpp) and sentences, SI units
-  std::string json;  ///< a document (report/json_values.hpp)
+  std::string json;  ///< a document (results/json_values.hpp)
   /// Contents of the files, in the order of `Analysis::files`; valid while the model exists.
   std::vector<std::function<std::string()>> files{};
   std::vector<std::string> warnings{};  ///< one sentence each

@@ -10,7 +10,7 @@
 #include "floatframe/body/modal_damping.hpp"
 #include "floatframe/core/text_pieces.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
-#include "floatframe/simulation/linear_system.hpp"
+#include "floatframe/linear/linear_system.hpp"
 
 namespace floatframe {
 namespace {

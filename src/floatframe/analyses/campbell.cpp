@@ -1,6 +1,6 @@
 // Campbell diagram: the vibrations of a model with a rotor over its speed, critical speeds, onset
-// of instability (simulation/campbell.hpp); as text, JSON, CSV and a picture.
-#include "floatframe/simulation/campbell.hpp"
+// of instability (rotors/campbell.hpp); as text, JSON, CSV and a picture.
+#include "floatframe/rotors/campbell.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include "floatframe/analyses/rotor_options.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/campbell_picture.hpp"
-#include "floatframe/report/json_values.hpp"
+#include "floatframe/page/campbell_picture.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

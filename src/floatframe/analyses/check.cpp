@@ -1,4 +1,6 @@
 // Check: reads, builds and assembles a model; its coordinates in both formulations.
+#include "floatframe/start/check.hpp"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -10,13 +12,13 @@
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
-#include "floatframe/report/check_page.hpp"
-#include "floatframe/report/json_values.hpp"
-#include "floatframe/report/notes_text.hpp"
-#include "floatframe/report/page_tables.hpp"
-#include "floatframe/report/page_writer.hpp"
-#include "floatframe/simulation/start_up.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/page/check_page.hpp"
+#include "floatframe/results/json_values.hpp"
+#include "floatframe/results/notes_text.hpp"
+#include "floatframe/page/page_tables.hpp"
+#include "floatframe/page/page_writer.hpp"
+#include "floatframe/start/start_up.hpp"
+#include "floatframe/start/system_state.hpp"
 
 namespace floatframe {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/report/log_plot.hpp"
-#include "floatframe/report/plot_ticks.hpp"
+#include "floatframe/page/log_plot.hpp"
+#include "floatframe/page/plot_ticks.hpp"
 
 namespace floatframe {
 

@@ -12,9 +12,9 @@
 #include "floatframe/formats/body_file/npy.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
 #include "floatframe/formats/matlab/mat_file.hpp"
-#include "floatframe/report/json_values.hpp"
-#include "floatframe/simulation/linear_ports.hpp"
-#include "floatframe/simulation/operating_point.hpp"
+#include "floatframe/linear/linear_ports.hpp"
+#include "floatframe/linear/operating_point.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

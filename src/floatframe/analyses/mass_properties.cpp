@@ -11,10 +11,10 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/inertia/inertia_terms.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/report/json_values.hpp"
-#include "floatframe/report/notes_text.hpp"
-#include "floatframe/simulation/simulation_options.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/results/json_values.hpp"
+#include "floatframe/results/notes_text.hpp"
+#include "floatframe/start/system_state.hpp"
+#include "floatframe/stepping/simulation_options.hpp"
 
 namespace floatframe {
 namespace {

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/loops/start_report.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/simulation/start_report.hpp"
-#include "floatframe/simulation/stepping.hpp"
+#include "floatframe/stepping/stepping.hpp"
 
 namespace floatframe {
 

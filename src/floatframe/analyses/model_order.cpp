@@ -7,7 +7,7 @@
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/json_values.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // Number of modes that each flexible body needs for a frequency range, as text and JSON: the output
 // of `advise --below`.
+#include "floatframe/advice/model_order.hpp"
 #include "floatframe/analyses/analysis.hpp"
-#include "floatframe/simulation/model_order.hpp"
 
 namespace floatframe {
 

@@ -11,15 +11,15 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/linear/linear_system.hpp"
+#include "floatframe/linear/operating_point.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/lowest_motions.hpp"
-#include "floatframe/report/check_page.hpp"
-#include "floatframe/report/json_values.hpp"
-#include "floatframe/report/modes_page.hpp"
-#include "floatframe/simulation/linear_system.hpp"
-#include "floatframe/simulation/operating_point.hpp"
-#include "floatframe/simulation/start_up.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/page/check_page.hpp"
+#include "floatframe/page/modes_page.hpp"
+#include "floatframe/results/json_values.hpp"
+#include "floatframe/start/start_up.hpp"
+#include "floatframe/start/system_state.hpp"
 
 namespace floatframe {
 namespace {

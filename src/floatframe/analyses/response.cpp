@@ -11,8 +11,8 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/text_pieces.hpp"
 #include "floatframe/description/road_spectrum.hpp"
-#include "floatframe/simulation/frequency_response.hpp"
-#include "floatframe/simulation/operating_point.hpp"
+#include "floatframe/linear/frequency_response.hpp"
+#include "floatframe/linear/operating_point.hpp"
 
 namespace floatframe {
 namespace {

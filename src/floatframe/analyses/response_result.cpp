@@ -10,7 +10,7 @@
 #include "floatframe/analyses/complex_curves.hpp"
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/json_values.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/simulation/road_response.hpp"
+#include "floatframe/linear/road_response.hpp"
 
 namespace floatframe {
 

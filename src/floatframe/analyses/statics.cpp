@@ -1,5 +1,7 @@
 // Statics: the static equilibrium with the forces in all force elements and joints and
 // the poses of bodies.
+#include "floatframe/start/statics.hpp"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -9,9 +11,9 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model_file/state_json.hpp"
-#include "floatframe/report/json_values.hpp"
-#include "floatframe/report/notes_text.hpp"
-#include "floatframe/simulation/range_watch.hpp"
+#include "floatframe/results/json_values.hpp"
+#include "floatframe/results/notes_text.hpp"
+#include "floatframe/run/range_watch.hpp"
 
 namespace floatframe {
 namespace {
@@ -131,7 +133,8 @@ AnalysisReport report_statics(const Model& model) {
       .text = fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
                           model.name, plural(s.iterations, "iteration"), s.residual) +
               forces_text(model, s) + joints_text(s) + poses_text(s) + amplitudes_text(s) +
-              "\nForces: tension is positive, tyres: vertical force on the wheel, motions: on the child. Joints: on "
+              "\nForces: tension is positive, tyres: vertical force on the wheel, motions: on the "
+              "child. Joints: on "
               "the child, world axes, about the\njoint's point. Bodies: origin of the body "
               "frame; angles from the design pose.\n" +
               redundancy_note(s) + notes_text(s.notes),

@@ -13,7 +13,7 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/text_pieces.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/json_values.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/simulation/unbalance_response.hpp"
+#include "floatframe/rotors/unbalance_response.hpp"
 
 namespace floatframe {
 

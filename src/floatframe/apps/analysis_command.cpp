@@ -11,8 +11,8 @@
 #include "floatframe/core/work_progress.hpp"
 #include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/description/validate.hpp"
+#include "floatframe/loops/run_error.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
-#include "floatframe/simulation/run_error.hpp"
 
 namespace floatframe {
 namespace {

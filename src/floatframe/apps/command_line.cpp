@@ -13,7 +13,7 @@
 #include "floatframe/apps/command_parser.hpp"
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

@@ -6,8 +6,8 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/report/check_page.hpp"
-#include "floatframe/report/comparison_report.hpp"
+#include "floatframe/page/check_page.hpp"
+#include "floatframe/page/comparison_report.hpp"
 
 namespace floatframe {
 namespace {

@@ -11,7 +11,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/output_place.hpp"
 #include "floatframe/core/regular_file.hpp"
-#include "floatframe/report/summary_json.hpp"
+#include "floatframe/results/summary_json.hpp"
 
 namespace floatframe {
 namespace {

@@ -5,7 +5,7 @@
 // `previous`.
 #include <string>
 
-#include "floatframe/simulation/results.hpp"
+#include "floatframe/run/results.hpp"
 
 namespace floatframe {
 

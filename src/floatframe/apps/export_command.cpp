@@ -6,7 +6,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/export/export_file.hpp"
 #include "floatframe/history/recorded_motion.hpp"
-#include "floatframe/simulation/run_error.hpp"
+#include "floatframe/loops/run_error.hpp"
 
 namespace floatframe {
 namespace {

@@ -4,8 +4,8 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/history/new_channels.hpp"
-#include "floatframe/report/results_csv.hpp"
-#include "floatframe/simulation/run_error.hpp"
+#include "floatframe/loops/run_error.hpp"
+#include "floatframe/results/results_csv.hpp"
 
 namespace floatframe {
 namespace {

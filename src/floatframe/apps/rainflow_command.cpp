@@ -14,7 +14,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/math/rainflow.hpp"
-#include "floatframe/report/results_reader.hpp"
+#include "floatframe/results/results_reader.hpp"
 
 namespace floatframe {
 namespace {

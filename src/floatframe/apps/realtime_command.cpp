@@ -14,7 +14,7 @@
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

@@ -11,8 +11,8 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/realtime/signal_log.hpp"
-#include "floatframe/report/json_values.hpp"
-#include "floatframe/report/notes_text.hpp"
+#include "floatframe/results/json_values.hpp"
+#include "floatframe/results/notes_text.hpp"
 
 namespace floatframe {
 namespace {

@@ -10,8 +10,8 @@
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/parts/file_info.hpp"
-#include "floatframe/report/check_page.hpp"
-#include "floatframe/report/page_writer.hpp"
+#include "floatframe/page/check_page.hpp"
+#include "floatframe/page/page_writer.hpp"
 
 namespace floatframe {
 namespace {

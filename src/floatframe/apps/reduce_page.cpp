@@ -8,8 +8,8 @@
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
-#include "floatframe/report/page_json.hpp"
-#include "floatframe/report/scene_json.hpp"
+#include "floatframe/page/page_json.hpp"
+#include "floatframe/page/scene_json.hpp"
 
 namespace floatframe {
 namespace {

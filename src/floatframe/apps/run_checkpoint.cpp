@@ -7,7 +7,7 @@
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/regular_file.hpp"
-#include "floatframe/simulation/state_bytes.hpp"
+#include "floatframe/stepping/state_bytes.hpp"
 
 namespace floatframe {
 namespace {

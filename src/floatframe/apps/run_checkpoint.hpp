@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/report/results_file.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/results/results_file.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 

@@ -18,11 +18,11 @@
 #include "floatframe/history/history_content.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
-#include "floatframe/report/notes_text.hpp"
-#include "floatframe/report/page_writer.hpp"
-#include "floatframe/report/run_page.hpp"
-#include "floatframe/simulation/range_warnings.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/results/notes_text.hpp"
+#include "floatframe/page/page_writer.hpp"
+#include "floatframe/page/run_page.hpp"
+#include "floatframe/run/range_warnings.hpp"
+#include "floatframe/run/run.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 
 namespace floatframe {

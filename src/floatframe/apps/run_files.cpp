@@ -11,13 +11,13 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/output_place.hpp"
-#include "floatframe/report/results_csv.hpp"
-#include "floatframe/report/results_reader.hpp"
-#include "floatframe/report/run_page.hpp"
-#include "floatframe/report/scene_frames.hpp"
-#include "floatframe/report/scene_json.hpp"
-#include "floatframe/report/summary_json.hpp"
-#include "floatframe/simulation/state_layout.hpp"
+#include "floatframe/results/results_csv.hpp"
+#include "floatframe/results/results_reader.hpp"
+#include "floatframe/page/run_page.hpp"
+#include "floatframe/page/scene_frames.hpp"
+#include "floatframe/page/scene_json.hpp"
+#include "floatframe/results/summary_json.hpp"
+#include "floatframe/run/state_layout.hpp"
 
 namespace floatframe {
 namespace {

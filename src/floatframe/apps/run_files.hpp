@@ -11,7 +11,7 @@
 #include "floatframe/apps/run_checkpoint.hpp"
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/history/states_file.hpp"
-#include "floatframe/report/run_report.hpp"
+#include "floatframe/page/run_report.hpp"
 
 namespace floatframe {
 

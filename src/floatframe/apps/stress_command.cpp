@@ -8,7 +8,7 @@
 #include "floatframe/export/stress_field.hpp"
 #include "floatframe/export/stress_report.hpp"
 #include "floatframe/history/recorded_motion.hpp"
-#include "floatframe/simulation/run_error.hpp"
+#include "floatframe/loops/run_error.hpp"
 
 namespace floatframe {
 namespace {

@@ -18,7 +18,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/regular_file.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "floatframe/sweep/process_memory.hpp"
 #include "floatframe/sweep/sweep_ranks.hpp"
 #include "floatframe/sweep/sweep_workers.hpp"

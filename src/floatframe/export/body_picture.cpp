@@ -6,7 +6,7 @@
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/model/element_outputs.hpp"
-#include "floatframe/report/scene_mesh.hpp"
+#include "floatframe/page/scene_mesh.hpp"
 
 namespace floatframe {
 namespace {

@@ -10,7 +10,7 @@
 #include "floatframe/export/export_file.hpp"
 #include "floatframe/export/glb_file.hpp"
 #include "floatframe/export/morph_targets.hpp"
-#include "floatframe/report/scene_mesh.hpp"
+#include "floatframe/page/scene_mesh.hpp"
 
 namespace floatframe {
 namespace {

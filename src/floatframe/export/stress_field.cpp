@@ -4,7 +4,7 @@
 #include <set>
 
 #include "floatframe/model/gauge.hpp"
-#include "floatframe/report/scene_stress.hpp"
+#include "floatframe/page/scene_stress.hpp"
 
 namespace floatframe {
 namespace {

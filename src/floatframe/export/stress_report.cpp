@@ -8,7 +8,7 @@
 
 #include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/report/json_values.hpp"
+#include "floatframe/results/json_values.hpp"
 
 namespace floatframe {
 namespace {

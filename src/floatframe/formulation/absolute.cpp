@@ -60,7 +60,7 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
   tree.forces();
   const SystemMotion& motion = tree.motion();
   for (std::size_t k = 0; k < model_.elements.size(); ++k)
-    if (model_.elements[k].counts_turns()) element_set_.set_angle(k, motion.efforts[k].length);
+    element_set_.set_angle(k, motion.efforts[k].length);
   for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
     const AbsoluteBody& b = kinematics_.bodies()[i];
     const BodyKinematics& from = motion.bodies[i];

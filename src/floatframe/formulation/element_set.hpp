@@ -28,13 +28,16 @@ class ElementSet {
   }
   std::span<const double> inputs() const noexcept { return inputs_; }
 
-  /// Angles of the joint springs at the last evaluation, a number for each force [rad].
+  /// Angles at the last evaluation, of the elements that count turns [rad].
   std::span<const double> angles() const noexcept { return angles_; }
   void set_angles(std::span<const double> angles) noexcept {
     assert(angles.size() == angles_.size());
     std::copy(angles.begin(), angles.end(), angles_.begin());
   }
-  void set_angle(std::size_t force, double angle) noexcept { angles_[force] = angle; }
+  /// Of element k, if it counts turns.
+  void set_angle(std::size_t k, double angle) noexcept {
+    if (slots_[k] >= 0) angles_[slots_[k]] = angle;
+  }
   /// Turns are counted starting at the start values of these joints, or their motions at time t.
   void count_turns_from(const Model& values, double t) noexcept;
 
@@ -50,8 +53,8 @@ class ElementSet {
   void connect(const std::vector<const MarkerState*>& markers);
   /// What element k acts on, with positions from `p_WO`.
   Ports ports(std::size_t k, const Vec3& p_WO, double t) const noexcept {
-    return {model_,  model_.elements[k], markers_[k].data(), p_WO, t, angles_[k],
-            inputs_, branches_[k]};
+    const double angle = slots_[k] < 0 ? 0.0 : angles_[slots_[k]];
+    return {model_, model_.elements[k], markers_[k].data(), p_WO, t, angle, inputs_, branches_[k]};
   }
 
   /// The beginning of a step, and its end: changes of the angles in a rejected step are
@@ -74,7 +77,7 @@ class ElementSet {
     for (const std::size_t k : acting_) {
       const Ports in = ports(k, p_WO, t);
       evaluate_element(in, states_[k]);
-      if (in.element.rotational) angles_[k] = states_[k].length;
+      set_angle(k, states_[k].length);
     }
   }
 
@@ -87,6 +90,7 @@ class ElementSet {
  private:
   const Model& model_;
   std::vector<Efforts> states_;
+  std::vector<int> slots_;           ///< of each element in `angles_`; -1: it counts no turns
   std::vector<double> angles_;       ///< select the turn of the next evaluation [rad]
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;

@@ -2,7 +2,7 @@
 // A formulation as everything but the integrator sees it: the equations of motion
 // (equations_of_motion.hpp) behind virtual functions, so that the start, linear systems, reactions,
 // watches and recording are compiled once; and the motion of the system, which is the same in all
-// coordinates. The integrator and its runner are templates over the classes that derive from it:
+// coordinates. The integrator is a template over the classes that derive from it:
 // these are final, so that steps call them directly.
 #include <cassert>
 #include <memory>
@@ -42,7 +42,7 @@ class Formulation {
   /// Values of `model().inputs`, constant until set again; at first their initial values.
   void set_inputs(std::span<const double> values) noexcept { element_set_.set_inputs(values); }
   std::span<const double> inputs() const noexcept { return element_set_.inputs(); }
-  /// Angles of the joint springs at the last evaluation (a number for each force): they determine
+  /// Angles of the joint springs at the last evaluation, of those about an axis: they determine
   /// the turn of the next angle, so they are a part of the state that q does not contain.
   std::span<const double> spring_angles() const noexcept { return element_set_.angles(); }
   void set_spring_angles(std::span<const double> angles) noexcept {
@@ -132,7 +132,7 @@ class Formulation {
   virtual void add_tree_wrenches(Reactions&) const noexcept {}
 
  protected:
-  /// With constraints for these joints, of all elements and all prescribed motions. Allocates.
+  /// With constraints for these joints and of all elements. Allocates.
   Formulation(const Model& model, const std::vector<int>& constrained_joints);
   /// Adds a view of a body, a marker; in the order of the model.
   void show_body(const Mat3& R_WB, const Vec3& w_WB, const VecX& y, const VecX& yd,

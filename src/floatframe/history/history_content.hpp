@@ -1,7 +1,7 @@
 #pragma once
 // The part of a result file before its rows: the header and the arrays of a model.
 #include "floatframe/history/states_file.hpp"
-#include "floatframe/simulation/state_layout.hpp"
+#include "floatframe/run/state_layout.hpp"
 
 namespace floatframe {
 

@@ -9,7 +9,7 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/description/rules.hpp"
-#include "floatframe/simulation/state_layout.hpp"
+#include "floatframe/run/state_layout.hpp"
 
 namespace floatframe {
 namespace {

@@ -4,7 +4,7 @@
 // outputs. Reactions and their accelerations are solved for.
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/simulation/result_table.hpp"
+#include "floatframe/run/result_table.hpp"
 
 namespace floatframe {
 

@@ -4,16 +4,10 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/description/validate.hpp"
-#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/simulation/stepped_model.hpp"
+#include "floatframe/stepping/stepper.hpp"
 
 namespace floatframe {
-
-struct RecordedMotion::Replay {
-  virtual ~Replay() = default;
-  virtual const SystemMotion& at(std::size_t k, std::vector<double>& outputs) = 0;
-};
 
 namespace {
 
@@ -24,15 +18,14 @@ namespace {
 
 }  // namespace
 
-template <class F>
-struct RecordedMotion::ReplayOf : Replay {
-  ReplayOf(const StateHistory& h, const Model& model, const SimulationDescription& options)
+struct RecordedMotion::Replay {
+  Replay(const StateHistory& h, const Model& model, const SimulationDescription& options)
       : history(h),
         steps(model, options, {.duration = options.duration}),
         memory(steps.memory()),
         row(history.header().columns),
         computes_energies(needs_of_outputs(model).energies) {
-    const F& f = steps.formulation();
+    const Formulation& f = steps.formulation();
     if (h.header().configurations != f.configurations() ||
         h.header().velocities != f.velocities() || size_of("inputs") != f.inputs().size() ||
         size_of("spring_angles") != f.spring_angles().size())
@@ -44,7 +37,7 @@ struct RecordedMotion::ReplayOf : Replay {
                                      !steps.start_report().redundant.empty()});
   }
 
-  const SystemMotion& at(std::size_t k, std::vector<double>& outputs) override {
+  const SystemMotion& at(std::size_t k, std::vector<double>& outputs) {
     history.instant(k, row);
     const HistoryHeader& h = history.header();
     State& s = memory.state;
@@ -53,7 +46,7 @@ struct RecordedMotion::ReplayOf : Replay {
     fill("v", h.v, s.v);
     const std::span<const double> angles = group("spring_angles");
     memory.spring_angles.assign(angles.begin(), angles.end());
-    F& f = steps.formulation();
+    Formulation& f = steps.formulation();
     f.set_inputs(group("inputs"));
     if (solver) {
       s.a.setZero();
@@ -64,7 +57,7 @@ struct RecordedMotion::ReplayOf : Replay {
     }
     steps.set_memory(memory);
     steps.sample(outputs.data());
-    memory.runner.outputs = steps.memory().runner.outputs;  // turns counted by outputs
+    memory.outputs = steps.memory().outputs;  // turns counted by outputs
     return f.motion({.accelerations = true, .energies = computes_energies});
   }
 
@@ -82,8 +75,8 @@ struct RecordedMotion::ReplayOf : Replay {
   }
 
   const StateHistory& history;
-  SteppedModel<F> steps;
-  SteppedMemory memory;
+  Stepper steps;
+  StepperMemory memory;
   std::optional<ReactionSolver> solver;
   std::vector<double> row;
   bool computes_energies;
@@ -94,10 +87,7 @@ RecordedMotion::RecordedMotion(const StateHistory& history, const Model& model,
     : history_(history), outputs_(model.outputs.size() + 1) {
   require_valid_run(options);
   if (history.header().bodies.size() != model.bodies.size()) refuse_other_model(history);
-  if (options.coordinates == Coordinates::relative)
-    replay_ = std::make_unique<ReplayOf<RelativeFormulation>>(history, model, options);
-  else
-    replay_ = std::make_unique<ReplayOf<AbsoluteFormulation>>(history, model, options);
+  replay_ = std::make_unique<Replay>(history, model, options);
 }
 
 RecordedMotion::~RecordedMotion() = default;

@@ -2,7 +2,7 @@
 // The motion of a run from its states: the formulation of the run is set to a recorded instant -
 // coordinates, velocities, accelerations of the integrator, turns of springs, inputs - and
 // reproduces its values in the run to the bit. If the file has no accelerations they are solved for
-// (simulation/reaction_solver.hpp), and differ from those of the run within its tolerance.
+// (reactions/reaction_solver.hpp), and differ from those of the run within its tolerance.
 #include <memory>
 #include <vector>
 
@@ -36,8 +36,6 @@ class RecordedMotion {
 
  private:
   struct Replay;
-  template <class F>
-  struct ReplayOf;
 
   const StateHistory& history_;
   std::vector<double> outputs_;

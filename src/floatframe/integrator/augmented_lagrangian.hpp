@@ -35,8 +35,10 @@
 #include <cmath>
 #include <limits>
 
+#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/formulation/equations_of_motion.hpp"
-#include "floatframe/integrator/step.hpp"
+#include "floatframe/formulation/relative.hpp"
+#include "floatframe/integrator/integrator.hpp"
 #include "floatframe/integrator/step_scheme.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/types.hpp"
@@ -44,55 +46,39 @@
 namespace floatframe {
 
 template <EquationsOfMotion F>
-class AugmentedLagrangian {
+class AugmentedLagrangian final : public Integrator {
  public:
   AugmentedLagrangian(F& formulation, const StepOptions& options)
-      : f_(formulation), options_(options), spectral_radius_(options.spectral_radius) {
+      : Integrator(options, formulation.constraints()), f_(formulation) {
     const int nv = f_.velocities(), nc = f_.constraints();
-    assert(are_valid(options));
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
-    lambda_ = reactions_ = rate_ = work_ = increments_ = VecX::Zero(nc);
+    lambda_ = rate_ = work_ = increments_ = VecX::Zero(nc);
   }
 
-  /// One step of size h from `state`, which is replaced only if the step is accepted.
-  StepAttempt step(State& state, double h) noexcept {
+  StepAttempt attempt(State& state, double h) noexcept override {
     assert(h > 0.0 && fits(state) && all_finite(state.q));
     f_.stepping(true);
-    const StepAttempt report = advance(state, h);
+    Scheme k(options_, h);
+    StepAttempt report;
+    report.size = h;
+    // A reuse record of another run must have no effect (the caller may round t).
+    if (!(std::abs(state.t - reuse_.valid_at) < 1e-6 * h)) reuse_.contraction = 0.1;
+    predict(state, k, false);
+    newton(state, k, report);
+    if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
+      retry_step(state, k, report);
+    if (!report.accepted())
+      reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
+    else if (f_.constraints() == 0 || project(k, report))
+      accept(state, k);
     f_.stepping(false, report.accepted());
     return report;
   }
 
-  /// For discontinuities of forces; see restart.hpp. h: step size.
-  void project_velocities(State& state, double h) noexcept;
-  bool restart(State& state, double h) noexcept;
-  bool restart_in_course(State& state, double h) noexcept;
-  /// Switches the next steps to the trapezoidal rule, or back to the scheme of the options.
-  void trapezoidal(bool on) noexcept { options_.spectral_radius = on ? 1.0 : spectral_radius_; }
-
-  const StepOptions& options() const noexcept { return options_; }
-
-  /// Equal states and equal reuse records give bit-identical next steps.
-  const TangentReuse& tangent_reuse() const noexcept { return reuse_; }
-  void set_tangent_reuse(const TangentReuse& e) noexcept {
-    assert(e.contraction >= 0.0 && e.contraction <= 1.0);
-    reuse_ = e;
-  }
-
-  /// Multipliers consistent with the projected accelerations of the last accepted step. Those of
-  /// the state belong to the accelerations before projection, which have an error of O(h).
-  const VecX& reactions() const noexcept { return reactions_; }
-  /// If enabled: impulses i of the constraints in the velocity projection of the last accepted
-  /// step, W dv = -Phi_q^T i [N s].
-  const VecX& impulses() const noexcept {
-    assert(keeps_impulses_);
-    return impulses_;
-  }
-  void keep_impulses() {
-    keeps_impulses_ = true;
-    impulses_ = VecX::Zero(f_.constraints());
-  }
+  void project_velocities(State& state, double h) noexcept override;
+  bool restart(State& state, double h) noexcept override;
+  bool restart_in_course(State& state, double h) noexcept override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -117,23 +103,9 @@ class AugmentedLagrangian {
     return has_sizes(s, f_.configurations(), f_.velocities(), f_.constraints());
   }
 
-  StepAttempt advance(State& state, double h) noexcept {
-    Scheme k(options_, h);
-    StepAttempt report;
-    report.size = h;
-    // A reuse record of another run must have no effect (the caller may round t).
-    if (!(std::abs(state.t - reuse_.valid_at) < 1e-6 * h)) {
-      reuse_.contraction = 0.1;
-    }
-    predict(state, k, false);
-    newton(state, k, report);
-    if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
-      retry_step(state, k, report);
-    if (!report.accepted()) {
-      reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
-      return report;
-    }
-    if (f_.constraints() > 0 && !project(k, report)) return report;
+  /// The state at the end of the step.
+  void accept(State& state, const Scheme& k) noexcept {
+    const double h = k.h;
     assert(x_.allFinite() && q_.allFinite());  // or not converged
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
@@ -147,7 +119,6 @@ class AugmentedLagrangian {
       state.a_alg.swap(a_alg_);
     state.lambda.swap(lambda_);
     assert(fits(state));
-    return report;
   }
 
   /// The histories v_hat and a_hat, and the first guess of x.
@@ -359,12 +330,8 @@ class AugmentedLagrangian {
   }
 
   F& f_;
-  StepOptions options_;
-  const double spectral_radius_;  ///< as given in the options
-  TangentReuse reuse_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
-  VecX lambda_, reactions_, rate_, work_, increments_, impulses_;
-  bool keeps_impulses_ = false;
+  VecX lambda_, rate_, work_, increments_;
 };
 
 }  // namespace floatframe
@@ -372,3 +339,11 @@ class AugmentedLagrangian {
 // The remaining member functions.
 #include "floatframe/integrator/projections.hpp"
 #include "floatframe/integrator/restart.hpp"
+
+namespace floatframe {
+
+// Compiled once: all runs of a formulation use the same arithmetic.
+extern template class AugmentedLagrangian<RelativeFormulation>;
+extern template class AugmentedLagrangian<AbsoluteFormulation>;
+
+}  // namespace floatframe

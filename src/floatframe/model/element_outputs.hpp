@@ -15,7 +15,7 @@ const char* element_output_unit(const Element& element, ElementQuantity quantity
 /// Prescribed loads have no length and no rate.
 bool element_has(ElementType type, ElementQuantity quantity) noexcept;
 
-/// Category of the energy that an element exchanges (simulation/energy_balance.hpp).
+/// Category of the energy that an element exchanges (run/energy_balance.hpp).
 enum class EnergyCategory {
   springs,  ///< it keeps Efforts::energy (zero if it only damps); Efforts::damping is of
             ///< dampers, the rest of actuators and targets

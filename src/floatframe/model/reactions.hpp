@@ -1,6 +1,6 @@
 #pragma once
 // Reactions of joints, elements and motors at a sample (computed by
-// simulation/reaction_solver.hpp).
+// reactions/reaction_solver.hpp).
 #include <vector>
 
 #include "floatframe/math/types.hpp"

@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "floatframe/loops/run_error.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
-#include "floatframe/simulation/forcing.hpp"
-#include "floatframe/simulation/run_error.hpp"
-#include "floatframe/simulation/stepped_model.hpp"
+#include "floatframe/run/forcing.hpp"
+#include "floatframe/stepping/stepper.hpp"
 
 namespace floatframe {
 namespace {
@@ -28,13 +28,12 @@ StepLimits limits(const SimulationDescription& d, const RealTimeOptions& options
 
 /// A few steps of a second system of the same kind, so that program pages are mapped, library calls
 /// are resolved, and caches and branch predictors are warm. The run itself is not affected.
-template <class F>
-void warm_up(const SteppedModel<F>& model) {
-  SteppedModel<F> second(model, 20.0 * model.grid().step());
+void warm_up(const Stepper& model) {
+  Stepper second(model, 20.0 * model.grid().step());
   RealTimeReport report;
   RealTimeOptions options;
   options.paced = false;
-  RealTimeRunner<F> runner(second, options, nullptr, report);
+  RealTimeRunner runner(second, options, nullptr, report);
   runner.run();
   runner.sample();
   // Inputs that jump require more work: also one step with different inputs.
@@ -46,12 +45,11 @@ void warm_up(const SteppedModel<F>& model) {
   second.advance();
 }
 
-template <class F>
 void run_with(const Model& given, const SimulationDescription& d, const RealTimeOptions& options,
               SignalPort* port, RealTimeReport& report) {
-  SteppedModel<F> steps(given, d, limits(d, options));
+  Stepper steps(given, d, limits(d, options));
   report.start = steps.start_report();
-  RealTimeRunner<F> runner(steps, options, port, report);
+  RealTimeRunner runner(steps, options, port, report);
   MotionWatch watch(steps.model(), d.step);
   if (options.watch) runner.watched_by(watch);
   const RealTimeScheduling scheduling({options.priority, options.lock_memory});
@@ -60,7 +58,7 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
   report.refusals = scheduling.refusals();
   if (options.strict && !report.refusals.empty())
     throw RunError(ErrorCode::unavailable, report.refusals.front());
-  using End = typename RealTimeRunner<F>::End;
+  using End = RealTimeRunner::End;
   End end = End::completed;
   {
     const FlushDenormals flush;
@@ -117,10 +115,7 @@ RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
   report.inertia = d.inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
   report.step = d.step;
   report.paced = options.paced;
-  if (d.coordinates == Coordinates::relative)
-    run_with<RelativeFormulation>(model, d, options, port, report);
-  else
-    run_with<AbsoluteFormulation>(model, d, options, port, report);
+  run_with(model, d, options, port, report);
   return report;
 }
 

@@ -19,7 +19,7 @@
 #include "floatframe/model/model.hpp"
 #include "floatframe/realtime/realtime_options.hpp"
 #include "floatframe/realtime/signal_port.hpp"
-#include "floatframe/simulation/results.hpp"
+#include "floatframe/run/results.hpp"
 
 namespace floatframe {
 

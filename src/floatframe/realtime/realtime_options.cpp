@@ -5,7 +5,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/description/validate.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

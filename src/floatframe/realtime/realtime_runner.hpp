@@ -1,5 +1,5 @@
 #pragma once
-// The loop of a paced run, for any formulation; see realtime.hpp for its behaviour. The constructor
+// The loop of a paced run; see realtime.hpp for its behaviour. The constructor
 // allocates all memory: `run` does not allocate, lock, print or throw.
 #include <sys/resource.h>
 
@@ -13,16 +13,15 @@
 #include "floatframe/realtime/realtime.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"
-#include "floatframe/simulation/motion_watch.hpp"
-#include "floatframe/simulation/stepped_model.hpp"
+#include "floatframe/run/motion_watch.hpp"
+#include "floatframe/stepping/stepper.hpp"
 
 namespace floatframe {
 
-template <class F>
 class RealTimeRunner {
  public:
   /// Steps the time grid of `model`; `report` is filled by `run`.
-  RealTimeRunner(SteppedModel<F>& model, const RealTimeOptions& options, SignalPort* port,
+  RealTimeRunner(Stepper& model, const RealTimeOptions& options, SignalPort* port,
                  RealTimeReport& report)
       : f_(model.formulation()),
         steps_(model),
@@ -218,8 +217,8 @@ class RealTimeRunner {
     return true;
   }
 
-  F& f_;
-  SteppedModel<F>& steps_;
+  Formulation& f_;
+  Stepper& steps_;
   RealTimeOptions options_;
   SignalPort* port_;
   InputBuffer inputs_;

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

@@ -11,7 +11,7 @@
 #include <new>
 #include <utility>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

@@ -9,7 +9,7 @@
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/core/output_files.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "floatframe/sweep/run_queue.hpp"
 #include "floatframe/sweep/sweep_check.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/simulation/range_warning.hpp"
+#include "floatframe/run/range_warning.hpp"
 #include "floatframe/sweep/sweep_measure.hpp"
 #include "floatframe/sweep/sweep_plan.hpp"
 #include "floatframe/sweep/worker_limits.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 
 namespace floatframe {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/simulation/results.hpp"
+#include "floatframe/run/results.hpp"
 #include "floatframe/sweep/sweep_measure.hpp"
 
 namespace floatframe {

@@ -13,10 +13,10 @@
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/history/history_content.hpp"
-#include "floatframe/report/results_csv.hpp"
-#include "floatframe/report/summary_json.hpp"
-#include "floatframe/simulation/range_warnings.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/results/results_csv.hpp"
+#include "floatframe/results/summary_json.hpp"
+#include "floatframe/run/range_warnings.hpp"
+#include "floatframe/run/run.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
 
 namespace floatframe {

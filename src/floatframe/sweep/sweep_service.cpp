@@ -5,7 +5,7 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/enum_index.hpp"
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

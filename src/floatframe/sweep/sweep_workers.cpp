@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {

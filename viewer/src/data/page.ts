@@ -131,6 +131,9 @@ export interface PointJson {
 export interface JointJson {
   name: string;
   type: string;
+  /** What it leaves free. */
+  turns: number;
+  slides: number;
   a: number;
   b: number;
   axis?: Triple | null;

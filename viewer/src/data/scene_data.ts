@@ -365,7 +365,7 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
     amplitudeCount,
     bodies,
     points,
-    joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b) && joint.type !== 'free'),
+    joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b) && joint.turns + joint.slides < 6),
     forces: (json.forces ?? []).filter((force) => (placed(force.a) || force.a === -1) && (placed(force.b) || force.b === -1)),
     rods: (json.rods ?? []).filter((rod) => placed(rod.a) && placed(rod.b)),
     roads,

@@ -73,7 +73,7 @@ export class Connections {
 
   private addJoint(joint: JointJson): void {
     const material = plain(joint.cut ? CUT_COLOUR : JOINT_COLOUR);
-    const symbol = buildJoint(joint.type ?? '', 0.0135 * this.size, material);
+    const symbol = buildJoint(joint.turns, joint.slides, 0.0135 * this.size, material);
     // Whoever checks a model looks for wrong axes: they are seen through bodies, and long.
     if (this.scene.kind === 'check') {
       const half = 0.06 * this.size;
@@ -155,7 +155,7 @@ export class Connections {
   };
 
   private addRing(force: ForceJson): void {
-    const symbol = buildJoint('cylindrical', 0.009 * this.size, plain(SPRING_COLOUR));
+    const symbol = buildJoint(1, 1, 0.009 * this.size, plain(SPRING_COLOUR));
     const at = force.a >= 0 ? force.a : force.b;
     if (at < 0) return;
     const local = turnTo(force.axis ?? [0, 0, 1]);

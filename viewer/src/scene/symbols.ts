@@ -151,8 +151,8 @@ export function buildTyre(radius: number, width: number): Group {
   return group;
 }
 
-/** The sign of a joint's type, of radius about `size`. */
-export function buildJoint(type: string, size: number, material: Material): Group {
+/** The sign of a joint by what it leaves free: so many turns and slides. Its radius is about `size`. */
+export function buildJoint(turns: number, slides: number, size: number, material: Material): Group {
   const group = new Group();
   const add = (geometry: BufferGeometry): Mesh => {
     const mesh = new Mesh(geometry, material);
@@ -160,25 +160,24 @@ export function buildJoint(type: string, size: number, material: Material): Grou
     return mesh;
   };
   const pin = (length: number, radius: number): Mesh => add(upright(new CylinderGeometry(radius, radius, length, 20)));
-  const name = type.toLowerCase();
-  if (/revolute|hinge|motor/.test(name)) {
+  if (turns === 1 && slides === 0) {
     pin(3.4 * size, 0.3 * size);
     pin(1.5 * size, 0.75 * size);
-  } else if (/cylindrical/.test(name)) {
+  } else if (turns === 1 && slides === 1) {
     pin(4.4 * size, 0.3 * size);
     pin(1.8 * size, 0.65 * size);
-  } else if (/prismatic|translational|slid/.test(name)) {
+  } else if (turns === 0 && slides === 1) {
     pin(4.4 * size, 0.26 * size);
     add(new BoxGeometry(1.2 * size, 1.2 * size, 1.8 * size));
-  } else if (/universal|cardan|hooke/.test(name)) {
+  } else if (turns === 2 && slides === 0) {
     pin(2.6 * size, 0.3 * size);
     add(new CylinderGeometry(0.3 * size, 0.3 * size, 2.6 * size, 20));
     add(new SphereGeometry(0.5 * size, 20, 14));
-  } else if (/spherical|ball/.test(name)) {
+  } else if (turns === 3 && slides === 0) {
     add(new SphereGeometry(0.8 * size, 24, 16));
-  } else if (/fixed|rigid|weld|clamp/.test(name)) {
+  } else if (turns === 0 && slides === 0) {
     add(new BoxGeometry(1.2 * size, 1.2 * size, 1.2 * size));
-  } else if (/plan/.test(name)) {
+  } else if (slides === 2) {
     add(new BoxGeometry(2.6 * size, 2.6 * size, 0.2 * size));
   } else {
     add(new OctahedronGeometry(0.9 * size));

@@ -1,0 +1,95 @@
+#pragma once
+// Results of a run for writers: plain data, independent of the model.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/loops/start_report.hpp"
+#include "floatframe/run/range_warning.hpp"
+#include "floatframe/run/result_table.hpp"
+#include "floatframe/stepping/step_report.hpp"
+
+namespace floatframe {
+
+struct SystemState;
+
+/// Sources and sinks of the energy of a system.
+enum class EnergyFlow : std::size_t {
+  loads,          ///< applied forces and torques
+  actuators,      ///< actuators and moving targets of force elements
+  dampers,        ///< of force elements
+  tyres,          ///< their dampers, and the motion of the road below them
+  modal_damping,  ///< of flexible bodies
+  motions         ///< prescribed motions of joints
+};
+inline constexpr std::array<const char*, 6> energy_flow_names{"loads", "actuators",     "dampers",
+                                                              "tyres", "modal_damping", "motions"};
+
+/// Power [W] or work [J] of each, positive into the system.
+struct EnergyFlows {
+  std::array<double, energy_flow_names.size()> value{};
+  double& operator[](EnergyFlow k) noexcept { return value[index_of(k)]; }
+  double operator[](EnergyFlow k) const noexcept { return value[index_of(k)]; }
+  static constexpr std::size_t size() noexcept { return energy_flow_names.size(); }
+  double total() const noexcept {
+    double sum = 0.0;
+    for (const double x : value) sum += x;
+    return sum;
+  }
+};
+
+struct EnergySummary {  ///< [J]
+  double kinetic_start = 0, potential_start = 0, elastic_start = 0, total_start = 0;
+  double kinetic_end = 0, potential_end = 0, elastic_end = 0, total_end = 0;
+  bool balanced = false;  ///< the run monitored the balance: the following values are valid
+  EnergyFlows work;       ///< over the run
+  double remainder = 0;   ///< change of the total minus all work, at the end
+  double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
+  double exchanged = 0;                                    ///< reference value of remainders
+  double present = 0;  ///< the most in motion and modes together: weight and springs have no zero
+  /// The largest change of the remainder between two consecutive checks, and their times [s].
+  double largest_growth = 0, largest_growth_from = 0, largest_growth_to = 0;
+};
+
+/// The processor time of steps with their outputs [s], counted in bins of about equal ratio.
+struct StepTimes {
+  std::uint64_t steps = 0;
+  double median = 0, percent_99 = 0, largest = 0;
+  std::vector<double> edges;          ///< of the bins, one more than there are
+  std::vector<std::uint64_t> counts;  ///< from the first bin with a step to the last
+};
+
+/// The steps are the output steps that were accepted.
+struct RunSummary : StepCounters {
+  std::string model, coordinates, inertia;
+  double step = 0, duration = 0;  ///< [s]; duration actually reached
+  bool locates_edges = false;     ///< with `locate_edges`
+  double cpu = 0;                 ///< [s] of stepping, without input and output
+  double real_time_factor = 0;    ///< duration / cpu
+  StepTimes step_times;
+  EnergySummary energy;
+  /// "completed", "failed" or "interrupted"; "running" in a summary that is written at the start.
+  std::string status = "completed";
+  std::string message;  ///< cause of the failure: its time and the place to check
+  StartReport start;
+  /// Departures of the run from the range of the method: one sentence each (docs/range.md).
+  std::vector<RangeWarning> warnings;
+  bool strict = false;  ///< failed only because warnings count as errors: the results are complete
+  /// Inputs of the run: parameters set, as NAME=VALUE, and every file read with the hash of its
+  /// content. Empty unless the caller fills them.
+  std::vector<std::string> settings;
+  std::map<std::string, std::string> files;
+};
+
+struct RunResult {
+  ResultTable table;
+  RunSummary summary;
+  std::shared_ptr<SystemState> state;  ///< at the end, if requested
+};
+
+}  // namespace floatframe

@@ -1,0 +1,48 @@
+#include "floatframe/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/description/validate.hpp"
+#include "floatframe/math/dense.hpp"
+#include "floatframe/run/run_loop.hpp"
+
+namespace floatframe {
+
+void check_step(const SimulationDescription& o) {
+  if (o.duration > 0.0 && !(o.step <= o.duration * (1.0 + 1e-9)))
+    throw InputError(
+        ErrorCode::out_of_range, mark_of_time_settings(o),
+        fmt::format(
+            "the step of {:g} s is longer than the duration of {:g} s: expected at least one step",
+            o.step, o.duration));
+}
+
+RunSummary asked_summary(const std::string& model, const SimulationDescription& o) {
+  RunSummary s;
+  s.model = model;
+  s.coordinates = rules::coordinates[index_of(o.coordinates)];
+  s.inertia = rules::inertia_methods[index_of(o.inertia)];
+  s.step = o.step;
+  s.locates_edges = o.locate_edges;
+  return s;
+}
+
+RunSummary failed_summary(const std::string& model, const SimulationDescription& o,
+                          const std::string& message) {
+  RunSummary s = asked_summary(model, o);
+  s.status = "failed";
+  s.message = message;
+  return s;
+}
+
+RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
+  require_valid_run(o);
+  check_step(o);
+  return Run(given, o, run_options).result();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,124 @@
+#include "floatframe/start/element_tangents.hpp"
+
+#include <algorithm>
+
+#include "floatframe/model/element_keys.hpp"
+#include "floatframe/start/small_motions.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Products of numbers in (1) that take a second or two.
+constexpr double most_products = 4e9;
+
+/// Of an element without branches: a law or a table with corners.
+bool has_corners(const Element& e) {
+  for (const PiecewisePolynomial& law : e.laws)
+    if (!law.edges().empty()) return true;
+  const ElementDescription described{e.name, *e.keys, {}};
+  for (const ElementKey& key : element_keys(e.type))
+    if (key.kind == KeyKind::speed_table && ElementView(described).matrix(key.name).size() > 0)
+      return true;
+  return false;
+}
+
+/// The law is smooth wherever the differences go.
+class Smooth {
+ public:
+  Smooth(Formulation& f, const State& s) : f_(f), s_(s) {
+    const std::vector<Element>& elements = f.model().elements;
+    kinematics_at(f, s);
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      if (has_branches(elements[k])) {
+        watched_.push_back(k);
+        branches_.push_back(branch(k));
+      } else {
+        unknown_ = unknown_ || has_corners(elements[k]);
+      }
+    }
+  }
+  bool operator()(const VecX& reach) {
+    if (unknown_) return false;
+    if (watched_.empty()) return true;
+    VecX q = s_.q;
+    for (Eigen::Index j = 0; j < reach.size(); ++j)
+      for (const double h : {reach[j], -reach[j]}) {
+        const VecX x = h * VecX::Unit(reach.size(), j);
+        f_.retract(s_.q, x, q);
+        kinematics_at(f_, s_.t, q, s_.v);
+        if (!stays()) return false;
+        kinematics_at(f_, s_.t, s_.q, VecX(s_.v + 10.0 * x));
+        if (!stays()) return false;
+      }
+    return true;
+  }
+
+ private:
+  /// The branch of the present motion. A law that is held to one is smooth.
+  std::int64_t branch(std::size_t k) const {
+    const Ports in = f_.ports(k);
+    return in.branch == free_branch ? branch_side(in).next : free_branch;
+  }
+  bool stays() const {
+    for (std::size_t i = 0; i < watched_.size(); ++i)
+      if (branch(watched_[i]) != branches_[i]) return false;
+    return true;
+  }
+
+  Formulation& f_;
+  const State& s_;
+  std::vector<std::size_t> watched_;
+  std::vector<std::int64_t> branches_;
+  bool unknown_ = false;
+};
+
+/// Velocities of these markers: v, w of each.
+VecX rates_of(const Formulation& f, const std::vector<int>& markers) {
+  VecX out(6 * std::ssize(markers));
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    const MarkerState& m = f.marker(markers[i]);
+    out.segment<6>(6 * static_cast<Eigen::Index>(i)) << m.v, m.w;
+  }
+  return out;
+}
+
+}  // namespace
+
+ElementTangents::ElementTangents(Formulation& f, const State& s, const VecX& reach) : f_(f) {
+  const Eigen::Index nv = f.velocities();
+  const std::vector<Element>& elements = f.model().elements;
+  K = C = MatX::Zero(nv, nv);
+  std::vector<int> markers;
+  for (const Element& e : elements)
+    if (e.acts) markers.insert(markers.end(), e.markers.begin(), e.markers.end());
+  const double products = 24.0 * std::ssize(markers) * nv * nv;
+  if (markers.empty() || products > most_products || !Smooth(f, s)(reach)) return;
+  MatX J(6 * std::ssize(markers), nv), V = MatX::Zero(J.rows(), nv);
+  kinematics_at(f, s);
+  for (Eigen::Index j = 0; j < nv; ++j) {  // increments move markers in the same way as velocities
+    f.velocities(VecX(VecX::Unit(nv, j)));
+    J.col(j) = rates_of(f, markers);
+  }
+  if (!s.v.isZero(0.0)) {
+    VecX q = s.q;
+    V = precise_differences(reach, 0, [&](const VecX& x) {
+          f.retract(s.q, x, q);
+          kinematics_at(f, s.t, q, s.v);
+          return rates_of(f, markers);
+        }).columns;
+  }
+  dynamics_at(f, s);
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < elements.size(); ++k) {  // (1)
+    if (!elements[k].acts) continue;
+    const Eigen::Index rows = 6 * std::ssize(elements[k].markers);
+    const EffortTangent t = exact_tangent(f.ports(k));
+    const auto motion = J.middleRows(row, rows);
+    K += motion.transpose() * (t.K * motion + t.C * V.middleRows(row, rows));
+    C += motion.transpose() * (t.C * motion);
+    row += rows;
+  }
+  f.hold_efforts(true);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,62 @@
+#include "floatframe/start/overflow.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace floatframe {
+
+std::string overflow_text(Formulation& f, const State& state, double t, double limit) {
+  const Model& model = f.model();
+  std::string text;
+  const auto look = [&](double x, const auto& sentence) {
+    if (text.empty() && !(std::abs(x) < limit))
+      text = sentence(std::isfinite(x) ? fmt::format("{:.3g}", std::abs(x)) : "more than 1e+308");
+  };
+  for (const Joint& j : model.joints) {
+    const TimeFunction* law = model.motion_of(j);
+    if (!law) continue;
+    const auto motion = evaluate(*law, t);
+    for (const double x : {motion.f, motion.df, motion.ddf})
+      look(x, [&](const std::string& n) {
+        return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
+                           n);
+      });
+  }
+  kinematics_at(f, t, state.q, state.v);
+  f.forces();
+  const SystemMotion& motion = f.motion();
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    look(motion.bodies[i].w_WB.stableNorm(), [&](const std::string& n) {
+      return fmt::format("body '{}' turns at {} rad/s", model.bodies[i].name, n);
+    });
+    look(motion.bodies[i].v_WB.stableNorm(), [&](const std::string& n) {
+      return fmt::format("body '{}' moves at {} m/s", model.bodies[i].name, n);
+    });
+  }
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& force = model.elements[k];
+    const Efforts& now = motion.efforts[k];
+    const auto slope = [&](const char* law, const char* unit) {
+      return [&force, law, unit](const std::string& n) {
+        return fmt::format("the {} of '{}' has a slope of {} [{}]", law, force.name, n, unit);
+      };
+    };
+    if (force.laws.size() == 2) {  // of its measure
+      look(force.laws[0](now.length).df, slope("spring", "N/m, N m/rad"));
+      look(force.laws[1](now.rate).df, slope("damper", "N s/m, N m s/rad"));
+    }
+    look(now.force, [&](const std::string& n) {
+      return fmt::format("the force of '{}' is {} [N, N m]", force.name, n);
+    });
+  }
+  return text;
+}
+
+std::string overflow_sentence(const std::string& text, double t, double limit) {
+  return fmt::format(
+      "the numbers of the model overflow: {} at t = {:.6g} s, expected less than {:g}", text, t,
+      limit);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,108 @@
+// The sentence about a step that failed.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/loops/redundancy.hpp"
+#include "floatframe/start/light_motion.hpp"
+#include "floatframe/start/overflow.hpp"
+#include "floatframe/start/positive_mass.hpp"
+#include "floatframe/stepping/stepper.hpp"
+
+namespace floatframe {
+namespace {
+
+/// `lost_mass` of the first body with a message.
+std::string lost_masses(const SystemMotion& motion) {
+  for (std::size_t i = 0; i < motion.bodies.size(); ++i)
+    if (std::string text = lost_mass(motion.model.bodies[i], motion.bodies[i].y); !text.empty())
+      return text;
+  return {};
+}
+
+}  // namespace
+
+std::string Stepper::failure() {
+  std::string text = step_failure();  // first: refers to the failed iteration
+  if (std::string numbers = overflow(); !numbers.empty()) text = std::move(numbers);
+  kinematics_at(f_, state_);
+  const std::string lost = lost_masses(f_.motion());
+  return text + (lost.empty() ? light_motion_note(f_, state_) : "; " + lost);
+}
+
+/// From the results of the last iteration.
+std::string Stepper::step_failure() {
+  if (std::string text = unreachable_tolerance(); !text.empty()) return text;
+  const char* what =
+      last_.status == AttemptStatus::singular_tangent ? "the tangent matrix is singular at "
+      : last_.status == AttemptStatus::not_finite     ? "the state is no longer finite; look at "
+                                                      : "no convergence; look at ";
+  const std::string who = last_.constraint >= 0 ? f_.constraint_set().owner_of_row(last_.constraint)
+                          : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)
+                                                  : "the constraints";
+  // An excessive force is a more useful hint than the coordinate it acts on.
+  const int force = largest_force();
+  std::string text =
+      fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
+                  smallest(), what, who);
+  if (force >= 0)
+    text += fmt::format(" (largest force: '{}', {:.3g} N)", model().elements[force].name,
+                        f_.effort(force).force);
+  return text + singular_position();
+}
+
+/// The rest of the sentence if nearly dependent constraints prevent the step.
+std::string Stepper::singular_position() {
+  constexpr int most = 1000;  // coordinates; dense linear algebra
+  if (last_.status != AttemptStatus::not_converged || f_.constraints() == 0 ||
+      f_.velocities() > most || !nearly_dependent(f_.constraint_jacobian()))
+    return {};
+  return fmt::format(
+      "; constraints nearly depend on each other there: next to a singular position where the "
+      "mechanism may branch a smaller step or a tolerance above {:g} may pass",
+      step_options_.tolerance);
+}
+
+int Stepper::largest_force() const noexcept {
+  double worst = 0.0;
+  int force = -1;
+  for (std::size_t k = 0; k < model().elements.size(); ++k) {
+    const double x = std::abs(f_.effort(static_cast<int>(k)).force);
+    if (!(x <= worst)) {
+      worst = x;
+      force = static_cast<int>(k);
+    }
+  }
+  return force;
+}
+
+/// If numbers of the model are too large to compute with.
+std::string Stepper::overflow() {
+  std::string text;
+  if (!(asked_ < largest_beside_one))
+    text = fmt::format("the step of {:g} s is too long", asked_);
+  else
+    text = overflow_text(f_, state_, state_.t + least_, largest_beside_one);
+  if (text.empty()) return text;
+  return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}", state_.t,
+                     smallest(), overflow_sentence(text, state_.t, largest_beside_one));
+}
+
+/// If a tolerance needs more digits than double precision has.
+std::string Stepper::unreachable_tolerance() const {
+  if (last_.status != AttemptStatus::not_converged) return {};
+  const bool newton = last_.constraint < 0;
+  const double tolerance = newton ? step_options_.tolerance : step_options_.position_tolerance;
+  const double size = 1.0 + state_.q.lpNorm<Eigen::Infinity>();
+  const double least = 1e-15 * size;
+  if (!(tolerance < least)) return {};
+  return fmt::format(
+      "step failed at t = {:.6g} s after substeps down to {:.3g} s: the {} of {:g} is below the "
+      "rounding of double precision, about {:.1g} with coordinates up to {:.3g}; expected more",
+      state_.t, smallest(), newton ? "tolerance" : "position_tolerance", tolerance, least,
+      size - 1.0);
+}
+
+double Stepper::smallest() const noexcept { return std::min(least_, asked_); }
+
+}  // namespace floatframe

@@ -1,0 +1,150 @@
+#pragma once
+// Makes the steps of a model: its start, the grid of its times, attempts of the integrator divided
+// at edges and corners and into substeps, and outputs. The loops of `run`, `Simulation`, real time
+// and `bench` use it, so that all of them start in the same way and make the same steps, bit for
+// bit; they differ in their tasks between steps: sampling, monitoring, pacing, measuring. After
+// construction only `failure`, `system_state` and `memory` allocate.
+//
+//   advance     one step of the grid
+//   cover       its attempts: substeps where one does not converge
+//   part        one attempt, divided at corners (corner_steps.hpp) and edges (edge_locator.hpp)
+#include <cassert>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "floatframe/integrator/integrator.hpp"
+#include "floatframe/model/output_kind.hpp"
+#include "floatframe/reactions/reaction_solver.hpp"
+#include "floatframe/start/start_up.hpp"
+#include "floatframe/start/system_state.hpp"
+#include "floatframe/stepping/corner_steps.hpp"
+#include "floatframe/stepping/edge_locator.hpp"
+#include "floatframe/stepping/energies.hpp"
+#include "floatframe/stepping/step_report.hpp"
+#include "floatframe/stepping/time_grid.hpp"
+
+namespace floatframe {
+
+/// Options of a loop in addition to those of the model.
+struct StepLimits {
+  double duration = TimeGrid::endless;  ///< of the grid [s]
+  std::optional<double> min_step = {};  ///< smallest substep [s]; else that of the options
+  int fixed_iterations = 0;             ///< see StepOptions
+  double time_budget = 0.0;             ///< see StepOptions [s]
+  bool bounded = false;                 ///< steps are not divided at edges and corners
+};
+
+/// Everything that determines the next steps and outputs, bit for bit, except the inputs.
+struct StepperMemory {
+  /// Of the grid.
+  double base = 0.0;
+  std::int64_t since_base = 0;
+  State state;
+  std::vector<double> spring_angles;         ///< turns of joint springs
+  std::vector<std::int64_t> force_branches;  ///< held branches; empty unless edges are located
+  TangentReuse tangent_reuse;
+  std::vector<FollowedOutput> outputs;
+  std::vector<double> inputs;  ///< consistent with the accelerations of the state
+  StepCounters counters;
+};
+
+class Stepper {
+ public:
+  /// Finds the start state; see InitialisedModel for its requirements and exceptions.
+  Stepper(const Model& model, const SimulationDescription& options, const StepLimits& limits = {});
+  /// Another system at the start of `found`, which must outlive it: the search is not repeated.
+  Stepper(const Stepper& found, double duration);
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  const Model& model() const noexcept { return start_.model(); }
+  const StartReport& start_report() const noexcept { return start_.report(); }
+  const StepOptions& step_options() const noexcept { return step_options_; }
+  double begin() const noexcept { return start_.state().t; }  ///< [s]
+  Formulation& formulation() noexcept { return f_; }
+  const Formulation& formulation() const noexcept { return f_; }
+  const TimeGrid& grid() const noexcept { return grid_; }
+
+  /// The next step of the grid. Returns false if it failed: the formulation then remains at the
+  /// failed iteration for diagnosis; the state is the last accepted one.
+  bool advance() noexcept { return advance(grid_.next()); }
+  /// A step planned by `grid()`. A step longer than those of the grid is not divided into more
+  /// parts than one of them: its cost is bounded.
+  bool advance(const PlannedStep& step) noexcept;
+
+  const State& state() const noexcept { return state_; }
+  /// The last attempt at a step, and the multipliers of the last accepted one, consistent with its
+  /// accelerations.
+  const StepAttempt& last() const noexcept { return last_; }
+  const VecX& reactions() const noexcept { return integrator_->reactions(); }
+  const StepCounters& counters() const noexcept { return counters_; }
+  /// Index of the force element with the largest force at the last evaluation; -1: there is none.
+  int largest_force() const noexcept;
+
+  /// Where steps are divided at corners of functions of time.
+  std::span<const TimeCorner> corners() const noexcept;
+  /// Called where forces jump: at edges and corners that steps are divided at, before and after
+  /// them, and after inputs have jumped.
+  void set_edge_watch(const EdgeWatch& watch) noexcept;
+
+  /// Time and outputs at the present state; brings the formulation there. Outputs count turns from
+  /// one sample to the next.
+  void sample(double* row) noexcept;
+  /// At the present state; brings the formulation there.
+  Energies energies() noexcept;
+  /// The cause of the last failed step, as a sentence. Moves the formulation.
+  std::string failure();
+  /// By the names of joints and bodies; `joints` has followed the steps. Brings the formulation to
+  /// the present state.
+  SystemState system_state(JointFollower& joints);
+
+  StepperMemory memory() const;
+  /// `m` must be of the same model and options.
+  void set_memory(const StepperMemory& m);
+  /// Returns to the start.
+  void restart() { set_memory(first_); }
+
+ private:
+  void begin_at_start(bool locate_edges);
+  void find_corners(const SimulationDescription& options, const StepLimits& limits);
+  void locate_corners(const std::vector<TimeCorner>& corners);
+  void prepare_reactions();
+
+  bool cover(double h) noexcept;
+  StepAttempt part(double h, bool may_meet_corner) noexcept;
+  void hold_branches() noexcept;
+  void take_inputs(double h) noexcept;
+  void count(const StepAttempt& attempt) noexcept;
+
+  // What `failure` is made of.
+  std::string step_failure();
+  std::string singular_position();
+  std::string overflow();
+  std::string unreachable_tolerance() const;
+  double smallest() const noexcept;  ///< last substep that was attempted [s]
+
+  InitialisedModel start_;
+  Formulation& f_;
+  StepOptions step_options_;
+  double min_step_;  ///< [s], of steps of the grid
+  std::unique_ptr<Integrator> integrator_;
+  std::optional<EdgeLocator> locator_;
+  std::optional<CornerSteps> corners_;
+  EdgeWatch watch_;
+  InputUse input_use_ = InputUse::held;
+  State state_;
+  double least_ = 0.0, asked_ = 0.0;  ///< smallest substep and size of the last step [s]
+  StepAttempt last_;
+  StepCounters counters_;
+  std::vector<FollowedOutput> outputs_;
+  std::vector<double> inputs_;               ///< those of the last step
+  MotionNeeds needs_;                        ///< of the outputs
+  std::optional<ReactionSolver> reactions_;  ///< if an output needs them
+  TimeGrid grid_;
+  StepperMemory first_;
+};
+
+}  // namespace floatframe
