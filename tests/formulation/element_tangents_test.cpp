@@ -54,9 +54,12 @@ Model everything(unsigned seed) {
       const std::size_t body = model.elements.size() % names.size();
       if (kind.axis == ElementAxis::coordinate) {
         // On a joint of its kind, as the builder would put it.
-        for (const Joint& j : model.joints)
-          if (j.type == (e.rotational ? JointType::revolute : JointType::prismatic))
-            e.markers = {j.frame_F, j.frame_M};
+        for (int k = 0; k < std::ssize(model.joints); ++k) {
+          const Joint& j = model.joints[k];
+          if (j.type != (e.rotational ? JointType::revolute : JointType::prismatic)) continue;
+          e.joint = k;
+          e.markers = {j.frame_F, j.frame_M};
+        }
       } else {
         const std::size_t ports = x.markers.size();
         for (std::size_t i = 0; i < ports; ++i)

@@ -24,6 +24,7 @@ SOURCES = ROOT / "src" / "floatframe"
 COUNTED = "floatframe_counted_steps"
 COUNTED_START = "floatframe_counted_start"
 COMPILER = "GNU 12"
+ROOMS_OF_RUNS = ["loops", "start", "reactions", "stepping", "run", "linear", "rotors", "advice"]
 ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "start", "reactions", "stepping", "run"}
 LISTS = {
     "joint": ("description/joint_list.hpp", "JointType"),
@@ -79,6 +80,8 @@ def source_figures():
         "templates over a formulation": sum(len(re.findall(r"template ?<.*(?:class|typename) F\b", t)) for t in texts.values()),
         "asserts in rooms of steps, at least": sum(len(re.findall(r"\bassert\(", t)) for p, t in texts.items()
                                                    if p.relative_to(SOURCES).parts[0] in ROOMS_OF_STEPS),
+        "lines of the largest room from loops to advice": max(
+            sum(t.count("\n") for p, t in texts.items() if SOURCES / room in p.parents) for room in ROOMS_OF_RUNS),
         "lines of decks and formats": sum(t.count("\n") for p, t in texts.items() if {SOURCES / "formats", SOURCES / "decks"} & set(p.parents)),
         "lines of tests": sum(p.read_text(encoding="utf-8").count("\n") for p in (ROOT / "tests").rglob("*") if p.suffix in (".cpp", ".hpp", ".py")),
     }

@@ -32,6 +32,7 @@ void ElementSet::connect(const std::vector<const MarkerState*>& markers) {
 void ElementSet::count_turns_from(const Model& values, double t) noexcept {
   for (std::size_t k = 0; k < model_.elements.size(); ++k) {
     if (slots_[k] < 0) continue;
+    assert(model_.elements[k].joint >= 0);
     const Joint& joint = values.joints[model_.elements[k].joint];
     const TimeFunction* motion = values.motion_of(joint);
     set_angle(k, motion                   ? floatframe::evaluate(*motion, t).f
