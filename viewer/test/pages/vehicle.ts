@@ -183,8 +183,8 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
     const hub = point({ name: `${names[k]}_hub`, body: 5 + k, p: [0, 0, 0] });
     const top = point({ name: '', body: 0, p: [0.9 * fore, side * 0.44, 0.12] });
     const seat = point({ name: '', body: 1 + k, p: [0.66 * ARM, 0, 0.03], modes: Array.from({ length: MODES }, (_, j) => modeShape(j, ARM, 0.66 * ARM, 0, 0.03)) });
-    joints.push({ name: `${names[k]}_pivot`, type: 'revolute', a: foot, b: root, axis: [1, 0, 0], cut: false });
-    joints.push({ name: `${names[k]}_bearing`, type: 'revolute', a: hub, b: end, axis: [0, 1, 0], cut: k === 3 });
+    joints.push({ name: `${names[k]}_pivot`, type: 'revolute', turns: 1, slides: 0, a: foot, b: root, axis: [1, 0, 0], cut: false });
+    joints.push({ name: `${names[k]}_bearing`, type: 'revolute', turns: 1, slides: 0, a: hub, b: end, axis: [0, 1, 0], cut: k === 3 });
     forces.push({ name: `${names[k]}_spring`, type: 'spring_damper', picture: 'spring', a: seat, b: top, channel: null });
     forces.push({ name: `${names[k]}_tyre${k === 0 ? evil : ''}`, type: 'tyre', picture: 'wheel', a: hub, b: -1, axis: [0, 1, 0], radius: RADIUS, width: 0.19, channel: `${names[k]}_tyre_force` });
   });
