@@ -47,7 +47,7 @@ test: build
 # docs/validation.md has the figures.
 test-all: test
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
-	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
+	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	$(MAKE) --no-print-directory attacks ATTACKS=200
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
