@@ -48,6 +48,8 @@ std::vector<Case> all_cases() {
     Joint joint;
     joint.type = type;
     joint.child = 0;
+    joint.frame_F = 0;
+    joint.frame_M = 1;
     joint.axis_2 = numbers.direction();
     model.joints.push_back(joint);
     Case c{std::string("joint_") + joint_type_name(type), {}};

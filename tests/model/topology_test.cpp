@@ -145,7 +145,7 @@ TEST(Topology, AutomaticFreeJointStartsInTheDesignPose) {
   RelativeFormulation f(m, InertiaMethod::preprocessing);
   VecX q, v;
   f.start(q, v);
-  f.positions(0.0, q);
+  kinematics_at(f, 0.0, q, v);
   EXPECT_LT((f.motion().body(0).p_WB - m.bodies[0].X_WB.p).norm(), 1e-15);
   EXPECT_LT(largest(f.motion().body(0).R_WB - m.bodies[0].X_WB.R), 1e-15);
 }

@@ -296,7 +296,7 @@ std::vector<JointPlace> Alignment::aligned(const std::vector<Relation>& relation
     JointPlace& at = places[axis.joint];
     const bool same = axis.e == axes_[k].e;
     if (axis.second && !(same && at.R == drawn_[axis.joint].R))
-      at.axis_2 = at.R.transpose() * axis.e;
+      at.axis_2 = (at.R.transpose() * axis.e).normalized();
     else if (!axis.second && !same)
       at.R = turned(at.R, axis.e);
   }
