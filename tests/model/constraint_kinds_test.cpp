@@ -34,6 +34,8 @@ std::vector<Case> all_cases() {
   for (const ConstraintType type : constraint_types) {
     ConstraintPart p;
     p.type = type;
+    p.a = 0;
+    p.b = 1;
     p.e_a = numbers.direction();
     p.n_b = numbers.direction();
     p.c = numbers(-0.5, 0.5);
