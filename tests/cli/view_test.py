@@ -231,6 +231,9 @@ class View(RunCase):
         self.assertEqual(motions[3]["moves"][0][0], "chassis")
         closed = [j for j in scene["joints"] if j["type"] in ("spherical", "revolute", "universal", "weld")]
         self.assertGreater(len(closed), 12)
+        free = {"spherical": (3, 0), "revolute": (1, 0), "universal": (2, 0), "weld": (0, 0), "prismatic": (0, 1), "free": (3, 3)}
+        for j in scene["joints"]:
+            self.assertEqual((j["turns"], j["slides"]), free[j["type"]], j["name"])
         for k in list(range(12)) + [30, 50]:
             moved = self.moved(scene, data, k)
             size = max(abs(x) for j in closed for x in moved(j["a"]))
