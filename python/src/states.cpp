@@ -49,6 +49,16 @@ ArraysByName joints(const SystemState& s) {
   return d;
 }
 
+ArraysByName elements(const SystemState& s) {
+  nb::dict d;
+  for (const auto& e : s.elements) {
+    nb::dict values;
+    values["states"] = array_of(e.states);
+    d[e.name.c_str()] = values;
+  }
+  return d;
+}
+
 }  // namespace
 
 void bind_states(nb::module_& m) {
@@ -86,6 +96,7 @@ void bind_states(nb::module_& m) {
       .def_prop_ro(
           "joints", joints,
           "By joint: `position` and `velocity` of its coordinates [m] or [rad], as in model files.")
+      .def_prop_ro("elements", elements, "By element: its `states`; only of those that have some.")
       .def_prop_ro("bodies", bodies,
                    "By body: `position` of its origin (3,) [m], `orientation` (4,) as a quaternion "
                    "(w, x, y, z), `velocity` (3,) [m/s], `angular_velocity` (3,) [rad/s], all in "

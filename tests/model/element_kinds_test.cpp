@@ -70,7 +70,7 @@ TEST_P(ElementOfKind, WorkIsTheLossOfPotentialEnergy) {
     const Efforts e = efforts(x);
     for (std::size_t i = 0; i < x.markers.size(); ++i) {
       EffortsOf<Dual> dual;
-      evaluate_element(Placed(x).ports(), static_cast<int>(i), dual);
+      evaluate_element(Placed(x).ports(), static_cast<int>(i), 0, dual);
       Vec6 w;
       w << e.wrench[i].F, e.wrench[i].T;
       EXPECT_LT((w + dual.energy.d.head<6>().matrix()).norm(), 1e-12 * (1.0 + w.norm()));
@@ -87,7 +87,7 @@ TEST_P(ElementOfKind, MotionTakesEnergyOut) {
     const Efforts e = efforts(x);
     const double power = (stacked(e) - stacked(efforts(still))).dot(velocities(x));
     EXPECT_LE(power, 1e-12);
-    if (e.row_count > 0) {
+    if (e.row_count > 0 && x.element.states == 0) {  // a state may take it
       EXPECT_LT(power, -1e-9);
     }
   }
@@ -102,7 +102,7 @@ TEST_P(ElementOfKind, EnergyRateBelongsToTheEnergy) {
     const VecX v = velocities(x);
     const VecX rate = derivative(
         [&](double h) {
-          ElementExample later = moved(x, h * v);
+          ElementExample later = switched(moved(x, h * v), h * state_rates(x));
           later.t += h;
           return VecX::Constant(1, efforts(later).energy).eval();
         },
@@ -141,9 +141,43 @@ TEST_P(ElementOfKind, TangentAgainstFiniteDifferences) {
     const double scale = 1.0 + std::max(K.cwiseAbs().maxCoeff(), C.cwiseAbs().maxCoeff());
     worst = std::max(worst, (t.K - K).cwiseAbs().maxCoeff() / scale);
     worst = std::max(worst, (t.C - C).cwiseAbs().maxCoeff() / scale);
+    const Eigen::Index ns = x.element.states;
+    if (ns == 0) continue;
+    const auto compare = [&](const MatX& exact, const MatX& differences) {
+      worst = std::max(worst, (exact - differences).cwiseAbs().maxCoeff() /
+                                  (1.0 + differences.cwiseAbs().maxCoeff()));
+    };
+    compare(t.motion, jacobian([&](const VecX& d) { return state_rates(moved(x, d)); }, n));
+    compare(t.rates, jacobian([&](const VecX& d) { return state_rates(faster(x, d)); }, n));
+    compare(t.slopes, jacobian([&](const VecX& d) { return state_rates(switched(x, d)); }, ns));
+    compare(t.of_states,
+            -jacobian([&](const VecX& d) { return stacked(efforts(switched(x, d))); }, ns));
   }
   EXPECT_LT(worst, 1e-8);
   std::printf("[ figure ] tangent_error_%s %.1e\n", GetParam().name().c_str(), worst);
+}
+
+TEST_P(ElementOfKind, SlopesOfTheStatesAreExact) {
+  for (int k = 0; k < element_samples; ++k) {
+    const ElementExample x = example();
+    const Eigen::Index ns = x.element.states;
+    if (ns == 0) return;
+    const MatX exact = exact_tangent(Placed(x).ports()).slopes;
+    const Efforts e = efforts(x);
+    const MatX slopes = Eigen::Map<const MatX>(e.state_slopes.data(), ns, ns).transpose();
+    EXPECT_LT((slopes - exact).cwiseAbs().maxCoeff(), 1e-12 * (1.0 + exact.cwiseAbs().maxCoeff()));
+  }
+}
+
+/// With states that follow with the weight w: -d(wrenches)/dp with dz = (w - f_z)^-1 f_p dp.
+EffortTangent with_states_following(const ElementExample& x) {
+  EffortTangent t = exact_tangent(Placed(x).ports());
+  const Eigen::Index ns = x.element.states;
+  if (ns == 0 || !std::isfinite(x.state_weight)) return t;
+  const MatX slopes = x.state_weight * MatX::Identity(ns, ns) - t.slopes;
+  t.K += t.of_states * slopes.partialPivLu().solve(t.motion);
+  t.C += t.of_states * slopes.partialPivLu().solve(t.rates);
+  return t;
 }
 
 // The rows are the symmetric part of the stiffness at rest and of the damping, but for what the
@@ -153,7 +187,7 @@ TEST_P(ElementOfKind, RowsAreTheTangentButForWhatTheyLeaveOut) {
   for (int k = 0; k < element_samples; ++k) {
     ElementExample x = example();
     at_rest(x);
-    const EffortTangent t = exact_tangent(Placed(x).ports());
+    const EffortTangent t = with_states_following(x);
     const RowTangent rows = tangent_of_rows(efforts(x));
     ASSERT_TRUE(rows.K.allFinite());
     const double scale = 1.0 + t.K.cwiseAbs().maxCoeff();

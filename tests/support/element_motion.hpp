@@ -16,7 +16,8 @@ class Placed {
     }
   }
   Ports ports() const {
-    return {x_.model, element_, markers_.data(), x_.origin, x_.t, x_.reference_angle, x_.inputs};
+    return {x_.model,           element_,  markers_.data(), x_.origin,        x_.t,
+            x_.reference_angle, x_.inputs, free_branch,     x_.states.data(), x_.state_weight};
   }
 
  private:
@@ -26,7 +27,7 @@ class Placed {
 };
 
 inline Efforts efforts(const ElementExample& x) {
-  Efforts out(x.markers.size());
+  Efforts out(x.markers.size(), static_cast<std::size_t>(x.element.states));
   evaluate_element(Placed(x).ports(), out);
   return out;
 }
@@ -70,6 +71,17 @@ inline ElementExample faster(const ElementExample& x, const VecX& d) {
 
 inline void at_rest(ElementExample& x) {
   for (MarkerState& m : x.markers) m.v = m.w = Vec3::Zero();
+}
+
+/// dz of the states.
+inline ElementExample switched(const ElementExample& x, const VecX& dz) {
+  ElementExample out = x;
+  for (Eigen::Index i = 0; i < dz.size(); ++i) out.states[static_cast<std::size_t>(i)] += dz[i];
+  return out;
+}
+inline VecX state_rates(const ElementExample& x) {
+  const Efforts e = efforts(x);
+  return VecX::Map(e.state_rates.data(), static_cast<Eigen::Index>(e.state_rates.size()));
 }
 
 struct RowTangent {

@@ -55,6 +55,7 @@ class MechanismBuilder {
   void start_values(JointDescription& j, double position, double velocity);
 
   // Forces (mechanism_forces.cpp).
+  void add_maxwell();
   PiecewisePolynomial spring_law(double stiffness, double free);
   PiecewisePolynomial damper_law(double damping);
   TimeFunction time_function(double scale);

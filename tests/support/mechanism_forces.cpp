@@ -157,6 +157,23 @@ void MechanismBuilder::add_tyre(ElementDescription& f) {
   f.kind = t;
 }
 
+/// An element with states.
+void MechanismBuilder::add_maxwell() {
+  const int a = pick(bodies() + 1) - 1, b = pick(bodies());
+  Maxwell m;
+  m.a = somewhere(a);
+  m.b = somewhere(b);
+  if (a == b || (m.b.point - m.a.point).norm() < 0.1) return;
+  const double share = std::max(0.2, std::min(mass(a), mass(b)));
+  m.branches.resize(1 + pick(2), 2);
+  for (Eigen::Index i = 0; i < m.branches.rows(); ++i)
+    m.branches.row(i) << share * std::pow(random(3.0, 15.0), 2), share * random(0.5, 9.0);
+  ElementDescription f;
+  f.name = "creep";
+  f.kind = m;
+  d.forces.push_back(std::move(f));
+}
+
 void MechanismBuilder::add_force() {
   ElementDescription f;
   f.name = "force_" + std::to_string(d.forces.size());

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "floatframe/model/element_keys.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "support/random_mechanism.hpp"
@@ -150,6 +150,7 @@ bool is_conservative(const ModelDescription& d) {
     if (j.motion) return false;
   for (const ElementDescription& f : d.forces) {
     if (energy_category(f.type()) != EnergyCategory::springs) return false;
+    if (element_kind(f.type()).states) return false;
     const ElementView values(f);
     for (const ElementKey& key : element_keys(f.type())) {
       const auto signal = values.signal(key.name);

@@ -62,6 +62,11 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
           }
         return M;
       }
+      case K::table: {
+        MatX rows(2, std::ssize(key.words));
+        for (Eigen::Index i = 0; i < rows.size(); ++i) rows(i) = numbers(20.0, 60.0);
+        return rows;
+      }
       case K::bump_stop:
       case K::rebound_stop:  // they have kinks
       case K::target:

@@ -262,6 +262,7 @@ Mechanism draw(unsigned seed) {
     b.d.amplitudes[body.name] = b.random.vector(given->modes(), 0.03);
     if (b.chance(0.5)) b.d.amplitude_rates[body.name] = b.random.vector(given->modes(), 0.3);
   }
+  if (b.chance(0.3)) b.add_maxwell();  // last: earlier draws are those of mechanisms without it
   b.add_outputs();
   return std::move(b.m);
 }

@@ -39,8 +39,9 @@ inline const std::string machine_joints = R"(joints:
   hinge: {type: revolute, child: beam, at: p, axis: y, position: 0.4}
 )";
 
-/// A driven crank with a slider behind it (a loop), a flexible beam, discs on springs that count
-/// turns (`spin` in the tree, `cut` where a loop would be cut), free bodies, inputs of each kind.
+/// A driven crank with a slider behind it (a loop), a flexible beam, an element with states, discs
+/// on springs that count turns (`spin` in the tree, `cut` where a loop would be cut), free bodies,
+/// inputs of each kind.
 inline const std::string stepped_machine =
     R"(
 inputs:
@@ -60,6 +61,8 @@ forces:
   twin: {type: joint_spring, joint: cut, spring: 3, target: {input: aim}}
   load: {type: force, body: slider, at: c, direction: x, magnitude: {input: push}}
   blow: {type: force, body: stone, at: [0, 4, 0], direction: z, magnitude: {input: shove}}
+  creep: {type: maxwell, from: {body: ground, at: [0.5, 1, 0.5]}, to: {body: beam, node: tip},
+          branches: [[300, 20], [50, 1]]}
 outputs:
   spin: {joint_position: spin}
   cut: {joint_position: cut}

@@ -13,10 +13,10 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/page/check_page.hpp"
-#include "floatframe/results/json_values.hpp"
-#include "floatframe/results/notes_text.hpp"
 #include "floatframe/page/page_tables.hpp"
 #include "floatframe/page/page_writer.hpp"
+#include "floatframe/results/json_values.hpp"
+#include "floatframe/results/notes_text.hpp"
 #include "floatframe/start/start_up.hpp"
 #include "floatframe/start/system_state.hpp"
 

@@ -9,9 +9,9 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
-#include "floatframe/parts/file_info.hpp"
 #include "floatframe/page/check_page.hpp"
 #include "floatframe/page/page_writer.hpp"
+#include "floatframe/parts/file_info.hpp"
 
 namespace floatframe {
 namespace {

@@ -11,11 +11,11 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/output_place.hpp"
-#include "floatframe/results/results_csv.hpp"
-#include "floatframe/results/results_reader.hpp"
 #include "floatframe/page/run_page.hpp"
 #include "floatframe/page/scene_frames.hpp"
 #include "floatframe/page/scene_json.hpp"
+#include "floatframe/results/results_csv.hpp"
+#include "floatframe/results/results_reader.hpp"
 #include "floatframe/results/summary_json.hpp"
 #include "floatframe/run/state_layout.hpp"
 

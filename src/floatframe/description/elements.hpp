@@ -24,6 +24,13 @@ struct SpringDamper {
   std::optional<SignalDescription> actuator;  ///< added to both [N]
 };
 
+/// Springs in series with dampers along the line between two points, side by side: tension
+/// F = sum k_i (length - z_i), zdot_i = k_i (length - z_i) / c_i. Free of force at a start.
+struct Maxwell {
+  AttachmentDescription a, b;
+  MatX branches;  ///< n x 2: k [N/m], c [N s/m], positive
+};
+
 /// Along an axis fixed in a body, between a tip and the body point that slides with it (leaf
 /// spring): length L = axis . (reference - tip); F = spring(L) + damper(dL/dt), tension pulls the
 /// tip along +axis.
@@ -103,6 +110,34 @@ struct Bearing {
   MatX speed_table;  ///< n x 9, added to both over the spin
 };
 
+/// Friction on the coordinate of a revolute or prismatic joint: bristles with the deflection z and
+/// a normal force N as a factor: F = N (stiffness z + damping zdot) + viscous qdot, against the
+/// motion. Sliding at a constant speed it is N (kinetic + (breakaway - kinetic) exp(-(qdot /
+/// stribeck)^2)) + viscous qdot.
+struct BristleFriction {
+  std::string joint;
+  double breakaway = 0.0;         ///< [N] or [N m], per unit of N
+  std::optional<double> kinetic;  ///< the same while it slides; absent: equal to breakaway
+  double stribeck = 0.0;          ///< [m/s] or [rad/s]; 0: kinetic at any speed
+  double stiffness = 0.0;         ///< [N/m] or [N m/rad], per unit of N
+  double damping = 0.0;           ///< [N s/m] or [N m s/rad], per unit of N
+  double viscous = 0.0;           ///< [N s/m] or [N m s/rad]
+  double elastic = 0.95;  ///< of the largest deflection, up to which the bristles do not slide
+  std::optional<SignalDescription> normal;  ///< N; absent: 1
+};
+
+/// Pushes two points apart that are closer than `length`, with the compression d = length - s:
+/// F = -stiffness d^exponent (1 + b ddot), not tensile. b from the restitution: of two bodies that
+/// meet at the speed v they part with restitution x v.
+struct UnilateralSpring {
+  AttachmentDescription a, b;
+  double length = 0.0;     ///< [m]
+  double stiffness = 0.0;  ///< [N/m^exponent]
+  double exponent = 1.0;
+  double restitution = 1.0;   ///< in (0, 1]
+  double least_speed = 0.01;  ///< slower contacts are damped as one at this speed [m/s]
+};
+
 /// Without mass, keeps the distance between two points.
 struct Rod {
   AttachmentDescription a, b;
@@ -124,6 +159,9 @@ struct PrescribedMotion {
   entry(bushing, Bushing)               \
   entry(force, AppliedForce)            \
   entry(torque, AppliedTorque)          \
+  entry(maxwell, Maxwell)               \
+  entry(bristle_friction, BristleFriction)   \
+  entry(unilateral_spring, UnilateralSpring) \
   entry(bearing, Bearing)               \
   entry(rod, Rod)                       \
   entry(motion, PrescribedMotion)

@@ -206,6 +206,20 @@ Complaint speed_table(const MatX& rows) {
   return std::nullopt;
 }
 
+std::string table_rows(Eigen::Index rows, Eigen::Index columns,
+                       std::span<const char* const> words) {
+  std::string listed;
+  for (const char* word : words) listed += (listed.empty() ? "" : ", ") + std::string(word);
+  return "found " + std::to_string(rows) + " x " + std::to_string(columns) +
+         " numbers, expected rows of " + std::to_string(words.size()) + ": " + listed;
+}
+
+Complaint kinetic_friction(double kinetic, double breakaway) {
+  if (kinetic <= breakaway) return std::nullopt;
+  return "found " + number_text(kinetic) + ", expected at most the breakaway friction, " +
+         number_text(breakaway);
+}
+
 Complaint bearing_stiffness(const MatX& K) {
   if (K.rows() < 6 || (K.row(5).isZero(0.0) && K.col(5).isZero(0.0))) return std::nullopt;
   return "found numbers in the sixth row or column, expected zeros: a bearing lets the shaft turn "

@@ -2,6 +2,7 @@
 // Rules of descriptions beyond single numbers, each with its one sentence. The reader of model
 // files and `validate` prepend the path and the position. nullopt: valid.
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +61,9 @@ Complaint force_matrix(const MatX& M);
 std::string force_matrix_rows(std::size_t rows);
 /// Rows of a speed and eight coefficients.
 Complaint speed_table(const MatX& rows);
+std::string table_rows(Eigen::Index rows, Eigen::Index columns, std::span<const char* const> words);
 /// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
+Complaint kinetic_friction(double kinetic, double breakaway);
 Complaint bearing_stiffness(const MatX& K);
 std::string target_without_law();
 std::string motion_and_start_value();

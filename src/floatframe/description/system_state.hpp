@@ -29,6 +29,12 @@ struct SystemState {
   double time = 0.0;  ///< [s]
   std::vector<Joint> joints;
   std::vector<Body> bodies;
+  /// States and kept numbers of elements, in the order of the model; only of those that have some.
+  struct Element {
+    std::string name;
+    VecX states;
+  };
+  std::vector<Element> elements;
 };
 
 }  // namespace floatframe

@@ -4,9 +4,9 @@
 
 namespace floatframe {
 
-ElementSet::ElementSet(const Model& model) : model_(model) {
+ElementSet::ElementSet(const Model& model) : model_(model), z_(model) {
   for (const Element& e : model.elements) {
-    states_.emplace_back(e.acts ? e.markers.size() : 0);
+    states_.emplace_back(e.acts ? e.markers.size() : 0, static_cast<std::size_t>(e.states));
     slots_.push_back(e.counts_turns() ? static_cast<int>(angles_.size()) : -1);
     if (e.counts_turns()) angles_.push_back(0.0);
   }

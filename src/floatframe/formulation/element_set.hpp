@@ -2,13 +2,15 @@
 // The elements of a model in a formulation: their inputs, their states at the last
 // evaluation, and the turns counted by the angles of joint springs. An angle is known up to whole
 // turns; the value nearest to the angle of the last evaluation is used, so the angles are a part of
-// the state that q does not contain. Step time: no heap, noexcept.
+// the state that q does not contain. States of elements (element_evaluation.hpp) are given, or
+// follow the motion at each evaluation (element_states.hpp). Step time: no heap, noexcept.
 #include <algorithm>
 #include <cassert>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "floatframe/formulation/element_states.hpp"
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -54,8 +56,11 @@ class ElementSet {
   /// What element k acts on, with positions from `p_WO`.
   Ports ports(std::size_t k, const Vec3& p_WO, double t) const noexcept {
     const double angle = slots_[k] < 0 ? 0.0 : angles_[slots_[k]];
-    return {model_, model_.elements[k], markers_[k].data(), p_WO, t, angle, inputs_, branches_[k]};
+    return {model_,  model_.elements[k], markers_[k].data(), p_WO,       t, angle,
+            inputs_, branches_[k],       z_.of(k),           z_.weight()};
   }
+  ElementStates& element_states() noexcept { return z_; }
+  const ElementStates& element_states() const noexcept { return z_; }
 
   /// The beginning of a step, and its end: changes of the angles in a rejected step are
   /// discarded.
@@ -76,9 +81,19 @@ class ElementSet {
     if (held_) return;
     for (const std::size_t k : acting_) {
       const Ports in = ports(k, p_WO, t);
-      evaluate_element(in, states_[k]);
+      if (z_.follow())
+        z_.solve(k, in, states_[k]);
+      else
+        evaluate_element(in, states_[k]);
       set_angle(k, states_[k].length);
     }
+    z_.take_rates(states_);
+  }
+  /// Of the elements with states only, with `ports(k)` of element k.
+  template <class PortsAt>
+  void solve_states(const PortsAt& ports_at) noexcept {
+    for (const std::size_t k : z_.elements()) z_.solve(k, ports_at(k), states_[k]);
+    z_.take_rates(states_);
   }
 
   /// Left-hand side of the elements, -Q: calls add(marker, force, torque) for each marker of each.
@@ -95,6 +110,7 @@ class ElementSet {
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;
   std::vector<std::int64_t> branches_;
+  ElementStates z_;
   bool held_ = false;
   std::vector<std::vector<const MarkerState*>> markers_;  ///< of each element
   std::vector<std::size_t> acting_;                       ///< elements with a law

@@ -35,6 +35,10 @@
 //                                               of the formulation
 //   advance(x, delta)           positions       x such that q0 (+) x = (q0 (+) x_old) (+) delta,
 //                               at q0 (+) x
+//   element_states()            -               states of elements: given, or following in each
+//                                               evaluation of forces
+//   solve_element_states()      velocities      those that follow, alone
+//   change_kept_states()        velocities      numbers of elements that change between steps
 //   stepping(false, accepted)                   the end of the step
 //
 // Asserts follow this order (call_order.hpp).
@@ -108,6 +112,10 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates, or `no_inertia` [1/s2]: for the
   /// predictor of a step.
   { c.own_frequencies_squared() } noexcept -> std::same_as<const VecX&>;
+
+  { f.element_states().follow(x, in) } noexcept -> std::same_as<void>;
+  { f.solve_element_states() } noexcept -> std::same_as<void>;
+  { f.change_kept_states() } noexcept -> std::same_as<void>;
 
   // Configurations: (q0, x, q), (q0, x) and (x, delta).
   { c.retract(in, in, out) } noexcept -> std::same_as<void>;

@@ -16,6 +16,8 @@ Formulation::Formulation(const Model& model, const std::vector<int>& constrained
       element_set_(model),
       motion_(model) {
   motion_.efforts = element_set_.states().data();
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    motion_.states.push_back(element_set_.element_states().of(k));
   motion_.bodies.reserve(model.bodies.size());
 }
 

@@ -57,6 +57,21 @@ class Formulation {
   void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
     element_set_.hold_branch(force, branch);
   }
+  /// States of elements (model/element_evaluation.hpp): given at a state, or following the motion.
+  ElementStates& element_states() noexcept { return element_set_.element_states(); }
+  const ElementStates& element_states() const noexcept { return element_set_.element_states(); }
+  /// Those that follow, alone, at the present positions and velocities.
+  void solve_element_states() noexcept {
+    element_set_.solve_states([this](std::size_t k) { return ports(k); });
+  }
+  /// At a start that gives none, and at the end of a step.
+  void start_element_states() noexcept {
+    for (const std::size_t k : element_states().elements()) element_states().start(k, ports(k));
+  }
+  void change_kept_states() noexcept {
+    for (const std::size_t k : element_states().elements())
+      element_states().after_step(k, ports(k));
+  }
   /// What an element acts on at the present positions and velocities.
   virtual Ports ports(std::size_t element) const noexcept = 0;
   BranchSide branch_side(std::size_t element) const noexcept {
@@ -177,6 +192,8 @@ inline void kinematics_at(Formulation& f, double t, const VecX& q, const VecX& v
 }
 template <class S>
 void kinematics_at(Formulation& f, const S& state) noexcept {
+  if constexpr (requires { state.z; })
+    if (state.z.size() > 0) f.element_states().give(state.z);
   kinematics_at(f, state.t, state.q, state.v);
 }
 /// The same up to `dynamics`.

@@ -14,6 +14,17 @@ inline std::vector<std::string> coordinate_owners(const Formulation& f) {
   return owners;
 }
 
+/// The same, and behind them "state 2 of bristle_friction 'brake'".
+inline std::vector<std::string> unknown_owners(const Formulation& f) {
+  std::vector<std::string> owners = coordinate_owners(f);
+  const std::vector<Element>& elements = f.model().elements;
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    for (int i = 0; i < elements[k].states; ++i)
+      owners.push_back("state " + std::to_string(i + 1) + " of " +
+                       owner_name(f.model(), {-1, static_cast<int>(k)}));
+  return owners;
+}
+
 /// Of each row of the constraints: "joint 'guide'".
 inline std::vector<std::string> constraint_owners(const Formulation& f) {
   std::vector<std::string> owners;

@@ -28,7 +28,8 @@ struct RecordedMotion::Replay {
     const Formulation& f = steps.formulation();
     if (h.header().configurations != f.configurations() ||
         h.header().velocities != f.velocities() || size_of("inputs") != f.inputs().size() ||
-        size_of("spring_angles") != f.spring_angles().size())
+        size_of("spring_angles") != f.spring_angles().size() ||
+        size_of("element_states") != static_cast<std::size_t>(f.element_states().count()))
       refuse_other_model(history);
     // A step starts from the integrator's `a`; if it was not recorded, it is solved for.
     if (!h.header().find("accelerations"))
@@ -46,6 +47,8 @@ struct RecordedMotion::Replay {
     fill("v", h.v, s.v);
     const std::span<const double> angles = group("spring_angles");
     memory.spring_angles.assign(angles.begin(), angles.end());
+    const std::span<const double> states = group("element_states");
+    s.z = VecX::Map(states.data(), std::ssize(states));
     Formulation& f = steps.formulation();
     f.set_inputs(group("inputs"));
     if (solver) {

@@ -27,6 +27,8 @@
 //   v -= T_p^-1 30 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 30 s Phi_q^T alpha Phi_ddot(a),     (j)
 // repeated until the tolerance.
 //
+// States of elements follow the iterate (state_scheme.hpp); C and K contain what follows from them.
+//
 // Nothing here allocates after construction, throws or prints. The state changes only when the step
 // is accepted.
 #include <algorithm>
@@ -39,6 +41,7 @@
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/integrator.hpp"
+#include "floatframe/integrator/state_scheme.hpp"
 #include "floatframe/integrator/step_scheme.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/types.hpp"
@@ -54,6 +57,7 @@ class AugmentedLagrangian final : public Integrator {
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
     lambda_ = rate_ = work_ = increments_ = VecX::Zero(nc);
+    z_hat_ = VecX::Zero(f_.element_states().count());
   }
 
   StepAttempt attempt(State& state, double h) noexcept override {
@@ -68,10 +72,13 @@ class AugmentedLagrangian final : public Integrator {
     newton(state, k, report);
     if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
       retry_step(state, k, report);
-    if (!report.accepted())
+    if (has_states()) end_states(report);
+    if (!report.accepted()) {
       reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
-    else if (f_.constraints() == 0 || project(k, report))
+    } else if (f_.constraints() == 0 || project(k, report)) {
+      if (has_states()) accept_states(state, StateScheme(k.rho, h));
       accept(state, k);
+    }
     f_.stepping(false, report.accepted());
     return report;
   }
@@ -101,6 +108,34 @@ class AugmentedLagrangian final : public Integrator {
 
   bool fits(const State& s) const noexcept {
     return has_sizes(s, f_.configurations(), f_.velocities(), f_.constraints());
+  }
+
+  bool has_states() const noexcept { return z_hat_.size() > 0; }
+  /// From now on the states follow, beginning at a first guess.
+  void begin_states(const State& s, const StateScheme& scheme) noexcept {
+    assert(s.z.size() == z_hat_.size() && s.zd.size() == s.z.size());
+    assert(s.zd_alg.size() == s.z.size());
+    scheme.history(s, z_hat_);
+    f_.element_states().give(s.z);
+    f_.element_states().follow(scheme.weight, z_hat_);
+  }
+  /// Those of the last iterate, which is not evaluated further.
+  void end_states(StepAttempt& report) noexcept {
+    if (report.accepted()) f_.solve_element_states();
+    check_states(report);
+    f_.element_states().stop();
+  }
+  bool check_states(StepAttempt& report) const noexcept {
+    if (f_.element_states().unsolved() < 0) return true;
+    report.status = AttemptStatus::states_not_solved;
+    report.element = f_.element_states().unsolved();
+    return false;
+  }
+  /// Kept numbers change at the end of the step, with the projected velocities.
+  void accept_states(State& s, const StateScheme& scheme) noexcept {
+    scheme.accept(s, f_.element_states().values(), z_hat_);
+    f_.change_kept_states();
+    s.z = f_.element_states().values();
   }
 
   /// The state at the end of the step.
@@ -144,6 +179,7 @@ class AugmentedLagrangian final : public Integrator {
     }
     f_.settle(state.q, x_);
     lambda_ = state.lambda;
+    if (has_states()) begin_states(state, StateScheme(k.rho, h));
   }
 
   /// Near a singular configuration the penalty may be too small, and a shorter step does not help;
@@ -183,7 +219,8 @@ class AugmentedLagrangian final : public Integrator {
       v_ = k.c1 * x_ + v_hat_;  // (d)
       a_ = k.c2 * x_ + a_hat_;  // (e)
       // Without constraints the end state of a converged step need not be evaluated.
-      if (report.iterations == 0 || constrained || !is_converged(report, it.error)) {
+      if (report.iterations == 0 || constrained || has_states() ||
+          !is_converged(report, it.error)) {
         f_.positions(state.t + k.h, q_);
         f_.velocities(v_);
       }
@@ -192,6 +229,7 @@ class AugmentedLagrangian final : public Integrator {
         choose_tangent(it);
       }
       f_.dynamics();
+      if (has_states() && !check_states(report)) return;
       f_.residual(a_, lambda_, 0.0, rhs_);
       f_.balance(lambda_, rhs_);
       if (it.renew && !renew_tangent(k, it, report)) return;
@@ -332,6 +370,7 @@ class AugmentedLagrangian final : public Integrator {
   F& f_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, rate_, work_, increments_;
+  VecX z_hat_;  ///< of the states of elements
 };
 
 }  // namespace floatframe

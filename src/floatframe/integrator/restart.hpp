@@ -15,8 +15,7 @@ void AugmentedLagrangian<F>::project_velocities(State& state, double h) noexcept
   assert(fits(state));
   if (f_.constraints() == 0) return;
   const Scheme k(options_, h);
-  f_.positions(state.t, state.q);
-  f_.velocities(state.v);
+  kinematics_at(f_, state);
   f_.dynamics();
   f_.residual(state.a, state.lambda, 0.0, rhs_);
   const double penalty = metric_penalty * k.penalty;
@@ -40,6 +39,7 @@ bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
   if (!solve_accelerations(state, k, k.penalty, 1e-9)) return false;
   state.a.swap(a_);
   state.a_alg = state.a;
+  if (has_states()) state.zd = state.zd_alg = f_.element_states().rates();
   reactions_ = state.lambda = lambda_;
   return true;
 }
@@ -58,6 +58,10 @@ bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept 
   if (!solve_accelerations(state, k, metric_penalty * k.penalty, 1e-7)) return false;
   state.a_alg += a_ - state.a;
   state.a.swap(a_);
+  if (has_states()) {
+    state.zd_alg += f_.element_states().rates() - state.zd;
+    state.zd = f_.element_states().rates();
+  }
   reactions_ = state.lambda = lambda_;
   return true;
 }
@@ -67,8 +71,7 @@ template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::solve_accelerations(const State& state, const Scheme& k,
                                                  double penalty, double enough) noexcept {
   assert(penalty > 0.0 && enough > 0.0);
-  f_.positions(state.t, state.q);
-  f_.velocities(state.v);
+  kinematics_at(f_, state);
   f_.dynamics();
   // First without stiffness, which would slow down convergence.
   if (iterate_accelerations(0.0, penalty, enough)) return true;

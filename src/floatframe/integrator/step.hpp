@@ -14,6 +14,9 @@ struct State {
   /// for the trapezoidal rule.
   VecX a_alg;
   VecX lambda;  ///< multipliers, nc numbers [N]
+  /// States of elements, their rates and the algorithm's rates (state_scheme.hpp); equal for the
+  /// trapezoidal rule.
+  VecX z, zd, zd_alg;
 };
 
 struct StepOptions {
@@ -46,7 +49,15 @@ inline bool has_sizes(const State& s, Eigen::Index nq, Eigen::Index nv, Eigen::I
 }
 
 /// cut_short: accepted before convergence, because of `fixed_iterations` or `time_budget`.
-enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
+/// states_not_solved: those of an element, at an iterate.
+enum class AttemptStatus {
+  converged,
+  cut_short,
+  not_converged,
+  singular_tangent,
+  not_finite,
+  states_not_solved
+};
 
 /// Result of one attempt at a step.
 struct StepAttempt {
@@ -55,6 +66,7 @@ struct StepAttempt {
   double position_violation = 0.0, velocity_violation = 0.0;
   int coordinate = -1;     ///< with the vanishing pivot or the largest residual
   int constraint = -1;     ///< with the largest violation, if the constraints did not converge
+  int element = -1;        ///< whose states are not solved
   double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
   double size = 0.0;       ///< of the step [s]
   /// Sum of the logarithms of the pivots of the projection metric with the full penalty: it drops

@@ -9,7 +9,7 @@ namespace floatframe {
 
 struct StepScheme {
   StepScheme(const StepOptions& o, double step) noexcept : h(step) {
-    const double rho = o.spectral_radius;
+    rho = o.spectral_radius;
     assert(step > 0.0 && std::isfinite(step) && rho >= 0.0 && o.penalty_mass > 0.0);
     trapezoidal = rho >= 1.0;
     am = trapezoidal ? 0.0 : (2.0 * rho - 1.0) / (rho + 1.0);
@@ -23,7 +23,7 @@ struct StepScheme {
     penalty = o.penalty_mass;
     alpha = penalty / s;
   }
-  double h, am, af, gamma, beta, base, c1, c2, s, penalty, alpha;
+  double h, rho, am, af, gamma, beta, base, c1, c2, s, penalty, alpha;
   bool trapezoidal;
 };
 

@@ -41,8 +41,8 @@ ExcitedSystem::ExcitedSystem(InitialisedModel& started, std::vector<Output> outp
     reactions_.emplace(f_.coordinates(), model_, started.inertia(), state_,
                        ReactionOptions{started.step_options().penalty_mass, step,
                                        !started.report().redundant.empty()});
-  const VecX still = VecX::Zero(f_.velocities());
-  if (state_.a.size() != still.size()) state_.a = still;
+  const VecX still = VecX::Zero(unknowns());
+  if (state_.a.size() != f_.velocities()) state_.a = VecX::Zero(f_.velocities());
   this->outputs(still, still, still);  // angles over several turns are continued from here
 }
 
@@ -81,14 +81,14 @@ void ExcitedSystem::move(const LinearInput& input, const Vec3& by) {
 }
 
 VecX ExcitedSystem::balance() {
-  const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
-  VecX all(nv + 3 * nc), r(nv), rows(nc);
+  const Eigen::Index nc = f_.constraints(), n = unknowns();
+  VecX all(n + 3 * nc), r(f_.velocities()), rows(nc);
   dynamics_at(f_, state_);
   f_.residual(state_.a, state_.lambda, 0.0, r);
-  all.head(nv) = r;
-  all.segment(nv, nc) = f_.constraint_values();
+  all.head(n) << r, state_residuals(f_);
+  all.segment(n, nc) = f_.constraint_values();
   f_.constraint_rates(rows);
-  all.segment(nv + nc, nc) = rows;
+  all.segment(n + nc, nc) = rows;
   f_.constraint_accelerations(state_.a, rows);
   all.tail(nc) = rows;
   return all;
@@ -108,16 +108,16 @@ double ExcitedSystem::step_of(const LinearInput& input) {
 
 void ExcitedSystem::derivatives(const LinearInput& input, double step, Eigen::Index column,
                                 InputMotions& out) {
-  const Eigen::Index nv = f_.velocities(), nc = f_.constraints();
+  const Eigen::Index n = unknowns(), nc = f_.constraints();
   for (int k = 0; k <= input.order(); ++k) {
     const VecX size = VecX::Constant(1, step * std::pow(10.0, k));
     const VecX d = precise_differences(size, 0, [&](const VecX& h) {
                      move(input, h[0] * Vec3::Unit(k));
                      return balance();
                    }).columns;
-    out.residual[k].col(column) = d.head(nv);
-    if (k == 0) out.value.col(column) = d.segment(nv, nc);
-    out.rate[k].col(column) = d.segment(nv + nc, nc);
+    out.residual[k].col(column) = d.head(n);
+    if (k == 0) out.value.col(column) = d.segment(n, nc);
+    out.rate[k].col(column) = d.segment(n + nc, nc);
     out.acceleration[k].col(column) = d.tail(nc);
   }
   move(input, Vec3::Zero());
@@ -125,9 +125,11 @@ void ExcitedSystem::derivatives(const LinearInput& input, double step, Eigen::In
 
 VecX ExcitedSystem::outputs(const VecX& x, const VecX& dv, const VecX& da) {
   State s = state_;
-  f_.retract(state_.q, x, s.q);
-  s.v = state_.v + dv;
-  s.a = state_.a + da;
+  const Eigen::Index nv = f_.velocities();
+  f_.retract(state_.q, x.head(nv), s.q);
+  s.v = state_.v + dv.head(nv);
+  s.a = state_.a + da.head(nv);
+  move_states(model_, x.tail(x.size() - nv), s);
   dynamics_at(f_, s);
   if (reactions_) reactions_->solve(s, f_.inputs(), f_.spring_angles());
   f_.set_accelerations(s.a);

@@ -24,6 +24,8 @@ class ExcitedSystem {
   Formulation& formulation() noexcept { return f_; }
   const State& state() const noexcept { return state_; }
   const std::vector<std::string>& open_outputs() const noexcept;
+  /// Coordinates and states of elements.
+  Eigen::Index unknowns() const noexcept { return f_.velocities() + state_count(model_); }
 
   double value(const LinearInput& input) const;
   /// Moves the input by this much from its value, rate and second derivative; zeros reset it.
@@ -32,7 +34,8 @@ class ExcitedSystem {
   void derivatives(const LinearInput& input, double step, Eigen::Index column, InputMotions& out);
   /// For a signal: a step that changes forces by about 1e-4 of the weight of a body.
   double step_of(const LinearInput& input);
-  /// Outputs at increments x, dv and da of the state.
+  /// Outputs at increments x, dv and da of the state; x of all unknowns, the others may have more
+  /// rows than coordinates.
   VecX outputs(const VecX& x, const VecX& dv, const VecX& da);
 
  private:

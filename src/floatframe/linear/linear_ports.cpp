@@ -57,20 +57,21 @@ VecX output_column(ExcitedSystem& excited, double h, const VecX& x, const VecX& 
 void find_output_columns(ExcitedSystem& excited, const std::vector<double>& input_steps,
                          const LinearInputs& moved, LinearModel& linear) {
   const LinearSystem& system = linear.system;
-  const Eigen::Index nv = system.x_of.rows(), nz = system.A.rows(),
-                     ny = linear.output_values.size(),
+  const Eigen::Index nz = system.A.rows(), ny = linear.output_values.size(),
                      nu = static_cast<Eigen::Index>(linear.inputs.size());
   Formulation& f = excited.formulation();
-  const VecX steps = motion_steps(f.model(), possible_masses(f, excited.state()));
+  const VecX steps = unknown_steps(f.model(), possible_masses(f, excited.state()), excited.state());
   linear.C.resize(ny, nz);
   for (Eigen::Index z = 0; z < nz; ++z) {
     tell_progress("outputs", 1.0 * z / nz);
-    const VecX x = system.x_of.col(z), v = system.v_of.col(z);
+    VecX x(excited.unknowns());
+    x << system.x_of.col(z), system.elements_of.col(z);
+    const VecX v = system.v_of.col(z);
     const double h = std::min({step_along(x, steps), step_along(v, 10.0 * steps), 1e3});
     linear.C.col(z) = output_column(excited, h, x, v, VecX(system.a_of.col(z)));
   }
   for (MatX& D : linear.D) D = MatX::Zero(ny, nu);
-  const VecX still = VecX::Zero(nv);
+  const VecX still = VecX::Zero(excited.unknowns());
   for (Eigen::Index j = 0; j < nu; ++j) {
     const LinearInput& input = linear.inputs[static_cast<std::size_t>(j)];
     for (int k = 0; k <= input.order(); ++k) {
@@ -96,12 +97,12 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   InitialisedModel started(model, options);
   ExcitedSystem excited(started, outputs, options.step);
   Formulation& f = excited.formulation();
-  const Eigen::Index nv = f.velocities(), nc = f.constraints(),
+  const Eigen::Index n = excited.unknowns(), nc = f.constraints(),
                      nu = static_cast<Eigen::Index>(linear.inputs.size());
   InputMotions motions;
   motions.value = MatX::Zero(nc, nu);
   for (int k = 0; k < 3; ++k) {
-    motions.residual[k] = MatX::Zero(nv, nu);
+    motions.residual[k] = MatX::Zero(n, nu);
     motions.rate[k] = motions.acceleration[k] = MatX::Zero(nc, nu);
   }
   std::vector<double> steps;
@@ -121,7 +122,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   LinearInputs moved;
   linear.system = linear_system_at(f, excited.state(), &motions, &moved);
   linear.time = excited.state().t;
-  const VecX still = VecX::Zero(nv);
+  const VecX still = VecX::Zero(n);
   linear.output_values = excited.outputs(still, still, still);
   for (int k = 0; k < 3; ++k) linear.B[k] = moved.B[k];
   find_output_columns(excited, steps, moved, linear);

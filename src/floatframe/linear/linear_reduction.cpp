@@ -9,6 +9,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/lowest_motions.hpp"
 #include "floatframe/run/results.hpp"
+#include "floatframe/start/mass_scale.hpp"
 
 namespace floatframe {
 
@@ -37,7 +38,8 @@ MatX in_decided(const MatX& J_D, const std::vector<Eigen::Index>& decided, Eigen
 FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
   const Eigen::Index nv = m.M.rows();
   // In coordinates of similar magnitude; rows of lengths and angles are already similar.
-  const VecX unit = m.scale.cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  VecX unit = VecX::Ones(nv);
+  unit.head(m.scale.size()) = m.scale.cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   std::vector<Eigen::Index> decided;
   std::vector<bool> is_free(static_cast<std::size_t>(nv), true);
   if (m.J.rows() > 0) {
@@ -108,35 +110,41 @@ struct Masslessness {
 /// their mass.
 double least_mass(Eigen::Index degrees) { return degrees > few_degrees ? 1e-13 : no_mass; }
 
-/// The system in directions sorted by type: with mass, damped without mass, neither.
-Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
-  const Eigen::Index n = s.M.rows();
-  Masslessness kinds{n, 0, 0};
+/// The system in directions sorted by type: with mass; damped without mass, states of elements;
+/// neither. The last `states` unknowns are these states.
+Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible, Eigen::Index states) {
+  const Eigen::Index all = s.M.rows(), n = all - states;
+  Masslessness kinds{n, states, 0};
   if (n == 0) return kinds;
-  const MatX scale = times(MatX(s.W.transpose()), possible.asDiagonal() * s.W);
-  const MatX M = 0.5 * (s.M + s.M.transpose());
+  const MatX W = s.W.leftCols(n);
+  const MatX scale = times(MatX(W.transpose()), possible.asDiagonal() * W);
+  const MatX own = s.M.topLeftCorner(n, n), M = 0.5 * (own + own.transpose());
   if (is_positive_definite(M - least_mass(n) * scale)) return kinds;
   const SymmetricEigen mass = generalised_eigen(M, scale);
   if (!mass.found) return kinds;
   Eigen::Index light = 0;
   while (light < n && !(mass.values[light] > least_mass(n))) ++light;
   if (light == 0) return kinds;
-  MatX B(n, n);
-  B << mass.vectors.rightCols(n - light), mass.vectors.leftCols(light);
-  const MatX L = B.rightCols(light);
-  const MatX damping = L.transpose() * (0.5 * (s.C + s.C.transpose())) * L;
+  const Eigen::Index heavy = n - light;
+  const MatX L = mass.vectors.leftCols(light), C = s.C.topLeftCorner(n, n);
+  const MatX damping = L.transpose() * (0.5 * (C + C.transpose())) * L;
   const SymmetricEigen d = symmetric_eigen(damping);
-  const double size = (B.transpose() * s.C * B).cwiseAbs().maxCoeff();
-  Eigen::Index undamped = 0;
-  std::vector<Eigen::Index> order;
+  const double size = (mass.vectors.transpose() * C * mass.vectors).cwiseAbs().maxCoeff();
+  std::vector<Eigen::Index> damped, undamped;
   for (Eigen::Index k = light; k-- > 0;)
-    if (std::abs(d.values[k]) > 1e-9 * size) order.push_back(k);
+    if (std::abs(d.values[k]) > 1e-9 * size) damped.push_back(k);
   for (Eigen::Index k = 0; k < light; ++k)
-    if (!(std::abs(d.values[k]) > 1e-9 * size)) order.push_back(k), ++undamped;
-  const MatX sorted = d.vectors(Eigen::all, order);
-  B.rightCols(light) = L * sorted;
-  s = transformed(s, B, B.transpose() * scale);
-  return {n - light, light - undamped, undamped};
+    if (!(std::abs(d.values[k]) > 1e-9 * size)) undamped.push_back(k);
+  const auto slow = static_cast<Eigen::Index>(damped.size());
+  MatX B = MatX::Zero(all, all), Bt_scale = MatX::Zero(all, all);
+  B.block(0, 0, n, heavy) = mass.vectors.rightCols(heavy);
+  B.block(0, heavy, n, slow) = L * d.vectors(Eigen::all, damped);
+  B.block(n, heavy + slow, states, states).setIdentity();
+  B.topRightCorner(n, light - slow) = L * d.vectors(Eigen::all, undamped);
+  Bt_scale.leftCols(n) = B.topRows(n).transpose() * scale;
+  Bt_scale.block(heavy + slow, n, states, states).setIdentity();
+  s = transformed(s, B, Bt_scale);
+  return {heavy, slow + states, light - slow};
 }
 
 /// y = y_rest + Y u, w = w_rest + Y u': the following equations are in the rest.
@@ -321,18 +329,24 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
   const auto n = static_cast<Eigen::Index>(c.free.size());
   SecondOrderSystem s = second_order(m, u, c);
   if (slowest > 0 && 2 * slowest < n && n > few_degrees) {
-    LinearSystem out = slowest_of(s, m.scale, slowest);
+    VecX possible = VecX::Ones(m.M.rows());  // of states: any
+    possible.head(m.scale.size()) = m.scale;
+    LinearSystem out = slowest_of(s, possible, slowest);
+    out.degrees -= m.states;
+    out.massless = std::max(out.massless - m.states, 0);
     if (out.fastest > 0.0) {
       out.xdot_of = out.v_of + m.Gamma * out.x_of;
       return out;
     }
   }
-  const Masslessness kinds = order_by_mass(s, m.scale);
+  VecX possible = VecX::Zero(m.M.rows());
+  possible.head(m.scale.size()) = m.scale;
+  const Masslessness kinds = order_by_mass(s, possible, m.states);
   follow_statics(s, kinds.without);
   LinearSystem out = first_order(s, kinds.heavy);
   out.xdot_of = out.v_of + m.Gamma * out.x_of;
-  out.degrees = static_cast<int>(n);
-  out.massless = static_cast<int>(kinds.damped + kinds.without);
+  out.degrees = static_cast<int>(n) - m.states;
+  out.massless = static_cast<int>(kinds.damped + kinds.without) - m.states;
   for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
     const bool rate = k >= s.M.rows();
     if (out.massless > 0)

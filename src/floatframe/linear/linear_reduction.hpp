@@ -10,7 +10,8 @@
 // where X, V, A are zero in the free coordinates, and
 //   N^T M N w' + N^T (M T + C N) w + N^T (M R + C P + K N) y + F0 u + F1 u' + F2 u'' = 0       (1)
 //   F0 = N^T (M A0 + C V0 + K X + r0), F1 = N^T (M A1 + C V1 + r1), F2 = N^T (M A2 + r2)
-// Massless directions are eliminated as in the system, together with the inputs.
+// Massless directions are eliminated as in the system, together with the inputs. States of
+// elements (small_motions.hpp) are free coordinates that have damping but no mass.
 #include <string>
 #include <vector>
 
@@ -21,9 +22,9 @@
 namespace floatframe {
 
 /// Derivatives of residual and constraints with respect to each input (a column), its rate and its
-/// second derivative, at constant x, v, a and lambda.
+/// second derivative, at constant x, v, a and lambda; x, v, a of all n unknowns.
 struct InputMotions {
-  MatX residual[3];      ///< nv x nu
+  MatX residual[3];      ///< n x nu
   MatX value, rate[3];   ///< nc x nu
   MatX acceleration[3];  ///< nc x nu
 };

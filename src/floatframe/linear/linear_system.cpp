@@ -87,7 +87,10 @@ LinearSystem linear_system_at(Formulation& f, const State& state, const InputMot
                    "the state moves: its linear system needs relative coordinates, since those of "
                    "the absolute formulation turn with the bodies");
   const SmallMotions m = small_motions(f, state);
-  LinearSystem system = reduced_system(m, coordinate_owners(f), inputs, response, slowest);
+  LinearSystem system = reduced_system(m, unknown_owners(f), inputs, response, slowest);
+  system.elements_of = system.x_of.bottomRows(m.states);
+  for (MatX* of : {&system.x_of, &system.v_of, &system.a_of, &system.xdot_of})
+    of->conservativeResize(f.velocities(), Eigen::NoChange);
   if (!inputs) describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);

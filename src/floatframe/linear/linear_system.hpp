@@ -11,6 +11,8 @@
 //   N^T M N wdot + N^T (M T + C N) w + N^T (M R + C P + K N) y = 0                              (2)
 // so that z = (y, w), zdot = A z is the derivative of the motion itself, not of a frozen frame.
 //
+// States of elements are unknowns of first order, behind y.
+//
 // Massless directions have no wdot: without damping they follow the other directions
 // statically, with damping they are states of first order. z is then a combination of
 // coordinates.
@@ -26,6 +28,7 @@ struct LinearSystem {
   MatX A;                           ///< nz x nz: zdot = A z [1/s]
   MatX x_of, v_of, a_of;            ///< nv x nz: increments, velocities, accelerations of z
   MatX xdot_of;                     ///< nv x nz: rates of the increments, v_of + Gamma x_of
+  MatX elements_of;                 ///< ns x nz: changes of the states of elements
   std::vector<std::string> states;  ///< nz: "joint 'crank'", "rate of joint 'crank'", ...
   /// Rows for each body: velocity, angular velocity in body axes, amplitude rates; then for each
   /// body the amplitudes; for each force six measures times the root of their stiffness (or of

@@ -19,7 +19,7 @@ Linearization linearized(const Model& model, const SimulationDescription& option
   l.K = std::move(terms.K);
   l.J = std::move(terms.J);
   l.r = std::move(terms.r);
-  l.coordinates = coordinate_owners(f);
+  l.coordinates = unknown_owners(f);
   l.constraints = constraint_owners(f);
   JointFollower joints(started.model());
   kinematics_at(f, started.state());

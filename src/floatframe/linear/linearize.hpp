@@ -26,11 +26,12 @@ namespace floatframe {
 
 struct Linearization {
   /// Mass; damping and gyroscopic terms; stiffness with the geometric one of gravity, of applied
-  /// and of constraint forces and the centrifugal terms. nv x nv, not symmetrised.
+  /// and of constraint forces and the centrifugal terms. Not symmetrised, n x n: nv coordinates and
+  /// behind them the states z of elements, with the equations zdot = f(x, xdot, z).
   MatX M, C, K;
-  MatX J;                                ///< constraint Jacobian, nc x nv
+  MatX J;                                ///< constraint Jacobian, nc x n
   VecX r;                                ///< unbalanced forces: -M times the accelerations
-  std::vector<std::string> coordinates;  ///< nv: "joint 'crank'", "mode 2 of body 'beam'"
+  std::vector<std::string> coordinates;  ///< n: "joint 'crank'", "mode 2 of body 'beam'"
   std::vector<std::string> constraints;  ///< nc: "joint 'guide'"
   SystemState state;                     ///< the state: joints, bodies, time
   StartReport start;                     ///< changes of the start values

@@ -9,10 +9,10 @@
 #include <limits>
 #include <optional>
 
+#include "floatframe/core/plural.hpp"
 #include "floatframe/loops/loop_path.hpp"
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/loops/run_error.hpp"
-#include "floatframe/core/plural.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
 

@@ -7,8 +7,10 @@
 
 namespace floatframe {
 
+inline constexpr int dual_directions = 12;
+
 struct Dual {
-  using Directions = Eigen::Array<double, 12, 1>;
+  using Directions = Eigen::Array<double, dual_directions, 1>;
   double v = 0.0;
   Directions d = Directions::Zero();
 
@@ -48,6 +50,10 @@ inline Dual sqrt(const Dual& x) noexcept {
 inline Dual abs(const Dual& x) noexcept { return x.v < 0.0 ? -x : x; }
 inline Dual sin(const Dual& x) noexcept { return chained(std::sin(x.v), std::cos(x.v), x); }
 inline Dual cos(const Dual& x) noexcept { return chained(std::cos(x.v), -std::sin(x.v), x); }
+inline Dual exp(const Dual& x) noexcept { return chained(std::exp(x.v), std::exp(x.v), x); }
+inline Dual pow(const Dual& x, double n) noexcept {
+  return chained(std::pow(x.v, n), n * std::pow(x.v, n - 1.0), x);
+}
 inline Dual atan2(const Dual& y, const Dual& x) noexcept {
   return {std::atan2(y.v, x.v), (x.v * y.d - y.v * x.d) / (x.v * x.v + y.v * y.v)};
 }

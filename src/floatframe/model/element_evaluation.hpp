@@ -9,8 +9,16 @@
 // leave out is listed for each kind in its regimes and checked by the tests: the dependence of
 // rates on positions (smaller than the damping by h |v| / s, h the step), the rotation of axes and
 // loads, all nonsymmetric terms. This costs iterations, not accuracy.
+//
+// States z of an element are variables of first order: its law also gives zdot(ports, z). Steps
+// eliminate them: at every iterate z solves
+//   w z + z_hat = zdot(ports, z)                                                               (1)
+// with the scheme of the step (integrator/state_scheme.hpp), so that dz = (w - zdot_z)^-1 zdot_p dp
+// for a motion dp of the ports, and the rows are those of the efforts with z following. Behind them
+// are numbers that stay constant in a step and change between steps (`after_step`).
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -37,13 +45,19 @@ struct EffortsOf {
   struct Weights {
     double k = 0.0, c = 0.0;
   };
+  std::vector<S> state_rates;        ///< zdot
+  std::vector<double> state_slopes;  ///< d(zdot_i)/dz_j: [i states + j]; zero until it is set
+
   int row_count = 0;
   Weights rows[most_rows];
   std::vector<WrenchOf<S>> gradients;  ///< of row r on marker i: [r markers + i]
 
   EffortsOf() = default;
-  explicit EffortsOf(std::size_t markers)
-      : wrench(markers), gradients(std::is_same_v<S, double> ? most_rows * markers : 0) {}
+  explicit EffortsOf(std::size_t markers, std::size_t states = 0)
+      : wrench(markers),
+        state_rates(states),
+        state_slopes(states * states),
+        gradients(std::is_same_v<S, double> ? most_rows * markers : 0) {}
   std::size_t markers() const noexcept { return wrench.size(); }
   const WrenchOf<S>* gradient(int row) const noexcept {
     return gradients.data() + static_cast<std::size_t>(row) * wrench.size();
@@ -54,6 +68,8 @@ struct EffortsOf {
   /// Everything to zero.
   void clear() noexcept {
     for (WrenchOf<S>& w : wrench) w.F = w.T = Eigen::Matrix<S, 3, 1>::Zero();
+    for (S& rate_of_state : state_rates) rate_of_state = 0.0;
+    for (double& slope : state_slopes) slope = 0.0;
     row_count = 0;
     force = length = rate = energy = energy_rate = damping = 0.0;
   }
@@ -102,7 +118,13 @@ struct PortsOf {
   double reference_angle = 0.0;       ///< selects the turn of a joint angle [rad]
   std::span<const double> inputs;     ///< values of model.inputs, constant in tangents
   std::int64_t branch = free_branch;  ///< the held branch
+  const S* states = nullptr;          ///< z, and behind them the kept numbers
+  /// w of (1); infinite: z is constant.
+  double state_weight = std::numeric_limits<double>::infinity();
 
+  const S& state(std::size_t i) const noexcept { return states[i]; }
+  /// dz/dp = zdot_p times this, of a state with the slope zdot_z that no other state enters.
+  double followed(double slope) const noexcept { return 1.0 / (state_weight - slope); }
   const Marker& marker(int i) const noexcept { return *markers[i]; }
   template <class Keys>
   const Keys& keys() const noexcept {
@@ -128,6 +150,8 @@ using DualPorts = PortsOf<Dual>;
 struct EffortTangent {
   MatX K;  ///< -d(wrenches)/d(motion)
   MatX C;  ///< -d(wrenches)/d(rates)
+  /// With ns states: -d(wrenches)/dz; d(zdot)/d(motion), /d(rates), /dz.
+  MatX of_states, motion, rates, slopes;
 };
 
 /// Event function of the active branch of a law: see `branch_side`.
@@ -143,8 +167,9 @@ void evaluate_element(const Ports& in, Efforts& out) noexcept;
 
 /// The exact derivatives, by dual numbers. Allocates.
 EffortTangent exact_tangent(const Ports& in);
-/// With respect to the motion and rates of marker `moving`: directions (dr, dpi, v, w).
-void evaluate_element(const Ports& in, int moving, EffortsOf<Dual>& out) noexcept;
+/// With respect to the motion and rates of marker `moving`: directions (dr, dpi, v, w); and to the
+/// states from `first_state` on, if `moving` is -1.
+void evaluate_element(const Ports& in, int moving, int first_state, EffortsOf<Dual>& out) noexcept;
 
 /// Where the force of an element or its slope jumps - an edge of the road, contact, a corner of a
 /// law - the element changes from one branch of its law to another. Each branch is smooth and

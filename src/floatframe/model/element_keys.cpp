@@ -111,7 +111,8 @@ void ElementCheck::some_law() const {
     const bool law = k.kind == KeyKind::spring || k.kind == KeyKind::damper ||
                      k.kind == KeyKind::bump_stop || k.kind == KeyKind::rebound_stop ||
                      k.kind == KeyKind::load || k.kind == KeyKind::stiffness_matrix ||
-                     k.kind == KeyKind::damping_matrix || k.kind == KeyKind::speed_table;
+                     k.kind == KeyKind::damping_matrix || k.kind == KeyKind::speed_table ||
+                     k.kind == KeyKind::table;
     if (!law) continue;
     if (given(k.name)) return;
     laws.push_back(k.name);

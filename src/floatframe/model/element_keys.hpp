@@ -33,7 +33,8 @@ enum class KeyKind {
   target_rate,       ///< signal, a rate
   stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
   damping_matrix,    ///< the same of their rates
-  speed_table        ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
+  speed_table,       ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
+  table              ///< rows of numbers, named by `words`, each valid as in `rule`
 };
 
 /// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of

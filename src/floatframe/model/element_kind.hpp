@@ -47,6 +47,8 @@ struct ElementExample {
   Vec3 origin = Vec3::Zero();
   double t = 0.0, reference_angle = 0.0;
   std::vector<double> inputs;
+  std::vector<double> states;  ///< and kept numbers
+  double state_weight = std::numeric_limits<double>::infinity();
 
   /// With these keys: their laws and signals, and inputs by the names of `model.inputs`.
   template <class Keys>
@@ -97,6 +99,13 @@ struct ElementKind {
                std::vector<ConstraintPart>& parts) = nullptr;
   /// Changes of the mirrored element besides mirrored points and directions.
   void (*mirror)(ElementDescription& element, const Placement& x) = nullptr;
+  /// States and kept numbers of an element with these keys; null: none.
+  void (*states)(Element& element) = nullptr;
+  /// Their values at a start that gives none: those of the element at rest in this motion. Null:
+  /// zero.
+  void (*start)(const Ports& in, double* states) noexcept = nullptr;
+  /// Changes the kept numbers at the end of a step, at which the ports are. Step time.
+  void (*after_step)(const Ports& in, double* states) noexcept = nullptr;
   /// For types that may measure a rotation vector, limited to half a turn: true if it does.
   bool (*ends_at_half_turn)(const Element& element) noexcept = nullptr;
   bool along_line = false;  ///< acts along the line between its ends: undefined if they coincide

@@ -5,7 +5,10 @@
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/coordinate_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/line_measure.hpp"
 
 namespace floatframe {
 
@@ -101,6 +104,12 @@ std::vector<ElementSignal> signals_of(const Element& element) {
   return out;
 }
 
+int state_count(const Model& model) noexcept {
+  int count = 0;
+  for (const Element& e : model.elements) count += e.states;
+  return count;
+}
+
 const char* symbol_name(Picture::Symbol symbol) noexcept {
   constexpr const char* names[] = {"none", "bar", "spring", "ring", "wheel", "force", "torque"};
   return names[index_of(symbol)];
@@ -153,6 +162,8 @@ void take_keys(Element& element, const Model& model) {
     rate = rate || (s && key.kind == KeyKind::target_rate);
     element.signals.push_back(std::move(signal));
   }
+  element.states = element.kept = 0;
+  if (const auto states = element_kind(element.type).states) states(element);
   for (Signal& signal : element.signals)
     signal.differentiated = signal.differentiated && signal.given && !rate;
   if (element_kind(element.type).lifted) element.signals.emplace_back();
@@ -173,8 +184,14 @@ void evaluate_element(const Ports& in, Efforts& out) noexcept {
   evaluate_of(Types{}, in, out);
 }
 
-void evaluate_element(const Ports& in, int moving_marker, EffortsOf<Dual>& out) noexcept {
+void evaluate_element(const Ports& in, int moving_marker, int first_state,
+                      EffortsOf<Dual>& out) noexcept {
   const std::size_t n = in.element.markers.size();
+  const int held = in.element.states + in.element.kept;
+  std::vector<Dual> states(in.states, in.states + held);
+  if (moving_marker < 0)
+    for (int i = first_state; i < std::min(in.element.states, first_state + dual_directions); ++i)
+      states[static_cast<std::size_t>(i)].d[i - first_state] = 1.0;
   std::vector<MarkerMotion<Dual>> motions;
   std::vector<const MarkerMotion<Dual>*> markers;
   for (std::size_t i = 0; i < n; ++i) {
@@ -182,35 +199,53 @@ void evaluate_element(const Ports& in, int moving_marker, EffortsOf<Dual>& out) 
     motions.push_back(static_cast<int>(i) == moving_marker ? moving(m) : constant(m));
   }
   for (const MarkerMotion<Dual>& m : motions) markers.push_back(&m);
-  out = EffortsOf<Dual>(n);
+  out = EffortsOf<Dual>(n, static_cast<std::size_t>(in.element.states));
   out.clear();
   if (!in.element.acts) return;
   element_kind(in.element.type)
       .dual({in.model, in.element, markers.data(), in.origin, in.t, in.reference_angle, in.inputs,
-             in.branch},
+             in.branch, states.data(), in.state_weight},
             out);
 }
 
 EffortTangent exact_tangent(const Ports& in) {
   const auto n = static_cast<Eigen::Index>(in.element.markers.size());
-  EffortTangent out{MatX(6 * n, 6 * n), MatX(6 * n, 6 * n)};
+  const Eigen::Index ns = in.element.states;
+  EffortTangent out{MatX(6 * n, 6 * n), MatX(6 * n, 6 * n), MatX(6 * n, ns),
+                    MatX(ns, 6 * n),    MatX(ns, 6 * n),    MatX(ns, ns)};
   EffortsOf<Dual> efforts;
+  const auto component = [&](Eigen::Index row) -> const Dual::Directions& {
+    const WrenchOf<Dual>& w = efforts.wrench[static_cast<std::size_t>(row / 6)];
+    return (row % 6 < 3 ? w.F[row % 6] : w.T[row % 6 - 3]).d;
+  };
+  const auto rate = [&](Eigen::Index i) -> const Dual::Directions& {
+    return efforts.state_rates[static_cast<std::size_t>(i)].d;
+  };
   for (Eigen::Index j = 0; j < n; ++j) {
-    evaluate_element(in, static_cast<int>(j), efforts);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (int c = 0; c < 6; ++c) {
-        const WrenchOf<Dual>& w = efforts.wrench[static_cast<std::size_t>(i)];
-        const Dual& x = c < 3 ? w.F[c] : w.T[c - 3];
-        out.K.row(6 * i + c).segment<6>(6 * j) = -x.d.head<6>().matrix().transpose();
-        out.C.row(6 * i + c).segment<6>(6 * j) = -x.d.tail<6>().matrix().transpose();
-      }
+    evaluate_element(in, static_cast<int>(j), 0, efforts);
+    for (Eigen::Index row = 0; row < 6 * n; ++row) {
+      out.K.row(row).segment<6>(6 * j) = -component(row).head<6>().matrix().transpose();
+      out.C.row(row).segment<6>(6 * j) = -component(row).tail<6>().matrix().transpose();
+    }
+    for (Eigen::Index i = 0; i < ns; ++i) {
+      out.motion.row(i).segment<6>(6 * j) = rate(i).head<6>().matrix().transpose();
+      out.rates.row(i).segment<6>(6 * j) = rate(i).tail<6>().matrix().transpose();
+    }
+  }
+  for (int first = 0; first < ns; first += dual_directions) {
+    evaluate_element(in, -1, first, efforts);
+    for (Eigen::Index s = first; s < std::min<Eigen::Index>(ns, first + dual_directions); ++s) {
+      for (Eigen::Index row = 0; row < 6 * n; ++row)
+        out.of_states(row, s) = -component(row)[s - first];
+      for (Eigen::Index i = 0; i < ns; ++i) out.slopes(i, s) = rate(i)[s - first];
+    }
   }
   return out;
 }
 
 bool has_branches(const Element& element) noexcept {
   if (element_kind(element.type).side == nullptr) return false;
-  return element.road >= 0 ||
+  return element.laws.empty() ||
          std::any_of(element.laws.begin(), element.laws.end(),
                      [](const PiecewisePolynomial& law) { return !law.edges().empty(); });
 }
@@ -234,6 +269,44 @@ void validate_framed(const ElementCheck& check) {
             sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
       check.error(ErrorCode::geometry, "axis_2", *complaint);
   check.some_law();
+}
+
+void validate_coordinate(const ElementCheck& check) {
+  if (!check.good("joint")) return;
+  const std::string joint = check.text("joint");
+  const auto type = check.joint_type(joint);
+  if (type && !joint_has_one_coordinate(*type))
+    check.error(ErrorCode::wrong_value, "joint",
+                "found '" + check.written(joint) + "', expected a " + joints_of_one_coordinate() +
+                    " joint");
+}
+
+bool build_coordinate(ElementBuild& build) {
+  const Joint* joint = build.connect_joint("joint");
+  if (!joint) return false;
+  build.element.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
+  return true;
+}
+
+Picture picture_of_coordinate(const Element& element) {
+  return {.symbol = Picture::Symbol::ring, .a = element.markers[0], .b = element.markers[1]};
+}
+
+void validate_line(const ElementCheck& check) {
+  if (!check.two_bodies("from", "to")) return;
+  const AttachmentDescription a = check.place("from"), b = check.place("to");
+  if (!check.from_file && (a.node || b.node)) return;
+  if (const auto complaint = sentences::spring_ends(a.point, b.point))
+    check.error(ErrorCode::out_of_range, "", *complaint);
+}
+
+bool build_line(ElementBuild& build) {
+  const bool from = build.connect("from", false), to = build.connect("to", false);
+  return from && to;
+}
+
+Picture picture_of_line(const Element& element) {
+  return {.symbol = Picture::Symbol::spring, .a = element.markers[0], .b = element.markers[1]};
 }
 
 Picture picture_of_load(const Element& element, Picture::Symbol symbol, const AppliedLoad& load) {

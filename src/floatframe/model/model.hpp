@@ -77,6 +77,9 @@ struct Element {
   std::vector<Signal> signals;            ///< those of its keys, in their order
   int road = -1;
   int joint = -1;             ///< whose coordinate it acts on or prescribes
+  int states = 0;             ///< variables of first order of its law
+  int kept = 0;               ///< numbers that change between steps only
+  VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
   bool acts = true;           ///< by a law
   bool holds = false;         ///< its markers, by constraints
   bool rotational = false;    ///< its measure is an angle
@@ -135,6 +138,9 @@ struct Model {
     return joint.motion < 0 ? nullptr : &elements[joint.motion].signals[0].function;
   }
 };
+
+/// States of all elements together.
+int state_count(const Model& model) noexcept;
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free
 /// joints to bodies without a joint that leads to them. Throws InputError with every error.

@@ -77,8 +77,8 @@ class ModelHash {
     all(function, input, given);
   }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, road, joint, acts, holds, rotational, driven,
-                 jumps, keys, data] = e;
+    const auto& [name, type, markers, laws, signals, road, joint, states, kept, start, acts, holds,
+                 rotational, driven, jumps, keys, data] = e;
     all(name, type, markers, laws, signals, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))

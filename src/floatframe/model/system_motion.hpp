@@ -50,6 +50,7 @@ struct SystemMotion {
   std::vector<const MarkerState*> markers;
   std::vector<Vec3> marker_accelerations;  ///< of the points [m/s2]
   const Efforts* efforts = nullptr;        ///< one for each element
+  std::vector<const double*> states;       ///< of each element, and behind them its kept numbers
   const Reactions* reactions = nullptr;    ///< if an output needs them
 
   explicit SystemMotion(const Model& m) : model(m), marker_accelerations(m.markers.size()) {}

@@ -66,6 +66,9 @@ struct ElementValidation {
         entity.complain(ErrorCode::wrong_value, key.name,
                         sentences::speed_table(std::get<MatX>(*x)));
         break;
+      case K::table:
+        table(key, std::get<MatX>(*x));
+        break;
       case K::load:
       case K::target:
       case K::target_rate:
@@ -77,6 +80,13 @@ struct ElementValidation {
         break;
     }
     return entity.errors.size() == before;
+  }
+
+  void table(const ElementKey& key, const MatX& rows) const {
+    if (rows.rows() == 0 || rows.cols() != std::ssize(key.words))
+      return entity.error(ErrorCode::wrong_count, key.name,
+                          sentences::table_rows(rows.rows(), rows.cols(), key.words));
+    for (Eigen::Index i = 0; i < rows.size(); ++i) entity.number(key.name, rows(i), key.rule);
   }
 
   void all() const {

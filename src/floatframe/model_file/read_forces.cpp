@@ -104,6 +104,11 @@ class ElementReader {
     return value.is_list() ? rows_of(rows, 9) : std::nullopt;
   }
 
+  static std::optional<KeyValue> table(const YamlValue& value, const ElementKey& key) {
+    const auto rows = value.list("rows of numbers");
+    return value.is_list() ? rows_of(rows, key.words.size()) : std::nullopt;
+  }
+
   std::optional<KeyValue> place_of(const YamlValue& value) const {
     auto section = value.section("a place {body, at}");
     return section ? read_attachment(self_, model_, *section) : std::nullopt;
@@ -146,6 +151,8 @@ class ElementReader {
         return matrix(*value);
       case K::speed_table:
         return speed_table(*value);
+      case K::table:
+        return table(*value, key);
       case K::load:
         return read_signal(self_, *value, u.force, Interpolation::linear);
       case K::target:

@@ -74,6 +74,9 @@ class StateReader {
       b.amplitude_rates = vector(value, "amplitude_rates", path);
       s.bodies.push_back(std::move(b));
     }
+    if (json.contains("elements"))  // only of models whose elements have states
+      for (const auto& [name, value] : members(json, "elements"))
+        s.elements.push_back({name, vector(value, "states", "elements." + excerpt(name))});
     return s;
   }
 
@@ -150,11 +153,13 @@ std::string state_json(const SystemState& s) {
         {"position", array_of(b.position)},     {"quaternion", array_of(b.orientation)},
         {"velocity", array_of(b.velocity)},     {"angular_velocity", array_of(b.angular_velocity)},
         {"amplitudes", array_of(b.amplitudes)}, {"amplitude_rates", array_of(b.amplitude_rates)}};
-  const Json json = {{"floatframe_state", state_version},
-                     {"model", s.model},
-                     {"time", s.time},
-                     {"joints", joints},
-                     {"bodies", bodies}};
+  Json json = {{"floatframe_state", state_version},
+               {"model", s.model},
+               {"time", s.time},
+               {"joints", joints},
+               {"bodies", bodies}};
+  for (const SystemState::Element& e : s.elements)
+    json["elements"][e.name] = {{"states", array_of(e.states)}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

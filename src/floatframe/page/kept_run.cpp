@@ -10,8 +10,8 @@
 #include "floatframe/history/history_content.hpp"
 #include "floatframe/history/states_file.hpp"
 #include "floatframe/page/page_writer.hpp"
-#include "floatframe/results/results_csv.hpp"
 #include "floatframe/page/run_page.hpp"
+#include "floatframe/results/results_csv.hpp"
 #include "floatframe/results/summary_json.hpp"
 #include "floatframe/run/state_layout.hpp"
 

@@ -206,12 +206,27 @@ std::vector<int> rotor_bodies(const Model& model, const std::string& joint) {
   return body < 0 ? std::vector<int>{} : bodies_below(f.tree(), body);
 }
 
+namespace {
+
+void require_no_states(const Model& model, const std::string& rotor) {
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    if (model.elements[k].states > 0)
+      throw InputError(
+          ErrorCode::unsupported,
+          fmt::format("rotor on joint '{}': found {}, an element with states, expected a model "
+                      "without: the analyses of rotors do not know them",
+                      rotor, owner_name(model, {-1, static_cast<int>(k)})));
+}
+
+}  // namespace
+
 Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::optional<Vec3>& axis) {
   const Model& model = f.model();
   const TreeKinematics& tree = f.tree();
   Rotor rotor;
   rotor.joint = joint_named(model, name);
   rotor.name = name;
+  require_no_states(model, name);
   const Joint& joint = model.joints[rotor.joint];
   rotor.body = tree.body_of_joint(rotor.joint);
   if (rotor.body < 0)

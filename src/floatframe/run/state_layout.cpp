@@ -84,6 +84,7 @@ void StateSampler::place_columns(const RecordDescription& record) {
   const int q = group("q", l.q.size()), v = group("v", l.v.size());
   if (record.accelerations) group("accelerations", l.v.size());
   group("spring_angles", f_.spring_angles().size());
+  if (f_.element_states().count() > 0) group("element_states", f_.element_states().count());
   group("inputs", f_.inputs().size());
   const auto bodies = static_cast<std::size_t>(std::count(kept_.begin(), kept_.end(), 1));
   int pose = group("poses", 7 * bodies);
@@ -111,6 +112,7 @@ void StateSampler::sample(const State& state, double* row) const noexcept {
   if (l.groups[3].name[0] == 'a')
     for (const int k : l.v) *row++ = state.a[k];
   for (const double x : f_.spring_angles()) *row++ = x;
+  for (const double x : state.z) *row++ = x;
   for (const double x : f_.inputs()) *row++ = x;
   const SystemMotion& motion = f_.motion();
   for (std::size_t i = 0; i < kept_.size(); ++i) {

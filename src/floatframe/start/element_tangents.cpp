@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/model/element_keys.hpp"
 #include "floatframe/start/small_motions.hpp"
 
@@ -87,7 +88,8 @@ VecX rates_of(const Formulation& f, const std::vector<int>& markers) {
 ElementTangents::ElementTangents(Formulation& f, const State& s, const VecX& reach) : f_(f) {
   const Eigen::Index nv = f.velocities();
   const std::vector<Element>& elements = f.model().elements;
-  K = C = MatX::Zero(nv, nv);
+  const Eigen::Index n = nv + state_count(f.model());
+  K = C = MatX::Zero(n, n);
   std::vector<int> markers;
   for (const Element& e : elements)
     if (e.acts) markers.insert(markers.end(), e.markers.begin(), e.markers.end());
@@ -108,17 +110,37 @@ ElementTangents::ElementTangents(Formulation& f, const State& s, const VecX& rea
         }).columns;
   }
   dynamics_at(f, s);
-  Eigen::Index row = 0;
-  for (std::size_t k = 0; k < elements.size(); ++k) {  // (1)
+  Eigen::Index row = 0, at = nv;
+  for (std::size_t k = 0; k < elements.size(); ++k) {  // (1), (2)
     if (!elements[k].acts) continue;
     const Eigen::Index rows = 6 * std::ssize(elements[k].markers);
     const EffortTangent t = exact_tangent(f.ports(k));
-    const auto motion = J.middleRows(row, rows);
-    K += motion.transpose() * (t.K * motion + t.C * V.middleRows(row, rows));
-    C += motion.transpose() * (t.C * motion);
+    const auto motion = J.middleRows(row, rows), moved = V.middleRows(row, rows);
+    K.topLeftCorner(nv, nv) += motion.transpose() * (t.K * motion + t.C * moved);
+    C.topLeftCorner(nv, nv) += motion.transpose() * (t.C * motion);
+    const Eigen::Index ns = elements[k].states;
+    K.block(0, at, nv, ns) = motion.transpose() * t.of_states;
+    K.block(at, 0, ns, nv) = -(t.motion * motion + t.rates * moved);
+    K.block(at, at, ns, ns) = -t.slopes;
+    C.block(at, 0, ns, nv) = -(t.rates * motion);
     row += rows;
+    at += ns;
   }
+  C.bottomRightCorner(n - nv, n - nv).setIdentity();
   f.hold_efforts(true);
+  exact = true;
+}
+
+MatX ElementTangents::at_rest() const {
+  const Eigen::Index nv = f_.velocities(), ns = K.rows() - nv;
+  if (ns == 0) return K;
+  MatX slopes = K.bottomRightCorner(ns, ns), follow = K.bottomLeftCorner(ns, nv);
+  for (Eigen::Index i = 0; i < ns; ++i) {
+    if (!slopes.row(i).isZero(0.0)) continue;
+    slopes(i, i) = 1.0;
+    follow.row(i).setZero();
+  }
+  return K.topLeftCorner(nv, nv) - K.topRightCorner(nv, ns) * lu_solve(slopes, follow);
 }
 
 }  // namespace floatframe

@@ -3,6 +3,9 @@
 // the motion of marker i per increment of the coordinates, w its wrench and k, c the derivatives of
 // the law (`exact_tangent`),
 //   C = sum J^T c J,   K = sum J^T (k J + c V),   V = d(velocities of the markers)/dx.          (1)
+// States z of elements are ns more unknowns, with the equations zdot - f(x, v, z) = 0 behind the
+// others:
+//   K_xz = J^T d(-w)/dz,  K_zx = -(f_r J + f_v V),  K_zz = -f_z,  C_zx = -f_v J,  C_zz = I      (2)
 // What is left of K, the change of J under constant wrenches, is a smooth function: differences
 // while the efforts are held. (1) is dense: where it would take longer than the differences of
 // everything, these are taken. Allocates: load time only.
@@ -22,7 +25,11 @@ class ElementTangents {
   ElementTangents(const ElementTangents&) = delete;
   ElementTangents& operator=(const ElementTangents&) = delete;
 
-  MatX K, C;  ///< nv x nv; parts of dr/dx and dr/dv
+  MatX K, C;           ///< nv + ns; parts of dr/dx and dr/dv
+  bool exact = false;  ///< the efforts are held
+  /// K of the coordinates alone, with states that follow at rest; those without an equation there
+  /// are constant.
+  MatX at_rest() const;
 
  private:
   Formulation& f_;

@@ -254,6 +254,7 @@ void check_size(const RelativeFormulation& f) {
 
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   check_size(f);
+  const RestingStates resting(f, true);
   Equilibrium e;
   e.lambda = VecX::Zero(f.constraints());
   const VecX start_q = q;
@@ -272,8 +273,13 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   const auto evaluate = [&](const VecX& at) { return statics.evaluate(at, e.lambda); };
   e.residual = largest(evaluate(q));
   keep_neutral_positions(f, start_q, q, e.residual, best.weight, evaluate);
+  f.element_states().rest();
   const VecX r = evaluate(q);
   e.residual = largest(r);
+  if (const int drifting = f.element_states().unsolved(); drifting >= 0)
+    throw RunError(ErrorCode::no_equilibrium,
+                   fmt::format("no static equilibrium found: the states of {} do not come to rest",
+                               owner_name(f.model(), {-1, drifting})));
   if (!best.accepted()) {
     Eigen::Index worst = 0;
     if (r.size() == 0)

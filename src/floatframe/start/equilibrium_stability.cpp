@@ -136,6 +136,7 @@ bool surely_stable(RelativeFormulation& f, const State& s, const VecX& possible)
 std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const VecX& lambda) {
   const int nv = f.velocities();
   if (nv == 0 || nv > most_unknowns) return "";
+  const RestingStates resting(f, false);
   State s;
   s.q = q;
   s.v = s.a = VecX::Zero(nv);

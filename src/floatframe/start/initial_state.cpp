@@ -44,17 +44,26 @@ StepOptions step_options(const Model& model, const SimulationDescription& o) {
   return s;
 }
 
+void set_element_states(Formulation& f, State& state) {
+  if (f.element_states().count() == 0) return;
+  kinematics_at(f, state.t, state.q, state.v);
+  f.start_element_states();
+  state.z = f.element_states().values();
+}
+
 State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   State state;
   f.start(state.q, state.v);
   VecX at_rest = VecX::Zero(f.velocities());
   close_loops(f, state.q, start == Start::equilibrium ? at_rest : state.v, true);
+  set_element_states(f, state);
   if (start == Start::equilibrium) {
     const Equilibrium e = find_equilibrium(f, state.q);
     if (report != nullptr)
       if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
         report->notes.push_back(std::move(note));
     close_loops(f, state.q, state.v, false);
+    state.z = f.element_states().values();
   }
   if (report == nullptr) return state;
   kinematics_at(f, 0.0, state.q, state.v);

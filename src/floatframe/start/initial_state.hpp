@@ -44,6 +44,24 @@ std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const Ve
 /// directions of joints.
 State relative_start(RelativeFormulation& f, Start start, StartReport* report = nullptr);
 
+/// The states of elements at t, q, v of the state: those that the model gives, else those of each
+/// kind. Moves `f`.
+void set_element_states(Formulation& f, State& state);
+/// While this exists, states of elements follow every evaluation as they are at rest; afterwards
+/// they are those before it, or `keeps` the last ones.
+struct RestingStates {
+  explicit RestingStates(Formulation& formulation, bool keeps)
+      : f(formulation), keeps_last(keeps), before(f.element_states().values()) {
+    f.element_states().rest();
+  }
+  ~RestingStates() { keeps_last ? f.element_states().stop() : f.element_states().give(before); }
+  RestingStates(const RestingStates&) = delete;
+  RestingStates& operator=(const RestingStates&) = delete;
+  Formulation& f;
+  const bool keeps_last;
+  const VecX before;
+};
+
 /// Start values of a joint with rotation vectors of at most half a turn, as they are measured.
 std::vector<double> joint_coordinates_in_range(const Joint& joint,
                                                const std::vector<double>& values);

@@ -40,7 +40,7 @@ MatX stiffness_matrix(Formulation& f, const State& s) {
   constexpr double step = 1e-6;  // [m, rad, amplitudes]
   const ElementTangents elements(f, s, VecX::Constant(f.velocities(), step));
   VecX q = s.q;
-  return elements.K + central_differences(f.velocities(), step, [&](const VecX& x) {
+  return elements.at_rest() + central_differences(f.velocities(), step, [&](const VecX& x) {
            f.retract(s.q, x, q);
            return residual_at(f, s.t, q, s.v, s.lambda);
          });

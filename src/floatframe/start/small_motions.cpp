@@ -58,55 +58,108 @@ VecX motion_steps(const Model& model, const VecX& scale) {
   return steps;
 }
 
+namespace {
+
+/// In the corner of a matrix of zeros.
+MatX extended(const MatX& X, Eigen::Index rows, Eigen::Index columns) {
+  MatX out = MatX::Zero(rows, columns);
+  out.topLeftCorner(X.rows(), X.cols()) = X;
+  return out;
+}
+
+/// Calls action(number, place): of each state among those of the system, and in State::z.
+template <class Action>
+void for_each_state(const Model& model, const Action& action) {
+  Eigen::Index number = 0, place = 0;
+  for (const Element& e : model.elements) {
+    for (int i = 0; i < e.states; ++i) action(number++, place + i);
+    place += e.states + e.kept;
+  }
+}
+
+}  // namespace
+
+VecX unknown_steps(const Model& model, const VecX& scale, const State& s) {
+  VecX steps(scale.size() + state_count(model));
+  steps.head(scale.size()) = motion_steps(model, scale);
+  for_each_state(model, [&](Eigen::Index number, Eigen::Index place) {
+    steps[scale.size() + number] = 1e-4 * std::max(1e-3, std::abs(s.z[place]));
+  });
+  return steps;
+}
+
+VecX state_residuals(const Formulation& f) {
+  VecX out(state_count(f.model()));
+  for_each_state(f.model(), [&](Eigen::Index number, Eigen::Index place) {
+    out[number] = -f.element_states().rates()[place];
+  });
+  return out;
+}
+
+void move_states(const Model& model, const VecX& by, State& s) {
+  for_each_state(model, [&](Eigen::Index number, Eigen::Index place) { s.z[place] += by[number]; });
+}
+
 SmallMotions small_motions(Formulation& f, const State& s) {
-  const Eigen::Index nv = f.velocities(), nc = f.constraints();
+  SmallMotions m;
+  m.states = state_count(f.model());
+  const Eigen::Index nv = f.velocities(), nc = f.constraints(), n = nv + m.states;
   const VecX a = s.a.size() == nv ? s.a : VecX::Zero(nv);
   // Memory for these matrices, their columns before the split, and derived matrices.
-  const double numbers = nv * (14.0 * nv + 6.0 * nc);
+  const double numbers = n * (14.0 * n + 6.0 * nc);
   if (const std::string complaint = memory_complaint(8.0 * numbers); !complaint.empty())
     throw RunError(
         ErrorCode::too_large,
         fmt::format("the linear system of {} coordinates and {} constraints {}{}", nv, nc,
                     complaint, nc > nv / 2 ? "; relative coordinates are fewer" : ""));
-  SmallMotions m;
   m.scale = possible_masses(f, s);
 
-  const VecX steps = motion_steps(f.model(), m.scale);
+  const VecX all_steps = unknown_steps(f.model(), m.scale, s), steps = all_steps.head(nv);
   const ElementTangents elements(f, s, steps);
-  const auto terms = [&](const VecX& q, const VecX& v) {
-    VecX all(nv + 2 * nc), part(nc), r(nv);
-    kinematics_at(f, s.t, q, v);
-    f.dynamics();
+  State moved = s;
+  const auto terms = [&](const VecX& x, const VecX& v, const VecX& z) {
+    VecX all(n + 2 * nc), part(nc), r(nv);
+    f.retract(s.q, x, moved.q);
+    moved.v = s.v + v;
+    moved.z = s.z;
+    move_states(f.model(), z, moved);
+    dynamics_at(f, moved);
     f.residual(a, s.lambda, 0.0, r);
     all.head(nv) = r;
+    all.segment(nv, m.states) = state_residuals(f);
     f.constraint_rates(part);
-    all.segment(nv, nc) = part;
+    all.segment(n, nc) = part;
     f.constraint_accelerations(a, part);
     all.tail(nc) = part;
     return all;
   };
-  VecX q = s.q;
+  const VecX still = VecX::Zero(nv), constant = VecX::Zero(m.states);
   const PreciseDifferences along = precise_differences(
-      steps, nv,
-      [&](const VecX& x) {
-        f.retract(s.q, x, q);
-        return terms(q, s.v);
-      },
-      "stiffness");
+      steps, nv, [&](const VecX& x) { return terms(x, still, constant); }, "stiffness");
   const PreciseDifferences rates = precise_differences(
-      10.0 * steps, nv, [&](const VecX& x) { return terms(s.q, VecX(s.v + x)); }, "damping");
-  m.K = elements.K + along.columns.topRows(nv);
-  m.G = along.columns.middleRows(nv, nc);
-  m.H = along.columns.bottomRows(nc);
-  m.C = elements.C + rates.columns.topRows(nv);
-  m.D = rates.columns.bottomRows(nc);
+      10.0 * steps, nv, [&](const VecX& v) { return terms(still, v, constant); }, "damping");
+  m.K = elements.K + extended(along.columns.topRows(n), n, n);
+  m.G = extended(along.columns.middleRows(n, nc), nc, n);
+  m.H = extended(along.columns.bottomRows(nc), nc, n);
+  m.C = elements.C + extended(rates.columns.topRows(n), n, n);
+  m.D = extended(rates.columns.bottomRows(nc), nc, n);
+  if (m.states > 0 && !elements.exact) {
+    m.K.rightCols(m.states) = precise_differences(all_steps.tail(m.states), nv, [&](const VecX& z) {
+                                return terms(still, still, z);
+                              }).columns.topRows(n);
+    m.C.bottomRightCorner(m.states, m.states).setIdentity();
+  }
   m.kinks = along.kinks;
   for (const int j : rates.kinks)
     if (std::find(m.kinks.begin(), m.kinks.end(), j) == m.kinks.end()) m.kinks.push_back(j);
-  m.Gamma = connection(f, s);
-  m.r = residual_at(f, s.t, s.q, s.v, s.lambda);
-  m.J = f.constraint_jacobian();
-  m.M = mass_matrix(f, test_accelerations(m.r, m.scale), m.r, s.lambda);
+  m.Gamma = extended(connection(f, s), n, n);
+  dynamics_at(f, s);
+  VecX r(nv);
+  f.residual(VecX::Zero(nv), s.lambda, 0.0, r);
+  m.r.resize(n);
+  m.r << r, state_residuals(f);
+  m.J = extended(f.constraint_jacobian(), nc, n);
+  m.M = extended(mass_matrix(f, test_accelerations(r, m.scale), r, s.lambda), n, n);
   return m;
 }
 

@@ -7,6 +7,8 @@
 // K and C include d(M a - Q_v)/dq, dQ_v/dv and all of Phi_q^T lambda. Gamma is the difference
 // between angular velocities and the rates of rotation vectors: with the composition of two
 // increments, x * d = x + d + b(x, d) + ..., Gamma x = b(x, v) - b(v, x).
+// Behind the coordinates are the ns states z of elements, with zdot - f(x, v, z) = 0 as equations:
+// unknowns of first order, with rows and columns of C and K but not of M, and columns of zero in J.
 //
 // Efforts of elements are exact (element_tangents.hpp), the rest differences over steps h and h/2
 // on both sides, extrapolated: the error decreases with h^4. Near an edge of the law of an element
@@ -22,11 +24,12 @@
 namespace floatframe {
 
 struct SmallMotions {
+  int states = 0;          ///< ns; n = nv + ns
   VecX scale;              ///< nv: mass that each coordinate could have (mass_scale.hpp)
-  MatX M, C, K;            ///< nv x nv
-  MatX J, G, H, D;         ///< nc x nv
-  MatX Gamma;              ///< nv x nv
-  VecX r;                  ///< nv, without accelerations
+  MatX M, C, K;            ///< n x n
+  MatX J, G, H, D;         ///< nc x n
+  MatX Gamma;              ///< n x n
+  VecX r;                  ///< n, without accelerations
   std::vector<int> kinks;  ///< coordinates along which a force has no one slope
 };
 
@@ -80,6 +83,13 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
 /// Steps of increments that move bodies by similar distances, 0.1 mm per metre, with the masses
 /// that coordinates could have (mass_scale.hpp).
 VecX motion_steps(const Model& model, const VecX& scale);
+/// The same, and behind them steps of the states of elements: their size or that of a unit.
+VecX unknown_steps(const Model& model, const VecX& scale, const State& s);
+
+/// The residuals of the states of elements, zdot - f with zdot = 0, at the last evaluation; and the
+/// state with those numbers moved.
+VecX state_residuals(const Formulation& f);
+void move_states(const Model& model, const VecX& by, State& s);
 
 /// At t, q, v, a, lambda of the state (a: empty counts as zero), where `f` is afterwards.
 SmallMotions small_motions(Formulation& f, const State& s);

@@ -61,14 +61,20 @@ InitialisedModel::InitialisedModel(const Model& given, const SimulationDescripti
     RelativeFormulation tree(model(), o.inertia);
     const State start = start_state(tree, o, &report_);
     state_.t = start.t;
+    state_.z = start.z;
     static_cast<AbsoluteFormulation&>(*f_).start_from(tree, start.q, start.v, state_.q, state_.v);
   }
+  f_->element_states().give(state_.z);
   double& spectral_radius = step_options_.spectral_radius;
   if (start_accelerations(*f_, state_, step_options_.penalty_mass) && spectral_radius >= 1.0)
     for (std::string& note : massless_notes(*f_, state_, step_options_.penalty_mass)) {
       spectral_radius = massless_spectral_radius;
       add_note(std::move(note));
     }
+  if (state_.z.size() > 0) {
+    dynamics_at(*f_, state_);
+    state_.zd = state_.zd_alg = f_->element_states().rates();
+  }
   note_linear_markers(model(), report_);
   for (std::string& note : doubtful_gauges(model())) add_note(std::move(note));
   spring_angles_.assign(f_->spring_angles().begin(), f_->spring_angles().end());

@@ -94,6 +94,26 @@ void compare_bodies(const SystemMotion& motion, const SystemState& state) {
   }
 }
 
+/// Those of the elements that have some.
+void take_states(const SystemState& state, Model& model) {
+  auto kept = state.elements.begin();
+  for (Element& e : model.elements) {
+    const int count = e.states + e.kept;
+    if (count == 0) continue;
+    if (kept == state.elements.end() || kept->name != e.name || kept->states.size() != count)
+      refuse(ErrorCode::wrong_count, model, state,
+             fmt::format("found other states of elements, expected {} of '{}'", count, e.name));
+    if (!kept->states.allFinite())
+      refuse(ErrorCode::not_finite, model, state,
+             fmt::format("found numbers that are not finite at element '{}'", e.name));
+    e.start_states = kept->states;
+    ++kept;
+  }
+  if (kept != state.elements.end())
+    refuse(ErrorCode::not_found, model, state,
+           fmt::format("found states of '{}', which the model does not have", excerpt(kept->name)));
+}
+
 }  // namespace
 
 Model with_start_values(const Model& model, const SystemState& state) {
@@ -133,6 +153,7 @@ Model with_start_values(const Model& model, const SystemState& state) {
     out.amplitudes[i] = kept.amplitudes;
     out.amplitude_rates[i] = kept.amplitude_rates;
   }
+  take_states(state, out);
   return out;
 }
 
@@ -151,6 +172,7 @@ State start_state(RelativeFormulation& f, const SimulationDescription& o, StartR
     kinematics_at(f, state);
     compare_bodies(f.motion(), *o.state);
     close_loops(f, state.q, state.v, true, state.t, false);
+    set_element_states(f, state);
     if (report != nullptr) report_redundancy(f, state, *report);
   } else {
     state = relative_start(f, o.start, report);
@@ -245,6 +267,11 @@ SystemState system_state(const SystemMotion& motion, JointFollower& joints) {
     b.amplitudes = motion.bodies[i].y;
     b.amplitude_rates = motion.bodies[i].yd;
     s.bodies.push_back(std::move(b));
+  }
+  for (std::size_t k = 0; k < motion.model.elements.size(); ++k) {
+    const Element& e = motion.model.elements[k];
+    if (e.states + e.kept > 0)
+      s.elements.push_back({e.name, Eigen::Map<const VecX>(motion.states[k], e.states + e.kept)});
   }
   return s;
 }

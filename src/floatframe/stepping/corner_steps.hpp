@@ -105,6 +105,7 @@ class CornerSteps {
     made_ = Made::stepped;
     const StepAttempt last = total;
     state.a_alg = state.a;
+    state.zd_alg = state.zd;
     integrator_.trapezoidal(true);
     total = smooth(dt);
     integrator_.trapezoidal(false);

@@ -42,6 +42,7 @@ class EdgeLocator {
     from_.q = q_;
     from_.v = from_.a = from_.a_alg = x_;
     from_.lambda = VecX::Zero(f_.constraints());
+    from_.z = from_.zd = from_.zd_alg = z_ = VecX::Zero(f_.element_states().count());
   }
 
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
@@ -126,6 +127,8 @@ class EdgeLocator {
     x_ = (0.125 * h) * (3.0 * from_.v + state.v);
     f_.retract(from_.q, x_, q_);
     x_ = 0.5 * (from_.v + state.v) + (0.125 * h) * (from_.a - state.a);
+    z_ = 0.5 * (from_.z + state.z) + (0.125 * h) * (from_.zd - state.zd);
+    f_.element_states().give(z_);
     kinematics_at(f_, state.t - 0.5 * h, q_, x_);
     for (std::size_t k = 0; k < forces_.size(); ++k) between_[k] = f_.branch_side(forces_[k]);
   }
@@ -157,6 +160,9 @@ class EdgeLocator {
     b.a = a.a;
     b.a_alg = a.a_alg;
     b.lambda = a.lambda;
+    b.z = a.z;
+    b.zd = a.zd;
+    b.zd_alg = a.zd_alg;
   }
 
   /// By linear interpolation from the beginning to `sides`, at `at`; `but`: the force to skip.
@@ -251,7 +257,7 @@ class EdgeLocator {
   std::vector<std::int64_t> free_;
   std::vector<double> angles_;
   State from_;
-  VecX x_, q_;
+  VecX x_, q_, z_;
   std::size_t found_ = none;
   double near_ = 0.0;
   bool moved_ = false;

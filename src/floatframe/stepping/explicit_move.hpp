@@ -33,6 +33,7 @@ class ExplicitMove {
     f_.settle(state.q, x_);
     f_.retract(state.q, x_, q_);
     state.q.swap(q_);
+    if (state.z.size() > 0) state.z += dt * state.zd;
     state.t += dt;
     integrator_.project_velocities(state, h);
   }

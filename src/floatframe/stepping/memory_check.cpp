@@ -48,6 +48,9 @@ std::string memory_complaint(const StepperMemory& d, const StepperMemory& own, d
            {"accelerations", numbers(d.state.a), numbers(own.state.a)},
            {"accelerations", numbers(d.state.a_alg), numbers(own.state.a_alg)},
            {"multipliers", numbers(d.state.lambda), numbers(own.state.lambda)},
+           {"states of elements", numbers(d.state.z), numbers(own.state.z)},
+           {"states of elements", numbers(d.state.zd), numbers(own.state.zd)},
+           {"states of elements", numbers(d.state.zd_alg), numbers(own.state.zd_alg)},
            {"spring angles", d.spring_angles, own.spring_angles},
            {"inputs", d.inputs, own.inputs}}) {
     if (x.given.size() != x.own.size())

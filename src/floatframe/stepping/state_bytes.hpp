@@ -116,7 +116,9 @@ void serialize_steps(Stream& s, Memory& m) {
   s(m.since_base);
   s(m.base);
   s(m.state.t);
-  for (auto* v : {&m.state.q, &m.state.v, &m.state.a, &m.state.a_alg, &m.state.lambda}) s(*v);
+  for (auto* v : {&m.state.q, &m.state.v, &m.state.a, &m.state.a_alg, &m.state.lambda, &m.state.z,
+                  &m.state.zd, &m.state.zd_alg})
+    s(*v);
   s(m.spring_angles);
   s(m.force_branches);
   s(m.tangent_reuse.valid_at);

@@ -36,8 +36,12 @@ std::string Stepper::step_failure() {
   const char* what =
       last_.status == AttemptStatus::singular_tangent ? "the tangent matrix is singular at "
       : last_.status == AttemptStatus::not_finite     ? "the state is no longer finite; look at "
-                                                      : "no convergence; look at ";
-  const std::string who = last_.constraint >= 0 ? f_.constraint_set().owner_of_row(last_.constraint)
+      : last_.status == AttemptStatus::states_not_solved
+          ? "the equations of its states have no solution; look at "
+          : "no convergence; look at ";
+  const std::string who = last_.element >= 0 ? owner_name(model(), {-1, last_.element})
+                          : last_.constraint >= 0
+                              ? f_.constraint_set().owner_of_row(last_.constraint)
                           : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)
                                                   : "the constraints";
   // An excessive force is a more useful hint than the coordinate it acts on.

@@ -6,32 +6,16 @@
 //           sdot = z.(w_b - w_a)
 // The markers of a hinge share the axis. Where they do not (cut joints before they close) the
 // torque stays along z. The row of the step contains f_s g g^T and the damping f_sdot g g^T.
-#include <cmath>
 #include <numbers>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/model/axis_measure.hpp"
+#include "floatframe/model/coordinate_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
 
 namespace {
-
-template <class S>
-AxisMeasure<S> coordinate(const PortsOf<S>& in) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
-  const auto &a = in.marker(0), &b = in.marker(1);
-  const V z = a.R.col(2);
-  if (!in.element.rotational) return axis_measure(z, a, b);
-  using std::atan2;
-  const V x = b.R.col(0);
-  const S angle = atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0))));
-  const double near = std::remainder(value_of(angle) - in.reference_angle, 2.0 * std::numbers::pi);
-  const V zero = V::Zero();
-  return {
-      chained(in.reference_angle + near, 1.0, angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
-}
 
 /// Ports of its signals.
 constexpr std::size_t actuator = 0, target = 1, target_rate = 2;
@@ -126,29 +110,11 @@ constexpr ElementKey joint_spring_keys[] = {
             described_by<&JointSpring::target_rate>, on_q)};
 
 void joint_spring_validate(const ElementCheck& check) {
-  if (check.good("joint")) {
-    const std::string joint = check.text("joint");
-    const auto type = check.joint_type(joint);
-    if (type && !joint_has_one_coordinate(*type))
-      check.error(ErrorCode::wrong_value, "joint",
-                  "found '" + check.written(joint) + "', expected a " + joints_of_one_coordinate() +
-                      " joint");
-  }
+  validate_coordinate(check);
   if (!check.given("target") && !check.given("target_rate")) check.some_law();
   if (check.given("spring") || check.given("damper")) return;
   for (const char* key : {"target", "target_rate"})
     if (check.given(key)) check.error(ErrorCode::incomplete, key, sentences::target_without_law());
-}
-
-bool joint_spring_build(ElementBuild& b) {
-  const Joint* joint = b.connect_joint("joint");
-  if (!joint) return false;
-  b.element.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
-  return true;
-}
-
-Picture joint_spring_picture(const Element& element) {
-  return {.symbol = Picture::Symbol::ring, .a = element.markers[0], .b = element.markers[1]};
 }
 
 }  // namespace
@@ -161,10 +127,10 @@ constinit const ElementKind joint_spring_element = {
     .axis = ElementAxis::coordinate,
     .blank = [] { return ElementKeys(JointSpring()); },
     .validate = joint_spring_validate,
-    .build = joint_spring_build,
+    .build = build_coordinate,
     .dual = joint_spring_law<Dual>,
     .side = joint_spring_side,
-    .picture = joint_spring_picture,
+    .picture = picture_of_coordinate,
     .regimes = joint_spring_regimes,
     .example = joint_spring_example};
 

@@ -2,33 +2,12 @@
 // f = spring(s) + damper(sdot) + actuator.
 //   wrench       f n on a, -f n on b
 //   rows         f_s n n^T + f/s (I - n n^T) and the damping f_sdot n n^T, between the points
-#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/line_measure.hpp"
 
 namespace floatframe {
 
 namespace {
-
-/// Points closer than this define no line: the force keeps the direction x, and the tangent only
-/// contains the slope of the law [m].
-constexpr double coincident = 1e-12;
-
-template <class S>
-struct Line {
-  Eigen::Matrix<S, 3, 1> n;
-  S length, rate;
-};
-
-template <class S>
-Line<S> line_between(const PortsOf<S>& in) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
-  const auto &a = in.marker(0), &b = in.marker(1);
-  const V d = b.r - a.r;
-  S length = value_of(d.squaredNorm()) > 0.0 ? S(d.norm()) : d.x();
-  const V n = length > coincident ? V(d / length) : V(V::UnitX());
-  const S rate = n.dot(b.v - a.v);
-  return {n, length, rate};
-}
 
 template <class S>
 void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
@@ -43,14 +22,7 @@ void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   out.wrench[0] = {pull, zero};
   out.wrench[1] = {-pull, zero};
   out.add_pair_row({{-n, zero}, {n, zero}}, s.df, c.df);
-  if constexpr (std::is_same_v<S, double>)
-    if (length > coincident) {
-      Vec3 t1, t2;
-      orthonormal_complement(n, t1, t2);
-      const double k = out.force / length;
-      out.add_pair_row({{-t1, zero}, {t1, zero}}, k, 0.0);
-      out.add_pair_row({{-t2, zero}, {t2, zero}}, k, 0.0);
-    }
+  add_transverse_rows(n, length, out);
   out.energy = energy_of(in.element.laws[0], length);
   out.energy_rate = s.f * rate;
   out.damping = c.f * rate;
@@ -102,22 +74,8 @@ double distance_in_design(const ElementView& values, const ElementKey&) {
 }
 
 void spring_damper_validate(const ElementCheck& check) {
-  if (check.two_bodies("from", "to")) {
-    const AttachmentDescription a = check.place("from"), b = check.place("to");
-    if (check.from_file || (!a.node && !b.node))
-      if (const auto complaint = sentences::spring_ends(a.point, b.point))
-        check.error(ErrorCode::out_of_range, "", *complaint);
-  }
+  validate_line(check);
   check.some_law();
-}
-
-bool spring_damper_build(ElementBuild& b) {
-  const bool from = b.connect("from", false), to = b.connect("to", false);
-  return from && to;
-}
-
-Picture spring_damper_picture(const Element& element) {
-  return {.symbol = Picture::Symbol::spring, .a = element.markers[0], .b = element.markers[1]};
 }
 
 }  // namespace
@@ -128,11 +86,11 @@ constinit const ElementKind spring_damper_element = {
     .blank = [] { return ElementKeys(SpringDamper()); },
     .free_value = distance_in_design,
     .validate = spring_damper_validate,
-    .build = spring_damper_build,
+    .build = build_line,
     .along_line = true,
     .dual = spring_damper_law<Dual>,
     .side = spring_damper_side,
-    .picture = spring_damper_picture,
+    .picture = picture_of_line,
     .regimes = spring_damper_regimes,
     .example = spring_damper_example};
 

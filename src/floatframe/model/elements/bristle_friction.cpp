@@ -1,0 +1,191 @@
+// Friction by the deflection z of bristles (Dupont et al. 2002; LuGre: Canudas de Wit et al. 1995),
+// with the normal force N as a factor:
+//   zdot = v - a(z, v) |v| z / z_s(v),   z_s = g(v) / sigma_0                                  (1)
+//   g    = kinetic + (breakaway - kinetic) exp(-(v / stribeck)^2)                              (2)
+//   F    = N (sigma_0 z + sigma_1 zdot) + viscous v,  -F acts on the coordinate               (3)
+// a = 0 up to the deflection z_e = elastic z_s, where the bristles only bend, so nothing creeps
+// below breakaway; 1 from z_s on, where all of them slide; between them half a wave of the sine;
+// and 0 where v brings z back. elastic = 0: a = 1, the LuGre model, which creeps under loads that
+// vary. z is measured along the coordinate.
+//   row          c = N (sigma_0 z_v + sigma_1 (f_v + f_z z_v)) + viscous, z_v = f_v / (w - f_z)
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/model/coordinate_measure.hpp"
+#include "floatframe/model/element_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+template <class S>
+S sliding_part(const S& z, const S& v, const S& largest, double elastic) noexcept {
+  using std::abs;
+  using std::sin;
+  if (elastic == 0.0) return 1.0;
+  if ((value_of(z) > 0.0) != (value_of(v) > 0.0)) return 0.0;
+  const S part = abs(z) / largest;
+  if (part <= elastic) return 0.0;
+  if (part >= 1.0) return 1.0;
+  const double middle = 0.5 * (1.0 + elastic);
+  return 0.5 + 0.5 * sin(S((std::numbers::pi / (1.0 - elastic)) * (part - middle)));
+}
+
+/// z_s of (1), (2)
+template <class S>
+S largest_deflection(const BristleFriction& keys, const S& v) noexcept {
+  using std::exp;
+  const double kinetic = keys.kinetic.value_or(keys.breakaway);
+  S level = kinetic;
+  if (keys.stribeck > 0.0)
+    level += (keys.breakaway - kinetic) * exp(S(-(v * v) / (keys.stribeck * keys.stribeck)));
+  return level / keys.stiffness;
+}
+
+/// (1)
+template <class S>
+S bristle_rate(const BristleFriction& keys, const S& z, const S& v) noexcept {
+  using std::abs;
+  const S largest = largest_deflection(keys, v);
+  return v - sliding_part(z, v, largest, keys.elastic) * v * abs(z) / largest *
+                 ((value_of(z) > 0.0) == (value_of(v) > 0.0) ? 1.0 : -1.0);
+}
+
+template <class S>
+void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  const auto& keys = in.template keys<BristleFriction>();
+  const AxisMeasure<S> m = coordinate(in);
+  const bool clamped = in.element.signals[0].given;
+  const double normal = clamped ? std::max(in.signal(0).f, 0.0) : 1.0;
+  const S z = in.state(0), v = m.rate, flow = bristle_rate(keys, z, v);
+  out.state_rates[0] = flow;
+  out.length = m.s;
+  out.rate = v;
+  out.force = normal * (keys.stiffness * z + keys.damping * flow) + keys.viscous * v;
+  out.set_pair(-out.force, m.g);
+  // What a clamp that varies stores in the bristles counts as dissipated.
+  if (!clamped) {
+    out.energy = 0.5 * keys.stiffness * z * z;
+    out.energy_rate = keys.stiffness * z * flow;
+  }
+  out.damping = out.force * v - out.energy_rate;
+  if constexpr (std::is_same_v<S, double>) {
+    const Dual d = bristle_rate(keys, Dual::variable(z, 0), Dual::variable(v, 1));
+    const double f_z = d.d[0], f_v = d.d[1], z_v = f_v * in.followed(f_z);
+    out.state_slopes[0] = f_z;
+    out.add_pair_row(
+        m.g, 0.0,
+        normal * (keys.stiffness * z_v + keys.damping * (f_v + f_z * z_v)) + keys.viscous);
+  }
+}
+
+}  // namespace
+
+FLOATFRAME_LAW(bristle_friction)
+
+namespace {
+
+constexpr ElementAxis on_joint = ElementAxis::coordinate;
+constexpr ElementKey number_key(const char* name, const char* about, NumberRule rule,
+                                double fallback, KeyMember member, bool required = false) {
+  return {.name = name,
+          .kind = KeyKind::number,
+          .about = about,
+          .required = required,
+          .rule = rule,
+          .fallback = fallback,
+          .member = member};
+}
+constexpr ElementKey bristle_friction_keys[] = {
+    {.name = "joint",
+     .kind = KeyKind::joint,
+     .about = "one with one coordinate q",
+     .required = true,
+     .member = described_by<&BristleFriction::joint>},
+    number_key("breakaway", "friction at which it begins to slide [N or N m], times `normal`",
+               positive_number(""), 0.0, described_by<&BristleFriction::breakaway>, true),
+    number_key("kinetic", "the same while it slides; without it `breakaway`", positive_number(""),
+               0.0, described_by<&BristleFriction::kinetic>),
+    number_key("stribeck", "speed of the fall from `breakaway` to `kinetic` [m/s or rad/s]",
+               non_negative_number(""), 0.0, described_by<&BristleFriction::stribeck>),
+    number_key("stiffness", "of the bristles [N/m or N m/rad], times `normal`", positive_number(""),
+               0.0, described_by<&BristleFriction::stiffness>, true),
+    number_key("damping", "of the bristles [N s/m or N m s/rad], times `normal`",
+               non_negative_number(""), 0.0, described_by<&BristleFriction::damping>),
+    number_key("viscous", "added, times q̇ [N s/m or N m s/rad]", non_negative_number(""), 0.0,
+               described_by<&BristleFriction::viscous>),
+    number_key("elastic",
+               "part of the largest deflection up to which nothing slides; 0: the LuGre model, "
+               "which creeps under loads that vary",
+               {"a number from 0 to 0.999", "", 0.0, 0.999}, 0.95,
+               described_by<&BristleFriction::elastic>),
+    law_key("normal", KeyKind::load, "a factor of the friction, not negative: a normal force [N]",
+            described_by<&BristleFriction::normal>, on_joint)};
+
+void bristle_friction_validate(const ElementCheck& check) {
+  validate_coordinate(check);
+  if (!check.good("kinetic") || !check.good("breakaway")) return;
+  if (const auto complaint =
+          sentences::kinetic_friction(check.number("kinetic"), check.number("breakaway")))
+    check.error(ErrorCode::out_of_range, "kinetic", *complaint);
+}
+
+/// A joint that moves at a start slides: faster than this [m/s or rad/s].
+constexpr double least_sliding = 1e-3;
+
+void bristle_friction_start(const Ports& in, double* states) noexcept {
+  const double v = coordinate(in).rate;
+  const auto& keys = in.keys<BristleFriction>();
+  states[0] = std::abs(v) < least_sliding ? 0.0 : std::copysign(largest_deflection(keys, v), v);
+}
+
+constexpr const char* turning_axis_of_friction = "the turning of the axis with its body";
+constexpr ElementRegime bristle_friction_regimes[] = {
+    {.name = "sticks", .rows_leave_out = turning_axis_of_friction, .conservative = false},
+    {.name = "slides_about", .rows_leave_out = turning_axis_of_friction, .conservative = false},
+    {.name = "lugre_along", .rows_leave_out = turning_axis_of_friction, .conservative = false},
+    {.name = "clamped", .rows_leave_out = turning_axis_of_friction, .conservative = false}};
+
+ElementExample bristle_friction_example(std::size_t regime, ExampleNumbers& numbers) {
+  ElementExample x;
+  BristleFriction f;
+  f.breakaway = numbers(2.0, 3.0);
+  f.kinetic = numbers(1.0, 2.0);
+  f.stribeck = numbers(0.5, 1.0);
+  f.stiffness = numbers(50.0, 90.0);
+  f.damping = numbers(0.1, 0.5);
+  f.viscous = numbers(0.1, 0.5);
+  f.elastic = regime == 2 ? 0.0 : regime == 1 ? 0.2 : 0.9;
+  const bool about = regime == 1;
+  const MarkerState a = numbers.marker();
+  x.markers = {a, about ? numbers.marker_on_axis(a) : numbers.marker()};
+  if (regime == 3) f.normal = x.signal(numbers);
+  x.keys(f);
+  x.element.rotational = about;
+  const double part = regime == 1 ? numbers(0.6, 0.9) : numbers(-0.3, 0.3);
+  x.states = {part * *f.kinetic / f.stiffness};
+  x.state_weight = numbers(0.5, 200.0);
+  return x;
+}
+
+}  // namespace
+
+constinit const ElementKind bristle_friction_element = {
+    .about =
+        "friction on the coordinate of a joint that sticks: bristles bend up to the breakaway "
+        "force without creeping",
+    .keys = bristle_friction_keys,
+    .axis = ElementAxis::coordinate,
+    .blank = [] { return ElementKeys(BristleFriction()); },
+    .validate = bristle_friction_validate,
+    .build = build_coordinate,
+    .states = [](Element& element) { element.states = 1; },
+    .start = bristle_friction_start,
+    .dual = bristle_friction_law<Dual>,
+    .picture = picture_of_coordinate,
+    .regimes = bristle_friction_regimes,
+    .example = bristle_friction_example};
+
+}  // namespace floatframe
