@@ -6,7 +6,6 @@
 //           sdot = z.(w_b - w_a)
 // The markers of a hinge share the axis. Where they do not (cut joints before they close) the
 // torque stays along z. The row of the step contains f_s g g^T and the damping f_sdot g g^T.
-#include <cmath>
 #include <numbers>
 
 #include "floatframe/description/sentences.hpp"
@@ -24,13 +23,8 @@ AxisMeasure<S> coordinate(const PortsOf<S>& in) noexcept {
   const auto &a = in.marker(0), &b = in.marker(1);
   const V z = a.R.col(2);
   if (!in.element.rotational) return axis_measure(z, a, b);
-  using std::atan2;
-  const V x = b.R.col(0);
-  const S angle = atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0))));
-  const double near = std::remainder(value_of(angle) - in.reference_angle, 2.0 * std::numbers::pi);
   const V zero = V::Zero();
-  return {
-      chained(in.reference_angle + near, 1.0, angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
+  return {angle_about_z<S>(a, b, in.reference_angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
 }
 
 /// Ports of its signals.
@@ -141,10 +135,7 @@ void joint_spring_validate(const ElementCheck& check) {
 }
 
 bool joint_spring_build(ElementBuild& b) {
-  const Joint* joint = b.connect_joint("joint");
-  if (!joint) return false;
-  b.element.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
-  return true;
+  return b.connect_coordinate(b.text("joint")) != nullptr;
 }
 
 Picture joint_spring_picture(const Element& element) {
