@@ -198,6 +198,10 @@ class Model:
         return self._section("rods")
 
     @property
+    def couplings(self) -> Section:
+        return self._section("couplings")
+
+    @property
     def forces(self) -> Section:
         return self._section("forces")
 

@@ -57,7 +57,7 @@ Model everything(unsigned seed) {
         for (int k = 0; k < std::ssize(model.joints); ++k) {
           const Joint& j = model.joints[k];
           if (j.type != (e.rotational ? JointType::revolute : JointType::prismatic)) continue;
-          e.joint = k;
+          e.coordinates = {{k, 0, 0, e.acts && e.rotational}};
           e.markers = {j.frame_F, j.frame_M};
         }
       } else {

@@ -164,8 +164,8 @@ TEST(Redundancy, ReactionsAgreeWithThoseOfTheTree) {
     const ConstraintPart& p = analysis.parts()[k];
     for (int r = 0; r < p.rows() && p.owner.joint >= 0; ++r) {
       const Eigen::Index i = analysis.row_of(k) + r;
-      all[p.owner.joint].force -= found->lambda[i] * analysis.row(i).gradient.b.F;
-      all[p.owner.joint].torque -= found->lambda[i] * analysis.row(i).gradient.b.T;
+      all[p.owner.joint].force -= found->lambda[i] * analysis.row(k, r).gradient.b.F;
+      all[p.owner.joint].torque -= found->lambda[i] * analysis.row(k, r).gradient.b.T;
     }
   }
   for (std::size_t j = 0; j < tree.joints.size(); ++j) {

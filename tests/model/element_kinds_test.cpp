@@ -222,7 +222,7 @@ TEST(ElementKinds, AreComplete) {
     const std::string name = element_type_name(type);
     EXPECT_TRUE(names.insert(name).second) << name;
     EXPECT_TRUE(kind.blank && kind.build && (kind.dual || kind.rows) && kind.example) << name;
-    EXPECT_TRUE(kind.picture || kind.list == ElementList::motions) << name;  // drawn as a joint
+    EXPECT_TRUE(kind.picture || kind.axis == ElementAxis::coordinate) << name;  // else as joints
     EXPECT_TRUE(*kind.about) << name;
     EXPECT_FALSE(kind.regimes.empty()) << name;
     EXPECT_EQ((ElementDescription{"", kind.blank(), {}}.type()), type);

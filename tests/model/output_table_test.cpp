@@ -17,6 +17,7 @@ std::string of(OutputOf what) {
                                       "joint or `{rod: name}`",
                                       "rod",
                                       "joint with a motion",
+                                      "[coupling](#couplings)",
                                       "[gauge](#gauges)"};
   static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];

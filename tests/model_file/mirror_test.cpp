@@ -6,6 +6,8 @@
 
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model_file/model_reader.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -163,6 +165,41 @@ TEST(Mirror, Loads) {
   place(torque, m);
   EXPECT_EQ(std::get<AppliedForce>(force.kind).direction, m.polar(a));
   EXPECT_EQ(std::get<AppliedTorque>(torque.kind).direction, m.axial(a));
+}
+
+// A screw becomes one of the other hand; gears stay what they are.
+TEST(Mirror, FactorsOfCouplings) {
+  const test::TemporaryFolder folder;
+  folder.write("drive.yaml", R"(floatframe: 1
+bodies:
+  nut: {position: [0, 1, 0], rigid: {mass: 1}}
+  wheel: {position: [0, 1, 0], rigid: {mass: 1}}
+joints:
+  nut: {type: cylindrical, child: nut, at: [0, 1, 0], axis: z}
+  wheel: {type: revolute, child: wheel, at: [0, 1, 0], axis: z}
+couplings:
+  screw:
+    terms:
+      - {joint: nut, coordinate: displacement}
+      - {joint: nut, coordinate: angle, factor: 0.002}
+      - {joint: wheel, factor: 3}
+)");
+  const ModelDescription d = read_model(folder.write("model.yaml", R"(floatframe: 1
+subsystems:
+  left: {file: drive.yaml}
+  right: {file: drive.yaml, mirror: [{normal: y}]}
+  turned: {file: drive.yaml, mirror: [{normal: x}, {normal: y}]}
+)"));
+  ASSERT_EQ(d.couplings.size(), 3u);
+  for (const ElementDescription& e : d.couplings) {
+    const auto& terms = std::get<Coupling>(e.kind).terms;
+    ASSERT_EQ(terms.size(), 3u);
+    EXPECT_EQ(terms[0].factor, 1.0);
+    EXPECT_EQ(terms[1].factor, e.name == "right.screw" ? -0.002 : 0.002) << e.name;
+    EXPECT_EQ(terms[2].factor, 3.0);
+    EXPECT_EQ(terms[1].coordinate, 1);
+  }
+  EXPECT_EQ(std::get<Coupling>(d.couplings[1].kind).terms[2].joint, "right.wheel");
 }
 
 }  // namespace

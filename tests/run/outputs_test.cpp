@@ -25,11 +25,14 @@ bodies:
       static_modes: [{point: tip, dofs: [x, y, z]}]
   puck: {rigid: {mass: 2, centre_of_mass: [2, 1, 0.5], inertia: [0.1, 0.2, 0.3]}}
   bob: {position: [3, 0.3, 1], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
+  gear: {position: [3, 1, 1], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
 joints:
   hinge: {type: revolute, child: arm, at: hinge, axis: y, position: 0.4, velocity: 1.5}
   drive: {type: revolute, child: bob, at: [3, 0, 1.2], axis: [0, 1, 1],
       motion: {piecewise: [{polynomial: [0.1, 2, 3]}]}}
   loose: {type: free, child: puck, at: [2, 1, 0.5], velocity: [3, -0.4, 0.5, 1, 2, -3]}
+  shaft: {type: revolute, child: gear, at: [3, 1, 1.2], axis: z}
+couplings: {mesh: {terms: [{joint: drive}, {joint: shaft, factor: -2}]}}
 rods: {tie: {from: {body: ground, at: [1, 2, 1.5]}, to: {body: puck}}}
 forces:
   coil: {type: spring_damper, from: {body: arm, at: tip}, to: {body: puck}, spring: 100, damper: 20}
@@ -50,6 +53,7 @@ std::string columns_of_type(OutputType type) {
                                            "hinge, in: child",
                                            "tie",
                                            "drive",
+                                           "mesh",
                                            "{body: arm, at: tip, toward: [0.3, 1, 0.5]}"};
   static_assert(std::size(references) == index_of(OutputOf::gauge) + 1);
   const std::string word = output_type_name(type);

@@ -34,6 +34,13 @@ std::string text(const AttachmentDescription& a) {
   return a.body + (a.node ? " node " + *a.node : "") + " " + text(a.point);
 }
 
+std::string text(const std::vector<CoordinateTerm>& terms) {
+  std::string s;
+  for (const CoordinateTerm& t : terms)
+    s += fmt::format("{}{:.17g} {} {}", s.empty() ? "" : " + ", t.factor, t.joint, t.coordinate);
+  return s;
+}
+
 std::string kind_of(const BodyDescription& b) {
   if (const auto* r = std::get_if<RigidDescription>(&b.kind))
     return r->mass == 0.0        ? "massless"
@@ -93,6 +100,7 @@ std::string summary_of(const ModelDescription& d) {
     ++counts[std::string(joint_type_name(j.type)) + (j.cut ? " cut" : "") +
              (j.motion ? " driven" : "")];
   if (!d.rods.empty()) counts["rod"] = static_cast<int>(d.rods.size());
+  if (!d.couplings.empty()) counts["coupling"] = static_cast<int>(d.couplings.size());
   for (const ElementDescription& f : d.forces) {
     ++counts[element_type_name(f.type())];
   }
@@ -123,6 +131,7 @@ std::string text_of(const ModelDescription& d) {
                      text(j.axis), text(j.axis_2), text(j.position), text(j.velocity),
                      j.motion ? " motion " + text(*j.motion) : "");
   for (const ElementDescription& r : d.rods) s += "  " + r.name + " " + text(r) + '\n';
+  for (const ElementDescription& c : d.couplings) s += "  " + c.name + " " + text(c) + '\n';
   for (const ElementDescription& f : d.forces) s += "  " + f.name + " " + text(f) + '\n';
   for (const RoadDescription& r : d.roads) {
     s += "  " + r.name + " " + text(r.pieces);

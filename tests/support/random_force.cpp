@@ -72,6 +72,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::target:
       case K::target_rate:  // those of motors
       case K::speed_table:
+      case K::motion:  // what couplings hold is added by `with_coupling`
+      case K::terms:
         return std::nullopt;
     }
     return std::nullopt;

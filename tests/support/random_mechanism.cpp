@@ -316,4 +316,23 @@ std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed
   return std::nullopt;
 }
 
+std::optional<Mechanism> with_coupling(Mechanism m, unsigned seed) {
+  ModelDescription& d = m.description;
+  ExampleNumbers numbers(seed);
+  std::vector<CoordinateTerm> all;
+  for (const JointDescription& j : d.joints)
+    for (int k = 0; k < joint_velocities(j.type) && !j.motion; ++k)
+      if (coordinate_axis(j.type, Vec3::UnitX(), k)) all.push_back({j.name, k});
+  Coupling coupling;
+  while (!all.empty() && coupling.terms.size() < 3) {
+    const auto k = static_cast<std::ptrdiff_t>(numbers(0.0, static_cast<double>(all.size())));
+    coupling.terms.push_back(all[static_cast<std::size_t>(k)]);
+    coupling.terms.back().factor = numbers(0.5, 2.0) * (numbers(0.0, 1.0) < 0.5 ? -1.0 : 1.0);
+    all.erase(all.begin() + k);
+  }
+  if (coupling.terms.size() < 2) return std::nullopt;
+  d.couplings = {{"coupling", coupling, {}}};
+  return m;
+}
+
 }  // namespace floatframe::test

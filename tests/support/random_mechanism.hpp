@@ -38,6 +38,9 @@ Mechanism with_joints(Mechanism mechanism, JointType type);
 /// types that are not drawn. nullopt: there are no two such bodies.
 std::optional<Mechanism> with_force(Mechanism mechanism, ElementType type, unsigned seed);
 
+/// With a coupling of two or three coordinates of joints. nullopt: there are no two.
+std::optional<Mechanism> with_coupling(Mechanism mechanism, unsigned seed);
+
 /// Largest rate at which a model can change at its start [1/s]: square root of the eigenvalues of
 /// (K, M) and norm of M^-1/2 C M^-1/2 on the motions that the constraints leave free and that have
 /// mass, twice the largest speed. Zero if it cannot start.

@@ -40,8 +40,8 @@ inline const std::string machine_joints = R"(joints:
 )";
 
 /// A driven crank with a slider behind it (a loop), a flexible beam, an element with states, discs
-/// on springs that count turns (`spin` in the tree, `cut` where a loop would be cut), free bodies,
-/// inputs of each kind.
+/// on springs that count turns (`spin` in the tree, `cut` where a loop would be cut), two gears of
+/// which one is cut, free bodies, inputs of each kind.
 inline const std::string stepped_machine =
     R"(
 inputs:
@@ -52,10 +52,18 @@ inputs:
     R"(  disc: {rigid: {mass: 1, centre_of_mass: [0, 2, 0], inertia: [0.02, 0.02, 0.02]}}
   wheel: {rigid: {mass: 1, centre_of_mass: [0, 3, 0], inertia: [0.02, 0.02, 0.02]}}
   stone: {rigid: {mass: 1, centre_of_mass: [0, 4, 0], inertia: [0.02, 0.03, 0.04]}}
+  pinion: {rigid: {mass: 1, centre_of_mass: [0, 5, 0], inertia: [0.02, 0.02, 0.02]}}
+  gear: {rigid: {mass: 1, centre_of_mass: [0, 6, 0], inertia: [0.05, 0.05, 0.05]}}
 )" + machine_joints +
     R"(  spin: {type: revolute, child: disc, at: [0, 2, 0], axis: z, position: 14}
   cut: {type: revolute, child: wheel, at: [0, 3, 0], axis: x, position: 14, cut: true}
   loose: {type: free, child: stone, at: [0, 4, 0], velocity: [1, 0, 2, 1, 9, 2]}
+  pinion: {type: revolute, child: pinion, at: [0, 5, 0], axis: z, position: 14, velocity: 60}
+  gear: {type: revolute, child: gear, at: [0, 6, 0], axis: x, cut: true}
+couplings:
+  mesh:
+    terms: [{joint: pinion}, {joint: gear, factor: 3}]
+    value: {sine: {amplitude: 0.2, frequency: 3}}
 forces:
   coil: {type: joint_spring, joint: spin, spring: 3, target: {input: aim}}
   twin: {type: joint_spring, joint: cut, spring: 3, target: {input: aim}}
@@ -68,6 +76,7 @@ outputs:
   cut: {joint_position: cut}
   eye: {joint_position: eye}
   drive: {joint_position: drive}
+  gear: {joint_position: gear}
   coil: {force: coil}
   tip: {acceleration: {body: beam, node: tip}, axis: z}
   stone: {position: stone}

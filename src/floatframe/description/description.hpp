@@ -185,7 +185,7 @@ struct OutputDescription {
   OutputType type = OutputType::position;
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
   AttachmentDescription to;  ///< the second of two points
-  std::string entity;        ///< joint, force or rod name
+  std::string entity;        ///< joint, force, rod or coupling name
   bool rod = false;          ///< a reaction of a rod
   bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod
   OutputAxes in = OutputAxes::world;  ///< of a reaction; of a place: `to`
@@ -272,8 +272,9 @@ struct ModelDescription {
   SnapDescription snap;
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
-  std::vector<ElementDescription> rods;    ///< elements of type `rod`
-  std::vector<ElementDescription> forces;  ///< all others
+  std::vector<ElementDescription> rods;       ///< elements of type `rod`
+  std::vector<ElementDescription> couplings;  ///< of type `coupling`
+  std::vector<ElementDescription> forces;     ///< all others
   std::vector<RoadDescription> roads;
   std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
@@ -282,7 +283,7 @@ struct ModelDescription {
   SimulationDescription simulation;
 
   const std::vector<ElementDescription>& elements(ElementList list) const {
-    return list == ElementList::rods ? rods : forces;
+    return list == ElementList::rods ? rods : list == ElementList::couplings ? couplings : forces;
   }
 };
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/description/attachment.hpp"
@@ -150,6 +151,20 @@ struct PrescribedMotion {
   SignalDescription motion;
 };
 
+/// A coordinate of a joint, times a factor.
+struct CoordinateTerm {
+  std::string joint;
+  int coordinate = -1;  ///< its number from 0; -1: the only one
+  double factor = 1.0;
+};
+
+/// Holds a sum of coordinates of joints, displacements along or angles about an axis: sum of factor
+/// x coordinate = value. Factors have the units that make the sum one of the first coordinate.
+struct Coupling {
+  std::vector<CoordinateTerm> terms;
+  std::optional<TimeFunction> value;  ///< of time, without jumps; absent: 0
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -164,7 +179,8 @@ struct PrescribedMotion {
   entry(unilateral_spring, UnilateralSpring) \
   entry(bearing, Bearing)               \
   entry(rod, Rod)                       \
-  entry(motion, PrescribedMotion)
+  entry(motion, PrescribedMotion)       \
+  entry(coupling, Coupling)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,
@@ -185,10 +201,10 @@ constexpr const char* element_type_name(ElementType type) noexcept {
 }
 
 /// The lists of a description, each with names of its own. Motions are described with their joints.
-enum class ElementList { forces, rods, motions };
+enum class ElementList { forces, rods, couplings, motions };
 /// The section of model files.
 constexpr const char* element_list_name(ElementList list) noexcept {
-  constexpr const char* names[] = {"forces", "rods", "joints"};
+  constexpr const char* names[] = {"forces", "rods", "couplings", "joints"};
   return names[index_of(list)];
 }
 

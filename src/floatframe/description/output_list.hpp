@@ -33,7 +33,8 @@
   entry(elastic_energy)           \
   entry(stress)                   \
   entry(strain)                   \
-  entry(section_force)
+  entry(section_force)            \
+  entry(coupling_force)
 // clang-format on
 
 namespace floatframe {

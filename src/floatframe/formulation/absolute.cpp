@@ -59,8 +59,7 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
   tree.velocities(tree_v);
   tree.forces();
   const SystemMotion& motion = tree.motion();
-  for (std::size_t k = 0; k < model_.elements.size(); ++k)
-    element_set_.set_angle(k, motion.efforts[k].length);
+  element_set_.set_angles(tree.spring_angles());
   for (std::size_t i = 0; i < motion.bodies.size(); ++i) {
     const AbsoluteBody& b = kinematics_.bodies()[i];
     const BodyKinematics& from = motion.bodies[i];

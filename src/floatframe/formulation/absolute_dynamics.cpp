@@ -25,6 +25,7 @@ void AbsoluteFormulation::velocities(const VecX& v) noexcept {
   FLOATFRAME_DEBUG(calls_.reach(CallOrder::velocities));
   FLOATFRAME_DEBUG(poison(constraint_set_.values()));
   kinematics_.velocities(v, constraint_set_.values());
+  element_set_.count_held_turns();
   constraint_set_.evaluate(time_, [&](int marker) -> const MarkerState& {
     return kinematics_.constraint_state(marker);
   });

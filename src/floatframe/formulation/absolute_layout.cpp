@@ -61,7 +61,6 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
   };
   std::size_t most_markers = 2;
   for (const Element& e : model_.elements) {
-    if (!e.acts) continue;
     most_markers = std::max(most_markers, e.markers.size());
     for (std::size_t i = 0; i < e.markers.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) couple(e.markers[j], e.markers[i]);
@@ -80,20 +79,24 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
     blocks[i].held = rows[i] >= 6 && on_ground[i] > 0;
   const std::vector<int> order = BlockLdlt::elimination_order(blocks, edges);
   for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<int>(k);
-  for (const ConstraintPart& p : constraints_.parts()) {
-    PartPlace place;
-    const int a = body_of(p.a), b = body_of(p.b);
-    place.home = a < 0 || (b >= 0 && rank[b] < rank[a]) ? b : a;
-    if (place.home >= 0) {
-      BlockLdlt::Block& home = blocks[place.home];
-      place.at = home.size + home.inner;
-      home.inner += p.rows();
-    }
-    for (const int body : {a, b})
+  for (std::size_t k = 0; k < constraints_.parts().size(); ++k) {
+    const ConstraintPart& p = constraints_.parts()[k];
+    PartPlace& place = places_.emplace_back();
+    for (const int body : {body_of(p.a), body_of(p.b)})
       if (body >= 0 && blocks[body].chooses)
         place.turns = constraint_kind(p.type).gradients == PartGradients::general;
-    places_.push_back(place);
+    if (p.continues) continue;
+    place.markers = constraints_.markers(k);
+    for (const int marker : place.markers) {
+      const int body = body_of(marker);
+      if (body >= 0 && (place.home < 0 || rank[body] < rank[place.home])) place.home = body;
+    }
+    if (place.home < 0) continue;
+    BlockLdlt::Block& home = blocks[place.home];
+    place.at = home.size + home.inner;
+    home.inner += p.rows();
   }
+  row_.resize(most_markers);
   factors_[0] = factors_[1] = BlockLdlt(blocks, edges);
   gradients_.assign(most_markers, {-1, VecX::Zero(widest)});
   motions_[0] = motions_[1] = product_ = MatX::Zero(widest, 6);

@@ -43,13 +43,6 @@ void AbsoluteTangent::gradients(std::span<const int> markers, const Wrench* w) n
   }
 }
 
-void AbsoluteTangent::gradients(const ConstraintPart& p, const WrenchRow& w) noexcept {
-  gradient_count_ = 2;
-  gradient(p.a, w.a.F, w.a.T, gradients_[0]);
-  gradient(p.b, w.b.F, w.b.T, gradients_[1]);
-  join_gradient(1);
-}
-
 void AbsoluteTangent::add_product(const Gradient& a, const Gradient& b, double weight,
                                   BlockLdlt& matrix) noexcept {
   int oa = 0, ob = 0;
@@ -246,16 +239,16 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
   for (std::size_t k = 0; k < constraints_.parts().size(); ++k) {
     const ConstraintPart& p = constraints_.parts()[k];
     const PartPlace& place = places_[k];
-    if (place.home < 0) continue;
     const int row = constraints_.offset(k);
-    for (int r = 0; r < p.rows(); ++r) {
+    for (int r = 0; place.home >= 0 && r < p.rows(); ++r) {
       const int at = place.at + r;
       if (!(t.penalty > 0.0)) {  // without penalty these rows do not exist
         matrix.front(place.home)(at, at) = -1.0;
         continue;
       }
       matrix.front(place.home)(at, at) = -1.0 / t.penalty;
-      gradients(p, constraints_.row(row + r).gradient);
+      constraints_.gradient(k, r, row_);
+      gradients(place.markers, row_.data());
       assemble_row(place, r, matrix);
     }
     if (!t.geometric) continue;
@@ -269,11 +262,8 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
     if (constraint_kind(p.type).gradients == PartGradients::line) {
       const double w = t.s * constraints_.multipliers()[row] / p.scale;
       for (int c = 0; c < 3; ++c) {
-        WrenchRow unit;
-        unit.a.F = -Vec3::Unit(c);
-        unit.b.F = Vec3::Unit(c);
-        unit.a.T = unit.b.T = Vec3::Zero();
-        gradients(p, unit);
+        const Wrench unit[] = {{-Vec3::Unit(c), Vec3::Zero()}, {Vec3::Unit(c), Vec3::Zero()}};
+        gradients(place.markers, unit);
         add_rank_one(matrix, w);
       }
     }

@@ -57,16 +57,17 @@ class AbsoluteTangent {
   };
   /// Positions of the multipliers of a part in (6).
   struct PartPlace {
-    int home = -1;       ///< body that is eliminated first, -1: no body moves
-    int at = 0;          ///< its first multiplier among the unknowns of that body
-    bool turns = false;  ///< the rotation of its gradients is in T
+    /// Body that is eliminated first, -1: no body moves, or the part continues another.
+    int home = -1;
+    int at = 0;                ///< its first multiplier among the unknowns of that body
+    bool turns = false;        ///< the rotation of its gradients is in T
+    std::vector<int> markers;  ///< of its rows, those of parts that continue them included
   };
 
   bool lacks_mass(int body) const;
   void gradient(int marker, const Vec3& force, const Vec3& torque, Gradient& g) const noexcept;
   /// The gradients of wrenches on markers into gradients_; those of a body in the first one of it.
   void gradients(std::span<const int> markers, const Wrench* w) noexcept;
-  void gradients(const ConstraintPart& p, const WrenchRow& w) noexcept;
   /// Adds gradient i to that of the same body before it.
   void join_gradient(std::size_t i) noexcept;
   void add_rank_one(BlockLdlt& matrix, double weight) noexcept;
@@ -93,6 +94,7 @@ class AbsoluteTangent {
   std::vector<PartPlace> places_;    ///< of the constraint parts
   BlockLdlt factors_[2];             ///< of (6)
   std::vector<Gradient> gradients_;  ///< of one row
+  std::vector<Wrench> row_;          ///< of a part
   std::size_t gradient_count_ = 0;
   MatX motions_[2], product_;  ///< of the markers of a part with z, transposed
   VecX unknowns_;              ///< of (6)

@@ -59,11 +59,12 @@ void ClusterTangent::make_elements() {
     for (const int i : clusters_[k].bodies) cluster_of_body[i] = static_cast<int>(k);
   int gradients = 0;
   for (std::size_t k = 0; k < constraints_.parts().size(); ++k) {
-    const ConstraintPart& part = constraints_.parts()[k];
-    const int markers[2] = {part.a, part.b};
-    TreeElement e = make_element(tree_, clusters_, cluster_of_body, markers);
+    TreeElement e;  // of a part that continues another: none
+    if (!constraints_.continues(k))
+      e = make_element(tree_, clusters_, cluster_of_body, constraints_.markers(k));
+    row_.resize(std::max(row_.size(), e.markers.size()));
     e.gradient = gradients;
-    gradients += e.width * part.rows();
+    gradients += e.width * constraints_.parts()[k].rows();
     if (e.cluster >= 0) fronts_[e.cluster].parts.push_back(static_cast<int>(k));
     part_elements_.push_back(std::move(e));
   }
@@ -124,9 +125,8 @@ SparseRowMatrix ClusterTangent::constraint_rows() {
     const Cluster& c = clusters_[e.cluster];
     for (int r = 0; r < constraints_.parts()[k].rows(); ++r) {
       const int row = constraints_.offset(k) + r;
-      const WrenchRow& gradient = constraints_.row(row).gradient;
-      const Wrench wrenches[2] = {gradient.a, gradient.b};
-      fill_gradient(tree_, e, wrenches, scratch_.data());
+      constraints_.gradient(k, r, row_);
+      fill_gradient(tree_, e, row_.data(), scratch_.data());
       for (int j = 0; j < e.width; ++j) {
         const int front = e.first + j;
         // Never touched: the parent's twist, and the padding rows of the last lanes.

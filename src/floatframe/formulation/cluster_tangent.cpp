@@ -169,9 +169,8 @@ void ClusterTangent::assemble_parts(const Weights& w, Factors& factors) noexcept
     }
     const int row = constraints_.offset(k);
     for (int r = 0; r < part.rows(); ++r, g += e.width) {
-      const WrenchRow& gradient = constraints_.row(row + r).gradient;
-      const Wrench wrenches[2] = {gradient.a, gradient.b};
-      fill_gradient(tree_, e, wrenches, g);
+      constraints_.gradient(k, r, row_);
+      fill_gradient(tree_, e, row_.data(), g);
       add_outer(front, e.first, e.width, g, w.penalty);
     }
     if (w.geometric && gradients == PartGradients::line) {

@@ -130,6 +130,7 @@ class ClusterTangent {
   Factors factors_[2];
   BodyVectors loads_, increments_;  ///< of `solve`: wrenches inwards, motions outwards
   VecX scratch_;                    ///< rows of an element
+  std::vector<Wrench> row_;         ///< gradient of a constraint row
   bool second_order_ = false;       ///< a body has displacements of second order
 };
 

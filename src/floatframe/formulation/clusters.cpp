@@ -11,17 +11,13 @@ namespace floatframe {
 
 namespace {
 
-/// Bodies on the path between two markers, without their lowest common ancestor.
-UnionFind tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>> ties) {
+/// Bodies on the paths between tied markers, without their lowest common ancestor.
+UnionFind tied_bodies(const TreeKinematics& tree, std::span<const std::vector<int>> ties) {
   UnionFind sets(tree.body_count());
-  for (const auto& [marker_a, marker_b] : ties) {
-    std::vector<int> way = path_to_root(tree, tree.marker(marker_a).body);
-    std::vector<int> back = path_to_root(tree, tree.marker(marker_b).body);
-    while (!way.empty() && !back.empty() && way.back() == back.back()) {
-      way.pop_back();
-      back.pop_back();
-    }
-    way.insert(way.end(), back.begin(), back.end());
+  for (const std::vector<int>& markers : ties) {
+    std::vector<int> way;
+    for (const std::vector<int>& path : paths_of(tree, markers).paths)
+      way.insert(way.end(), path.begin(), path.end());
     for (std::size_t i = 1; i < way.size(); ++i) sets.join(way[i], way[0]);
   }
   return sets;
@@ -29,14 +25,16 @@ UnionFind tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int,
 
 /// Adjacency of the bodies of one cluster through ties and joints of the tree.
 std::vector<std::vector<int>> neighbours(const TreeKinematics& tree, const UnionFind& sets,
-                                         std::span<const std::pair<int, int>> ties) {
+                                         std::span<const std::vector<int>> ties) {
   std::vector<std::vector<int>> near(tree.body_count());
   const auto join = [&](int a, int b) {
     if (a < 0 || b < 0 || a == b || sets.root(a) != sets.root(b)) return;
     near[a].push_back(b);
     near[b].push_back(a);
   };
-  for (const auto& [a, b] : ties) join(tree.marker(a).body, tree.marker(b).body);
+  for (const std::vector<int>& markers : ties)
+    for (std::size_t i = 1; i < markers.size(); ++i)
+      join(tree.marker(markers[0]).body, tree.marker(markers[i]).body);
   for (int i = 0; i < tree.body_count(); ++i) join(i, tree.body(i).parent);
   return near;
 }
@@ -92,14 +90,26 @@ int parent_of(const Cluster& c, const TreeKinematics& tree, const UnionFind& set
 
 }  // namespace
 
-std::vector<int> path_to_root(const TreeKinematics& tree, int body) {
-  std::vector<int> path;
-  for (int i = body; i >= 0; i = tree.body(i).parent) path.push_back(i);
-  return path;
+MarkerPaths paths_of(const TreeKinematics& tree, std::span<const int> markers) {
+  MarkerPaths found;
+  for (const int marker : markers) {
+    std::vector<int>& path = found.paths.emplace_back();
+    for (int i = tree.marker(marker).body; i >= 0; i = tree.body(i).parent) path.push_back(i);
+  }
+  const auto shared = [&] {
+    return std::ranges::all_of(found.paths, [&](const std::vector<int>& path) {
+      return !path.empty() && path.back() == found.paths[0].back();
+    });
+  };
+  while (shared()) {
+    found.ancestor = found.paths[0].back();
+    for (std::vector<int>& path : found.paths) path.pop_back();
+  }
+  return found;
 }
 
 std::vector<Cluster> find_clusters(const TreeKinematics& tree,
-                                   std::span<const std::pair<int, int>> ties) {
+                                   std::span<const std::vector<int>> ties) {
   const UnionFind sets = tied_bodies(tree, ties);
   // In the order of their first body, parents before children.
   std::vector<Cluster> clusters;

@@ -3,7 +3,6 @@
 // lowest common ancestor. A cluster has one parent body p. In a chain every body is a cluster; in a
 // vehicle every suspension is one, and the chassis is the last.
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "floatframe/formulation/tree_kinematics.hpp"
@@ -21,14 +20,19 @@ struct Cluster {
 inline constexpr int wide_cluster = 100;
 
 /// The clusters, parents before children. Coupled bodies of wide clusters are consecutive, so that
-/// their fronts are narrow. `ties`: pairs of markers connected by one element.
+/// their fronts are narrow. `ties`: the markers connected by one element or part.
 std::vector<Cluster> find_clusters(const TreeKinematics& tree,
-                                   std::span<const std::pair<int, int>> ties);
+                                   std::span<const std::vector<int>> ties);
 
 /// Numbers the coordinates of the tree cluster by cluster.
 void number_coordinates(TreeKinematics& tree, std::vector<Cluster>& clusters);
 
-/// The bodies on the path from this one to the ground.
-std::vector<int> path_to_root(const TreeKinematics& tree, int body);
+/// From the body of each marker the bodies on the path to the lowest common ancestor of all,
+/// without it.
+struct MarkerPaths {
+  int ancestor = -1;
+  std::vector<std::vector<int>> paths;
+};
+MarkerPaths paths_of(const TreeKinematics& tree, std::span<const int> markers);
 
 }  // namespace floatframe

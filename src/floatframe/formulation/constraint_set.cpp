@@ -12,20 +12,29 @@ ConstraintSet::ConstraintSet(const Model& model, std::span<const int> joints) : 
 
 void ConstraintSet::number_rows(int first) {
   assert(first >= 0);
-  first_ = count_ = first;
+  count_ = first;
   offsets_.clear();
+  stored_.clear();
+  int stored = 0;
   for (const ConstraintPart& p : parts_) {
-    offsets_.push_back(count_);
-    count_ += p.rows();
+    offsets_.push_back(p.continues ? count_ - 1 : count_);
+    stored_.push_back(stored);
+    if (!p.continues) count_ += p.rows();
+    stored += p.rows();
   }
-  rows_.resize(count_ - first_);
+  rows_.resize(stored);
   values_ = multipliers_ = weights_ = VecX::Zero(count_);
+}
+
+void ConstraintSet::count_turns_with(const ElementSet& elements) {
+  for (ConstraintPart& p : parts_)
+    if (p.coordinate >= 0) p.angle = elements.angle(elements.slot(p.owner.element, p.coordinate));
 }
 
 std::size_t ConstraintSet::part_of_row(int i) const noexcept {
   assert(i >= 0 && i < count_);
   std::size_t k = parts_.size();
-  while (k-- > 0 && offsets_[k] > i) {
+  while (k-- > 0 && (offsets_[k] > i || parts_[k].continues)) {
   }
   return k < parts_.size() ? k : parts_.size();
 }
@@ -33,6 +42,14 @@ std::size_t ConstraintSet::part_of_row(int i) const noexcept {
 std::string ConstraintSet::owner_of_row(int i) const {
   const std::size_t k = part_of_row(i);
   return k < parts_.size() ? owner_name(model_, parts_[k].owner) : "the constraints";
+}
+
+std::vector<int> ConstraintSet::markers(std::size_t part) const {
+  std::vector<int> all;
+  do {
+    all.insert(all.end(), {parts_[part].a, parts_[part].b});
+  } while (continues(++part));
+  return all;
 }
 
 WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept {
@@ -49,7 +66,7 @@ WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept 
   }
   for (int r = 0; r < parts_[part].rows(); ++r) {
     const double x = w[offsets_[part] + r];
-    const WrenchRow& g = row_of(part, r).gradient;
+    const WrenchRow& g = row(part, r).gradient;
     sum.a.F += x * g.a.F;
     sum.a.T += x * g.a.T;
     sum.b.F += x * g.b.F;
@@ -61,8 +78,8 @@ WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept 
 double ConstraintSet::motion_power(const VecX& lambda) const noexcept {
   assert(lambda.size() == count_);
   double sum = 0.0;
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    sum += lambda[first_ + static_cast<Eigen::Index>(r)] * rows_[r].phi_t;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    for (int r = 0; r < parts_[k].rows(); ++r) sum += lambda[offsets_[k] + r] * row(k, r).phi_t;
   return sum;
 }
 

@@ -10,13 +10,15 @@
 // times these wrenches, which is Phi_q^T w.
 //
 // The motion of a marker depends on the formulation and is supplied by callables. Rows may begin
-// after other rows (`first`), so that the vectors contain all constraints of a formulation. Step
-// time: no heap, noexcept.
+// after other rows (`first`), so that the vectors contain all constraints of a formulation. A part
+// that continues the one before has a gradient of its own, and values, rates and accelerations that
+// are added to those of the row. Step time: no heap, noexcept.
 #include <cassert>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "floatframe/formulation/element_set.hpp"
 #include "floatframe/formulation/point_motion.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/model/constraint_part.hpp"
@@ -29,20 +31,27 @@ class ConstraintSet {
   ConstraintSet(const Model& model, std::span<const int> joints);
   /// Numbers the rows, starting at `first`. Allocates.
   void number_rows(int first);
+  /// Angles that are held over several turns are continued from those of `elements`.
+  void count_turns_with(const ElementSet& elements);
 
   const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
-  /// First row of a part.
+  /// First row of a part; of one that continues the row of the part before, that row.
   int offset(std::size_t part) const noexcept {
     assert(part < offsets_.size());
     return offsets_[part];
   }
   /// Number of all rows, including those before the first.
   int count() const noexcept { return count_; }
-  const ConstraintRow& row(int i) const noexcept {
-    assert(i >= first_ && i < count_);
-    return rows_[i - first_];
+  /// Row r of a part, without what parts after it add.
+  const ConstraintRow& row(std::size_t part, int r) const noexcept {
+    assert(part < parts_.size() && r >= 0 && r < parts_[part].rows());
+    return rows_[stored_[part] + r];
   }
-  /// The part that row i belongs to; none (`parts().size()`) for rows before the first.
+  /// The row of the part before goes on with this one; false past the end.
+  bool continues(std::size_t part) const noexcept {
+    return part < parts_.size() && parts_[part].continues;
+  }
+  /// The first part that row i belongs to; none (`parts().size()`) for rows before the first.
   std::size_t part_of_row(int i) const noexcept;
   /// "joint 'hinge'", "rod 'tie'" that row i belongs to.
   std::string owner_of_row(int i) const;
@@ -67,9 +76,9 @@ class ConstraintSet {
     assert(offsets_.size() == parts_.size() && values_.size() == count_);
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
-      ConstraintRow* rows = rows_.data() + (offsets_[k] - first_);
+      ConstraintRow* rows = rows_.data() + stored_[k];
       evaluate_constraint(p, state(p.a), state(p.b), t, rows);
-      for (int r = 0; r < p.rows(); ++r) values_[offsets_[k] + r] = rows[r].phi;
+      for (int r = 0; r < p.rows(); ++r) put(k, r, rows[r].phi, values_);
     }
   }
 
@@ -82,10 +91,9 @@ class ConstraintSet {
       const MarkerState& a = state(p.a);
       const MarkerState& b = state(p.b);
       for (int r = 0; r < p.rows(); ++r) {
-        const ConstraintRow& row = row_of(k, r);
-        const WrenchRow& g = row.gradient;
-        out[offsets_[k] + r] =
-            g.a.F.dot(a.v) + g.a.T.dot(a.w) + g.b.F.dot(b.v) + g.b.T.dot(b.w) + row.phi_t;
+        const ConstraintRow& x = row(k, r);
+        const WrenchRow& g = x.gradient;
+        put(k, r, g.a.F.dot(a.v) + g.a.T.dot(a.w) + g.b.F.dot(b.v) + g.b.T.dot(b.w) + x.phi_t, out);
       }
     }
   }
@@ -98,9 +106,10 @@ class ConstraintSet {
       const ConstraintPart& p = parts_[k];
       const PointMotion a = motion(p.a), b = motion(p.b);
       for (int r = 0; r < p.rows(); ++r) {
-        const WrenchRow& g = row_of(k, r).gradient;
-        out[offsets_[k] + r] =
-            g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) + g.b.T.dot(b.angular);
+        const WrenchRow& g = row(k, r).gradient;
+        put(k, r,
+            g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) + g.b.T.dot(b.angular),
+            out);
       }
     }
   }
@@ -113,14 +122,30 @@ class ConstraintSet {
       const ConstraintPart& p = parts_[k];
       const PointMotion a = motion(p.a), b = motion(p.b);
       for (int r = 0; r < p.rows(); ++r) {
-        const ConstraintRow& row = row_of(k, r);
-        const WrenchRow& g = row.gradient;
-        out[offsets_[k] + r] = g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) +
-                               g.b.T.dot(b.angular) + row.quad + row.phi_tt;
+        const ConstraintRow& x = row(k, r);
+        const WrenchRow& g = x.gradient;
+        put(k, r,
+            g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) +
+                g.b.T.dot(b.angular) + x.quad + x.phi_tt,
+            out);
       }
     }
   }
 
+  /// The gradient of the whole row r that begins with a part: the wrenches on the markers of the
+  /// part and of those that continue it, two of each. Returns their number.
+  std::size_t gradient(std::size_t part, int r, std::span<Wrench> out) const noexcept {
+    std::size_t n = 0;
+    do {
+      assert(n + 2 <= out.size());
+      const WrenchRow& g = row(part, r).gradient;
+      out[n++] = g.a;
+      out[n++] = g.b;
+    } while (continues(++part));
+    return n;
+  }
+  /// The same markers. Allocates.
+  std::vector<int> markers(std::size_t part) const;
   /// The wrench of a part whose rows have the weights w.
   WrenchRow wrench(std::size_t part, const VecX& w) const noexcept;
   /// Phi_q^T w: calls add(marker, force, torque) twice for each part.
@@ -137,16 +162,17 @@ class ConstraintSet {
   double motion_power(const VecX& lambda) const noexcept;
 
  private:
-  const ConstraintRow& row_of(std::size_t part, int r) const noexcept {
-    assert(part < parts_.size() && r >= 0 && r < parts_[part].rows());
-    return rows_[offsets_[part] - first_ + r];
+  /// Into the row of a part, or added to it.
+  void put(std::size_t part, int r, double x, VecX& out) const noexcept {
+    double& place = out[offsets_[part] + r];
+    place = parts_[part].continues ? place + x : x;
   }
 
   const Model& model_;
   std::vector<ConstraintPart> parts_;
-  std::vector<int> offsets_;
-  std::vector<ConstraintRow> rows_;  ///< without those before the first
-  int first_ = 0, count_ = 0;
+  std::vector<int> offsets_, stored_;  ///< first row of each part, and its place in `rows_`
+  std::vector<ConstraintRow> rows_;    ///< of the parts, one after the other
+  int count_ = 0;
   VecX values_, multipliers_, weights_;
 };
 

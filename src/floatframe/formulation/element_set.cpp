@@ -7,8 +7,11 @@ namespace floatframe {
 ElementSet::ElementSet(const Model& model) : model_(model), z_(model) {
   for (const Element& e : model.elements) {
     states_.emplace_back(e.acts ? e.markers.size() : 0, static_cast<std::size_t>(e.states));
-    slots_.push_back(e.counts_turns() ? static_cast<int>(angles_.size()) : -1);
-    if (e.counts_turns()) angles_.push_back(0.0);
+    std::vector<int>& slots = slots_.emplace_back();
+    for (const CoordinatePort& c : e.coordinates) {
+      slots.push_back(c.counted ? static_cast<int>(angles_.size()) : -1);
+      if (c.counted) angles_.push_back(0.0);
+    }
   }
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     if (model.elements[k].acts) acting_.push_back(k);
@@ -23,22 +26,28 @@ ElementSet::ElementSet(const Model& model) : model_(model), z_(model) {
 void ElementSet::connect(const std::vector<const MarkerState*>& markers) {
   assert(markers.size() == model_.markers.size());
   markers_.clear();
+  held_angles_.clear();
   for (const Element& e : model_.elements) {
+    const std::size_t k = markers_.size();
     std::vector<const MarkerState*>& own = markers_.emplace_back();
     for (const int marker : e.markers) own.push_back(markers[static_cast<std::size_t>(marker)]);
+    for (std::size_t i = 0; e.holds && i < e.coordinates.size(); ++i) {
+      const int port = e.coordinates[i].port;
+      if (slot(k, i) >= 0) held_angles_.push_back({slot(k, i), own[port], own[port + 1]});
+    }
   }
 }
 
 void ElementSet::count_turns_from(const Model& values, double t) noexcept {
-  for (std::size_t k = 0; k < model_.elements.size(); ++k) {
-    if (slots_[k] < 0) continue;
-    assert(model_.elements[k].joint >= 0);
-    const Joint& joint = values.joints[model_.elements[k].joint];
-    const TimeFunction* motion = values.motion_of(joint);
-    set_angle(k, motion                   ? floatframe::evaluate(*motion, t).f
-                 : joint.position.empty() ? 0.0
-                                          : joint.position[0]);
-  }
+  for (std::size_t k = 0; k < model_.elements.size(); ++k)
+    for (std::size_t i = 0; i < slots_[k].size(); ++i) {
+      const CoordinatePort& c = model_.elements[k].coordinates[i];
+      const Joint& joint = values.joints[c.joint];
+      const TimeFunction* motion = values.motion_of(joint);
+      set_angle(slots_[k][i], motion                   ? floatframe::evaluate(*motion, t).f
+                              : joint.position.empty() ? 0.0
+                                                       : joint.position[c.component]);
+    }
 }
 
 }  // namespace floatframe

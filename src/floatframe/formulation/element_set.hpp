@@ -1,9 +1,10 @@
 #pragma once
 // The elements of a model in a formulation: their inputs, their states at the last
-// evaluation, and the turns counted by the angles of joint springs. An angle is known up to whole
-// turns; the value nearest to the angle of the last evaluation is used, so the angles are a part of
-// the state that q does not contain. States of elements (element_evaluation.hpp) are given, or
-// follow the motion at each evaluation (element_states.hpp). Step time: no heap, noexcept.
+// evaluation, and the turns counted by the angles of joints that elements act on or hold. An angle
+// is known up to whole turns; the value nearest to the angle of the last evaluation is used, so the
+// angles are a part of the state that q does not contain. States of elements
+// (element_evaluation.hpp) are given, or follow the motion at each evaluation (element_states.hpp).
+// Step time: no heap, noexcept.
 #include <algorithm>
 #include <cassert>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "floatframe/formulation/element_states.hpp"
+#include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -30,15 +32,25 @@ class ElementSet {
   }
   std::span<const double> inputs() const noexcept { return inputs_; }
 
-  /// Angles at the last evaluation, of the elements that count turns [rad].
+  /// Angles at the last evaluation, of the coordinates whose turns are counted [rad].
   std::span<const double> angles() const noexcept { return angles_; }
   void set_angles(std::span<const double> angles) noexcept {
     assert(angles.size() == angles_.size());
     std::copy(angles.begin(), angles.end(), angles_.begin());
   }
-  /// Of element k, if it counts turns.
-  void set_angle(std::size_t k, double angle) noexcept {
-    if (slots_[k] >= 0) angles_[slots_[k]] = angle;
+  /// The place in `angles` of coordinate i of element k; -1: its turns are not counted.
+  int slot(std::size_t k, std::size_t i) const noexcept {
+    return i < slots_[k].size() ? slots_[k][i] : -1;
+  }
+  void set_angle(int slot, double angle) noexcept {
+    if (slot >= 0) angles_[slot] = angle;
+  }
+  /// Where an angle is: its address does not change.
+  const double* angle(int slot) const noexcept { return slot < 0 ? nullptr : &angles_[slot]; }
+  /// The angles that elements hold at the present orientations, continued from the last ones.
+  void count_held_turns() noexcept {
+    for (const HeldAngle& h : held_angles_)
+      angles_[h.slot] = angle_about_z<double>(*h.a, *h.b, angles_[h.slot]);
   }
   /// Turns are counted starting at the start values of these joints, or their motions at time t.
   void count_turns_from(const Model& values, double t) noexcept;
@@ -55,7 +67,8 @@ class ElementSet {
   void connect(const std::vector<const MarkerState*>& markers);
   /// What element k acts on, with positions from `p_WO`.
   Ports ports(std::size_t k, const Vec3& p_WO, double t) const noexcept {
-    const double angle = slots_[k] < 0 ? 0.0 : angles_[slots_[k]];
+    const int at = slot(k, 0);
+    const double angle = at < 0 ? 0.0 : angles_[at];
     return {model_,  model_.elements[k], markers_[k].data(), p_WO,       t, angle,
             inputs_, branches_[k],       z_.of(k),           z_.weight()};
   }
@@ -85,7 +98,7 @@ class ElementSet {
         z_.solve(k, in, states_[k]);
       else
         evaluate_element(in, states_[k]);
-      set_angle(k, states_[k].length);
+      set_angle(slot(k, 0), states_[k].length);
     }
     z_.take_rates(states_);
   }
@@ -103,9 +116,15 @@ class ElementSet {
   }
 
  private:
+  struct HeldAngle {
+    int slot;
+    const MarkerState *a, *b;
+  };
+
   const Model& model_;
   std::vector<Efforts> states_;
-  std::vector<int> slots_;           ///< of each element in `angles_`; -1: it counts no turns
+  std::vector<std::vector<int>> slots_;  ///< of the coordinates of each element in `angles_`
+  std::vector<HeldAngle> held_angles_;
   std::vector<double> angles_;       ///< select the turn of the next evaluation [rad]
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;

@@ -15,6 +15,12 @@ Formulation::Formulation(const Model& model, const std::vector<int>& constrained
       constraint_set_(model, constrained_joints),
       element_set_(model),
       motion_(model) {
+  constraint_set_.count_turns_with(element_set_);
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    for (std::size_t i = 0; i < model.elements[k].coordinates.size(); ++i)
+      if (const CoordinatePort& c = model.elements[k].coordinates[i]; c.counted)
+        motion_.counted.push_back(
+            {c.joint, c.component, element_set_.angle(element_set_.slot(k, i))});
   motion_.efforts = element_set_.states().data();
   for (std::size_t k = 0; k < model.elements.size(); ++k)
     motion_.states.push_back(element_set_.element_states().of(k));

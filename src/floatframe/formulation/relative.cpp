@@ -13,11 +13,10 @@ namespace {
 
 /// Numbers coordinates cluster by cluster and constraint rows part by part.
 std::vector<Cluster> number(TreeKinematics& tree, ConstraintSet& constraints) {
-  std::vector<std::pair<int, int>> ties;
-  for (const ConstraintPart& p : constraints.parts()) ties.emplace_back(p.a, p.b);
+  std::vector<std::vector<int>> ties;
+  for (const ConstraintPart& p : constraints.parts()) ties.push_back({p.a, p.b});
   for (const Element& e : tree.model().elements)
-    if (e.acts && bodies_of(tree, e.markers).size() > 1)
-      for (const int marker : e.markers) ties.emplace_back(e.markers[0], marker);
+    if (bodies_of(tree, e.markers).size() > 1) ties.push_back(e.markers);
   std::vector<Cluster> clusters = find_clusters(tree, ties);
   number_coordinates(tree, clusters);
   constraints.number_rows(0);
@@ -74,10 +73,16 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
   const std::vector<char> without = bodies_without_mass(tree_, constraint_set_);
   for (int i = 0; i < tree_.body_count(); ++i)
     if (without[i]) omega2_.segment(tree_.body(i).iv, tree_.body(i).nj).setConstant(no_inertia);
-  // The angle of a spring on a tree joint is the joint coordinate, however far it rotates in a
-  // step.
-  for (const Element& e : model.elements)
-    spring_body_.push_back(e.counts_turns() ? tree_.body_between(e.markers[0], e.markers[1]) : -1);
+  // An angle of a tree joint is the joint coordinate, however far it rotates in a step.
+  for (std::size_t k = 0; k < model.elements.size(); ++k)
+    for (std::size_t i = 0; i < model.elements[k].coordinates.size(); ++i) {
+      const CoordinatePort& c = model.elements[k].coordinates[i];
+      const int body = tree_.body_of_joint(c.joint);
+      if (!c.counted || body < 0) continue;
+      const TreeBody& b = tree_.body(body);
+      tree_angles_.push_back(
+          {element_set_.slot(k, i), b.iq + c.component, b.reversed ? -1.0 : 1.0});
+    }
   element_set_.count_turns_from(model, 0.0);
   for (const TreeBody& b : tree_.bodies()) show_body(b.R_WB, b.w_WB, b.y, b.yd, b.ydd.data());
   for (std::size_t k = 0; k < model.markers.size(); ++k) {

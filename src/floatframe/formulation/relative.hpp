@@ -126,13 +126,23 @@ class RelativeFormulation final : public Formulation {
   double body_kinetic_energy(int body) const noexcept override;
   const BodyInertia& inertia(int body) const noexcept override { return terms_[body].inertia; }
 
+  /// An angle of a tree joint that elements count: its place in those of `element_set_` and in q.
+  struct TreeAngle {
+    int slot, iq;
+    double sign;  ///< -1: the child of the joint is the parent in the tree
+    double value = 0.0;
+  };
+  void set_tree_angles() noexcept {
+    for (const TreeAngle& a : tree_angles_) element_set_.set_angle(a.slot, a.value);
+  }
+
   TreeKinematics tree_;
   ClusterTangent tangent_;
   std::vector<BodyTerms> terms_;
-  std::vector<int> spring_body_;  ///< of a spring on a tree joint: its child body, or -1
-  BodyVectors wrenches_;          ///< of the last residual or constraint forces
-  BodyVectors increments_;        ///< motions of the bodies under an increment
-  VecX weights_;                  ///< of `solve`
+  std::vector<TreeAngle> tree_angles_;
+  BodyVectors wrenches_;    ///< of the last residual or constraint forces
+  BodyVectors increments_;  ///< motions of the bodies under an increment
+  VecX weights_;            ///< of `solve`
 };
 
 }  // namespace floatframe

@@ -13,12 +13,15 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
   assert(std::isfinite(t));
   FLOATFRAME_DEBUG(calls_.reach(CallOrder::positions));
   tree_.positions(q);
+  for (TreeAngle& a : tree_angles_) a.value = a.sign * q[a.iq];
 }
 
 void RelativeFormulation::velocities(const VecX& v) noexcept {
   assert(calls_.has(CallOrder::positions));
   FLOATFRAME_DEBUG(calls_.reach(CallOrder::velocities));
   tree_.velocities(v);
+  set_tree_angles();
+  element_set_.count_held_turns();
   constraint_set_.evaluate(
       time_, [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
 }
@@ -36,8 +39,7 @@ void RelativeFormulation::dynamics() noexcept {
 
 void RelativeFormulation::forces() noexcept {
   assert(calls_.has(CallOrder::velocities));
-  for (std::size_t k = 0; k < spring_body_.size(); ++k)
-    if (spring_body_[k] >= 0) element_set_.set_angle(k, tree_.body(spring_body_[k]).angle);
+  set_tree_angles();
   element_set_.evaluate(tree_.origin(), time_);
 }
 

@@ -58,18 +58,7 @@ TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>&
   assert(!markers.empty() && std::ssize(cluster_of_body) == tree.body_count());
   TreeElement e;
   e.markers.assign(markers.begin(), markers.end());
-  std::vector<std::vector<int>> paths;
-  for (const int marker : markers) paths.push_back(path_to_root(tree, tree.marker(marker).body));
-  int ancestor = -1;
-  const auto shared = [&] {
-    return std::all_of(paths.begin(), paths.end(), [&](const std::vector<int>& path) {
-      return !path.empty() && path.back() == paths[0].back();
-    });
-  };
-  while (shared()) {
-    ancestor = paths[0].back();
-    for (std::vector<int>& path : paths) path.pop_back();
-  }
+  const auto [ancestor, paths] = paths_of(tree, markers);
   int lead = ancestor;
   for (const std::vector<int>& path : std::views::reverse(paths))
     if (!path.empty()) lead = path.front();

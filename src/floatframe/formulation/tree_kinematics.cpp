@@ -104,7 +104,6 @@ void TreeKinematics::positions_of(const VecX& q) noexcept {
   for (const int i : order_) {
     TreeBody& b = bodies_[i];
     joint_motion(b.type, b.axes, q.data() + b.iq, b.motion);
-    if (b.nj == 1) b.angle = b.reversed ? -q[b.iq] : q[b.iq];
     place_body<stiffens>(b);
     const UsedMarkers& used = used_markers_[i];
     for (const int u : stepping_ ? used.dynamic : used.all) {

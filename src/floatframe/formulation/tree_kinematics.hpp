@@ -61,10 +61,8 @@ struct TreeLink {
 /// Quantities that depend on the configuration.
 struct TreePosition {
   JointMotion motion;  ///< p_FM, R_FM, H in axes of F; its bias depends on the velocities
-  double angle =
-      0.0;    ///< coordinate of a joint that has one, in the sense of its described parent, child
-  VecX y;     ///< modal amplitudes
-  Vec3 p_OB;  ///< body frame from the evaluation origin, world axes [m]
+  VecX y;              ///< modal amplitudes
+  Vec3 p_OB;           ///< body frame from the evaluation origin, world axes [m]
   Mat3 R_WB;
   Mat6X own;        ///< 6 x (nj + nm): [b, -Psi], twists per unit of own coordinates, about O
   Mat6X of_parent;  ///< 6 x nm_parent: Phi, twists per unit of the parent's modes
@@ -165,8 +163,6 @@ class TreeKinematics {
   std::vector<Given> given_coordinates(bool rates) const;
   /// The child body of this joint of the model, -1 if the joint is cut.
   int body_of_joint(int joint) const noexcept;
-  /// The child body of the joint between these two markers, -1 if there is none.
-  int body_between(int marker_a, int marker_b) const noexcept;
   /// Which velocity coordinates are modal amplitudes; load time.
   std::vector<bool> elastic_coordinates() const;
   /// Indices into q of the translations of free joints to the ground.

@@ -129,16 +129,6 @@ int TreeKinematics::body_of_joint(int joint) const noexcept {
   return -1;
 }
 
-int TreeKinematics::body_between(int marker_a, int marker_b) const noexcept {
-  for (std::size_t i = bodies_.size(); i-- > 0;) {
-    const TreeBody& b = bodies_[i];
-    if ((b.frame_F == marker_a && b.frame_M == marker_b) ||
-        (b.frame_F == marker_b && b.frame_M == marker_a))
-      return static_cast<int>(i);
-  }
-  return -1;
-}
-
 std::vector<bool> TreeKinematics::elastic_coordinates() const {
   std::vector<bool> elastic(nv_, false);
   for (const TreeBody& b : bodies_)

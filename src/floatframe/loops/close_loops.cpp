@@ -109,11 +109,7 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
   f.positions(t, q);
   LoopMembers members = loop_members(f);
   for (const ConstraintPart& p : f.constraint_set().parts()) {
-    if (p.motion == nullptr) continue;
-    const Joint& joint = f.model().joints[p.owner.joint];
-    members.joint[p.owner.joint] = 1;
-    for (const int body : {joint.parent, joint.child})
-      if (body >= 0) members.body[body] = 1;
+    if (p.is_motion()) members.add(f.model(), p.owner.joint);
   }
   const std::vector<LoopValue> values = loop_values(f, members, true);
   VecX rates(f.constraints());
@@ -154,14 +150,14 @@ std::size_t worst_part(const ConstraintSet& constraints, const VecX& r) {
   return constraints.part_of_row(static_cast<int>(row));
 }
 
-const char* unit_of(const ConstraintPart& part, bool rates) {
-  if (constraint_kind(part.type).angle) return rates ? "rad/s" : "rad";
+const char* unit_of(const Model& model, const ConstraintPart& part, bool rates) {
+  if (part.motion && model.elements[part.owner.element].rotational) return rates ? "rad/s" : "rad";
   return rates ? "m/s" : "m";
 }
 
-/// Rows of angles are lengths.
+/// Rows of coordinates are scaled.
 double in_unit(const ConstraintPart& part, double x) {
-  return std::abs(constraint_kind(part.type).angle ? x / part.scale : x);
+  return std::abs(part.motion ? x / part.scale : x);
 }
 
 /// Contradicting constraints: with their Jacobian J the part e = (I - J J+) r of the residual r
@@ -179,7 +175,7 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
   double most = 0.0;
   for (std::size_t k = 0; k < constraints.parts().size(); ++k) {
     const double x = std::abs(e[constraints.offset(k)]);
-    if (constraints.parts()[k].motion == nullptr || !(x > counts)) continue;
+    if (!constraints.parts()[k].is_motion() || !(x > counts)) continue;
     names.push_back(f.model().joints[constraints.parts()[k].owner.joint].name);
     if (x > (1.0 + 1e-6) * most) {  // of equal ones the first
       most = x;
@@ -195,7 +191,7 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
                      names.size() == 1 ? "motion" : "motions", named_text("joint", "joints", names),
                      names.size() == 1 ? "contradicts the constraints" : "contradict each other",
                      owner_name(f.model(), part.owner), in_unit(part, e[row] / own),
-                     unit_of(part, rates),
+                     unit_of(f.model(), part, rates),
                      names.size() == 1 ? "the constraints are" : "the rest is");
 }
 
@@ -206,9 +202,9 @@ std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool r
   if (std::string text = motions_text(f, residual, rates); !text.empty()) return text;
   const ConstraintSet& constraints = f.constraint_set();
   const ConstraintPart& part = constraints.parts()[worst_part(constraints, residual)];
-  return fmt::format("{} {} {:.3g} {}", owner_name(f.model(), part.owner),
-                     rates ? "opens at" : "has a gap of",
-                     in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(part, rates));
+  return fmt::format(
+      "{} {} {:.3g} {}", owner_name(f.model(), part.owner), rates ? "opens at" : "has a gap of",
+      in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(f.model(), part, rates));
 }
 
 /// "joint 'a' keeps its start values (keep: true)" for all joints that keep values of this level.

@@ -46,6 +46,11 @@ LoopMembers loop_members(const RelativeFormulation& f) {
   for (const int i : f.tree().order())
     depth[i] = bodies[i].parent < 0 ? 1 : depth[bodies[i].parent] + 1;
   const auto depth_of = [&](int body) { return body < 0 ? 0 : depth[body]; };
+  for (const ConstraintPart& p : f.constraint_set().parts()) {
+    if (p.coordinate < 0) continue;
+    m.any = true;
+    m.add(f.model(), p.owner.joint);
+  }
   for (const auto& [joint, a, b] : closing_edges(f)) {
     if (a == b) continue;
     m.any = true;

@@ -17,10 +17,15 @@
 
 namespace floatframe {
 
-/// The joints and bodies on closed paths of joints and rods.
+/// The joints and bodies on closed paths of joints and rods, and those of coupled coordinates.
 struct LoopMembers {
   std::vector<char> joint, body;
   bool any = false;
+  void add(const Model& model, int index) {
+    joint[index] = 1;
+    for (const int b : {model.joints[index].parent, model.joints[index].child})
+      if (b >= 0) body[b] = 1;
+  }
 };
 LoopMembers loop_members(const RelativeFormulation& f);
 

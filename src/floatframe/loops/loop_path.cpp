@@ -79,7 +79,11 @@ VecX LoopPath::Stage::off(const RelativeFormulation& f, double s) const {
   return off;
 }
 
-LoopPath::LoopPath(RelativeFormulation& f, double t) : f_(f), t_(t), members_(loop_members(f)) {}
+LoopPath::LoopPath(RelativeFormulation& f, double t)
+    : f_(f),
+      t_(t),
+      angles_(f.spring_angles().begin(), f.spring_angles().end()),
+      members_(loop_members(f)) {}
 
 void LoopPath::measure_size() {
   f_.positions(t_, drawn());
@@ -110,6 +114,7 @@ bool LoopPath::starts_as_drawn() const {
 }
 
 bool LoopPath::closes(const VecX& q) {
+  f_.set_spring_angles(angles_);
   kinematics_at(f_, t_, q, VecX::Zero(f_.velocities()));
   return largest(f_.constraint_values()) < 1e-10;
 }
@@ -155,6 +160,7 @@ LoopPath::Stage LoopPath::begin(const VecX& q, std::vector<LoopValue> values, bo
   if (size_ == 0.0) measure_size();
   const ConstraintSet& set = f_.constraint_set();
   const VecX rest = VecX::Zero(f_.velocities());
+  f_.set_spring_angles(angles_);
   kinematics_at(f_, t_, q, rest);
   Stage s{LoopEquations(f_, members_, std::move(values), moves, keeps)};
   s.open = f_.constraint_values();
@@ -162,6 +168,7 @@ LoopPath::Stage LoopPath::begin(const VecX& q, std::vector<LoopValue> values, bo
   double parts = 1.0;
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintPart& p = set.parts()[k];
+    if (p.continues) continue;
     const bool angle = constraint_kind(p.type).angle, counts = p.motion == nullptr || motions;
     for (int r = 0; r < p.rows(); ++r) {
       s.counts.push_back(counts);
@@ -202,6 +209,7 @@ bool LoopPath::lead(Stage& stage, VecX& q) {
   const VecX q_start = q;
   for (int attempt = 0; attempt < 3; ++attempt, stage.increments *= 4) {
     q = q_start;
+    f_.set_spring_angles(angles_);
     stage.s_before = 0.0;
     if (lead_in_increments(stage, q)) return true;
     if (!stage.leaves_motions) break;

@@ -52,6 +52,7 @@ class LoopPath {
 
   RelativeFormulation& f_;
   double t_;
+  std::vector<double> angles_;  ///< from which turns are counted at the beginning of a path
   LoopMembers members_;
   double size_ = 0.0;  ///< of the loops [m], set when first needed
   double reached_ = 0.0;

@@ -123,11 +123,6 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
         entries.emplace_back(i, first_of[k][1] + m, it.value() * N(it.col() - first_of[k][0], m));
     }
   J_.setFromTriplets(entries.begin(), entries.end());
-  rows_.resize(J_.rows());
-  for (std::size_t k = 0; k < parts().size(); ++k) {
-    const ConstraintPart& p = parts()[k];
-    evaluate_constraint(p, f_.marker(p.a), f_.marker(p.b), 0.0, rows_.data() + row_of(k));
-  }
 }
 
 std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
@@ -137,18 +132,19 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
   for (std::size_t k = 0; k < parts().size(); ++k)
     for (; next != independent.dependent().end() && *next < row_of(k) + parts()[k].rows(); ++next)
       if (!holds_motion(k))
-        found.push_back(
-            {owner_name(model_, parts()[k].owner), direction_text(parts()[k], rows_[*next])});
+        found.push_back({owner_name(model_, parts()[k].owner),
+                         direction_text(parts()[k], row(k, static_cast<int>(*next - row_of(k))))});
   return found;
 }
 
-/// A motion that varies, whose row depends on those of joints and rods, which come first.
+/// A motion that varies, whose row depends on those of joints, rods and couplings, which come
+/// first.
 bool ConstraintAnalysis::holds_motion(std::size_t part) const {
   const ConstraintPart& p = parts()[part];
-  if (p.motion == nullptr || !changes(*p.motion, model_.simulation.duration)) return false;
+  if (!p.is_motion() || !changes(*p.motion, model_.simulation.duration)) return false;
   Eigen::Index others = 0;
   for (std::size_t k = 0; k < parts().size(); ++k)
-    if (parts()[k].motion == nullptr) others = std::max(others, row_of(k) + parts()[k].rows());
+    if (!parts()[k].is_motion()) others = std::max(others, row_of(k) + parts()[k].rows());
   SparseRowMatrix J(others + 1, J_.cols());
   J.topRows(others) = J_.topRows(others);
   J.bottomRows(1) = J_.middleRows(row_of(part), 1);

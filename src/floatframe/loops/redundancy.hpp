@@ -1,8 +1,9 @@
 #pragma once
-// Redundant constraints. Let J contain the rows of all joints, rods and motions (each scaled to
-// lengths), on the motions of the separate bodies (three translations, three rotations and the
-// amplitudes each):
-//   a row that depends on the rows before it is redundant, in the order of joints, rods, motions;
+// Redundant constraints. Let J contain the rows of all joints, rods, couplings and motions (each
+// scaled to lengths), on the motions of the separate bodies (three translations, three rotations
+// and the amplitudes each):
+//   a row that depends on the rows before it is redundant, in the order of joints, rods, couplings,
+//   motions;
 //   reactions are J^T lambda, so a lambda with J^T lambda = 0 may be added to them: a component
 //   unaffected by all of these is unique, for the others the lambda of least norm is given.
 // Tree joints of the relative formulation have no multipliers, so the rows are those of the
@@ -37,7 +38,9 @@ class ConstraintAnalysis {
   const std::vector<ConstraintPart>& parts() const { return f_.constraint_set().parts(); }
   /// First row of a part.
   Eigen::Index row_of(std::size_t part) const { return f_.constraint_set().offset(part) - first_; }
-  const ConstraintRow& row(Eigen::Index i) const { return rows_[static_cast<std::size_t>(i)]; }
+  const ConstraintRow& row(std::size_t part, int r) const {
+    return f_.constraint_set().row(part, r);
+  }
 
  private:
   bool holds_motion(std::size_t part) const;
@@ -47,7 +50,6 @@ class ConstraintAnalysis {
   Eigen::Index first_ = 0;  ///< row of the first part, after the rows of bodies
   SparseRowMatrix J_;       ///< rows of the parts on the motions of the bodies
   VecX load_;               ///< required value of J_^T lambda
-  std::vector<ConstraintRow> rows_;
 };
 
 /// Adds redundant directions at the start and the sentence that names them. The full analysis is

@@ -16,7 +16,8 @@ MatX without_motions(const RelativeFormulation& f, const MatX& all) {
   std::vector<int> rows;
   const ConstraintSet& set = f.constraint_set();
   for (std::size_t k = 0; k < set.parts().size(); ++k)
-    for (int r = 0; r < set.parts()[k].rows() && set.parts()[k].motion == nullptr; ++r)
+    for (int r = 0; r < set.parts()[k].rows() && !set.parts()[k].is_motion() && !set.continues(k);
+         ++r)
       rows.push_back(set.offset(k) + r);
   return all(rows, Eigen::all);
 }

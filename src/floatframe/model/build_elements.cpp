@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
 
 namespace floatframe {
@@ -27,12 +28,15 @@ bool ElementBuild::connect(const std::string& key, bool oriented, const Mat3& R)
   return marker >= 0;
 }
 
-const Joint* ElementBuild::connect_joint(const std::string& key) {
-  const auto k = builder_.joint_names.find(text(key));
+const Joint* ElementBuild::connect_coordinate(const std::string& name, int component) {
+  const auto k = builder_.joint_names.find(name);
   if (!k) return nullptr;
   const Joint& joint = builder_.model.joints[*k];
-  element.joint = *k;
-  element.markers = {joint.frame_F, joint.frame_M};
+  const int port = std::ssize(element.markers);
+  const bool rotational = joint_unit(joint.type, component) == JointUnit::rad;
+  if (element.coordinates.empty()) element.rotational = rotational;
+  element.coordinates.push_back({static_cast<int>(*k), component, port, rotational});
+  element.markers.insert(element.markers.end(), {joint.frame_F, joint.frame_M});
   return &joint;
 }
 
@@ -62,12 +66,14 @@ bool ModelBuilder::add_element(const ElementDescription& e) {
 }
 
 void ModelBuilder::holding_elements() {
-  for (const ElementDescription& e : d.rods) add_element(e);
+  for (const auto* list : {&d.rods, &d.couplings})
+    for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
     if (!j.motion) continue;
     const PrescribedMotion keys{j.name, {*j.motion, {}}};
     if (add_element({j.name, keys, j.origin}))
-      model.joints[model.elements.back().joint].motion = std::ssize(model.elements) - 1;
+      model.joints[model.elements.back().coordinates[0].joint].motion =
+          std::ssize(model.elements) - 1;
   }
 }
 

@@ -59,6 +59,10 @@ void ModelBuilder::outputs() {
         out.element = element(ElementList::rods, o.entity);
         built = out.element >= 0;
         break;
+      case OutputOf::coupling:
+        out.element = element(ElementList::couplings, o.entity);
+        built = out.element >= 0;
+        break;
       case OutputOf::motion:
         out.element = element(ElementList::motions, o.entity);
         built = out.element >= 0;

@@ -11,7 +11,9 @@
   entry(perpendicular)                \
   entry(distance)                     \
   entry(drive_position)               \
-  entry(drive_angle)
+  entry(drive_angle)                  \
+  entry(coordinate_displacement)      \
+  entry(coordinate_angle)
 // clang-format on
 
 namespace floatframe {

@@ -20,14 +20,20 @@ namespace floatframe {
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
   int a = -1, b = -1;  ///< markers
-  /// Perpendicular: the two directions, in axes of a and of b.
+  /// Perpendicular: the two directions, in axes of a and of b. Of a coordinate: its direction e_a.
   Vec3 e_a = Vec3::UnitZ(), n_b = Vec3::UnitX();
-  double c = 0.0;      ///< perpendicular: value of e_a.n_b to keep
+  double c = 0.0;      ///< perpendicular: value of e_a.n_b to keep; of a coordinate: its factor
   double scale = 1.0;  ///< l, or L of a distance
+  /// Its only row is added to that of the part before: a sum over several pairs of markers.
+  bool continues = false;
+  int coordinate = -1;            ///< of its element, which the part adds to a sum
+  const double* angle = nullptr;  ///< selects the turn of the coordinate; null: the first
   double force = 1.0;  ///< of an element: its force per multiplier, tension or along a coordinate
   const TimeFunction* motion = nullptr;
   ConstraintOwner owner;
   int rows() const noexcept;
+  /// It prescribes the coordinate of its joint.
+  bool is_motion() const noexcept { return motion != nullptr && coordinate < 0; }
 };
 
 struct ConstraintRow {

@@ -5,9 +5,6 @@
 //           sdot = z.(w_b - w_a)
 // The markers of a hinge share the axis. Where they do not (cut joints before they close) a torque
 // stays along z.
-#include <cmath>
-#include <numbers>
-
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
 
@@ -19,13 +16,8 @@ AxisMeasure<S> coordinate(const PortsOf<S>& in) noexcept {
   const auto &a = in.marker(0), &b = in.marker(1);
   const V z = a.R.col(2);
   if (!in.element.rotational) return axis_measure(z, a, b);
-  using std::atan2;
-  const V x = b.R.col(0);
-  const S angle = atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0))));
-  const double near = std::remainder(value_of(angle) - in.reference_angle, 2.0 * std::numbers::pi);
   const V zero = V::Zero();
-  return {
-      chained(in.reference_angle + near, 1.0, angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
+  return {angle_about_z<S>(a, b, in.reference_angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
 }
 
 // Of an element with the key `joint`.

@@ -16,8 +16,9 @@ class ElementBuild : public ElementView {
   /// The next port of the element: a marker at a place, with the design orientation R; false after
   /// an error, which is reported. `oriented`: its orientation matters.
   bool connect(const std::string& key, bool oriented, const Mat3& R = Mat3::Identity());
-  /// Its ports: the two markers of a joint; nullptr if that has an error.
-  const Joint* connect_joint(const std::string& key);
+  /// Its next two ports: the markers of a joint with the coordinate `component`; nullptr if the
+  /// joint has an error. The unit of its results is that of the first one.
+  const Joint* connect_coordinate(const std::string& joint, int component = 0);
   int road(const std::string& key) const;
   /// World position of a port in the design configuration.
   Vec3 design_point(std::size_t port) const;

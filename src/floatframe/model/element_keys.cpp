@@ -81,11 +81,24 @@ PiecewisePolynomial ElementView::law(const std::string& name) const {
 std::optional<SignalDescription> ElementView::signal(const std::string& name) const {
   const auto value = key_value(*force_, key(name));
   const auto* found = value ? std::get_if<SignalDescription>(&*value) : nullptr;
+  if (const auto* f = value ? std::get_if<TimeFunction>(&*value) : nullptr)
+    return SignalDescription{*f, {}};
   return found ? std::optional(*found) : std::nullopt;
 }
 
 MatX ElementView::matrix(const std::string& name) const {
   return value_or(key_value(*force_, key(name)), MatX());
+}
+
+std::vector<CoordinateTerm> ElementView::coordinates() const {
+  std::vector<CoordinateTerm> all;
+  for (const ElementKey& key : element_keys(force_->type())) {
+    const auto value = key_value(*force_, key);
+    if (key.kind == KeyKind::joint && value) all.push_back({std::get<std::string>(*value)});
+    if (const auto* terms = value ? std::get_if<std::vector<CoordinateTerm>>(&*value) : nullptr)
+      all.insert(all.end(), terms->begin(), terms->end());
+  }
+  return all;
 }
 
 bool ElementCheck::given(const std::string& key) const {

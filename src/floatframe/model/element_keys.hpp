@@ -31,6 +31,8 @@ enum class KeyKind {
   load,              ///< signal, a force
   target,            ///< signal, a displacement; its tables are smooth
   target_rate,       ///< signal, a rate
+  motion,            ///< function of time, a displacement; without jumps
+  terms,             ///< coordinates of joints with factors
   stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
   damping_matrix,    ///< the same of their rates
   speed_table,       ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
@@ -38,7 +40,7 @@ enum class KeyKind {
 };
 
 /// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of
-/// the joint given by the key `joint`.
+/// the joint given by the key `joint`, or the first one of `terms`.
 enum class ElementAxis { along, about, coordinate };
 
 struct AxisUnits {
@@ -50,9 +52,10 @@ constexpr AxisUnits axis_units(bool turning) noexcept {
 }
 
 /// A value of a key: number, word by its place in the list of words, flag, name, direction, place,
-/// law, signal, matrix.
-using KeyValue = std::variant<double, int, bool, std::string, Vec3, AttachmentDescription,
-                              PiecewisePolynomial, SignalDescription, MatX>;
+/// law, signal, matrix, function of time, terms.
+using KeyValue =
+    std::variant<double, int, bool, std::string, Vec3, AttachmentDescription, PiecewisePolynomial,
+                 SignalDescription, MatX, TimeFunction, std::vector<CoordinateTerm>>;
 
 /// A member of the struct of a type; none: a stop, which is part of its spring.
 struct KeyMember {
@@ -146,6 +149,8 @@ class ElementView {
   PiecewisePolynomial law(const std::string& name) const;
   std::optional<SignalDescription> signal(const std::string& name) const;
   MatX matrix(const std::string& name) const;  ///< 0 x 0: not given
+  /// The coordinates of joints that its keys name.
+  std::vector<CoordinateTerm> coordinates() const;
 
  private:
   const ElementDescription* force_;

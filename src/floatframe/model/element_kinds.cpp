@@ -33,7 +33,7 @@ bool is_law(const ElementKey& key) noexcept {
 }
 bool is_signal(const ElementKey& key) noexcept {
   return key.kind == KeyKind::load || key.kind == KeyKind::target ||
-         key.kind == KeyKind::target_rate;
+         key.kind == KeyKind::target_rate || key.kind == KeyKind::motion;
 }
 
 MarkerMotion<Dual> constant(const MarkerState& m) {
@@ -93,9 +93,9 @@ std::vector<ElementSignal> signals_of(const Element& element) {
     if (!is_signal(key)) continue;
     const Signal& signal = element.signals[port++];
     if (!signal.given) continue;
-    const ElementQuantity quantity = key.kind == KeyKind::load     ? ElementQuantity::force
-                                     : key.kind == KeyKind::target ? ElementQuantity::length
-                                                                   : ElementQuantity::rate;
+    const ElementQuantity quantity = key.kind == KeyKind::load          ? ElementQuantity::force
+                                     : key.kind == KeyKind::target_rate ? ElementQuantity::rate
+                                                                        : ElementQuantity::length;
     std::string what = key.name;
     std::replace(what.begin(), what.end(), '_', ' ');
     out.push_back({&signal, std::move(what), key.kind != KeyKind::load,
@@ -282,10 +282,7 @@ void validate_coordinate(const ElementCheck& check) {
 }
 
 bool build_coordinate(ElementBuild& build) {
-  const Joint* joint = build.connect_joint("joint");
-  if (!joint) return false;
-  build.element.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
-  return true;
+  return build.connect_coordinate(build.text("joint")) != nullptr;
 }
 
 Picture picture_of_coordinate(const Element& element) {

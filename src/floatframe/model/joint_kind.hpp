@@ -161,6 +161,9 @@ struct JointKind {
 
 const JointKind& joint_kind(JointType type) noexcept;
 
+/// The sign of a coordinate of the mirrored joint.
+double mirrored_sign(JointType type, int component, const Placement& x);
+
 /// Orientation of F and M in the design configuration.
 Mat3 joint_frame(const JointDescription& joint);
 

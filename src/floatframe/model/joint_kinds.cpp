@@ -33,6 +33,15 @@ const JointKind& joint_kind(JointType type) noexcept {
   return *joint_list[index_of(type)];
 }
 
+double mirrored_sign(JointType type, int component, const Placement& x) {
+  JointDescription joint;
+  joint.type = type;
+  joint.position.assign(joint_velocities(type), 1.0);
+  joint_kind(type).mirror(joint, x);
+  return static_cast<std::size_t>(component) < joint.position.size() ? joint.position[component]
+                                                                     : 1.0;
+}
+
 void joint_motion(JointType type, const JointDirections& axes, const double* q,
                   JointMotion& m) noexcept {
   assert((q || joint_configurations(type) == 0) && is_unit(axes.axis));

@@ -47,6 +47,19 @@ const char* joint_unit_name(JointType type, int component, bool rate) noexcept {
   return rate ? "rad/s" : "rad";
 }
 
+std::optional<CoordinateAxis> coordinate_axis(JointType type, const Vec3& axis_2, int component) {
+  if (quaternion_offset(type) >= 0) return std::nullopt;
+  // H is constant, or else the direction of the coordinate depends on others.
+  const double drawn[6] = {}, moved[6] = {0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  JointMotion m, n;
+  joint_motion(type, {Vec3::UnitZ(), axis_2}, drawn, m);
+  joint_motion(type, {Vec3::UnitZ(), axis_2}, moved, n);
+  if (m.H != n.H) return std::nullopt;
+  const Vec3 along = m.H.col(component).head<3>(), about = m.H.col(component).tail<3>();
+  if (about.isZero(0.0)) return CoordinateAxis{false, along};
+  return CoordinateAxis{true, about};
+}
+
 void joint_retract(JointType type, const double* q0, const double* x, double* q) noexcept {
   const JointKind& kind = joint_kind(type);
   const int rotation = kind.rotation_vector;

@@ -6,6 +6,7 @@
 // Rotations of spherical and free joints: q holds a unit quaternion (w, x, y, z), v the angular
 // velocity of M in F, in axes of F; a step's increment is the rotation vector Theta with R_new =
 // exp(skew(Theta)) R.
+#include <optional>
 #include <string>
 
 #include "floatframe/description/description.hpp"
@@ -51,6 +52,15 @@ const char* joint_coordinate_name(JointType type, int component) noexcept;
 JointUnit joint_unit(JointType type, int component) noexcept;
 /// "m", "rad", "m/s" or "rad/s".
 const char* joint_unit_name(JointType type, int component, bool rate = false) noexcept;
+
+/// Of a coordinate that elements may hold in a sum: a displacement along a direction that is fixed
+/// in F, or the angle about the z axis that F and M share.
+struct CoordinateAxis {
+  bool turns = false;
+  Vec3 direction = Vec3::UnitZ();  ///< in the joint frame
+};
+/// None for other coordinates.
+std::optional<CoordinateAxis> coordinate_axis(JointType type, const Vec3& axis_2, int component);
 
 /// Pose and H; the bias is set to that at rest.
 void joint_motion(JointType type, const JointDirections& axes, const double* q,

@@ -42,17 +42,21 @@ void append_element_parts(const Model& model, int index, std::vector<ConstraintP
   const Element& element = model.elements[index];
   if (!element.holds) return;
   ConstraintPart part;
-  part.owner = {element.joint, index};
+  part.owner.element = index;
   const std::size_t before = parts.size();
   element_kind(element.type).rows(model, element, part, parts);
-  // What reads multipliers knows one row between the first two markers.
-  assert(parts.size() == before + 1 && parts.back().rows() == 1);
-  assert(parts.back().a == element.markers[0] && parts.back().b == element.markers[1]);
+  // What reads multipliers knows one row, and of a part without a joint the first two markers.
+  for (std::size_t k = before; k < parts.size(); ++k) {
+    assert(parts[k].rows() == 1 && parts[k].continues == (k > before));
+    assert(parts[k].owner.joint >= 0 || (parts[k].a == element.markers[0] && k == before));
+  }
   static_cast<void>(before);
 }
 
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {
-  if (owner.joint >= 0) return "joint '" + model.joints[owner.joint].name + "'";
+  const bool of_joint =
+      owner.joint >= 0 && (owner.element < 0 || owner.element == model.joints[owner.joint].motion);
+  if (of_joint) return "joint '" + model.joints[owner.joint].name + "'";
   const Element& element = model.elements[owner.element];
   return std::string(element_type_name(element.type)) + " '" + element.name + "'";
 }

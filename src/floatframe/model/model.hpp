@@ -67,16 +67,24 @@ struct Signal {
   bool differentiated = false;  ///< the rate of the function is used as well
 };
 
+/// A coordinate of a joint that an element acts on or holds, measured at the two markers of the
+/// joint, which are consecutive ports of the element.
+struct CoordinatePort {
+  int joint = -1, component = 0;
+  int port = 0;          ///< of the frame on the parent; the next one is on the child
+  bool counted = false;  ///< an angle that is followed over several turns
+};
+
 /// An element: what it is connected to, by index, and what it does. The table of
 /// keys of its kind gives the key of each law and signal.
 struct Element {
   std::string name;
   ElementType type{};
-  std::vector<int> markers;               ///< its ports on bodies, in the order of its kind
-  std::vector<PiecewisePolynomial> laws;  ///< those of its keys, in their order
-  std::vector<Signal> signals;            ///< those of its keys, in their order
+  std::vector<int> markers;                 ///< its ports on bodies, in the order of its kind
+  std::vector<PiecewisePolynomial> laws;    ///< those of its keys, in their order
+  std::vector<Signal> signals;              ///< those of its keys, in their order
+  std::vector<CoordinatePort> coordinates;  ///< of joints, in the order of its kind
   int road = -1;
-  int joint = -1;             ///< whose coordinate it acts on or prescribes
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
   VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
@@ -90,7 +98,7 @@ struct Element {
   /// Its angle is followed over several turns.
   bool counts_turns() const noexcept { return acts && rotational; }
   /// It holds bodies to each other, as a joint does.
-  bool links() const noexcept { return holds && joint < 0; }
+  bool links() const noexcept { return holds && coordinates.empty(); }
 };
 
 /// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
@@ -113,7 +121,8 @@ struct Output {
   int gauge = -1;
 };
 
-/// The origin of a constraint row: a joint, an element, or an element that belongs to a joint.
+/// The origin of a constraint row: a joint, an element, or an element that holds a coordinate of a
+/// joint.
 struct ConstraintOwner {
   int joint = -1, element = -1;
 };
@@ -123,7 +132,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();
   std::vector<Body> bodies;
   std::vector<Joint> joints;      ///< automatic free joints last
-  std::vector<Element> elements;  ///< those of forces, rods, motions
+  std::vector<Element> elements;  ///< those of forces, rods, couplings, motions
   std::vector<Road> roads;
   std::vector<Input> inputs;
   std::vector<Marker> markers;

@@ -22,7 +22,7 @@ struct ModelBuilder {
   const ModelDescription& d;
   const NameIndex body_names, road_names, input_names;
   NameIndex joint_names;       ///< of those that are built
-  NameIndex element_names[3];  ///< of each ElementList
+  NameIndex element_names[4];  ///< of each ElementList
   /// Body, node, rotation with the node, position and orientation of each marker on a body.
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
@@ -43,7 +43,7 @@ struct ModelBuilder {
   /// Bodies without a path of joints from the ground get a free joint to it (the first in file
   /// order each time).
   void free_joints();
-  /// Rods and motions, which are known before axes are made exact.
+  /// Rods, couplings and motions, which are known before axes are made exact.
   void holding_elements();
   /// Builds them, and puts them first.
   void forces();

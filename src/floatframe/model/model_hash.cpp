@@ -72,13 +72,14 @@ class ModelHash {
     add(static_cast<const TimeFunction&>(s));
     add(s.input);
   }
+  void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
   void add(const Signal& s) {
     const auto& [function, input, given, differentiated] = s;
     all(function, input, given);
   }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, road, joint, states, kept, start, acts, holds,
-                 rotational, driven, jumps, keys, data] = e;
+    const auto& [name, type, markers, laws, signals, coordinates, road, states, kept, start, acts,
+                 holds, rotational, driven, jumps, keys, data] = e;
     all(name, type, markers, laws, signals, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))

@@ -34,6 +34,7 @@ enum class OutputOf {
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `element`
+  coupling,    ///< `element`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 

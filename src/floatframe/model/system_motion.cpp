@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "floatframe/model/constraint_part.hpp"
+
 namespace floatframe {
 
 double elastic_energy(const Body& body, const BodyKinematics& motion) noexcept {
@@ -30,6 +32,15 @@ double modal_damping_power(const SystemMotion& motion) noexcept {
       for (Eigen::Index l = 0; l < rate.size(); ++l) sum += rate[k] * D(l, k) * rate[l];
   }
   return sum;
+}
+
+double SystemMotion::start_position(int joint, int component) const noexcept {
+  for (const CountedAngle& c : counted)
+    if (c.joint == joint && c.component == component) return *c.angle;
+  const Joint& j = model.joints[static_cast<std::size_t>(joint)];
+  if (const TimeFunction* f = model.motion_of(j)) return evaluate(*f, t).f;
+  const std::size_t k = component;
+  return k < j.position.size() ? j.position[k] : 0.0;
 }
 
 double SystemMotion::power(int element) const noexcept {

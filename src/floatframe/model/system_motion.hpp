@@ -51,7 +51,12 @@ struct SystemMotion {
   std::vector<Vec3> marker_accelerations;  ///< of the points [m/s2]
   const Efforts* efforts = nullptr;        ///< one for each element
   std::vector<const double*> states;       ///< of each element, and behind them its kept numbers
-  const Reactions* reactions = nullptr;    ///< if an output needs them
+  struct CountedAngle {
+    int joint, component;
+    const double* angle;  ///< [rad]
+  };
+  std::vector<CountedAngle> counted;     ///< angles whose turns elements count
+  const Reactions* reactions = nullptr;  ///< if an output needs them
 
   explicit SystemMotion(const Model& m) : model(m), marker_accelerations(m.markers.size()) {}
   SystemMotion(const SystemMotion&) = delete;
@@ -71,6 +76,9 @@ struct SystemMotion {
     assert(is_index(i, model.elements));
     return efforts[i];
   }
+  /// Where a coordinate of a joint begins, of whose turns that counts: at the angle that an element
+  /// has counted, else at its motion or the start value of the user.
+  double start_position(int joint, int component) const noexcept;
   /// Power of an element on its markers [W].
   double power(int element) const noexcept;
   /// Debug builds: NaN until it is filled.

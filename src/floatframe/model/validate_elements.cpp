@@ -74,6 +74,18 @@ struct ElementValidation {
       case K::target_rate:
         entity.signal(key.name, std::get<SignalDescription>(*x), names);
         break;
+      case K::motion:
+        entity.function(key.name, std::get<TimeFunction>(*x));
+        break;
+      case K::terms: {
+        int number = 0;
+        for (const CoordinateTerm& term : std::get<std::vector<CoordinateTerm>>(*x)) {
+          const std::string path = std::string(key.name) + "[" + std::to_string(++number) + "].";
+          entity.reference(path + "joint", "joint", term.joint, names.joints);
+          entity.number(path + "factor", term.factor, any_number(""));
+        }
+        break;
+      }
       case K::flag:
       case K::bump_stop:
       case K::rebound_stop:
@@ -109,7 +121,7 @@ struct ElementValidation {
 }  // namespace
 
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
-  for (const ElementList list : {ElementList::rods, ElementList::forces}) {
+  for (const ElementList list : {ElementList::rods, ElementList::couplings, ElementList::forces}) {
     const std::string section = element_list_name(list);
     std::set<std::string> taken;
     for (const ElementDescription& e : d.elements(list)) {

@@ -109,6 +109,9 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
     case OutputOf::rod:
       entity.reference(what, "rod", o.entity, names.rods);
       break;
+    case OutputOf::coupling:
+      entity.reference(what, "coupling", o.entity, names.couplings);
+      break;
     case OutputOf::motion:
       motion_output(o, d, names, entity);
       break;

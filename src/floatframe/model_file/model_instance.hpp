@@ -18,10 +18,10 @@
 
 namespace floatframe {
 
-enum class EntityKind { body, joint, rod, force, road, input };
-inline constexpr std::array<const char*, 6> entity_words{"body",  "joint", "rod",
+enum class EntityKind { body, joint, rod, coupling, force, road, input };
+inline constexpr std::array<const char*, 7> entity_words{"body",  "joint", "rod",  "coupling",
                                                          "force", "road",  "input"};
-inline constexpr std::array<const char*, 6> entity_keys{"bodies", "joints", "rods",
+inline constexpr std::array<const char*, 7> entity_keys{"bodies", "joints", "rods",  "couplings",
                                                         "forces", "roads",  "inputs"};
 
 struct ModelInstance {

@@ -1,11 +1,12 @@
 // Elements and roads.
+#include <algorithm>
 #include <limits>
 
 #include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
-#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/yaml/read_table.hpp"
 
@@ -44,9 +45,9 @@ class ElementReader {
   AxisUnits units(const ElementKey& key) const {
     bool turning = key.axis != ElementAxis::along;
     if (key.axis == ElementAxis::coordinate) {
-      const auto type = joint_type(check_.text("joint"));
-      turning =
-          !type || (joint_has_one_coordinate(*type) && joint_unit(*type, 0) == JointUnit::rad);
+      const std::vector<CoordinateTerm> of = check_.coordinates();
+      const auto type = of.empty() ? std::nullopt : joint_type(of[0].joint);
+      turning = !type || joint_unit(*type, std::max(0, of[0].coordinate)) == JointUnit::rad;
     }
     return axis_units(turning);
   }
@@ -109,6 +110,31 @@ class ElementReader {
     return value.is_list() ? rows_of(rows, key.words.size()) : std::nullopt;
   }
 
+  /// Factors of a mirrored file are those of the mirrored joints.
+  std::optional<KeyValue> terms(const YamlValue& value) const {
+    std::vector<CoordinateTerm> all;
+    for (const YamlValue& item : value.list("a list of terms {joint, coordinate, factor}")) {
+      auto s = item.section("a term {joint, coordinate, factor}");
+      if (!s) continue;
+      CoordinateTerm term;
+      if (const auto joint = s->require("joint"))
+        term.joint = self_.reference(EntityKind::joint, *joint).value_or("");
+      const auto word = s->get("coordinate");
+      term.factor = s->number("factor", any_number(""), 1.0);
+      s->finish();
+      if (const auto type = joint_type(term.joint)) {
+        std::vector<const char*> names;
+        for (int k = 0; k < joint_velocities(*type); ++k)
+          names.push_back(joint_coordinate_name(*type, k));
+        if (const auto k = word ? word->word(names) : std::nullopt)
+          term.coordinate = static_cast<int>(*k);
+        term.factor *= mirrored_sign(*type, std::max(0, term.coordinate), self_.world);
+      }
+      all.push_back(std::move(term));
+    }
+    return value.is_list() ? std::optional(KeyValue(std::move(all))) : std::nullopt;
+  }
+
   std::optional<KeyValue> place_of(const YamlValue& value) const {
     auto section = value.section("a place {body, at}");
     return section ? read_attachment(self_, model_, *section) : std::nullopt;
@@ -153,6 +179,10 @@ class ElementReader {
         return speed_table(*value);
       case K::table:
         return table(*value, key);
+      case K::motion:
+        return read_motion(*value, u.displacement, Interpolation::cubic);
+      case K::terms:
+        return terms(*value);
       case K::load:
         return read_signal(self_, *value, u.force, Interpolation::linear);
       case K::target:
@@ -208,10 +238,17 @@ ElementDescription read_element(const ModelInstance& self, const std::string& na
 
 }  // namespace
 
+// Lists of one type, which no key names.
+
 void read_rods(const ModelInstance& self, ReadModel& model) {
-  const ElementType type = types_of(ElementList::rods).front();  // the only one: no key names it
   for (auto& [name, s] : active_entities(self, EntityKind::rod))
-    model.description.rods.push_back(read_element(self, name, s, type, model));
+    model.description.rods.push_back(read_element(self, name, s, ElementType::rod, model));
+}
+
+void read_couplings(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, s] : active_entities(self, EntityKind::coupling))
+    model.description.couplings.push_back(
+        read_element(self, name, s, ElementType::coupling, model));
 }
 
 void read_forces(const ModelInstance& self, ReadModel& model) {

@@ -71,6 +71,8 @@ class OutputReader {
         return reaction(s, what, o);
       case OutputOf::rod:
         return put(self_.reference(EntityKind::rod, what), o.entity);
+      case OutputOf::coupling:
+        return put(self_.reference(EntityKind::coupling, what), o.entity);
       case OutputOf::motion:
         return put(self_.reference(EntityKind::joint, what), o.entity);
     }

@@ -27,8 +27,6 @@ std::vector<int> every_joint(const Model& model) {
   return joints;
 }
 
-bool is_motion(const ConstraintPart& part) noexcept { return part.motion != nullptr; }
-
 /// out += U V^T of rigid bodies, six numbers per row; four and two of a column at a time.
 void add_product(const double* u, const double* v, int rows, double* out,
                  Eigen::Index stride) noexcept {
@@ -75,7 +73,7 @@ void solve_small(Mat6& A, int n, Vec6& x) noexcept {
 }  // namespace
 
 LeastReactions::LeastReactions(const Model& model)
-    : model_(model), all_(model, every_joint(model)), motion_(model.joints.size(), -1) {
+    : model_(model), all_(model, every_joint(model)), held_(model.joints.size()) {
   all_.number_rows(0);
   std::vector<int> sizes;
   for (const Body& b : model.bodies) {
@@ -93,25 +91,28 @@ LeastReactions::LeastReactions(const Model& model)
   int numbers = 0, k = 0;
   const auto body_of = [&](int marker) { return model.markers[marker].body; };
   for (const ConstraintPart& p : all_.parts()) {
-    const bool goes_on = !groups_.empty() && groups_.back().a.body == body_of(p.a) &&
-                         groups_.back().b.body == body_of(p.b);
-    if (!goes_on) groups_.push_back({{body_of(p.a)}, {body_of(p.b)}, k, 0, all_.offset(k), 0});
+    const std::vector<int> markers = all_.continues(k) ? std::vector<int>() : all_.markers(k);
+    std::vector<Side> sides;
+    for (const int marker : markers)
+      if (const int body = body_of(marker);
+          body >= 0 && std::ranges::find(sides, body, &Side::body) == sides.end())
+        sides.push_back({body, sizes[body], 0, column_[body]});
+    const bool goes_on =
+        p.continues || (!groups_.empty() && std::ranges::equal(groups_.back().sides, sides, {},
+                                                               &Side::body, &Side::body));
+    if (!goes_on) groups_.push_back({std::move(sides), k, 0, all_.offset(k), 0});
     ++groups_.back().parts;
-    groups_.back().rows += p.rows();
-    if (is_motion(p)) motion_[p.owner.joint] = k;
+    if (!p.continues) groups_.back().rows += p.rows();
+    if (p.owner.joint >= 0 && p.owner.element >= 0) held_[p.owner.joint].push_back(k);
     ++k;
   }
-  for (Group& g : groups_) {
-    for (Side* s : {&g.a, &g.b}) {
-      if (s->body < 0) continue;
-      s->size = sizes[s->body];
-      s->at = numbers;
-      s->column = column_[s->body];
-      numbers += s->size * g.rows;
+  for (Group& g : groups_)
+    for (Side& s : g.sides) {
+      s.at = numbers;
+      numbers += s.size * g.rows;
+      for (const Side& other : g.sides)
+        if (&other < &s) edges.emplace_back(other.body, s.body);
     }
-    if (g.a.body >= 0 && g.b.body >= 0 && g.a.body != g.b.body)
-      edges.emplace_back(g.a.body, g.b.body);
-  }
   rows_of_J_.assign(numbers, 0.0);
   normal_ = BlockLdlt(sizes, edges);
   const int columns = normal_.unknowns();
@@ -120,28 +121,30 @@ LeastReactions::LeastReactions(const Model& model)
   least_ = VecX::Zero(rows());
 }
 
-void LeastReactions::fill(const Formulation& f, const SystemMotion& motion, const Side& side,
-                          const Group& group, int part, bool of_b) noexcept {
+/// Adds the gradients of one marker of a part.
+void LeastReactions::fill(const Formulation& f, const SystemMotion& motion, const Group& group,
+                          int part, bool of_b) noexcept {
   assert(part >= group.first && part < group.first + group.parts);
-  if (side.body < 0) return;
   const ConstraintPart& p = all_.parts()[part];
   const LocalMarker& m = f.local_marker(of_b ? p.b : p.a);
-  assert(m.body == side.body && model_.bodies[m.body].length > 0.0);
+  if (m.body < 0) return;
+  const Side& side = *std::ranges::find(group.sides, m.body, &Side::body);
+  assert(model_.bodies[m.body].length > 0.0);
   const Vec3 arm = motion.body(m.body).R_WB * m.p_B;
   const double per_length = 1.0 / model_.bodies[m.body].length;
   double* out = rows_of_J_.data() + side.at + (all_.offset(part) - group.row) * side.size;
   for (int r = 0; r < p.rows(); ++r, out += side.size) {
-    const WrenchRow& g = all_.row(all_.offset(part) + r).gradient;
+    const WrenchRow& g = all_.row(part, r).gradient;
     const Vec3 &force = of_b ? g.b.F : g.a.F, &torque = of_b ? g.b.T : g.a.T;
     Eigen::Map<Vec3> frame(out), turning(out + 3);
-    frame = force;
-    turning = per_length * (arm.cross(force) + torque);
+    frame += force;
+    turning += per_length * (arm.cross(force) + torque);
     if (!m.local) continue;
     const VecX& scale = mode_scale_[m.body];
     for (int k = 0; k < scale.size(); ++k) {
       double x = m.Jr.col(k).dot(force);
       if (m.rotates) x += m.Jw.col(k).dot(torque);
-      out[6 + k] = scale[k] * x;
+      out[6 + k] += scale[k] * x;
     }
   }
 }
@@ -166,15 +169,16 @@ void LeastReactions::place(const Formulation& f) noexcept {
   const SystemMotion& motion = f.motion();
   all_.evaluate(motion.t, [&](int marker) -> const MarkerState& { return motion.marker(marker); });
   normal_.set_zero();
+  std::ranges::fill(rows_of_J_, 0.0);
   for (const Group& group : groups_) {
     for (int k = group.first; k < group.first + group.parts; ++k) {
-      fill(f, motion, group.a, group, k, false);
-      fill(f, motion, group.b, group, k, true);
+      fill(f, motion, group, k, false);
+      fill(f, motion, group, k, true);
     }
-    if (group.a.body >= 0) add_normal_equations(group.a, group.a, group.rows);
-    if (group.b.body >= 0) add_normal_equations(group.b, group.b, group.rows);
-    if (group.a.body >= 0 && group.b.body >= 0 && group.a.body != group.b.body)
-      add_normal_equations(group.a, group.b, group.rows);
+    for (const Side& s : group.sides) add_normal_equations(s, s, group.rows);
+    for (const Side& s : group.sides)
+      for (const Side& t : group.sides)
+        if (&s < &t) add_normal_equations(s, t, group.rows);
   }
   for (int i = 0; i < std::ssize(model_.bodies); ++i) {
     MatX& front = normal_.front(i);
@@ -189,18 +193,18 @@ void LeastReactions::times_transpose(const VecX& lambda, VecX& out) const noexce
   assert(lambda.size() == rows() && out.size() == normal_.unknowns());
   out.setZero();
   for (const Group& g : groups_)
-    for (const Side* s : {&g.a, &g.b})
-      with_rows(*s, g.rows, [&](const auto& J) {
-        out.segment(s->column, s->size) += J.lazyProduct(lambda.segment(g.row, g.rows));
+    for (const Side& s : g.sides)
+      with_rows(s, g.rows, [&](const auto& J) {
+        out.segment(s.column, s.size) += J.lazyProduct(lambda.segment(g.row, g.rows));
       });
 }
 
 void LeastReactions::add_times(const VecX& x, VecX& lambda) const noexcept {
   assert(lambda.size() == rows() && x.size() == normal_.unknowns());
   for (const Group& g : groups_)
-    for (const Side* s : {&g.a, &g.b})
-      with_rows(*s, g.rows, [&](const auto& J) {
-        lambda.segment(g.row, g.rows) += J.transpose().lazyProduct(x.segment(s->column, s->size));
+    for (const Side& s : g.sides)
+      with_rows(s, g.rows, [&](const auto& J) {
+        lambda.segment(g.row, g.rows) += J.transpose().lazyProduct(x.segment(s.column, s.size));
       });
 }
 
@@ -278,10 +282,9 @@ void LeastReactions::project_to_minimum_norm(const Formulation& f, Reactions& re
 void LeastReactions::orthonormalise() noexcept {
   U_.setZero();
   for (const Group& g : groups_)
-    for (const Side* s : {&g.a, &g.b})
-      with_rows(*s, g.rows, [&](const auto& J) {
-        U_.block(g.row, s->column, g.rows, s->size) += J.transpose();
-      });
+    for (const Side& s : g.sides)
+      with_rows(s, g.rows,
+                [&](const auto& J) { U_.block(g.row, s.column, g.rows, s.size) += J.transpose(); });
   dense_ = true;
   const Eigen::Index n = U_.cols(), most = std::min(U_.rows(), n);
   for (Eigen::Index j = 0; j < n; ++j) lengths_[j] = U_.col(j).norm();
@@ -311,7 +314,7 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
   lambda.setZero();
   std::size_t k = 0;
   const std::size_t parts = all_.parts().size();
-  // Motions and elements first: the wrench of a joint includes that of its motion.
+  // Elements first: the wrench of a joint includes those that hold its coordinates.
   for (k = 0; k < parts; ++k) {
     const ConstraintPart& p = all_.parts()[k];
     if (p.owner.element >= 0) lambda[all_.offset(k)] = reactions.forces[p.owner.element] / p.force;
@@ -325,23 +328,25 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
     // The parts of a joint are consecutive: J_k^T lambda_k = -wrench of them, by the normal
     // equations of its at most six rows.
     const int joint = first.owner.joint, row = all_.offset(k);
+    const WrenchRow* gradients[6];
     int n = 0;
     while (k < parts && all_.parts()[k].owner.joint == joint && all_.parts()[k].owner.element < 0)
-      n += all_.parts()[k++].rows();
+      for (int r = 0, part = k++; r < all_.parts()[part].rows(); ++r)
+        gradients[n++] = &all_.row(part, r).gradient;
     const double length = model_.bodies[model_.joints[joint].child].length;
     Reactions::Wrench wrench = reactions.joints[joint];
-    if (const int m = motion_[joint]; m >= 0) {
-      const int at = all_.offset(m);
-      wrench.force += lambda[at] * all_.row(at).gradient.b.F;
-      wrench.torque += lambda[at] * all_.row(at).gradient.b.T;
+    for (const int m : held_[joint]) {
+      const WrenchRow& g = all_.row(m, 0).gradient;
+      wrench.force += lambda[all_.offset(m)] * g.b.F;
+      wrench.torque += lambda[all_.offset(m)] * g.b.T;
     }
     Mat6 A = Mat6::Zero();
     Vec6 x = Vec6::Zero();
     for (int i = 0; i < n; ++i) {
-      const WrenchRow& gi = all_.row(row + i).gradient;
+      const WrenchRow& gi = *gradients[i];
       x[i] = -(gi.b.F.dot(wrench.force) + gi.b.T.dot(wrench.torque) / (length * length));
       for (int j = 0; j < n; ++j) {
-        const WrenchRow& gj = all_.row(row + j).gradient;
+        const WrenchRow& gj = *gradients[j];
         A(i, j) = gi.b.F.dot(gj.b.F) + gi.b.T.dot(gj.b.T) / (length * length);
       }
     }

@@ -48,14 +48,14 @@ class LeastReactions {
     int at = 0;      ///< of the first row in `rows_of_J_`
     int column = 0;  ///< of J
   };
-  /// Consecutive parts between the same two bodies: a joint with its motion.
+  /// Consecutive parts between the same bodies: a joint with its motion, the parts of one row.
   struct Group {
-    Side a, b;
+    std::vector<Side> sides;
     int first = 0, parts = 0;  ///< parts
     int row = 0, rows = 0;
   };
-  void fill(const Formulation& f, const SystemMotion& motion, const Side& side, const Group& group,
-            int part, bool of_b) noexcept;
+  void fill(const Formulation& f, const SystemMotion& motion, const Group& group, int part,
+            bool of_b) noexcept;
   void add_normal_equations(const Side& s, const Side& t, int rows) noexcept;
   /// Calls f with the rows of a side as columns: of a rigid body at most six of six numbers.
   template <class Call>
@@ -82,7 +82,7 @@ class LeastReactions {
   ConstraintSet all_;
   std::vector<VecX> mode_scale_;  ///< of each body: 1 / its largest displacement, mode by mode
   std::vector<Group> groups_;
-  std::vector<int> motion_;  ///< part that prescribes the motion of a joint, or -1
+  std::vector<std::vector<int>> held_;  ///< parts of elements that hold coordinates of a joint
   std::vector<double> rows_of_J_;
   std::vector<int> column_;  ///< of each body
   BlockLdlt normal_;

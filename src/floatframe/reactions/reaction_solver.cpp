@@ -178,7 +178,9 @@ void ReactionSolver::find_open_outputs(const State& start) {
   const Eigen::Index n = least_->rows();
   for (const Output& o : model.outputs) {
     const OutputOf of = output_kind(o.type).of;
-    if (of != OutputOf::reaction && of != OutputOf::rod && of != OutputOf::motion) continue;
+    if (of != OutputOf::reaction && of != OutputOf::rod && of != OutputOf::motion &&
+        of != OutputOf::coupling)
+      continue;
     VecX part(n);  // of each multiplier in the output
     for (Eigen::Index i = 0; i < n; ++i) {
       FollowedOutput nothing;

@@ -44,7 +44,7 @@ void set_reactions(const Model& model, const ConstraintAnalysis& analysis, Stati
     const ConstraintPart& p = analysis.parts()[k];
     for (int r = 0; r < p.rows(); ++r) {
       const Eigen::Index i = analysis.row_of(k) + r;
-      const WrenchRow& g = analysis.row(i).gradient;
+      const WrenchRow& g = analysis.row(k, r).gradient;
       if (p.owner.element >= 0) {
         statics.forces[p.owner.element].force = p.force * lambda[i];
         statics.forces[p.owner.element].unique = !(balanced.row(i).norm() > 1e-7);
@@ -118,8 +118,8 @@ StaticsResult statics(const Model& model) {
     const ConstraintPart& p = f.constraint_set().parts()[k];
     for (int row = 0; row < p.rows(); ++row) {
       const double lambda = e.lambda[f.constraint_set().offset(k) + row];
-      const WrenchRow& g = f.constraint_set().row(f.constraint_set().offset(k) + row).gradient;
-      if (p.owner.element >= 0) {
+      const WrenchRow& g = f.constraint_set().row(k, row).gradient;
+      if (p.owner.element >= 0 && !p.continues) {
         StaticsForce& force = s.forces[p.owner.element];
         force.force = p.force * lambda;
         force.length = p.motion ? evaluate(*p.motion, 0.0).f : p.scale;

@@ -201,10 +201,9 @@ void JointFollower::follow(const SystemMotion& motion) {
     for (std::size_t i = 0; i < j.position.size(); ++i) {
       const int component = static_cast<int>(i);
       const double rate = joint_velocity(joints[k], F, M, component);
-      const double turned = started_ ? 0.5 * (motion.t - time_) * (j.velocity[i] + rate) : 0.0;
-      const TimeFunction* prescribed = started_ ? nullptr : motion.model.motion_of(joints[k]);
       const double expected =
-          prescribed ? evaluate(*prescribed, motion.t).f : j.position[i] + turned;
+          started_ ? j.position[i] + 0.5 * (motion.t - time_) * (j.velocity[i] + rate)
+                   : motion.start_position(static_cast<int>(k), component);
       j.position[i] = joint_position(joints[k], F, M, component, expected);
       j.velocity[i] = rate;
     }

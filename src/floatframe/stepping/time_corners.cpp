@@ -113,7 +113,7 @@ std::size_t thin_out(std::vector<Kink>& kinks, const TimeCornerOptions& o) {
   return dense;
 }
 
-std::string velocity_note(const Model& model, const Forcing& f, const Kinks& k) {
+std::string velocity_note(const Forcing& f, const Kinks& k) {
   const std::string more = k.velocity_jumps == 1 ? ""
                            : k.velocity_jumps == 2
                                ? " (and at 1 more instant)"
@@ -122,8 +122,7 @@ std::string velocity_note(const Model& model, const Forcing& f, const Kinks& k) 
       "{} jumps in its velocity, by {:.4g} {} at t = {:.6g} s{}: an impulse, whose force and "
       "energy are those of the step, not of the model; round it over some steps, or write a table "
       "with interpolation: cubic",
-      f.name, k.velocity_jump, joint_unit_name(model.joints[f.joint].type, 0, true), k.velocity_at,
-      more);
+      f.name, k.velocity_jump, f.unit, k.velocity_at, more);
 }
 
 std::string with_others(const std::string& name, std::size_t functions) {
@@ -147,14 +146,15 @@ std::vector<TimeCorner> merged(std::vector<double> times, double width) {
 std::vector<Forcing> all_forcing(const Model& model) {
   using Kind = Forcing::Kind;
   std::vector<Forcing> out;
-  for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    const Joint& j = model.joints[k];
+  for (const Joint& j : model.joints)
     if (const TimeFunction* motion = model.motion_of(j))
       out.push_back({Kind::motion, "the motion of joint '" + j.name + "'", motion, false,
-                     static_cast<int>(k)});
-  }
+                     joint_unit_name(j.type, 0, true)});
   for (const Element& e : model.elements)
     for (const ElementSignal& s : signals_of(e)) {
+      if (e.type == ElementType::coupling)
+        out.push_back({Kind::motion, "the value of coupling '" + e.name + "'", &s.signal->function,
+                       false, element_output_unit(e, ElementQuantity::rate)});
       if (!e.acts) continue;
       const bool load = energy_category(e.type) == EnergyCategory::loads;
       out.push_back({s.target ? Kind::target : Kind::load,
@@ -174,7 +174,7 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
   const double end = o.begin + o.duration + time_corner_width * o.step;
   for (const Forcing& f : all_forcing(model)) {
     Kinks k = kinks_of(f, o.begin, end, o.step);
-    if (k.velocity_jumps > 0) out.velocity_jumps.push_back(velocity_note(model, f, k));
+    if (k.velocity_jumps > 0) out.velocity_jumps.push_back(velocity_note(f, k));
     const std::size_t dense = o.all ? 0 : thin_out(k.located, o);
     if (dense > 0) {
       ++dense_functions;

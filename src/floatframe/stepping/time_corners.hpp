@@ -46,8 +46,8 @@ struct Forcing {
   enum class Kind { load, target, motion } kind = Kind::load;
   std::string name;  ///< "the load 'push'"
   const TimeFunction* function = nullptr;
-  bool rate = false;  ///< the derivative acts, too
-  int joint = -1;     ///< of a motion
+  bool rate = false;      ///< the derivative acts, too
+  const char* unit = "";  ///< of the velocity of a motion
 };
 std::vector<Forcing> all_forcing(const Model& model);
 

@@ -23,15 +23,15 @@ constexpr ElementKey motion_keys[] = {{.name = "joint",
                                        .member = described_by<&PrescribedMotion::motion>}};
 
 bool motion_build(ElementBuild& build) {
-  const Joint* joint = build.connect_joint("joint");
-  if (!joint) return false;
-  build.element.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
+  if (!build.connect_coordinate(build.text("joint"))) return false;
+  build.element.coordinates[0].counted = false;  // its row is one within half a turn
   return true;
 }
 
 void motion_rows(const Model& model, const Element& element, ConstraintPart part,
                  std::vector<ConstraintPart>& parts) {
-  const Joint& joint = model.joints[element.joint];
+  const Joint& joint = model.joints[element.coordinates[0].joint];
+  part.owner.joint = element.coordinates[0].joint;
   assert(joint_has_one_coordinate(joint.type));
   part.type = element.rotational ? ConstraintType::drive_angle : ConstraintType::drive_position;
   part.a = element.markers[0];

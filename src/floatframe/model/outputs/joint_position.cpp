@@ -1,10 +1,7 @@
 // Coordinate of a joint, measured at its frames F and M. Turns of angles are counted with the mean
 // velocity since the last sample: of the possible angles the value is that nearest to
 //   q_last + (t - t_last) (qdot_last + qdot) / 2
-// The first one is nearest to the start value or the motion given by the user.
-#include <cassert>
-
-#include "floatframe/model/constraint_part.hpp"
+// The first one is nearest to `SystemMotion::start_position`.
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
@@ -12,13 +9,6 @@
 namespace floatframe {
 
 namespace {
-
-/// So that an output begins at the turn intended by the user.
-double start_position(const Model& model, const Joint& joint, int component, double t) noexcept {
-  if (const TimeFunction* motion = model.motion_of(joint)) return evaluate(*motion, t).f;
-  const std::size_t k = component;
-  return k < joint.position.size() ? joint.position[k] : 0.0;
-}
 
 const char* joint_position_unit(const Model& model, const Output& output) {
   return joint_unit_name(model.joints[output.joint].type, output.component);
@@ -35,7 +25,7 @@ double output_value_of<OutputType::joint_position>(const SystemMotion& motion, c
   const double rate = joint_velocity(joint, F, M, output.component);
   const double expected = last.started
                               ? last.position + 0.5 * (motion.t - last.time) * (last.rate + rate)
-                              : start_position(motion.model, joint, output.component, motion.t);
+                              : motion.start_position(output.joint, output.component);
   last = {true, motion.t, joint_position(joint, F, M, output.component, expected), rate};
   return last.position;
 }
