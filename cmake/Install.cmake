@@ -1,8 +1,8 @@
-# `cmake --install`: program, both copies of the library, public headers, examples and the package for find_package(Floatframe).
+# `cmake --install`: program, both copies of the library, the tools, public headers, examples and the package for find_package(Floatframe).
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Floatframe)
 
-install(TARGETS floatframe EXPORT FloatframeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS floatframe floatframe_tools EXPORT FloatframeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(TARGET floatframe_v3)
   install(TARGETS floatframe_v3
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/x86-64-v3 NAMELINK_SKIP)

@@ -15,6 +15,8 @@ import sys
 FE = {"core", "math", "fe"}
 DYNAMICS = {"core", "math", "body", "inertia", "description", "model", "formulation", "integrator"}
 RUNS = {"loops", "start", "reactions", "stepping", "run"}
+# The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
+TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "analyses"}
 ALLOWED = {
     "core": set(),
     "math": {"core"},
@@ -124,6 +126,13 @@ def errors_of_python(root):
                 yield f"{path}:{number}: the Python package must not use {header}; it may use the public headers, <floatframe/NAME.hpp>"
 
 
+def errors_of_table():
+    """A program that steps a model does not link the tools, so that no room of the library uses them."""
+    for room, allowed in ALLOWED.items():
+        if allowed & TOOLS and room not in TOOLS | {"apps", "bench"}:
+            yield f"{__file__}:1: '{room}' must not be allowed {', '.join(sorted(allowed & TOOLS))}: of the library floatframe_tools"
+
+
 def public_errors(root):
     reached = {path.name: path.name for path in sorted(root.glob("*.hpp"))}  # file: the public header it is reached from
     waiting = list(reached)
@@ -167,6 +176,7 @@ def errors_of_declarations(path, room, rooms):
 
 def errors(root):
     types = rooms_of_types(root)
+    yield from errors_of_table()
     yield from public_errors(root)
     yield from errors_outside(root)
     yield from errors_of_python(root)

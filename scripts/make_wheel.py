@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes a wheel that holds everything: module, program, both copies of the library, MUMPS, and what these need of other
-libraries, with their licences. Run by an interpreter that has the packages of scripts/python_environment.sh; the build
+"""Makes a wheel that holds everything: module, program, both copies of the library, the tools, MUMPS, and what these need of
+other libraries, with their licences. Run by an interpreter that has the packages of scripts/python_environment.sh; the build
 folder holds a release build with FLOATFRAME_PYTHON for that interpreter.
 
 Usage: make_wheel.py [--build build] [--folder dist]
@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The oldest system it runs on: glibc of Debian 12.
 PLATFORM = "manylinux_2_36_x86_64"
 LIBRARY = re.compile(r"libfloatframe\.so\.[0-9.]+$")
+TOOLS = re.compile(r"libfloatframe_tools\.so\.[0-9.]+$")
 COPY = "floatframe/lib/glibc-hwcaps/x86-64-v3/"
 
 
@@ -73,9 +74,9 @@ def errors_of(wheel):
     """What a wheel must hold, by sentences about what it does not."""
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
-    for folder in ("floatframe/lib/", COPY):
-        if not any(name.startswith(folder) and LIBRARY.fullmatch(name[len(folder):]) for name in names):
-            yield f"{folder} has no library by its own name"
+    for folder, library in (("floatframe/lib/", LIBRARY), (COPY, LIBRARY), ("floatframe/lib/", TOOLS)):
+        if not any(name.startswith(folder) and library.fullmatch(name[len(folder):]) for name in names):
+            yield f"{folder} has no {library.pattern} by its own name"
     if any(name.startswith("floatframe.libs/libfloatframe") for name in names):
         yield "the library was moved away from its copy for x86-64-v3"
     for name in ("floatframe/bin/floatframe", "floatframe/_core.pyi", "floatframe/py.typed", "floatframe/examples/iltis/iltis.yaml"):
@@ -102,7 +103,7 @@ def main():
         for old in wheels(folder):
             old.unlink()
         run(sys.executable, "-m", "auditwheel", "repair", "--plat", PLATFORM, "--exclude", "libfloatframe.so.*",
-            "--wheel-dir", folder, *wheels(raw))
+            "--exclude", "libfloatframe_tools.so.*", "--wheel-dir", folder, *wheels(raw))
     add_licences(wheels(folder)[0])
     wheel = wheels(folder)[0]
     found = list(errors_of(wheel))

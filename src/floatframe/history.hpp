@@ -1,6 +1,6 @@
 #pragma once
 // What is left of a run: the table of its outputs, the table as CSV, the file of its states and new
-// channels from these, and all files of a run that was kept in memory.
+// channels from these, all files of a run kept in memory: Floatframe::tools but for the table.
 #include "floatframe/history/new_channels.hpp"
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/page/kept_run.hpp"

@@ -26,6 +26,20 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertTrue(text.startswith("model/a.hpp:2: 'model' must not use 'integrator'; it may use "), text)
 
+    def test_no_room_of_the_library_uses_a_tool(self):
+        for room, tool in (("run", "results"), ("stepping", "realtime"), ("rotors", "analyses"), ("model_file", "sweep")):
+            code, text = self.check({f"{room}/a.cpp": f'#include "floatframe/{tool}/b.hpp"\n'})
+            self.assertEqual(code, 1)
+            self.assertIn(f"{room}/a.cpp:1: '{room}' must not use '{tool}'", text)
+
+    def test_nor_may_the_table_allow_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wrong = pathlib.Path(folder) / SCRIPT.name
+            wrong.write_text(SCRIPT.read_text().replace('"run": DYNAMICS | {', '"run": DYNAMICS | {"results", '))
+            result = subprocess.run([sys.executable, "-B", str(wrong), folder], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("'run' must not be allowed results: of the library floatframe_tools", result.stderr)
+
     def test_a_type_that_is_only_declared_counts_as_used(self):
         files = {"formulation/f.hpp": "class Formulation {\n};\n", "start/s.hpp": "class Formulation;\n"}
         self.assertEqual(self.check(files), (0, ""))

@@ -8,6 +8,7 @@ function(run)
     message(FATAL_ERROR "failed: ${ARGV}\n${output}")
   endif()
   message(STATUS "${output}")
+  set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
@@ -49,8 +50,12 @@ endforeach()
 file(COPY ${SOURCE}/consumer/ DESTINATION ${WORK}/consumer)
 run(${CMAKE_COMMAND} -S ${WORK}/consumer -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${FLAGS} -DDECKS=${DECKS})
-run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2)
 run(${WORK}/build/consumer)
+run(${WORK}/build/tools ${WORK}/prefix/share/floatframe/examples/active_damper/active_damper.yaml ${WORK}/kept)
+if(NOT output MATCHES "mass .* kg\ncaught: ")
+  message(FATAL_ERROR "the program with tools: ${output}")
+endif()
 
 # The examples, as somebody would build them, and what they print.
 run(${CMAKE_COMMAND} -S ${WORK}/prefix/share/floatframe/examples/cpp -B ${WORK}/examples -DCMAKE_PREFIX_PATH=${WORK}/prefix
@@ -76,6 +81,11 @@ example(formulations ${models}/flexible_pendulum/flexible_pendulum.yaml "relativ
         "absolute projection +tip\\.x -0\\.0905")
 example(sweep_threads ${models}/active_damper/active_damper.yaml "gain     0 N s/m: 1\\.12[0-9] m/s2"
         "gain  8000 N s/m: 0\\.48[0-9] m/s2" "four threads and one: the same bits")
+# What only steps a model is linked with the library alone, and loads no other of the project.
+run(ldd ${WORK}/examples/control)
+if(NOT output MATCHES "libfloatframe\\.so" OR output MATCHES "libfloatframe_tools")
+  message(FATAL_ERROR "examples/control: expected libfloatframe.so without libfloatframe_tools.so:\n${output}")
+endif()
 if(EXISTS ${WORK}/prefix/bin/floatframe)
   run(${WORK}/prefix/bin/floatframe --version)
 endif()
