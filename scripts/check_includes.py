@@ -17,6 +17,7 @@ DYNAMICS = {"core", "math", "body", "inertia", "description", "model", "formulat
 RUNS = {"loops", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
 TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "analyses"}
+HEADERS_OF_TOOLS = {"analysis.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
 ALLOWED = {
     "core": set(),
     "math": {"core"},
@@ -150,6 +151,8 @@ def public_errors(root):
         for number, used in included(root / name):
             if "/" in used and used not in PUBLIC and room_of(used) not in PUBLIC:
                 yield f"{root / name}:{number}: the public header {reached[name]} must not reach {used}"
+            elif "/" not in name and name not in HEADERS_OF_TOOLS and (room_of(used) in TOOLS or used in HEADERS_OF_TOOLS):
+                yield f"{root / name}:{number}: the public header {name} is of floatframe, and must not use {used} of floatframe_tools"
             elif used not in reached:
                 reached[used] = reached[name]
                 waiting.append(used)

@@ -43,7 +43,7 @@ std::string value_text(const ElementKey& key) {
     case K::vector:
       return "direction";
     case K::number:
-      return std::string(key.rule.what) + " [" + key.rule.unit + "]";
+      return key.rule.what + (*key.rule.unit ? std::string(" [") + key.rule.unit + "]" : "");
     case K::word:
       for (const char* word : key.words)
         words += std::string(words.empty() ? "`" : ", `") + word + "`";

@@ -40,6 +40,13 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("'run' must not be allowed results: of the library floatframe_tools", result.stderr)
 
+    def test_headers_of_the_library_do_not_use_the_tools(self):
+        files = {"history.hpp": '#include "floatframe/page/a.hpp"\n', "page/a.hpp": ""}
+        self.assertEqual(self.check(files), (0, ""))
+        for used in ("page/a.hpp", "history.hpp"):
+            self.assertEqual(self.check({**files, "model.hpp": f'#include "floatframe/{used}"\n'}),
+                             (1, f"model.hpp:1: the public header model.hpp is of floatframe, and must not use {used} of floatframe_tools\n"))
+
     def test_a_type_that_is_only_declared_counts_as_used(self):
         files = {"formulation/f.hpp": "class Formulation {\n};\n", "start/s.hpp": "class Formulation;\n"}
         self.assertEqual(self.check(files), (0, ""))
