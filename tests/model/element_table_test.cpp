@@ -63,6 +63,8 @@ std::string value_text(const ElementKey& key) {
       return "[signal](#inputs) " + units(key, "[x]");
     case K::target_rate:
       return "[signal](#inputs) " + units(key, "[v]");
+    case K::function:
+      return "function of a program";
     case K::stiffness_matrix:
       return "6 x 6 [N/m, N, N m/m, N m/rad] or 2 x 2 [N/m]";
     case K::damping_matrix:

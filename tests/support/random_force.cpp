@@ -21,6 +21,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::own_place:
         return ends.b;
       case K::joint:
+        if (!key.required) return std::nullopt;  // instead of places
         return ends.joint;
       case K::road:
         return ends.road;
@@ -61,6 +62,13 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
             M(i, j) = M(j, i) = k * sizes[i] * sizes[j] * x;
           }
         return M;
+      }
+      case K::function: {
+        const double k = size * ends.stiffness * numbers(0.5, 1.5), c = size * ends.damping;
+        return ForceFunction([=](double x, double v, double) {
+          return ForceLawValue(k * (0.02 + x + 0.4 * x * x * x) + c * v, k * (1.0 + 1.2 * x * x),
+                               c);
+        });
       }
       case K::bump_stop:
       case K::rebound_stop:  // they have kinks

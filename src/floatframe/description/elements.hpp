@@ -12,6 +12,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/description/attachment.hpp"
+#include "floatframe/description/force_function.hpp"
 
 namespace floatframe {
 
@@ -115,6 +116,15 @@ struct PrescribedMotion {
   SignalDescription motion;
 };
 
+/// A force that a program gives as a function of x, v and the time: along the line between two
+/// points, x their distance, tension positive; or on the only coordinate of a joint, x = q counted
+/// over turns, against which it acts. In both cases F = k x + c v is a spring with a damper.
+struct ForceLaw {
+  std::optional<AttachmentDescription> a, b;  ///< both, or ...
+  std::optional<std::string> joint;           ///< ... this
+  ForceFunction law;
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -126,7 +136,8 @@ struct PrescribedMotion {
   entry(torque, AppliedTorque)          \
   entry(bearing, Bearing)               \
   entry(rod, Rod)                       \
-  entry(motion, PrescribedMotion)
+  entry(motion, PrescribedMotion)       \
+  entry(force_law, ForceLaw)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

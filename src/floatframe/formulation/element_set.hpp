@@ -14,6 +14,12 @@
 
 namespace floatframe {
 
+/// The first element whose function has thrown, and what; -1: none.
+struct ThrownByElement {
+  int element = -1;
+  std::exception_ptr exception;
+};
+
 class ElementSet {
  public:
   /// All angles start at zero (`count_turns_from`). Allocates.
@@ -60,6 +66,7 @@ class ElementSet {
   /// The beginning of a step, and its end: changes of the angles in a rejected step are
   /// discarded.
   void stepping(bool on, bool accepted) noexcept {
+    if (on) thrown_ = {};
     if (on)
       std::copy(angles_.begin(), angles_.end(), kept_angles_.begin());
     else if (!accepted)
@@ -78,8 +85,12 @@ class ElementSet {
       const Ports in = ports(k, p_WO, t);
       evaluate_element(in, states_[k]);
       set_angle(k, states_[k].length);
+      if (states_[k].thrown && thrown_.element < 0)
+        thrown_ = {static_cast<int>(k), states_[k].thrown};
     }
   }
+  /// Since the beginning of the last step.
+  const ThrownByElement& thrown() const noexcept { return thrown_; }
 
   /// Left-hand side of the elements, -Q: calls add(marker, force, torque) for each marker of each.
   template <class Add>
@@ -96,6 +107,7 @@ class ElementSet {
   std::vector<double> inputs_;
   std::vector<std::int64_t> branches_;
   bool held_ = false;
+  ThrownByElement thrown_;
   std::vector<std::vector<const MarkerState*>> markers_;  ///< of each element
   std::vector<std::size_t> acting_;                       ///< elements with a law
   std::vector<std::pair<int, const Wrench*>> wrenches_;   ///< on markers, of all elements

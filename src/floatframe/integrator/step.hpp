@@ -46,7 +46,14 @@ inline bool has_sizes(const State& s, Eigen::Index nq, Eigen::Index nv, Eigen::I
 }
 
 /// cut_short: accepted before convergence, because of `fixed_iterations` or `time_budget`.
-enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
+enum class AttemptStatus {
+  converged,
+  cut_short,
+  not_converged,
+  singular_tangent,
+  not_finite,
+  law_failed  ///< the function of an element has thrown (`Formulation::thrown`)
+};
 
 /// Result of one attempt at a step.
 struct StepAttempt {

@@ -11,6 +11,7 @@
 // loads, all nonsymmetric terms. This costs iterations, not accuracy.
 #include <cassert>
 #include <cstdint>
+#include <exception>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -32,6 +33,7 @@ struct EffortsOf {
   /// For springs: rate of the energy in the present motion, including that of targets, and power
   /// dissipated by the damper [W]. Tyres leave both at zero: their energy jumps with the road.
   S energy_rate = 0.0, damping = 0.0;
+  std::exception_ptr thrown;  ///< by a function of a program; the force is then not a number
 
   /// Weights of g g^T in -dQ/dq [N/m] and in -dQ/dqdot [N s/m].
   struct Weights {
@@ -55,6 +57,7 @@ struct EffortsOf {
   void clear() noexcept {
     for (WrenchOf<S>& w : wrench) w.F = w.T = Eigen::Matrix<S, 3, 1>::Zero();
     row_count = 0;
+    thrown = nullptr;
     force = length = rate = energy = energy_rate = damping = 0.0;
   }
   /// The wrenches f g on markers 0 and 1 and no others.

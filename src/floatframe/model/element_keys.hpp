@@ -33,6 +33,7 @@ enum class KeyKind {
   target_rate,       ///< signal, a rate
   stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
   damping_matrix,    ///< the same of their rates
+  function,          ///< of a program, a force
   speed_table        ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
 };
 
@@ -49,9 +50,9 @@ constexpr AxisUnits axis_units(bool turning) noexcept {
 }
 
 /// A value of a key: number, word by its place in the list of words, flag, name, direction, place,
-/// law, signal, matrix.
+/// law, signal, matrix, function.
 using KeyValue = std::variant<double, int, bool, std::string, Vec3, AttachmentDescription,
-                              PiecewisePolynomial, SignalDescription, MatX>;
+                              PiecewisePolynomial, SignalDescription, MatX, ForceFunction>;
 
 /// A member of the struct of a type; none: a stop, which is part of its spring.
 struct KeyMember {

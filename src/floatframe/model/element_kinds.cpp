@@ -6,6 +6,7 @@
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
 
@@ -136,6 +137,7 @@ void take_keys(Element& element, const Model& model) {
   element.driven = element.target_jumps = false;
   bool rate = false;
   for (const ElementKey& key : element_keys(element.type)) {
+    element.driven = element.driven || key.kind == KeyKind::function;
     if (is_law(key)) element.laws.push_back(values.law(key.name));
     if (!is_signal(key)) continue;
     const std::optional<SignalDescription> s = values.signal(key.name);
@@ -234,6 +236,16 @@ void validate_framed(const ElementCheck& check) {
             sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
       check.error(ErrorCode::geometry, "axis_2", *complaint);
   check.some_law();
+}
+
+void validate_coordinate(const ElementCheck& check) {
+  if (!check.good("joint")) return;
+  const std::string joint = check.text("joint");
+  const auto type = check.joint_type(joint);
+  if (type && !joint_has_one_coordinate(*type))
+    check.error(ErrorCode::wrong_value, "joint",
+                "found '" + check.written(joint) + "', expected a " + joints_of_one_coordinate() +
+                    " joint");
 }
 
 Picture picture_of_load(const Element& element, Picture::Symbol symbol, const AppliedLoad& load) {

@@ -72,6 +72,7 @@ class ModelHash {
     add(static_cast<const TimeFunction&>(s));
     add(s.input);
   }
+  void add(const ForceFunction& f) { add(f.identity()); }
   void add(const Signal& s) {
     const auto& [function, input, given, differentiated] = s;
     all(function, input, given);

@@ -258,7 +258,9 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   e.lambda = VecX::Zero(f.constraints());
   const VecX start_q = q;
   Statics statics(f);
-  check_magnitudes(statics.evaluate(q, e.lambda), [&](int i) { return f.coordinate_owner(i); });
+  const VecX first = statics.evaluate(q, e.lambda);
+  require_laws(f, 0.0);
+  check_magnitudes(first, [&](int i) { return f.coordinate_owner(i); });
   Best best{q, e.lambda};
   approach_by_tangent(f, statics, q, e.lambda, e.iterations, best);
   if (!best.done()) {
@@ -274,6 +276,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   keep_neutral_positions(f, start_q, q, e.residual, best.weight, evaluate);
   const VecX r = evaluate(q);
   e.residual = largest(r);
+  require_laws(f, 0.0);
   if (!best.accepted()) {
     Eigen::Index worst = 0;
     if (r.size() == 0)

@@ -11,6 +11,7 @@
 #include "floatframe/start/element_tangents.hpp"
 #include "floatframe/start/linearization.hpp"
 #include "floatframe/start/mass_scale.hpp"
+#include "floatframe/start/overflow.hpp"
 
 namespace floatframe {
 namespace {
@@ -95,6 +96,7 @@ SmallMotions small_motions(Formulation& f, const State& s) {
       "stiffness");
   const PreciseDifferences rates = precise_differences(
       10.0 * steps, nv, [&](const VecX& x) { return terms(s.q, VecX(s.v + x)); }, "damping");
+  require_laws(f, s.t);
   m.K = elements.K + along.columns.topRows(nv);
   m.G = along.columns.middleRows(nv, nc);
   m.H = along.columns.bottomRows(nc);

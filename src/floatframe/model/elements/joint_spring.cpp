@@ -1,37 +1,17 @@
 // Spring on the coordinate of a prismatic or revolute joint, z the axis of marker a:
 // f = spring(s - target) + damper(sdot - rate of the target) - actuator, and -f acts on the
 // coordinate; with a target it is a motor.
-//   along   s = z.d (axis_measure.hpp), Q = -f g
-//   about   s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
-//           sdot = z.(w_b - w_a)
-// The markers of a hinge share the axis. Where they do not (cut joints before they close) the
-// torque stays along z. The row of the step contains f_s g g^T and the damping f_sdot g g^T.
-#include <cmath>
+// The row of the step contains f_s g g^T and the damping f_sdot g g^T (port_measures.hpp).
 #include <numbers>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
 namespace {
-
-template <class S>
-AxisMeasure<S> coordinate(const PortsOf<S>& in) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
-  const auto &a = in.marker(0), &b = in.marker(1);
-  const V z = a.R.col(2);
-  if (!in.element.rotational) return axis_measure(z, a, b);
-  using std::atan2;
-  const V x = b.R.col(0);
-  const S angle = atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0))));
-  const double near = std::remainder(value_of(angle) - in.reference_angle, 2.0 * std::numbers::pi);
-  const V zero = V::Zero();
-  return {
-      chained(in.reference_angle + near, 1.0, angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
-}
 
 /// Ports of its signals.
 constexpr std::size_t actuator = 0, target = 1, target_rate = 2;
@@ -53,21 +33,17 @@ Toward<S> toward_target(const PortsOf<S>& in, const AxisMeasure<S>& m) noexcept 
 
 template <class S>
 void joint_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
-  const AxisMeasure<S> m = coordinate(in);
+  const AxisMeasure<S> m = coordinate_measure(in);
   const Toward<S> x = toward_target(in, m);
   const LawValue<S> s = spring_of(in, x.stretch), c = damper_of(in, x.rate);
-  out.length = m.s;
-  out.rate = m.rate;
-  out.force = s.f + c.f - in.signal(actuator).f;
-  out.set_pair(-out.force, m.g);
-  out.add_pair_row(m.g, s.df, c.df);
+  pull_back(m, S(s.f + c.f - in.signal(actuator).f), s.df, c.df, out);
   out.energy = energy_of(in.element.laws[0], x.stretch);
   out.energy_rate = s.f * (m.rate - x.moves);
   out.damping = c.f * x.rate;
 }
 
 BranchSide joint_spring_side(const Ports& in) noexcept {
-  const Toward<double> x = toward_target(in, coordinate(in));
+  const Toward<double> x = toward_target(in, coordinate_measure(in));
   return spring_side(in, x.stretch, x.rate);
 }
 
@@ -126,14 +102,7 @@ constexpr ElementKey joint_spring_keys[] = {
             described_by<&JointSpring::target_rate>, on_q)};
 
 void joint_spring_validate(const ElementCheck& check) {
-  if (check.good("joint")) {
-    const std::string joint = check.text("joint");
-    const auto type = check.joint_type(joint);
-    if (type && !joint_has_one_coordinate(*type))
-      check.error(ErrorCode::wrong_value, "joint",
-                  "found '" + check.written(joint) + "', expected a " + joints_of_one_coordinate() +
-                      " joint");
-  }
+  validate_coordinate(check);
   if (!check.given("target") && !check.given("target_rate")) check.some_law();
   if (check.given("spring") || check.given("damper")) return;
   for (const char* key : {"target", "target_rate"})

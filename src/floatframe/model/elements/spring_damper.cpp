@@ -4,56 +4,20 @@
 //   rows         f_s n n^T + f/s (I - n n^T) and the damping f_sdot n n^T, between the points
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
 namespace {
 
-/// Points closer than this define no line: the force keeps the direction x, and the tangent only
-/// contains the slope of the law [m].
-constexpr double coincident = 1e-12;
-
-template <class S>
-struct Line {
-  Eigen::Matrix<S, 3, 1> n;
-  S length, rate;
-};
-
-template <class S>
-Line<S> line_between(const PortsOf<S>& in) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
-  const auto &a = in.marker(0), &b = in.marker(1);
-  const V d = b.r - a.r;
-  S length = value_of(d.squaredNorm()) > 0.0 ? S(d.norm()) : d.x();
-  const V n = length > coincident ? V(d / length) : V(V::UnitX());
-  const S rate = n.dot(b.v - a.v);
-  return {n, length, rate};
-}
-
 template <class S>
 void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
-  const auto [n, length, rate] = line_between(in);
-  const LawValue<S> s = spring_of(in, length), c = damper_of(in, rate);
-  const V zero = V::Zero();
-  out.length = length;
-  out.rate = rate;
-  out.force = s.f + c.f + in.signal(0).f;
-  const V pull = out.force * n;
-  out.wrench[0] = {pull, zero};
-  out.wrench[1] = {-pull, zero};
-  out.add_pair_row({{-n, zero}, {n, zero}}, s.df, c.df);
-  if constexpr (std::is_same_v<S, double>)
-    if (length > coincident) {
-      Vec3 t1, t2;
-      orthonormal_complement(n, t1, t2);
-      const double k = out.force / length;
-      out.add_pair_row({{-t1, zero}, {t1, zero}}, k, 0.0);
-      out.add_pair_row({{-t2, zero}, {t2, zero}}, k, 0.0);
-    }
-  out.energy = energy_of(in.element.laws[0], length);
-  out.energy_rate = s.f * rate;
-  out.damping = c.f * rate;
+  const LineMeasure<S> line = line_measure(in);
+  const LawValue<S> s = spring_of(in, line.length), c = damper_of(in, line.rate);
+  pull_along(line, S(s.f + c.f + in.signal(0).f), s.df, c.df, out);
+  out.energy = energy_of(in.element.laws[0], line.length);
+  out.energy_rate = s.f * line.rate;
+  out.damping = c.f * line.rate;
 }
 
 }  // namespace
@@ -63,8 +27,8 @@ FLOATFRAME_LAW(spring_damper)
 namespace {
 
 BranchSide spring_damper_side(const Ports& in) noexcept {
-  const auto [n, length, rate] = line_between(in);
-  return spring_side(in, length, rate);
+  const LineMeasure<double> line = line_measure(in);
+  return spring_side(in, line.length, line.rate);
 }
 
 constexpr ElementRegime spring_damper_regimes[] = {{.name = "anywhere"},
