@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, Union
 
@@ -104,7 +104,8 @@ class Model:
         self._text: str | None = None  # of a model from a text
         self._folder = path_of("folder", folder) if folder is not None else ""
         self._parameters: dict[str, str] = {}
-        self._built: tuple[str | None, _core.LoadedModel] | None = None
+        # What it was built from: text and functions.
+        self._built: tuple[tuple[str, dict[str, Callable[..., Any]]] | None, _core.LoadedModel] | None = None
 
     @classmethod
     def load(cls, path: PathLike, /, **parameters: Any) -> Model:
@@ -151,10 +152,18 @@ class Model:
             if self._built is None:
                 self._built = None, _core.load_model(self.file, parameters)
             return self._built[1]
-        text = self.to_yaml()
-        if self._built is None or self._built[0] != text:
-            self._built = text, _core.read_model(text, self.file, parameters)
+        text, functions = self.to_yaml(), self.functions
+        if self._built is None or self._built[0] != (text, functions):
+            self._built = (text, functions), _core.read_model(text, self.file, parameters, functions)
         return self._built[1]
+
+    @property
+    def functions(self) -> dict[str, Callable[..., Any]]:
+        """Functions of forces of the type `force_law`, by the names of the forces. They are not in `to_yaml()`, which has their
+        names: only this program can build the model."""
+        forces = self.data.get("forces", {}) if self.filled_in else {}
+        laws = {name: f.get("law") for name, f in forces.items() if isinstance(f, Mapping)} if isinstance(forces, Mapping) else {}
+        return {name: law for name, law in laws.items() if callable(law)}
 
     @property
     def file(self) -> str:

@@ -90,7 +90,7 @@ class Result(Mapping[str, Array]):
             Path(file).write_text(self._model.to_yaml(), encoding="utf-8")
         except OSError as error:
             raise OutputError(f"the model of the run cannot be written: {error}") from None
-        if len(model.files) > 1:
+        if len(model.files) > 1 or self._model.functions:
             return model, self._model.file
         return _core.load_model(file, list(self._model.parameters.items())), file
 

@@ -111,15 +111,16 @@ class Simulation(_core.Simulation):
         return Outputs(self)
 
     def on_step(self, function: Callable[[float, Array, Array], object] | None) -> None:
-        """`function(time, outputs, inputs)` is called at the beginning of every step: time [s], outputs at this time, shape
+        """A sampled controller: `function(time, outputs, inputs)` is called at the beginning of every step: time [s], outputs at this time, shape
         (outputs,), and inputs, shape (inputs,), which it may change in place. They are held during the step. None removes it.
         Cost: 0.2 us per step, plus the function itself."""
         self.set_on_step(function)
 
     def law(self, input: str, function: Callable[..., float] | None, of: Sequence[str] = ()) -> None:
-        """A force law: the input is set to `function(time, *values)` at the beginning of every step, with the values of the
-        outputs named in `of`. The input drives an actuator, a load or a target of the model. The value is held during the step,
-        so a stiff law needs small steps; laws of the model itself are evaluated in every iteration. None removes it. Cost: 0.35
+        """A sampled force law: the input is set to `function(time, *values)` at the beginning of every step, with the values of the
+        outputs named in `of`. The input drives an actuator, a load or a target of the model. The value is held during the step:
+        an error of first order, by which a stiff law gains energy. A force of the type `force_law` with a function as its `law` is
+        evaluated in every iteration instead. None removes it. Cost: 0.35
         us per step, plus the function itself."""
         self.set_law(input, function, texts("of", of))
 

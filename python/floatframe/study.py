@@ -52,6 +52,8 @@ def sweep(
     import pandas  # noqa: F401  before hours of computing
 
     built(model)  # raises its errors
+    if model.functions:
+        raise InputError(f"forces.{next(iter(model.functions))}.law: found a function, which other processes do not have, expected a table; or call run in a loop")
     out_folder = None if folder is None else path("folder", folder)
     fixed = _options(processes, step, duration, coordinates, inertia, case_timeout)
     if vary is not None and not isinstance(vary, Mapping):

@@ -44,6 +44,8 @@ def plain(value: Any, path: str = "", depth: int = 0) -> Any:
         if not math.isfinite(value):
             raise InputError(f"{path}: found {value}, expected a finite number")
         return float(value)
+    if callable(value) and path.startswith("forces.") and path.endswith(".law"):
+        return value  # of a force_law
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [plain(v, f"{path}[{k}]", depth + 1) for k, v in enumerate(value)]
     raise InputError(f"{path or 'the model'}: found {type(value).__name__}, expected a map, a list, a text, a number or a truth value")
@@ -54,6 +56,8 @@ def _scalar(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
+    if callable(value):  # by its name; the function itself is given beside the text
+        value = str(getattr(value, "__name__", type(value).__name__))
     if _PLAIN.fullmatch(value) and value.lower() not in _WORDS:
         return str(value)
     return json.dumps(value, ensure_ascii=False)

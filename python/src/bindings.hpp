@@ -86,6 +86,13 @@ std::string path(const std::string& name, nb::handle value);
 /// From keyword arguments; None is the same as not given. Throws TypeError for other names.
 SimulationOptions options_of(const Keywords& given);
 
+/// A Python function of x, v and t as the law of a force. It counts in saved states by its
+/// attribute `label`, if it has one.
+ForceFunction law_of(const nb::object& function);
+/// Sets the Python exception in `thrown`, if there is one, as the cause of `error`. Throws it
+/// instead if it is none for programs to catch (KeyboardInterrupt).
+void set_cause(const nb::object& error, const std::exception_ptr& thrown);
+
 /// Releases the lock of the interpreter until the end of the scope. At its end the interpreter
 /// stops threads that request its lock, by an exception that must not pass through C++: they wait
 /// here instead until the process ends (`bind_threads`).

@@ -35,7 +35,10 @@ void translate(const std::exception_ptr& p, void*) {
   } catch (const InputError& error) {
     raise("InputError", entries_of(error));
   } catch (const RunError& error) {
-    raise("RunError", error.what(), error_code_name(error.code()));
+    const nb::object type = class_named("RunError");
+    const nb::object e = type(error.what(), error_code_name(error.code()));
+    set_cause(e, error.cause());
+    PyErr_SetObject(type.ptr(), e.ptr());
   } catch (const OutputError& error) {
     raise("OutputError", error.what());
   }

@@ -62,13 +62,21 @@ void bind_model(nb::module_& m) {
   m.def(
       "read_model",
       [](const std::string& text, const std::string& path,
-         const std::vector<std::pair<std::string, std::string>>& given) {
+         const std::vector<std::pair<std::string, std::string>>& given, const Keywords& functions) {
         const std::vector<ParameterOverride> parameters = overrides(given);
+        std::map<std::string, ForceFunction> laws;
+        for (const auto& [name, function] : functions)
+          laws.emplace(nb::cast<std::string>(name), law_of(nb::borrow(function)));
         Unlocked released;
-        return loaded(
-            [&](ModelSource& source) { return read_description(text, path, parameters, &source); });
+        return loaded([&](ModelSource& source) {
+          ModelDescription d = read_description(text, path, parameters, &source);
+          for (ElementDescription& e : d.forces)
+            if (const auto law = laws.find(e.name); law != laws.end())
+              if (auto* keys = std::get_if<ForceLaw>(&e.kind)) keys->law = law->second;
+          return d;
+        });
       },
-      nb::arg("text"), nb::arg("path"), nb::arg("parameters"));
+      nb::arg("text"), nb::arg("path"), nb::arg("parameters"), nb::arg("functions"));
   m.def(
       "load_model",
       [](const std::string& path, const std::vector<std::pair<std::string, std::string>>& given) {

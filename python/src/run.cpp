@@ -26,6 +26,8 @@ std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& d
       [&] {
         if (!progress.is_none()) progress(fraction.load());
       });
+  if (result->result.thrown)
+    throw RunError(ErrorCode::step_failed, result->result.summary.message, result->result.thrown);
   if (!progress.is_none()) progress(1.0);
   result->model_file = model_file;
   result->settings = settings;

@@ -180,6 +180,7 @@ Report step(Stepper& s, const nb::object& given) {
   const nb::object type = nb::module_::import_("floatframe.errors").attr("StepError");
   const nb::object error = type(s.simulation.failure(), step_status_name(report.status),
                                 std::string(report.where), report.time);
+  set_cause(error, s.simulation.thrown());
   PyErr_SetObject(type.ptr(), error.ptr());
   throw nb::python_error();
 }

@@ -67,6 +67,8 @@ std::string value_text(const ElementKey& key) {
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:
       return "list of `{joint, coordinate, factor}`";
+    case K::function:
+      return "function of a program";
     case K::stiffness_matrix:
       return "6 x 6 [N/m, N, N m/m, N m/rad] or 2 x 2 [N/m]";
     case K::damping_matrix:

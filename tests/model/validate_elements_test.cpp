@@ -79,6 +79,39 @@ TEST(Validate, ForcesRoadsInputs) {
   });
 }
 
+TEST(Validate, ForceLaws) {
+  const auto with = [](const auto& change) {
+    return [=](ModelDescription& d) {
+      ForceLaw f;
+      f.law = [](double x, double, double) { return x; };
+      change(f);
+      d.forces.push_back({"law", f, {}});
+    };
+  };
+  const auto place = [](const char* body) {
+    AttachmentDescription at;
+    at.body = body;
+    return at;
+  };
+  check({
+      {with([&](ForceLaw& f) { f.joint = "ball"; }), "forces.law.joint: wrong_value"},
+      {with([&](ForceLaw& f) { f.joint = "slid"; }), "forces.law.joint: not_found"},
+      {with([&](ForceLaw&) {}), "forces.law: incomplete"},
+      {with([&](ForceLaw& f) { f.a = place("block"); }), "forces.law: incomplete"},
+      {with([&](ForceLaw& f) { f.a = f.b = place("block"); }), "forces.law: geometry"},
+      {with([&](ForceLaw& f) {
+         f.a = place("block");
+         f.joint = "slide";
+       }),
+       "forces.law: incomplete"},
+      {with([&](ForceLaw& f) {
+         f.joint = "slide";
+         f.law = ForceFunction::named("contact");
+       }),
+       "forces.law.law: unsupported"},
+  });
+}
+
 // What keys say is what the struct holds, and the other way round.
 TEST(Validate, KeysReflectTheStructs) {
   const ModelDescription structs = valid_description();

@@ -21,7 +21,7 @@ void tidy(ModelDescription& d) {
       const auto value = key_value(f, key);
       const auto* at = value ? std::get_if<AttachmentDescription>(&*value) : nullptr;
       if (at && gone(*at)) return true;
-      if (key.kind == KeyKind::joint && !joints.contains(ElementView(f).text(key.name)))
+      if (key.kind == KeyKind::joint && value && !joints.contains(ElementView(f).text(key.name)))
         return true;
     }
     return false;

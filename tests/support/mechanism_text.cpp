@@ -65,6 +65,7 @@ struct ValueText {
   std::string operator()(int k) const { return std::to_string(k); }
   std::string operator()(bool yes) const { return yes ? "true" : "false"; }
   std::string operator()(const std::string& s) const { return s; }
+  std::string operator()(const ForceFunction& f) const { return f.identity(); }
   std::string operator()(const MatX& m) const {
     return fmt::format("{} x {}: {:.17g}", m.rows(), m.cols(), fmt::join(m.reshaped(), ", "));
   }
@@ -165,6 +166,7 @@ bool is_conservative(const ModelDescription& d) {
       const auto signal = values.signal(key.name);
       if (key.kind == KeyKind::damper && acts(values.law(key.name))) return false;
       if (key.kind == KeyKind::damping_matrix && !values.matrix(key.name).isZero(0.0)) return false;
+      if (key.kind == KeyKind::function) return false;
       if (signal && (key.kind != KeyKind::target || moves(*signal))) return false;
     }
   }

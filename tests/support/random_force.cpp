@@ -21,6 +21,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::own_place:
         return ends.b;
       case K::joint:
+        if (!key.required) return std::nullopt;  // instead of places
         return ends.joint;
       case K::road:
         return ends.road;
@@ -66,6 +67,13 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
         MatX rows(2, std::ssize(key.words));
         for (Eigen::Index i = 0; i < rows.size(); ++i) rows(i) = numbers(20.0, 60.0);
         return rows;
+      }
+      case K::function: {
+        const double k = size * ends.stiffness * numbers(0.5, 1.5), c = size * ends.damping;
+        return ForceFunction([=](double x, double v, double) {
+          return ForceLawValue(k * (0.02 + x + 0.4 * x * x * x) + c * v, k * (1.0 + 1.2 * x * x),
+                               c);
+        });
       }
       case K::bump_stop:
       case K::rebound_stop:  // they have kinks

@@ -13,6 +13,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/description/attachment.hpp"
+#include "floatframe/description/force_function.hpp"
 
 namespace floatframe {
 
@@ -165,6 +166,15 @@ struct Coupling {
   std::optional<TimeFunction> value;  ///< of time, without jumps; absent: 0
 };
 
+/// A force that a program gives as a function of x, v and the time: along the line between two
+/// points, x their distance, tension positive; or on the only coordinate of a joint, x = q counted
+/// over turns, against which it acts. In both cases F = k x + c v is a spring with a damper.
+struct ForceLaw {
+  std::optional<AttachmentDescription> a, b;  ///< both, or ...
+  std::optional<std::string> joint;           ///< ... this
+  ForceFunction law;
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -180,7 +190,8 @@ struct Coupling {
   entry(bearing, Bearing)               \
   entry(rod, Rod)                       \
   entry(motion, PrescribedMotion)       \
-  entry(coupling, Coupling)
+  entry(coupling, Coupling)             \
+  entry(force_law, ForceLaw)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -65,6 +65,9 @@ std::string table_rows(Eigen::Index rows, Eigen::Index columns, std::span<const 
 /// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint kinetic_friction(double kinetic, double breakaway);
 Complaint bearing_stiffness(const MatX& K);
+/// Of a model file, where a function is expected.
+std::string function_in_file(const std::string& name);
+std::string law_on_what();
 std::string target_without_law();
 std::string motion_and_start_value();
 std::string keep_without_start_value();

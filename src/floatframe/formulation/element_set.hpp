@@ -18,6 +18,12 @@
 
 namespace floatframe {
 
+/// The first element whose function has thrown, and what; -1: none.
+struct ThrownByElement {
+  int element = -1;
+  std::exception_ptr exception;
+};
+
 class ElementSet {
  public:
   /// All angles start at zero (`count_turns_from`). Allocates.
@@ -78,6 +84,7 @@ class ElementSet {
   /// The beginning of a step, and its end: changes of the angles in a rejected step are
   /// discarded.
   void stepping(bool on, bool accepted) noexcept {
+    if (on) thrown_ = {};
     if (on)
       std::copy(angles_.begin(), angles_.end(), kept_angles_.begin());
     else if (!accepted)
@@ -99,6 +106,8 @@ class ElementSet {
       else
         evaluate_element(in, states_[k]);
       set_angle(slot(k, 0), states_[k].length);
+      if (states_[k].thrown && thrown_.element < 0)
+        thrown_ = {static_cast<int>(k), states_[k].thrown};
     }
     z_.take_rates(states_);
   }
@@ -108,6 +117,8 @@ class ElementSet {
     for (const std::size_t k : z_.elements()) z_.solve(k, ports_at(k), states_[k]);
     z_.take_rates(states_);
   }
+  /// Since the beginning of the last step.
+  const ThrownByElement& thrown() const noexcept { return thrown_; }
 
   /// Left-hand side of the elements, -Q: calls add(marker, force, torque) for each marker of each.
   template <class Add>
@@ -131,6 +142,7 @@ class ElementSet {
   std::vector<std::int64_t> branches_;
   ElementStates z_;
   bool held_ = false;
+  ThrownByElement thrown_;
   std::vector<std::vector<const MarkerState*>> markers_;  ///< of each element
   std::vector<std::size_t> acting_;                       ///< elements with a law
   std::vector<std::pair<int, const Wrench*>> wrenches_;   ///< on markers, of all elements

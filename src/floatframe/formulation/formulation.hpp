@@ -77,6 +77,8 @@ class Formulation {
   BranchSide branch_side(std::size_t element) const noexcept {
     return floatframe::branch_side(ports(element));
   }
+  /// By the function of an element, since the beginning of the last step.
+  const ThrownByElement& thrown() const noexcept { return element_set_.thrown(); }
   /// While held, efforts stay those of the last evaluation: for derivatives without theirs.
   void hold_efforts(bool on) noexcept { element_set_.hold(on); }
 

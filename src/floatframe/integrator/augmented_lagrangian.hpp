@@ -70,9 +70,10 @@ class AugmentedLagrangian final : public Integrator {
     if (!(std::abs(state.t - reuse_.valid_at) < 1e-6 * h)) reuse_.contraction = 0.1;
     predict(state, k, false);
     newton(state, k, report);
-    if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
+    if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0 && !has_thrown())
       retry_step(state, k, report);
     if (has_states()) end_states(report);
+    if (!report.accepted() && has_thrown()) report.status = AttemptStatus::law_failed;
     if (!report.accepted()) {
       reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
     } else if (f_.constraints() == 0 || project(k, report)) {
@@ -105,6 +106,9 @@ class AugmentedLagrangian final : public Integrator {
   /// Passes stop at one that leaves more than this fraction: near singular configurations, more
   /// would turn round-off of nearly dependent constraints into velocities.
   static constexpr double min_projection_rate = 0.5;
+
+  /// The force is then not a number, and the iteration has ended.
+  bool has_thrown() const noexcept { return f_.thrown().element >= 0; }
 
   bool fits(const State& s) const noexcept {
     return has_sizes(s, f_.configurations(), f_.velocities(), f_.constraints());

@@ -56,7 +56,8 @@ enum class AttemptStatus {
   not_converged,
   singular_tangent,
   not_finite,
-  states_not_solved
+  states_not_solved,
+  law_failed  ///< the function of an element has thrown (`Formulation::thrown`)
 };
 
 /// Result of one attempt at a step.

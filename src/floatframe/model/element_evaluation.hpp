@@ -18,6 +18,7 @@
 // are numbers that stay constant in a step and change between steps (`after_step`).
 #include <cassert>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -40,6 +41,7 @@ struct EffortsOf {
   /// For springs: rate of the energy in the present motion, including that of targets, and power
   /// dissipated by the damper [W]. Tyres leave both at zero: their energy jumps with the road.
   S energy_rate = 0.0, damping = 0.0;
+  std::exception_ptr thrown;  ///< by a function of a program; the force is then not a number
 
   /// Weights of g g^T in -dQ/dq [N/m] and in -dQ/dqdot [N s/m].
   struct Weights {

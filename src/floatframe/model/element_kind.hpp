@@ -108,7 +108,8 @@ struct ElementKind {
   void (*after_step)(const Ports& in, double* states) noexcept = nullptr;
   /// For types that may measure a rotation vector, limited to half a turn: true if it does.
   bool (*ends_at_half_turn)(const Element& element) noexcept = nullptr;
-  bool along_line = false;  ///< acts along the line between its ends: undefined if they coincide
+  bool along_line = false;  ///< acts along the line between its ends, which is undefined if they
+                            ///< coincide, unless it has a joint
   bool bears = false;       ///< `is_bearing`
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
@@ -151,6 +152,8 @@ constexpr ElementKey axis_2_key(KeyMember member) {
 Mat3 element_axes(const ElementView& values);
 /// Its points are on two bodies, its axes differ, and it has a law.
 void validate_framed(const ElementCheck& check);
+/// Its joint has one coordinate.
+void validate_coordinate(const ElementCheck& check);
 /// The keys of an applied load, whose struct is L: a force along, or a torque about the direction.
 template <class L>
 constexpr std::array<ElementKey, 4> load_keys(ElementAxis axis) {

@@ -5,10 +5,9 @@
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/coordinate_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/model/line_measure.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
@@ -145,6 +144,7 @@ void take_keys(Element& element, const Model& model) {
   element.driven = element.target_jumps = false;
   bool rate = false;
   for (const ElementKey& key : element_keys(element.type)) {
+    element.driven = element.driven || key.kind == KeyKind::function;
     if (is_law(key)) element.laws.push_back(values.law(key.name));
     if (!is_signal(key)) continue;
     const std::optional<SignalDescription> s = values.signal(key.name);

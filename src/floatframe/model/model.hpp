@@ -91,7 +91,7 @@ struct Element {
   bool acts = true;           ///< by a law
   bool holds = false;         ///< its markers, by constraints
   bool rotational = false;    ///< its measure is an angle
-  bool driven = false;        ///< a signal that it follows, or that is a force, is given
+  bool driven = false;        ///< by a signal that it follows or that is a force, or by a function
   bool target_jumps = false;  ///< one that it follows may jump
   std::shared_ptr<const ElementKeys> keys;  ///< what the user has said
   std::shared_ptr<const void> data;         ///< what the kind has computed from it

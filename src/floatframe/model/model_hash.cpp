@@ -73,6 +73,7 @@ class ModelHash {
     add(s.input);
   }
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
+  void add(const ForceFunction& f) { add(f.identity()); }
   void add(const Signal& s) {
     const auto& [function, input, given, differentiated] = s;
     all(function, input, given);

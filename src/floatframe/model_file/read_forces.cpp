@@ -172,6 +172,8 @@ class ElementReader {
       case K::bump_stop:
       case K::rebound_stop:
         return stop(key, *value);
+      case K::function:  // `validate` refuses it unless a program gives the function
+        return ForceFunction::named(value->is_scalar() ? value->node().text : value->found());
       case K::stiffness_matrix:
       case K::damping_matrix:
         return matrix(*value);

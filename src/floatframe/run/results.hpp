@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <memory>
 #include <string>
@@ -90,6 +91,7 @@ struct RunResult {
   ResultTable table;
   RunSummary summary;
   std::shared_ptr<SystemState> state;  ///< at the end, if requested
+  std::exception_ptr thrown;           ///< by the function of a force, if the run failed by that
 };
 
 }  // namespace floatframe

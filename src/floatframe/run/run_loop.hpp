@@ -134,13 +134,15 @@ class Run {
     const long k = made_ + 1;
     const Nanoseconds before = thread_cpu_clock();
     const PlannedStep planned = steps_.grid().next();
-    const bool good = steps_.advance(planned);
+    bool good = steps_.advance(planned);
     const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
     if (sampled) sample();
+    good = good && !steps_.has_thrown();
+    if (sampled && !good && !block_) --rows_;
     const Nanoseconds taken = thread_cpu_clock() - before;
     s.cpu += 1e-9 * static_cast<double>(taken);
     if (good) step_times_.add(taken);
-    if (sampled) sample_state(k);
+    if (good && sampled) sample_state(k);
     if (good) follow_joints();
     if (good && watch_) {
       watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
@@ -153,6 +155,7 @@ class Run {
     }
     s.status = "failed";
     s.message = steps_.failure();
+    result_.thrown = steps_.formulation().thrown().exception;
     return false;
   }
 

@@ -252,7 +252,9 @@ void start_accelerations_dense(Formulation& f, State& state) {
 bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
   state.a = VecX::Zero(f.velocities());
   state.lambda = VecX::Zero(f.constraints());
-  check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);
+  const std::string overflow = overflow_text(f, state, state.t, largest_magnitude);
+  require_laws(f, state.t);
+  check_numbers(f.model(), overflow, state.t);
   const VecX possible = possible_masses(f, state);
   dynamics_at(f, state);
   const VecX diagonal = mass_diagonal(f, state);

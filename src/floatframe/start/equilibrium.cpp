@@ -259,7 +259,9 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   e.lambda = VecX::Zero(f.constraints());
   const VecX start_q = q;
   Statics statics(f);
-  check_magnitudes(statics.evaluate(q, e.lambda), [&](int i) { return f.coordinate_owner(i); });
+  const VecX first = statics.evaluate(q, e.lambda);
+  require_laws(f, 0.0);
+  check_magnitudes(first, [&](int i) { return f.coordinate_owner(i); });
   Best best{q, e.lambda};
   approach_by_tangent(f, statics, q, e.lambda, e.iterations, best);
   if (!best.done()) {
@@ -276,6 +278,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   f.element_states().rest();
   const VecX r = evaluate(q);
   e.residual = largest(r);
+  require_laws(f, 0.0);
   if (const int drifting = f.element_states().unsolved(); drifting >= 0)
     throw RunError(ErrorCode::no_equilibrium,
                    fmt::format("no static equilibrium found: the states of {} do not come to rest",

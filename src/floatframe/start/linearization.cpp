@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "floatframe/start/element_tangents.hpp"
+#include "floatframe/start/overflow.hpp"
 
 namespace floatframe {
 
@@ -40,10 +41,12 @@ MatX stiffness_matrix(Formulation& f, const State& s) {
   constexpr double step = 1e-6;  // [m, rad, amplitudes]
   const ElementTangents elements(f, s, VecX::Constant(f.velocities(), step));
   VecX q = s.q;
-  return elements.at_rest() + central_differences(f.velocities(), step, [&](const VecX& x) {
-           f.retract(s.q, x, q);
-           return residual_at(f, s.t, q, s.v, s.lambda);
-         });
+  const MatX rest = central_differences(f.velocities(), step, [&](const VecX& x) {
+    f.retract(s.q, x, q);
+    return residual_at(f, s.t, q, s.v, s.lambda);
+  });
+  require_laws(f, s.t);
+  return elements.at_rest() + rest;
 }
 
 }  // namespace floatframe

@@ -11,7 +11,9 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
   std::string text;
   const auto look = [&](double x, const auto& sentence) {
     if (text.empty() && !(std::abs(x) < limit))
-      text = sentence(std::isfinite(x) ? fmt::format("{:.3g}", std::abs(x)) : "more than 1e+308");
+      text = sentence(std::isnan(x)   ? "not a number"
+                      : std::isinf(x) ? "more than 1e+308"
+                                      : fmt::format("{:.3g}", std::abs(x)));
   };
   for (const Joint& j : model.joints) {
     const TimeFunction* law = model.motion_of(j);
@@ -57,6 +59,27 @@ std::string overflow_sentence(const std::string& text, double t, double limit) {
   return fmt::format(
       "the numbers of the model overflow: {} at t = {:.6g} s, expected less than {:g}", text, t,
       limit);
+}
+
+std::string thrown_text(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "of an unknown type";
+  }
+}
+
+std::string thrown_sentence(const Formulation& f, double t) {
+  const auto& [element, exception] = f.thrown();
+  return fmt::format("the law of '{}' threw an exception at t = {:.9g} s: {}",
+                     f.model().elements[element].name, t, thrown_text(exception));
+}
+
+void require_laws(const Formulation& f, double t) {
+  if (f.thrown().element >= 0)
+    throw RunError(ErrorCode::step_failed, thrown_sentence(f, t), f.thrown().exception);
 }
 
 }  // namespace floatframe

@@ -1,10 +1,12 @@
 #pragma once
 // Numbers of a model that double precision cannot compute with. Their effects on matrices and
 // iterations (vanishing pivots, no convergence) would suggest another cause.
+#include <exception>
 #include <string>
 
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/step.hpp"
+#include "floatframe/loops/run_error.hpp"
 
 namespace floatframe {
 
@@ -20,5 +22,12 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
 
 /// "the numbers of the model overflow: ..."
 std::string overflow_sentence(const std::string& text, double t, double limit);
+
+/// The text of an exception.
+std::string thrown_text(const std::exception_ptr& thrown);
+/// "the law of 'contact' threw an exception at t = 0.1 s: ...", of `Formulation::thrown`.
+std::string thrown_sentence(const Formulation& f, double t);
+/// Throws RunError with this sentence if there is one.
+void require_laws(const Formulation& f, double t);
 
 }  // namespace floatframe

@@ -11,6 +11,7 @@
 #include "floatframe/start/element_tangents.hpp"
 #include "floatframe/start/linearization.hpp"
 #include "floatframe/start/mass_scale.hpp"
+#include "floatframe/start/overflow.hpp"
 
 namespace floatframe {
 namespace {
@@ -138,6 +139,7 @@ SmallMotions small_motions(Formulation& f, const State& s) {
       steps, nv, [&](const VecX& x) { return terms(x, still, constant); }, "stiffness");
   const PreciseDifferences rates = precise_differences(
       10.0 * steps, nv, [&](const VecX& v) { return terms(still, v, constant); }, "damping");
+  require_laws(f, s.t);
   m.K = elements.K + extended(along.columns.topRows(n), n, n);
   m.G = extended(along.columns.middleRows(n, nc), nc, n);
   m.H = extended(along.columns.bottomRows(nc), nc, n);

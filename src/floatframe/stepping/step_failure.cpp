@@ -23,6 +23,7 @@ std::string lost_masses(const SystemMotion& motion) {
 }  // namespace
 
 std::string Stepper::failure() {
+  if (has_thrown()) return thrown_sentence(f_, state_.t);
   std::string text = step_failure();  // first: refers to the failed iteration
   if (std::string numbers = overflow(); !numbers.empty()) text = std::move(numbers);
   kinematics_at(f_, state_);
@@ -39,13 +40,15 @@ std::string Stepper::step_failure() {
       : last_.status == AttemptStatus::states_not_solved
           ? "the equations of its states have no solution; look at "
           : "no convergence; look at ";
-  const std::string who = last_.element >= 0 ? owner_name(model(), {-1, last_.element})
+  // An excessive force is a more useful hint than the coordinate it acts on.
+  const int force = largest_force();
+  const bool unknown = force >= 0 && std::isnan(f_.effort(force).force);
+  const std::string who = unknown              ? "force '" + model().elements[force].name + "'"
+                          : last_.element >= 0 ? owner_name(model(), {-1, last_.element})
                           : last_.constraint >= 0
                               ? f_.constraint_set().owner_of_row(last_.constraint)
                           : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)
                                                   : "the constraints";
-  // An excessive force is a more useful hint than the coordinate it acts on.
-  const int force = largest_force();
   std::string text =
       fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
                   smallest(), what, who);

@@ -10,6 +10,7 @@ enum class StepStatus : std::uint8_t {
   not_converged,     ///< at the smallest substep
   singular_tangent,  ///< a freedom without mass and stiffness
   not_finite,        ///< numbers grew without bounds
+  law_failed,        ///< the function of a force threw an exception
   failed_before,     ///< a step after a failed one: no effect
   invalid_step,      ///< a step size that is not positive, or lost in rounding: no effect
   invalid_input,     ///< the force callback returned an invalid value of an input: no effect

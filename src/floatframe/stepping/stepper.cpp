@@ -110,6 +110,7 @@ bool Stepper::cover(double h) noexcept {
   assert(h > 0.0 && state_.q.size() == f_.configurations());
   asked_ = h;
   take_inputs(h);
+  if (has_thrown()) return false;
   const double end = state_.t + h;
   const bool divided = locator_ || (corners_ && corners_->within(state_.t, h));
   count(last_ = part(h, true));
@@ -119,7 +120,7 @@ bool Stepper::cover(double h) noexcept {
   }
   double remaining = divided ? end - state_.t : h, sub = 0.5 * remaining;
   while (remaining > 1e-9 * h) {
-    if (sub < least_ || !(sub > 0.0)) return false;
+    if (has_thrown() || sub < least_ || !(sub > 0.0)) return false;
     const double now = std::min(sub, remaining);
     count(last_ = part(now, true));
     if (last_.accepted()) {
@@ -133,6 +134,12 @@ bool Stepper::cover(double h) noexcept {
   }
   state_.t = end;
   ++counters_.steps;
+  return true;
+}
+
+bool Stepper::has_thrown() noexcept {
+  if (f_.thrown().element < 0) return false;
+  last_.status = AttemptStatus::law_failed;
   return true;
 }
 
@@ -233,6 +240,8 @@ void Stepper::set_memory(const StepperMemory& m) {
   assert(m.state.lambda.size() == f_.constraints());
   assert(m.outputs.size() == outputs_.size() && m.inputs.size() == inputs_.size());
   grid_.restore(m.base, m.since_base);
+  f_.stepping(true);  // what a law has thrown is forgotten
+  f_.stepping(false, true);
   state_ = m.state;
   f_.set_spring_angles(m.spring_angles);
   if (locator_) f_.hold_force_branches(m.force_branches);

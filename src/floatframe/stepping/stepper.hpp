@@ -81,6 +81,9 @@ class Stepper {
   const StepAttempt& last() const noexcept { return last_; }
   const VecX& reactions() const noexcept { return integrator_->reactions(); }
   const StepCounters& counters() const noexcept { return counters_; }
+  /// True if the function of an element has thrown, in the last step or a sample after it. Steps
+  /// then fail.
+  bool has_thrown() noexcept;
   /// Index of the force element with the largest force at the last evaluation; -1: there is none.
   int largest_force() const noexcept;
 

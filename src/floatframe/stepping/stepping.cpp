@@ -53,6 +53,7 @@ StepReport Simulation::step() noexcept { return engine_->make(engine_->grid().ne
 StepReport Simulation::step(double size) noexcept {
   return engine_->make(engine_->grid().of_size(size, time()));
 }
+std::exception_ptr Simulation::thrown() const noexcept { return engine_->thrown(); }
 std::string Simulation::failure() const { return engine_->failure(); }
 double Simulation::time() const noexcept { return engine_->time(); }
 StepCounters Simulation::counters() const noexcept { return engine_->counters(); }

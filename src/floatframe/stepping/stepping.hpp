@@ -14,6 +14,7 @@
 // one model may run in several threads.
 #include <concepts>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -68,6 +69,8 @@ class Simulation {
   StepReport step(double size) noexcept;
   /// The cause of the last failed step, as a sentence; empty if it did not fail.
   std::string failure() const;
+  /// What the function of a force has thrown in a step that failed by it; else null.
+  std::exception_ptr thrown() const noexcept;
 
   double time() const noexcept;  ///< end of the last step [s]
   StepCounters counters() const noexcept;
@@ -95,9 +98,10 @@ class Simulation {
   double output(T) const = delete;
 
   /// Called at the beginning of every step with the time, the outputs and the inputs, which it may
-  /// change: a user-defined force is a load, an actuator or a target with an input. They are
-  /// constant over the whole step, including its substeps. Values are subject to the same rules as
-  /// in `set_input`. An empty function removes it.
+  /// change: a sampled force is a load, an actuator or a target with an input. They are constant
+  /// over the whole step, including its substeps: an error of first order, by which stiff forces
+  /// gain energy. The element ForceLaw is evaluated in every iteration instead. Values are subject
+  /// to the same rules as in `set_input`. An empty function removes it.
   using ForceCallback =
       std::function<void(double time, std::span<const double> outputs, std::span<double> inputs)>;
   void on_force(ForceCallback callback);

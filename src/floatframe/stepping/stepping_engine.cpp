@@ -7,6 +7,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/formulation/owners.hpp"
+#include "floatframe/start/overflow.hpp"
 
 namespace floatframe {
 namespace {
@@ -22,22 +23,12 @@ std::string input_expectation(const Input& input) {
   return fmt::format("a number from {:g} to {:g}{}", input.low, input.high, unit);
 }
 
-std::string what_of(const std::exception_ptr& thrown) {
-  try {
-    std::rethrow_exception(thrown);
-  } catch (const std::exception& error) {
-    return error.what();
-  } catch (...) {
-    return "of an unknown type";
-  }
-}
-
 }  // namespace
 
 const char* step_status_name(StepStatus status) noexcept {
-  static constexpr const char* names[] = {"completed",     "not_converged",   "singular_tangent",
-                                          "not_finite",    "failed_before",   "invalid_step",
-                                          "invalid_input", "callback_failed", "busy"};
+  static constexpr const char* names[] = {
+      "completed",     "not_converged", "singular_tangent", "not_finite",      "law_failed",
+      "failed_before", "invalid_step",  "invalid_input",    "callback_failed", "busy"};
   const std::size_t k = index_of(status);
   return k < std::size(names) ? names[k] : "unknown";
 }
@@ -125,8 +116,11 @@ StepReport Simulation::Engine::make(const PlannedStep& step) noexcept {
     if (const StepStatus s = call_back(where); s != StepStatus::completed) return refused(s, where);
   }
   const StepCounters before = counters();
-  const bool good = steps_.advance(step);
-  if (good) sample();  // else the formulation remains at the failed iteration for diagnosis
+  bool good = steps_.advance(step);
+  if (good) {
+    sample();
+    good = !steps_.has_thrown();
+  }  // else the formulation remains at the failed iteration for diagnosis
   const StepCounters after = counters();
   last_ = StepReport();
   last_.iterations = static_cast<int>(after.iterations - before.iterations);
@@ -147,10 +141,13 @@ void Simulation::Engine::explain(StepReport& report) const noexcept {
   const Formulation& f = steps_.formulation();
   report.status = a.status == AttemptStatus::singular_tangent ? StepStatus::singular_tangent
                   : a.status == AttemptStatus::not_finite     ? StepStatus::not_finite
+                  : a.status == AttemptStatus::law_failed     ? StepStatus::law_failed
                                                               : StepStatus::not_converged;
   report.time = steps_.state().t;  // end of the accepted part
-  const int force = steps_.largest_force();
-  if (a.constraint >= 0)
+  const int thrown = f.thrown().element, force = thrown >= 0 ? thrown : steps_.largest_force();
+  if (thrown >= 0)
+    report.where = owners_[f.velocities() + f.constraints() + thrown];
+  else if (a.constraint >= 0)
     report.where = owners_[f.velocities() + a.constraint];
   else if (a.coordinate >= 0)
     report.where = owners_[a.coordinate];
@@ -178,10 +175,11 @@ std::string Simulation::Engine::failure() {
       return {};
     case StepStatus::callback_failed:
       return fmt::format("the force callback threw an exception at t = {:.9g} s: {}", last_.time,
-                         what_of(thrown_));
+                         thrown_text(thrown_));
     case StepStatus::not_converged:
     case StepStatus::singular_tangent:
     case StepStatus::not_finite:
+    case StepStatus::law_failed:
       break;
   }
   // Once: finding the cause moves the formulation.

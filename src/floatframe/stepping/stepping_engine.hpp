@@ -26,6 +26,9 @@ class Simulation::Engine {
   const TimeGrid& grid() const noexcept { return steps_.grid(); }
   StepReport make(const PlannedStep& step) noexcept;
   std::string failure();
+  const std::exception_ptr& thrown() const noexcept {
+    return steps_.formulation().thrown().exception;
+  }
   void set_input(std::size_t index, double value);
   void on_force(ForceCallback callback);
   SimulationState save();

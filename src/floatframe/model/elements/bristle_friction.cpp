@@ -13,8 +13,8 @@
 #include <numbers>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/model/coordinate_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
@@ -56,29 +56,26 @@ S bristle_rate(const BristleFriction& keys, const S& z, const S& v) noexcept {
 template <class S>
 void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const auto& keys = in.template keys<BristleFriction>();
-  const AxisMeasure<S> m = coordinate(in);
+  const AxisMeasure<S> m = coordinate_measure(in);
   const bool clamped = in.element.signals[0].given;
   const double normal = clamped ? std::max(in.signal(0).f, 0.0) : 1.0;
   const S z = in.state(0), v = m.rate, flow = bristle_rate(keys, z, v);
   out.state_rates[0] = flow;
-  out.length = m.s;
-  out.rate = v;
-  out.force = normal * (keys.stiffness * z + keys.damping * flow) + keys.viscous * v;
-  out.set_pair(-out.force, m.g);
+  double slope = 0.0;
+  if constexpr (std::is_same_v<S, double>) {
+    const Dual d = bristle_rate(keys, Dual::variable(z, 0), Dual::variable(v, 1));
+    const double f_z = d.d[0], f_v = d.d[1], z_v = f_v * in.followed(f_z);
+    out.state_slopes[0] = f_z;
+    slope = normal * (keys.stiffness * z_v + keys.damping * (f_v + f_z * z_v)) + keys.viscous;
+  }
+  pull_back(m, S(normal * (keys.stiffness * z + keys.damping * flow) + keys.viscous * v), 0.0,
+            slope, out);
   // What a clamp that varies stores in the bristles counts as dissipated.
   if (!clamped) {
     out.energy = 0.5 * keys.stiffness * z * z;
     out.energy_rate = keys.stiffness * z * flow;
   }
   out.damping = out.force * v - out.energy_rate;
-  if constexpr (std::is_same_v<S, double>) {
-    const Dual d = bristle_rate(keys, Dual::variable(z, 0), Dual::variable(v, 1));
-    const double f_z = d.d[0], f_v = d.d[1], z_v = f_v * in.followed(f_z);
-    out.state_slopes[0] = f_z;
-    out.add_pair_row(
-        m.g, 0.0,
-        normal * (keys.stiffness * z_v + keys.damping * (f_v + f_z * z_v)) + keys.viscous);
-  }
 }
 
 }  // namespace
@@ -137,7 +134,7 @@ void bristle_friction_validate(const ElementCheck& check) {
 constexpr double least_sliding = 1e-3;
 
 void bristle_friction_start(const Ports& in, double* states) noexcept {
-  const double v = coordinate(in).rate;
+  const double v = coordinate_measure(in).rate;
   const auto& keys = in.keys<BristleFriction>();
   states[0] = std::abs(v) < least_sliding ? 0.0 : std::copysign(largest_deflection(keys, v), v);
 }
@@ -155,7 +152,7 @@ ElementExample bristle_friction_example(std::size_t regime, ExampleNumbers& numb
   f.breakaway = numbers(2.0, 3.0);
   f.kinetic = numbers(1.0, 2.0);
   f.stribeck = numbers(0.5, 1.0);
-  f.stiffness = numbers(50.0, 90.0);
+  f.stiffness = numbers(1.0, 3.0);
   f.damping = numbers(0.1, 0.5);
   f.viscous = numbers(0.1, 0.5);
   f.elastic = regime == 2 ? 0.0 : regime == 1 ? 0.2 : 0.9;

@@ -1,17 +1,13 @@
 // Spring on the coordinate of a prismatic or revolute joint, z the axis of marker a:
 // f = spring(s - target) + damper(sdot - rate of the target) - actuator, and -f acts on the
 // coordinate; with a target it is a motor.
-//   along   s = z.d (axis_measure.hpp), Q = -f g
-//   about   s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
-//           sdot = z.(w_b - w_a)
-// The markers of a hinge share the axis. Where they do not (cut joints before they close) the
-// torque stays along z. The row of the step contains f_s g g^T and the damping f_sdot g g^T.
+// The row of the step contains f_s g g^T and the damping f_sdot g g^T (port_measures.hpp).
 #include <numbers>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/model/coordinate_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
@@ -37,21 +33,17 @@ Toward<S> toward_target(const PortsOf<S>& in, const AxisMeasure<S>& m) noexcept 
 
 template <class S>
 void joint_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
-  const AxisMeasure<S> m = coordinate(in);
+  const AxisMeasure<S> m = coordinate_measure(in);
   const Toward<S> x = toward_target(in, m);
   const LawValue<S> s = spring_of(in, x.stretch), c = damper_of(in, x.rate);
-  out.length = m.s;
-  out.rate = m.rate;
-  out.force = s.f + c.f - in.signal(actuator).f;
-  out.set_pair(-out.force, m.g);
-  out.add_pair_row(m.g, s.df, c.df);
+  pull_back(m, S(s.f + c.f - in.signal(actuator).f), s.df, c.df, out);
   out.energy = energy_of(in.element.laws[0], x.stretch);
   out.energy_rate = s.f * (m.rate - x.moves);
   out.damping = c.f * x.rate;
 }
 
 BranchSide joint_spring_side(const Ports& in) noexcept {
-  const Toward<double> x = toward_target(in, coordinate(in));
+  const Toward<double> x = toward_target(in, coordinate_measure(in));
   return spring_side(in, x.stretch, x.rate);
 }
 

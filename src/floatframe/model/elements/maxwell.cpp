@@ -5,7 +5,7 @@
 //   row          with z following (element_evaluation.hpp): k_i (1 - dz_i/ds) n n^T,
 //                dz_i/ds = (k_i/c_i) / (w + k_i/c_i); and f/s (I - n n^T)
 #include "floatframe/model/element_kind.hpp"
-#include "floatframe/model/line_measure.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
@@ -13,32 +13,26 @@ namespace {
 
 template <class S>
 void maxwell_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
   const MatX& branches = in.template keys<Maxwell>().branches;
-  const auto [n, length, rate] = line_between(in);
+  const LineMeasure<S> line = line_measure(in);
   const auto count = static_cast<std::size_t>(branches.rows());
   double stiffness = 0.0;
+  S force = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double k = branches(static_cast<Eigen::Index>(i), 0),
                  c = branches(static_cast<Eigen::Index>(i), 1);
-    const S stretch = length - in.state(i), f = k * stretch, flow = f / c;
-    out.force += f;
+    const S stretch = line.length - in.state(i), f = k * stretch, flow = f / c;
+    force += f;
     out.state_rates[i] = flow;
     out.energy += 0.5 * k * stretch * stretch;
-    out.energy_rate += f * (rate - flow);
+    out.energy_rate += f * (line.rate - flow);
     out.damping += f * flow;
     if constexpr (std::is_same_v<S, double>) {
       out.state_slopes[i * count + i] = -k / c;
       stiffness += k * (1.0 - k / c * in.followed(-k / c));
     }
   }
-  out.length = length;
-  out.rate = rate;
-  const V pull = out.force * n, zero = V::Zero();
-  out.wrench[0] = {pull, zero};
-  out.wrench[1] = {-pull, zero};
-  out.add_pair_row({{-n, zero}, {n, zero}}, stiffness, 0.0);
-  add_transverse_rows(n, length, out);
+  pull_along(line, force, stiffness, 0.0, out);
 }
 
 }  // namespace
@@ -63,7 +57,7 @@ void maxwell_states(Element& element) {
 }
 
 void maxwell_start(const Ports& in, double* states) noexcept {
-  const double length = line_between(in).length;
+  const double length = line_measure(in).length;
   for (int i = 0; i < in.element.states; ++i) states[i] = length;
 }
 

@@ -3,7 +3,7 @@
 //   wrench       f n on a, -f n on b
 //   rows         f_s n n^T + f/s (I - n n^T) and the damping f_sdot n n^T, between the points
 #include "floatframe/model/element_kind.hpp"
-#include "floatframe/model/line_measure.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
@@ -11,21 +11,12 @@ namespace {
 
 template <class S>
 void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
-  using V = Eigen::Matrix<S, 3, 1>;
-  const auto [n, length, rate] = line_between(in);
-  const LawValue<S> s = spring_of(in, length), c = damper_of(in, rate);
-  const V zero = V::Zero();
-  out.length = length;
-  out.rate = rate;
-  out.force = s.f + c.f + in.signal(0).f;
-  const V pull = out.force * n;
-  out.wrench[0] = {pull, zero};
-  out.wrench[1] = {-pull, zero};
-  out.add_pair_row({{-n, zero}, {n, zero}}, s.df, c.df);
-  add_transverse_rows(n, length, out);
-  out.energy = energy_of(in.element.laws[0], length);
-  out.energy_rate = s.f * rate;
-  out.damping = c.f * rate;
+  const LineMeasure<S> line = line_measure(in);
+  const LawValue<S> s = spring_of(in, line.length), c = damper_of(in, line.rate);
+  pull_along(line, S(s.f + c.f + in.signal(0).f), s.df, c.df, out);
+  out.energy = energy_of(in.element.laws[0], line.length);
+  out.energy_rate = s.f * line.rate;
+  out.damping = c.f * line.rate;
 }
 
 }  // namespace
@@ -35,8 +26,8 @@ FLOATFRAME_LAW(spring_damper)
 namespace {
 
 BranchSide spring_damper_side(const Ports& in) noexcept {
-  const auto [n, length, rate] = line_between(in);
-  return spring_side(in, length, rate);
+  const LineMeasure<double> line = line_measure(in);
+  return spring_side(in, line.length, line.rate);
 }
 
 constexpr ElementRegime spring_damper_regimes[] = {{.name = "anywhere"},

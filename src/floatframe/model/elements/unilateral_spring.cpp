@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "floatframe/model/element_kind.hpp"
-#include "floatframe/model/line_measure.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
@@ -30,12 +30,10 @@ template <class S>
 void unilateral_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   using std::abs;
   using std::pow;
-  using V = Eigen::Matrix<S, 3, 1>;
   const auto& keys = in.template keys<UnilateralSpring>();
-  const auto [n, length, rate] = line_between(in);
-  out.length = length;
-  out.rate = rate;
-  const S d = keys.length - length;
+  const LineMeasure<S> line = line_measure(in);
+  const S rate = out.rate = line.rate, d = keys.length - line.length;
+  out.length = line.length;
   if (!touches(in, d) || value_of(d) == 0.0) return;
   const double speed = std::max(value_of(in.state(0)), keys.least_speed);
   const double b = in.template data<double>() / speed, k = keys.stiffness, e = keys.exponent;
@@ -43,15 +41,9 @@ void unilateral_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const bool pushes = value_of(factor) > 0.0;
   out.energy = slope * d * d / (e + 1.0);
   out.energy_rate = -push * rate;
-  out.force = pushes ? S(-push * factor) : S(0.0);
+  if (pushes)
+    pull_along(line, S(-push * factor), value_of(e * slope * factor), value_of(push * b), out);
   out.damping = out.force * rate - out.energy_rate;
-  const V pull = out.force * n, zero = V::Zero();
-  out.wrench[0] = {pull, zero};
-  out.wrench[1] = {-pull, zero};
-  if (!pushes) return;
-  if constexpr (std::is_same_v<S, double>)
-    out.add_pair_row({{-n, zero}, {n, zero}}, e * slope * factor, push * b);
-  add_transverse_rows(n, length, out);
 }
 
 }  // namespace
@@ -61,13 +53,13 @@ FLOATFRAME_LAW(unilateral_spring)
 namespace {
 
 BranchSide unilateral_spring_side(const Ports& in) noexcept {
-  const double d = in.keys<UnilateralSpring>().length - line_between(in).length;
+  const double d = in.keys<UnilateralSpring>().length - line_measure(in).length;
   if (in.branch == free_branch) return {-1.0, d > 0.0 ? in_touch : apart};
   return in.branch == in_touch ? BranchSide{-d, apart} : BranchSide{d, in_touch};
 }
 
 void keep_touch_speed(const Ports& in, double* kept) noexcept {
-  const Line<double> line = line_between(in);
+  const LineMeasure<double> line = line_measure(in);
   if (!touches(in, in.keys<UnilateralSpring>().length - line.length)) *kept = -line.rate;
 }
 

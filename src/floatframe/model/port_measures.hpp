@@ -1,0 +1,90 @@
+#pragma once
+// What elements between two markers measure, and what a force of it does to them.
+//   along a line    s = |d|, d = r_b - r_a, n = d/s; f n on a, -f n on b: tension is positive
+//   of a joint      its coordinate, z the axis of marker a; -f acts on it:
+//     along           s = z.d (axis_measure.hpp)
+//     about           s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
+//                     sdot = z.(w_b - w_a)
+#include "floatframe/model/axis_measure.hpp"
+#include "floatframe/model/element_kind.hpp"
+
+namespace floatframe {
+
+/// Points closer than this define no line: the force keeps the direction x, and the tangent only
+/// contains the slope of the law [m].
+inline constexpr double coincident_points = 1e-12;
+
+template <class S>
+struct LineMeasure {
+  Eigen::Matrix<S, 3, 1> n;
+  S length, rate;
+};
+
+template <class S>
+LineMeasure<S> line_measure(const PortsOf<S>& in) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const auto &a = in.marker(0), &b = in.marker(1);
+  const V d = b.r - a.r;
+  S length = value_of(d.squaredNorm()) > 0.0 ? S(d.norm()) : d.x();
+  const V n = length > coincident_points ? V(d / length) : V(V::UnitX());
+  const S rate = n.dot(b.v - a.v);
+  return {n, length, rate};
+}
+
+/// A force of the slopes k and c along the line: rows k n n^T + f/s (I - n n^T) and c n n^T,
+/// between the points.
+template <class S>
+void pull_along(const LineMeasure<S>& line, const S& force, double k, double c,
+                EffortsOf<S>& out) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const auto& [n, length, rate] = line;
+  const V zero = V::Zero();
+  out.length = length;
+  out.rate = rate;
+  out.force = force;
+  const V pull = force * n;
+  out.wrench[0] = {pull, zero};
+  out.wrench[1] = {-pull, zero};
+  out.add_pair_row({{-n, zero}, {n, zero}}, k, c);
+  if constexpr (std::is_same_v<S, double>)
+    if (length > coincident_points) {
+      Vec3 t1, t2;
+      orthonormal_complement(n, t1, t2);
+      const double across = force / length;
+      out.add_pair_row({{-t1, zero}, {t1, zero}}, across, 0.0);
+      out.add_pair_row({{-t2, zero}, {t2, zero}}, across, 0.0);
+    }
+}
+
+/// The markers of a hinge share the axis. Where they do not (cut joints before they close) the
+/// torque stays along z.
+template <class S>
+AxisMeasure<S> coordinate_measure(const PortsOf<S>& in) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const auto &a = in.marker(0), &b = in.marker(1);
+  const V z = a.R.col(2);
+  if (!in.element.rotational) return axis_measure(z, a, b);
+  const V zero = V::Zero();
+  return {angle_about_z<S>(a, b, in.reference_angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
+}
+
+/// A force of the slopes k and c against the coordinate: the rows k g g^T and c g g^T.
+template <class S>
+void pull_back(const AxisMeasure<S>& m, const S& force, double k, double c,
+               EffortsOf<S>& out) noexcept {
+  out.length = m.s;
+  out.rate = m.rate;
+  out.force = force;
+  out.set_pair(-force, m.g);
+  out.add_pair_row(m.g, k, c);
+}
+
+// Of an element with the ends `from` and `to`, and of one with the key `joint`.
+void validate_line(const ElementCheck& check);
+bool build_line(ElementBuild& build);
+Picture picture_of_line(const Element& element);
+void validate_coordinate(const ElementCheck& check);
+bool build_coordinate(ElementBuild& build);
+Picture picture_of_coordinate(const Element& element);
+
+}  // namespace floatframe

@@ -1,0 +1,283 @@
+// Forces that a program gives as functions: exact in every iteration, and what they throw.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "floatframe/linear/linear_system.hpp"
+#include "floatframe/model/model_hash.hpp"
+#include "floatframe/run/run.hpp"
+#include "floatframe/start/statics.hpp"
+#include "support/allocation_counter.hpp"
+#include "support/coordinates.hpp"
+#include "support/error_of.hpp"
+#include "support/model_text.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// A ball above a contact, and a pendulum, each with a force to be filled in.
+const std::string ball = R"(
+points: {c: [0, 0, 0.5]}
+bodies: {ball: {rigid: {mass: 1, centre_of_mass: c, inertia: [0.001, 0.001, 0.001]}}}
+joints: {z: {type: prismatic, child: ball, at: c, axis: z}}
+outputs: {z: {joint_position: z}, vz: {joint_velocity: z}}
+)";
+const std::string pendulum = R"(
+points: {o: [0, 0, 0], c: [0.4, 0, 0], w: [1, 0, 1]}
+bodies: {arm: {rigid: {mass: 2, centre_of_mass: c, inertia: [0.01, 0.02, 0.02]}}}
+joints: {hinge: {type: revolute, child: arm, at: o, axis: y, position: 7}}
+outputs: {q: {joint_position: hinge}, f: {force: f}, l: {length: f}}
+)";
+const std::string on_hinge = "forces: {f: {type: force_law, joint: hinge, law: f}}\n";
+const std::string on_line =
+    "forces: {f: {type: force_law, from: {at: w}, to: {body: arm, at: c}, law: f}}\n";
+
+Model with_law(const std::string& text, ForceFunction law) {
+  ModelDescription d = description_of(text);
+  std::get<ForceLaw>(d.forces.back().kind).law = std::move(law);
+  return build_model(d);
+}
+
+double cubic(double x) { return 3.0 * x + 2.0 * x * x * x; }
+ForceLawValue with_slopes(double x, double v, double) {
+  return {cubic(x) + 0.7 * v, 3.0 + 6.0 * x * x, 0.7};
+}
+double without_slopes(double x, double v, double) { return cubic(x) + 0.7 * v; }
+
+/// Outputs of a hundred steps of 2 ms.
+std::vector<double> motion(const Model& model, Coordinates c) {
+  Simulation s(model, {.step = 2e-3, .coordinates = c});
+  std::vector<double> all;
+  for (int k = 0; k < 100; ++k) {
+    EXPECT_TRUE(s.step()) << s.failure();
+    all.insert(all.end(), s.outputs().begin(), s.outputs().end());
+  }
+  return all;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    worst = std::max(worst, std::abs(a[k] - b[k]) / (1.0 + std::abs(a[k])));
+  return worst;
+}
+
+double hertz(double z) { return z < -0.5 ? -1e7 * std::pow(-0.5 - z, 1.5) : 0.0; }
+ForceLawValue hertz_law(double z, double, double) {
+  return {hertz(z), z < -0.5 ? 1.5e7 * std::sqrt(-0.5 - z) : 0.0, 0.0};
+}
+const std::string on_z = "forces: {f: {type: force_law, joint: z, law: f}}\n";
+
+// Dropped from 0.5 m, it comes back to this height.
+TEST(ForceLaw, AHertzContactKeepsItsEnergy) {
+  for (const Coordinates c : both_coordinates)
+    for (const bool slopes : {true, false}) {
+      const Model model = with_law(
+          ball + on_z, slopes ? ForceFunction(hertz_law)
+                              : ForceFunction([](double z, double, double) { return hertz(z); }));
+      Simulation s(model, {.step = 1e-3, .coordinates = c});
+      double top = -1.0;
+      while (s.time() < 0.9995) {
+        ASSERT_TRUE(s.step()) << s.failure();
+        if (s.time() > 0.4) top = std::max(top, s.output("z"));
+      }
+      EXPECT_NEAR(top, 0.0, 3e-4) << name_of(c) << slopes;
+    }
+}
+
+TEST(ForceLaw, IsTheSpringOfItsPolynomial) {
+  const std::string spring = R"(
+forces:
+  f: {type: joint_spring, joint: hinge, spring: {polynomial: [0, 3, 0, 2]}, damper: 0.7}
+)";
+  const std::string line = R"(
+forces:
+  f:
+    type: spring_damper
+    from: {at: w}
+    to: {body: arm, at: c}
+    spring: {polynomial: [0, 3, 0, 2]}
+    damper: 0.7
+)";
+  for (const auto& [law, table] : {std::pair(on_hinge, spring), std::pair(on_line, line)})
+    for (const Coordinates c : both_coordinates) {
+      const std::vector<double> expected = motion(model_of(pendulum + table), c);
+      EXPECT_LT(distance(motion(with_law(pendulum + law, with_slopes), c), expected), 1e-12);
+      EXPECT_LT(distance(motion(with_law(pendulum + law, without_slopes), c), expected), 1e-9);
+    }
+}
+
+TEST(ForceLaw, BothFormulationsMakeOneMotion) {
+  for (const std::string& law : {on_hinge, on_line}) {
+    const Model model = with_law(pendulum + law, with_slopes);
+    EXPECT_LT(distance(motion(model, Coordinates::relative), motion(model, Coordinates::absolute)),
+              1e-6);
+  }
+}
+
+TEST(ForceLaw, LinearSystemsAndStaticsAreExact) {
+  const std::string level = pendulum + "gravity: [0, 0, -9.81]\n";
+  const std::string spring = R"(
+forces: {f: {type: joint_spring, joint: hinge, spring: {polynomial: [0, 3, 0, 2]}, damper: 0.7}}
+)";
+  const Model law = with_law(level + on_hinge, with_slopes), table = model_of(level + spring);
+  for (const Coordinates c : both_coordinates) {
+    const MatX A = linear_system(table, {.coordinates = c}).A;
+    EXPECT_LT((linear_system(law, {.coordinates = c}).A - A).cwiseAbs().maxCoeff(),
+              1e-9 * A.cwiseAbs().maxCoeff());
+  }
+  const StaticsResult a = statics(law), b = statics(table);
+  EXPECT_NEAR(a.forces[0].force, b.forces[0].force, 1e-9 * (1.0 + std::abs(b.forces[0].force)));
+  EXPECT_NEAR(a.forces[0].length, b.forces[0].length, 1e-9);
+}
+
+TEST(ForceLaw, WhatItThrowsEndsTheStepAndNotTheSimulation) {
+  for (const Coordinates c : both_coordinates) {
+    bool broken = false;
+    long calls = 0;
+    const Model model = with_law(pendulum + on_hinge, [&](double x, double v, double) {
+      ++calls;
+      if (broken) throw std::range_error("the spring broke");
+      return cubic(x) + 0.7 * v;
+    });
+    Simulation s(model, {.step = 2e-3, .coordinates = c});
+    for (int k = 0; k < 20; ++k) ASSERT_TRUE(s.step());
+    const SimulationState saved = s.save();
+    const std::vector<double> before(s.outputs().begin(), s.outputs().end());
+    broken = true;
+    calls = 0;
+    const StepReport r = s.step();
+    EXPECT_EQ(calls, 1);  // no smaller parts
+    EXPECT_EQ(r.status, StepStatus::law_failed) << step_status_name(r.status);
+    EXPECT_EQ(r.where, "force 'f'");
+    EXPECT_NEAR(r.time, 0.04, 1e-12);
+    EXPECT_EQ(s.failure(), "the law of 'f' threw an exception at t = 0.04 s: the spring broke");
+    EXPECT_THROW(std::rethrow_exception(s.thrown()), std::range_error);
+    EXPECT_EQ(std::vector<double>(s.outputs().begin(), s.outputs().end()), before);
+    EXPECT_EQ(s.step().status, StepStatus::failed_before);
+    broken = false;
+    s.restore(saved);
+    for (int k = 0; k < 20; ++k) {
+      ASSERT_TRUE(s.step());
+    }
+    Simulation whole(model, {.step = 2e-3, .coordinates = c});
+    for (int k = 0; k < 40; ++k) ASSERT_TRUE(whole.step());
+    EXPECT_EQ(s.output("q"), whole.output("q"));
+    broken = true;
+    EXPECT_EQ(error_of([&] { Simulation(model, {.coordinates = c}); }), "step_failed");
+    EXPECT_EQ(error_of([&] { statics(model); }), "step_failed");
+    EXPECT_EQ(error_of([&] { linear_system(model, {.coordinates = c}); }), "step_failed");
+  }
+}
+
+TEST(ForceLaw, WhatItThrowsEndsTheRun) {
+  const Model model = with_law(pendulum + on_hinge, [](double x, double, double t) {
+    if (t > 0.1) throw 7;
+    return cubic(x);
+  });
+  SimulationDescription o = model.simulation;
+  o.step = 1e-2;
+  o.duration = 1.0;
+  const RunResult r = run(model, o);
+  EXPECT_EQ(r.summary.status, "failed");
+  EXPECT_EQ(r.summary.message.rfind("the law of 'f' threw an exception at t = 0.1 s: of an", 0), 0u)
+      << r.summary.message;
+  EXPECT_THROW(std::rethrow_exception(r.thrown), int);
+  EXPECT_EQ(r.table.rows(), 11u);
+}
+
+// The step is repeated in smaller parts up to where the law ends.
+TEST(ForceLaw, AForceThatIsNoNumberIsNamed) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Model model = with_law(
+      pendulum + on_hinge, [=](double x, double, double t) { return t > 0.0505 ? nan : cubic(x); });
+  Simulation s(model, {.step = 1e-2});
+  for (int k = 0; k < 5; ++k) ASSERT_TRUE(s.step());
+  const StepReport r = s.step();
+  EXPECT_EQ(r.status, StepStatus::not_finite);
+  EXPECT_EQ(r.where, "force 'f'");
+  EXPECT_NEAR(r.time, 0.0505, 2e-5);
+  EXPECT_NE(s.failure().find("force 'f'"), std::string::npos) << s.failure();
+  const auto start = [&](ForceLawValue y) {
+    const Model bad = with_law(pendulum + on_hinge, [=](double, double, double) { return y; });
+    return error_of([&] { Simulation{bad}; });
+  };
+  EXPECT_EQ(start(nan), "not_finite");
+  EXPECT_EQ(start({1.0, nan, 0.0}), "step_failed");
+}
+
+// A kink at which the iteration of a long step fails: the law sees times that no step reaches.
+TEST(ForceLaw, IsCalledInStepsThatAreRepeated) {
+  long calls = 0;
+  const Model model = with_law(ball + on_z, [&](double z, double v, double t) {
+    ++calls;
+    return hertz_law(1e3 * z, v, t).force;
+  });
+  Simulation s(model, {.step = 2e-2});
+  while (s.time() < 0.5) ASSERT_TRUE(s.step()) << s.failure();
+  EXPECT_GT(s.counters().substeps, 0);
+  EXPECT_GT(calls, s.counters().iterations);
+}
+
+TEST(ForceLaw, ItsWorkIsInTheBalanceOfEnergy) {
+  const Model model = with_law(pendulum + on_line, [](double x, double v, double t) {
+    return 40.0 * (x - 0.5) - 3.0 * v + 10.0 * std::sin(20.0 * t);  // feeds energy
+  });
+  SimulationDescription o = model.simulation;
+  o.step = 1e-3;
+  o.duration = 2.0;
+  const RunSummary s = run(model, o).summary;
+  EXPECT_EQ(s.status, "completed") << s.message;
+  for (const RangeWarning& w : s.warnings) ADD_FAILURE() << w.sentence;
+  EXPECT_GT(s.energy.work[EnergyFlow::actuators], 1.0);
+  EXPECT_LT(std::abs(s.energy.largest_remainder), 1e-4 * s.energy.exchanged);
+}
+
+TEST(ForceLaw, SimulationsInThreadsMakeTheSameSteps) {
+  const Model model = with_law(pendulum + on_line, without_slopes);
+  const std::vector<double> expected = motion(model, Coordinates::relative);
+  std::vector<std::vector<double>> found(4);
+  std::vector<std::thread> threads;
+  for (std::vector<double>& f : found)
+    threads.emplace_back([&] { f = motion(model, Coordinates::relative); });
+  for (std::thread& t : threads) t.join();
+  for (const std::vector<double>& f : found) EXPECT_EQ(f, expected);
+}
+
+TEST(ForceLaw, StepsDoNotAllocate) {
+  if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
+  for (const std::string& law : {on_hinge, on_line}) {
+    Simulation s(with_law(pendulum + law, without_slopes), {.step = 1e-3});
+    s.step();
+    const AllocationScope scope;
+    for (int k = 0; k < 50; ++k) s.step();
+    EXPECT_EQ(scope.count(), 0u);
+  }
+}
+
+TEST(ForceLaw, AModelFileHasNoFunction) {
+  EXPECT_EQ(error_of([] { model_of(ball + on_z); }), "unsupported");
+}
+
+// A saved state belongs to the function, or to its label.
+TEST(ForceLaw, StatesKnowTheFunction) {
+  const ForceFunction law(without_slopes);
+  const Model one = with_law(pendulum + on_hinge, law);
+  Simulation s(one), same(with_law(pendulum + on_hinge, law)),
+      other(with_law(pendulum + on_hinge, without_slopes));
+  s.step();
+  same.restore(s.save());
+  EXPECT_EQ(error_of([&] { other.restore(s.save()); }), "mismatch");
+  const auto labelled = [](const char* label) {
+    return model_hash(with_law(pendulum + on_hinge, {without_slopes, label}));
+  };
+  EXPECT_EQ(labelled("cubic 1"), labelled("cubic 1"));
+  EXPECT_NE(labelled("cubic 1"), labelled("cubic 2"));
+}
+
+}  // namespace
+}  // namespace floatframe::test
