@@ -171,7 +171,9 @@ TEST(Mirror, Loads) {
 TEST(Mirror, FactorsOfCouplings) {
   const test::TemporaryFolder folder;
   folder.write("drive.yaml", R"(floatframe: 1
-bodies: {nut: {position: [0, 1, 0], rigid: {mass: 1}}, wheel: {position: [0, 1, 0], rigid: {mass: 1}}}
+bodies:
+  nut: {position: [0, 1, 0], rigid: {mass: 1}}
+  wheel: {position: [0, 1, 0], rigid: {mass: 1}}
 joints:
   nut: {type: cylindrical, child: nut, at: [0, 1, 0], axis: z}
   wheel: {type: revolute, child: wheel, at: [0, 1, 0], axis: z}
