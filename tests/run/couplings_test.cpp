@@ -74,6 +74,31 @@ INSTANTIATE_TEST_SUITE_P(EveryPlace, Gears,
                                   (*c.param.second ? "_cut" : "_tree");
                          });
 
+// The second disc is many turns away where the run goes on, whether its hinge is cut or not.
+TEST_P(Gears, StatesThatAreKeptGoOn) {
+  ModelDescription d = description_of(gears(GetParam().second));
+  d.simulation.coordinates = GetParam().coordinates;
+  d.joints[0].position = {50.0};
+  const Model m = build_model(d);
+  RunOptions keep;
+  keep.keep_state = true;
+  SimulationDescription o = m.simulation;
+  o.duration = 3.0;
+  const RunResult before = completed_run(m, o, keep);
+  EXPECT_NEAR(before.table.at(0, 2), -20.0, 1e-10);
+  const std::size_t last = before.table.rows() - 1;
+  o.duration = 2.0;
+  o.start = Start::state;
+  o.state = before.state;
+  const RunResult after = completed_run(m, o);
+  for (std::size_t k = 1; k <= 2; ++k)
+    EXPECT_NEAR(after.table.at(0, k), before.table.at(last, k), 1e-9);
+  const RunResult whole = completed_run(m);
+  for (std::size_t k = 1; k <= 3; ++k)
+    EXPECT_NEAR(after.table.at(after.table.rows() - 1, k),
+                whole.table.at(whole.table.rows() - 1, k), 1e-6);
+}
+
 // A nut that a weight turns on its screw: s = p q, so (m + J / p^2) s'' = -m g, for a coarse screw
 // and one of a tenth of a millimetre per radian.
 TEST(Screw, SinksWithTheInertiaThatTurns) {

@@ -21,12 +21,13 @@ void tidy(ModelDescription& d) {
       const auto value = key_value(f, key);
       const auto* at = value ? std::get_if<AttachmentDescription>(&*value) : nullptr;
       if (at && gone(*at)) return true;
-      if (key.kind == KeyKind::joint && value && !joints.contains(ElementView(f).text(key.name)))
-        return true;
     }
+    for (const CoordinateTerm& c : ElementView(f).coordinates())
+      if (!joints.contains(c.joint)) return true;
     return false;
   };
   std::erase_if(d.rods, loose);
+  std::erase_if(d.couplings, loose);
   std::erase_if(d.forces, loose);
   for (const ElementDescription& f : d.forces) forces.insert(f.name);
   std::erase_if(d.outputs, [&](const OutputDescription& o) {
@@ -52,6 +53,7 @@ std::vector<Change> changes(const ModelDescription& d) {
   removals(out, &ModelDescription::forces, d);
   removals(out, &ModelDescription::bodies, d);
   removals(out, &ModelDescription::rods, d);
+  removals(out, &ModelDescription::couplings, d);
   removals(out, &ModelDescription::joints, d);
   for (std::size_t k = 0; k < d.joints.size(); ++k) {
     const JointDescription& j = d.joints[k];

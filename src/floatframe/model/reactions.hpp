@@ -13,11 +13,13 @@ struct Reactions {
     Vec3 force = Vec3::Zero();   ///< [N]
     Vec3 torque = Vec3::Zero();  ///< [N m]
   };
-  std::vector<Wrench> joints;  ///< of each joint, its motion included: on the child, about M
+  /// Of each joint, its motion and couplings included: on the child, about M.
+  std::vector<Wrench> joints;
   /// Of each element with constraints: on the body of its second marker, about that.
   std::vector<Wrench> elements;
   /// Of each element with constraints: the tension of a rod [N], the force or torque of a motion
-  /// along the coordinate, on the child [N, N m]; zero for others.
+  /// along the coordinate, on the child, that of a coupling on a factor of 1 [N, N m]; zero for
+  /// others.
   std::vector<double> forces;
   /// For each joint and element, in the velocity projection of the last step: on the child, on the
   /// body at `to` [N s].

@@ -19,7 +19,8 @@ struct SystemState;
 struct StaticsForce {
   std::string name, type;
   double force = 0;   ///< tension positive [N]; torque [N m] for joint springs on revolutes;
-                      ///< vertical force of tyres; of a motion along its coordinate, on the child
+                      ///< vertical force of tyres; of a motion along its coordinate, on the child;
+                      ///< of a coupling on a factor of 1
   double length = 0;  ///< measure of the element: length, deflection, angle, coordinate
   bool unique = true;
 };
