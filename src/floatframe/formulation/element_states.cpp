@@ -43,7 +43,7 @@ void ElementStates::find_gap(std::size_t element, const Efforts& out, Scratch& s
   const int first = offsets_[element];
   for (Eigen::Index i = 0; i < s.gap.size(); ++i) {
     const double z = z_[first + i], rest = (*z_hat_)[first + i];
-    s.gap[i] = weight_ * z + rest - out.state_rates[static_cast<std::size_t>(i)];
+    s.gap[i] = weight_ * z + rest - out.state_rates[i];
     s.size[i] = std::max(s.size[i], std::abs(z));
     if (weight_ > 0.0) s.size[i] = std::max(s.size[i], std::abs(rest) / weight_);
   }
@@ -55,7 +55,7 @@ bool ElementStates::find_increment(const Efforts& out, Scratch& s) const noexcep
   for (Eigen::Index i = 0; i < n; ++i) {
     double largest = 0.0;
     for (Eigen::Index j = 0; j < n; ++j) {
-      const double slope = out.state_slopes[static_cast<std::size_t>(i * n + j)];
+      const double slope = out.state_slopes[i * n + j];
       s.slopes(i, j) = (i == j ? weight_ : 0.0) - slope;
       largest = std::max(largest, std::abs(s.slopes(i, j)));
     }
@@ -124,8 +124,8 @@ void ElementStates::after_step(std::size_t element, const Ports& in) noexcept {
 
 void ElementStates::take_rates(const std::vector<Efforts>& efforts) noexcept {
   for (const std::size_t k : elements_)
-    for (std::size_t i = 0; i < efforts[k].state_rates.size(); ++i)
-      rates_[offsets_[k] + static_cast<int>(i)] = efforts[k].state_rates[i];
+    for (Eigen::Index i = 0; i < std::ssize(efforts[k].state_rates); ++i)
+      rates_[offsets_[k] + i] = efforts[k].state_rates[i];
 }
 
 }  // namespace floatframe

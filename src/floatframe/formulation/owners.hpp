@@ -17,11 +17,9 @@ inline std::vector<std::string> coordinate_owners(const Formulation& f) {
 /// The same, and behind them "state 2 of bristle_friction 'brake'".
 inline std::vector<std::string> unknown_owners(const Formulation& f) {
   std::vector<std::string> owners = coordinate_owners(f);
-  const std::vector<Element>& elements = f.model().elements;
-  for (std::size_t k = 0; k < elements.size(); ++k)
-    for (int i = 0; i < elements[k].states; ++i)
-      owners.push_back("state " + std::to_string(i + 1) + " of " +
-                       owner_name(f.model(), {-1, static_cast<int>(k)}));
+  for (const Element& e : f.model().elements)
+    for (int i = 0; i < e.states; ++i)
+      owners.push_back("state " + std::to_string(i + 1) + " of " + element_name(e));
   return owners;
 }
 

@@ -119,6 +119,8 @@ void append_joint_parts(const Model& model, int index, std::vector<ConstraintPar
 /// The constraints of an element, if it has any.
 void append_element_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
 
+/// "rod 'link'"
+std::string element_name(const Element& element);
 /// "joint 'hinge'" or "rod 'link'".
 std::string owner_name(const Model& model, const ConstraintOwner& owner);
 

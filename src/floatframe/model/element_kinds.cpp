@@ -191,7 +191,7 @@ void evaluate_element(const Ports& in, int moving_marker, int first_state,
   std::vector<Dual> states(in.states, in.states + held);
   if (moving_marker < 0)
     for (int i = first_state; i < std::min(in.element.states, first_state + dual_directions); ++i)
-      states[static_cast<std::size_t>(i)].d[i - first_state] = 1.0;
+      states[i].d[i - first_state] = 1.0;
   std::vector<MarkerMotion<Dual>> motions;
   std::vector<const MarkerMotion<Dual>*> markers;
   for (std::size_t i = 0; i < n; ++i) {
@@ -199,7 +199,7 @@ void evaluate_element(const Ports& in, int moving_marker, int first_state,
     motions.push_back(static_cast<int>(i) == moving_marker ? moving(m) : constant(m));
   }
   for (const MarkerMotion<Dual>& m : motions) markers.push_back(&m);
-  out = EffortsOf<Dual>(n, static_cast<std::size_t>(in.element.states));
+  out = EffortsOf<Dual>(n, in.element.states);
   out.clear();
   if (!in.element.acts) return;
   element_kind(in.element.type)
@@ -215,14 +215,14 @@ EffortTangent exact_tangent(const Ports& in) {
                     MatX(ns, 6 * n),    MatX(ns, 6 * n),    MatX(ns, ns)};
   EffortsOf<Dual> efforts;
   const auto component = [&](Eigen::Index row) -> const Dual::Directions& {
-    const WrenchOf<Dual>& w = efforts.wrench[static_cast<std::size_t>(row / 6)];
+    const WrenchOf<Dual>& w = efforts.wrench[row / 6];
     return (row % 6 < 3 ? w.F[row % 6] : w.T[row % 6 - 3]).d;
   };
   const auto rate = [&](Eigen::Index i) -> const Dual::Directions& {
-    return efforts.state_rates[static_cast<std::size_t>(i)].d;
+    return efforts.state_rates[i].d;
   };
-  for (Eigen::Index j = 0; j < n; ++j) {
-    evaluate_element(in, static_cast<int>(j), 0, efforts);
+  for (int j = 0; j < n; ++j) {
+    evaluate_element(in, j, 0, efforts);
     for (Eigen::Index row = 0; row < 6 * n; ++row) {
       out.K.row(row).segment<6>(6 * j) = -component(row).head<6>().matrix().transpose();
       out.C.row(row).segment<6>(6 * j) = -component(row).tail<6>().matrix().transpose();

@@ -53,12 +53,15 @@ void append_element_parts(const Model& model, int index, std::vector<ConstraintP
   static_cast<void>(before);
 }
 
+std::string element_name(const Element& element) {
+  return std::string(element_type_name(element.type)) + " '" + element.name + "'";
+}
+
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {
   const bool of_joint =
       owner.joint >= 0 && (owner.element < 0 || owner.element == model.joints[owner.joint].motion);
   if (of_joint) return "joint '" + model.joints[owner.joint].name + "'";
-  const Element& element = model.elements[owner.element];
-  return std::string(element_type_name(element.type)) + " '" + element.name + "'";
+  return element_name(model.elements[owner.element]);
 }
 
 }  // namespace floatframe

@@ -242,15 +242,23 @@ ElementDescription read_element(const ModelInstance& self, const std::string& na
 
 // Lists of one type, which no key names.
 
+namespace {
+
+/// Of a list with one type, which no key names.
+ElementType only_type(ElementList list) { return types_of(list).front(); }
+
+}  // namespace
+
 void read_rods(const ModelInstance& self, ReadModel& model) {
   for (auto& [name, s] : active_entities(self, EntityKind::rod))
-    model.description.rods.push_back(read_element(self, name, s, ElementType::rod, model));
+    model.description.rods.push_back(
+        read_element(self, name, s, only_type(ElementList::rods), model));
 }
 
 void read_couplings(const ModelInstance& self, ReadModel& model) {
   for (auto& [name, s] : active_entities(self, EntityKind::coupling))
     model.description.couplings.push_back(
-        read_element(self, name, s, ElementType::coupling, model));
+        read_element(self, name, s, only_type(ElementList::couplings), model));
 }
 
 void read_forces(const ModelInstance& self, ReadModel& model) {

@@ -209,13 +209,13 @@ std::vector<int> rotor_bodies(const Model& model, const std::string& joint) {
 namespace {
 
 void require_no_states(const Model& model, const std::string& rotor) {
-  for (std::size_t k = 0; k < model.elements.size(); ++k)
-    if (model.elements[k].states > 0)
+  for (const Element& e : model.elements)
+    if (e.states > 0)
       throw InputError(
           ErrorCode::unsupported,
           fmt::format("rotor on joint '{}': found {}, an element with states, expected a model "
                       "without: the analyses of rotors do not know them",
-                      rotor, owner_name(model, {-1, static_cast<int>(k)})));
+                      rotor, element_name(e)));
 }
 
 }  // namespace

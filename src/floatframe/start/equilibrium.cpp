@@ -282,7 +282,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   if (const int drifting = f.element_states().unsolved(); drifting >= 0)
     throw RunError(ErrorCode::no_equilibrium,
                    fmt::format("no static equilibrium found: the states of {} do not come to rest",
-                               owner_name(f.model(), {-1, drifting})));
+                               element_name(f.model().elements[drifting])));
   if (!best.accepted()) {
     Eigen::Index worst = 0;
     if (r.size() == 0)

@@ -44,7 +44,7 @@ std::string Stepper::step_failure() {
   const int force = largest_force();
   const bool unknown = force >= 0 && std::isnan(f_.effort(force).force);
   const std::string who = unknown              ? "force '" + model().elements[force].name + "'"
-                          : last_.element >= 0 ? owner_name(model(), {-1, last_.element})
+                          : last_.element >= 0 ? element_name(model().elements[last_.element])
                           : last_.constraint >= 0
                               ? f_.constraint_set().owner_of_row(last_.constraint)
                           : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)

@@ -152,9 +152,10 @@ std::vector<Forcing> all_forcing(const Model& model) {
                      joint_unit_name(j.type, 0, true)});
   for (const Element& e : model.elements)
     for (const ElementSignal& s : signals_of(e)) {
-      if (e.type == ElementType::coupling)
-        out.push_back({Kind::motion, "the value of coupling '" + e.name + "'", &s.signal->function,
-                       false, element_output_unit(e, ElementQuantity::rate)});
+      if (e.holds && element_kind(e.type).list != ElementList::motions)
+        out.push_back({Kind::motion,
+                       "the " + s.what + " of " + element_type_name(e.type) + " '" + e.name + "'",
+                       &s.signal->function, false, element_output_unit(e, ElementQuantity::rate)});
       if (!e.acts) continue;
       const bool load = energy_category(e.type) == EnergyCategory::loads;
       out.push_back({s.target ? Kind::target : Kind::load,

@@ -24,8 +24,8 @@ struct ForceLawSlopes {
 };
 
 /// Of the derivative by x, from f(x +- h).
-template <class F>
-double force_law_difference(double x, const F& f) {
+template <class Function>
+double force_law_difference(double x, const Function& f) {
   const double h = 1e-6 * (1.0 + std::abs(x));
   return (f(x + h).force - f(x - h).force) / (2.0 * h);
 }

@@ -15,12 +15,11 @@ template <class S>
 void maxwell_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const MatX& branches = in.template keys<Maxwell>().branches;
   const LineMeasure<S> line = line_measure(in);
-  const auto count = static_cast<std::size_t>(branches.rows());
+  const Eigen::Index count = branches.rows();
   double stiffness = 0.0;
   S force = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double k = branches(static_cast<Eigen::Index>(i), 0),
-                 c = branches(static_cast<Eigen::Index>(i), 1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double k = branches(i, 0), c = branches(i, 1);
     const S stretch = line.length - in.state(i), f = k * stretch, flow = f / c;
     force += f;
     out.state_rates[i] = flow;
