@@ -135,7 +135,7 @@ Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible, Eigen::In
     if (std::abs(d.values[k]) > 1e-9 * size) damped.push_back(k);
   for (Eigen::Index k = 0; k < light; ++k)
     if (!(std::abs(d.values[k]) > 1e-9 * size)) undamped.push_back(k);
-  const auto slow = static_cast<Eigen::Index>(damped.size());
+  const Eigen::Index slow = std::ssize(damped);
   MatX B = MatX::Zero(all, all), Bt_scale = MatX::Zero(all, all);
   B.block(0, 0, n, heavy) = mass.vectors.rightCols(heavy);
   B.block(0, heavy, n, slow) = L * d.vectors(Eigen::all, damped);
@@ -345,8 +345,8 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
   follow_statics(s, kinds.without);
   LinearSystem out = first_order(s, kinds.heavy);
   out.xdot_of = out.v_of + m.Gamma * out.x_of;
-  out.degrees = static_cast<int>(n) - m.states;
-  out.massless = static_cast<int>(kinds.damped + kinds.without) - m.states;
+  out.degrees = n - m.states;
+  out.massless = kinds.damped + kinds.without - m.states;
   for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
     const bool rate = k >= s.M.rows();
     if (out.massless > 0)

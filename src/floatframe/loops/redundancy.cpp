@@ -133,7 +133,7 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
     for (; next != independent.dependent().end() && *next < row_of(k) + parts()[k].rows(); ++next)
       if (!holds_motion(k))
         found.push_back({owner_name(model_, parts()[k].owner),
-                         direction_text(parts()[k], row(k, static_cast<int>(*next - row_of(k))))});
+                         direction_text(parts()[k], row(k, *next - row_of(k)))});
   return found;
 }
 

@@ -126,8 +126,7 @@ class ElementReader {
         std::vector<const char*> names;
         for (int k = 0; k < joint_velocities(*type); ++k)
           names.push_back(joint_coordinate_name(*type, k));
-        if (const auto k = word ? word->word(names) : std::nullopt)
-          term.coordinate = static_cast<int>(*k);
+        if (const auto k = word ? word->word(names) : std::nullopt) term.coordinate = *k;
         term.factor *= mirrored_sign(*type, std::max(0, term.coordinate), self_.world);
       }
       all.push_back(std::move(term));

@@ -203,7 +203,7 @@ void JointFollower::follow(const SystemMotion& motion) {
       const double rate = joint_velocity(joints[k], F, M, component);
       const double expected =
           started_ ? j.position[i] + 0.5 * (motion.t - time_) * (j.velocity[i] + rate)
-                   : motion.start_position(static_cast<int>(k), component);
+                   : motion.start_position(k, component);
       j.position[i] = joint_position(joints[k], F, M, component, expected);
       j.velocity[i] = rate;
     }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/model/element_outputs.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {

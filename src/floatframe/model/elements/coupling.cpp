@@ -99,7 +99,7 @@ void coupling_rows(const Model& model, const Element& element, ConstraintPart pa
     part.type =
         axis->turns ? ConstraintType::coordinate_angle : ConstraintType::coordinate_displacement;
     part.owner.joint = port.joint;
-    part.coordinate = static_cast<int>(i);
+    part.coordinate = i;
     part.a = element.markers[port.port];
     part.b = element.markers[port.port + 1];
     part.e_a = axis->direction;

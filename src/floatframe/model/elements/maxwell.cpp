@@ -52,7 +52,7 @@ constexpr ElementKey maxwell_keys[] = {place_key("from", "one end", described_by
                                         .member = described_by<&Maxwell::branches>}};
 
 void maxwell_states(Element& element) {
-  element.states = static_cast<int>(std::get_if<Maxwell>(element.keys.get())->branches.rows());
+  element.states = std::get_if<Maxwell>(element.keys.get())->branches.rows();
 }
 
 void maxwell_start(const Ports& in, double* states) noexcept {
