@@ -79,7 +79,7 @@ class Changes {
 /// Springs whose ends are made coincident (within 1e-9 m) by start values.
 void report_coinciding_ends(const SystemMotion& motion, StartReport& report) {
   for (const Element& force : motion.model.elements)
-    if (element_kind(force.type).along_line && force.joint < 0 &&
+    if (element_kind(force.type).along_line && force.coordinates.empty() &&
         (motion.marker(force.markers[1]).r - motion.marker(force.markers[0]).r).norm() < 1e-9)
       report.notes.push_back(fmt::format(
           "the ends of force '{}' coincide at the start: it has no direction there, and acts along "
