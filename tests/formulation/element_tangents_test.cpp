@@ -52,7 +52,7 @@ Model everything(unsigned seed) {
       Element e = x.element;
       e.name = std::string(element_type_name(type)) + "_" + kind.regimes[regime].name;
       const std::size_t body = model.elements.size() % names.size();
-      if (kind.axis == ElementAxis::coordinate && !(kind.along_line && e.joint < 0)) {
+      if (kind.axis == ElementAxis::coordinate && !(kind.along_line && e.coordinates.empty())) {
         // On a joint of its kind, as the builder would put it.
         for (int k = 0; k < std::ssize(model.joints); ++k) {
           const Joint& j = model.joints[k];
