@@ -88,10 +88,7 @@ Model with_exact_dampers(const Model& model, const VecX& q) {
   kept.elements.clear();
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const Element& element = model.elements[k];
-    std::vector<const MarkerState*> markers;
-    for (const int port : element.markers) markers.push_back(&f.marker(port));
-    const EffortTangent t =
-        exact_tangent({model, element, markers.data(), f.motion().origin, 0.3, 0.0, {}});
+    const EffortTangent t = exact_tangent(f.ports(k));
     const MatX C = 0.5 * (t.C + t.C.transpose()) - tangent_of_rows(f.effort(static_cast<int>(k))).C;
     if (C.cwiseAbs().maxCoeff() < 1e-9) kept.elements.push_back(element);
   }

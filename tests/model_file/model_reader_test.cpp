@@ -150,10 +150,10 @@ TEST_F(Everything, SubsystemsOfSubsystems) {
 TEST_F(Everything, OutputsAndStart) {
   std::vector<std::string> names;
   for (const OutputDescription& o : d.outputs) names.push_back(o.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"block.x", "block.y", "block.z", "block.yaw",
-                                             "block.spin", "tip.vz", "hub.ax", "pin", "tube rate",
-                                             "bar.2", "linear.force", "linear.length",
-                                             "linear.rate", "left.inner.z", "right.inner.z"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "block.x", "block.y", "block.z", "block.yaw", "block.spin", "tip.vz",
+                       "hub.ax", "pin", "tube rate", "bar.2", "linear.force", "linear.length",
+                       "linear.rate", "screw", "left.inner.z", "right.inner.z"}));
   EXPECT_EQ(named(d.outputs, "block.yaw").component, 2);
   EXPECT_EQ(named(d.outputs, "hub.ax").at.body, "left.inner.wheel");
   EXPECT_EQ(named(d.outputs, "hub.ax").at.point, Vec3(1, 1, 0.6));

@@ -1,6 +1,7 @@
 #include "support/random_force.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "floatframe/model/element_kind.hpp"
 
@@ -12,6 +13,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
   f.name = std::string("random_") + element_type_name(type);
   f.kind = element_kind(type).blank();
   int places = 0;
+  double least = std::numeric_limits<double>::infinity();  // of the numbers that must be given
   const auto value = [&](const ElementKey& key) -> std::optional<KeyValue> {
     using K = KeyKind;
     const double size = key.axis == ElementAxis::about ? ends.length * ends.length : 1.0;
@@ -30,7 +32,10 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
         return numbers.direction();
       case K::number: {
         const double low = std::max(key.rule.low, -1.0);
-        return std::min(low + numbers(0.3, 1.0), key.rule.high);
+        const double x = std::min(low + numbers(0.3, 1.0), key.rule.high);
+        // Some are limited by those that must be given.
+        if (key.required) least = std::min(least, x);
+        return key.required ? x : std::min(x, least);
       }
       case K::word:
         return static_cast<int>(numbers(0.0, static_cast<double>(key.words.size()) - 1e-9));
