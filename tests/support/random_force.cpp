@@ -35,7 +35,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
         const double x = std::min(low + numbers(0.3, 1.0), key.rule.high);
         // Some are limited by those that must be given.
         if (key.required) least = std::min(least, x);
-        return key.required ? x : std::min(x, least);
+        return key.required || !(least > low) ? x : std::min(x, least);
       }
       case K::word:
         return static_cast<int>(numbers(0.0, static_cast<double>(key.words.size()) - 1e-9));
