@@ -298,6 +298,8 @@ std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed
   RandomForceEnds ends;
   ends.stiffness = 30.0;
   ends.damping = 0.3;
+  for (const JointDescription& j : d.joints)
+    if (joint_has_one_coordinate(j.type) && !j.motion) ends.joint = j.name;
   for (int trial = 0; trial < 20 && !places.empty(); ++trial) {
     const auto any = [&] { return places[numbers(0.0, static_cast<double>(places.size()))]; };
     ends.a = any();
