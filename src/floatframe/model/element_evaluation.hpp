@@ -57,7 +57,7 @@ struct EffortsOf {
   void clear() noexcept {
     for (WrenchOf<S>& w : wrench) w.F = w.T = Eigen::Matrix<S, 3, 1>::Zero();
     row_count = 0;
-    thrown = nullptr;
+    if (thrown) thrown = nullptr;
     force = length = rate = energy = energy_rate = damping = 0.0;
   }
   /// The wrenches f g on markers 0 and 1 and no others.

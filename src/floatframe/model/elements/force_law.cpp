@@ -81,9 +81,12 @@ namespace {
 constexpr const char* force_law_axis = "the turning of the axis with its body";
 constexpr ElementRegime force_law_regimes[] = {
     {.name = "line", .conservative = false},
-    {.name = "line_by_differences", .conservative = false},
+    {.name = "line_by_differences", .conservative = false, .differences = true},
     {.name = "along", .rows_leave_out = force_law_axis, .conservative = false},
-    {.name = "along_by_differences", .rows_leave_out = force_law_axis, .conservative = false},
+    {.name = "along_by_differences",
+     .rows_leave_out = force_law_axis,
+     .conservative = false,
+     .differences = true},
     {.name = "about_after_turns", .rows_leave_out = force_law_axis, .conservative = false}};
 
 ElementExample force_law_example(std::size_t regime, ExampleNumbers& numbers) {
