@@ -63,7 +63,7 @@ Complaint speed_table(const MatX& rows);
 /// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.
-std::string function_in_file(const std::string& name);
+std::string function_in_file(const std::string& found);
 std::string law_on_what();
 std::string target_without_law();
 std::string motion_and_start_value();
