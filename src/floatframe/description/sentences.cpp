@@ -228,15 +228,16 @@ Complaint bearing_stiffness(const MatX& K) {
          "about its axis (use a bushing or a joint_spring to hold it)";
 }
 
-std::string function_in_file(const std::string& name) {
-  return "found '" + name +
-         "', expected a function, which only a program gives (C++, Python); a model file has "
+std::string function_in_file(const std::string& found) {
+  return "found " + found +
+         ", expected a function, which only a program gives (C++, Python); a model file has "
          "tables: "
          "the spring and damper of a joint_spring or spring_damper";
 }
 
 std::string law_on_what() {
-  return "expected two points, from and to, or a joint that the law acts on";
+  return "found neither from and to nor a joint, or both: expected one of them, for the law to act "
+         "on";
 }
 
 std::string target_without_law() {

@@ -66,7 +66,7 @@ std::string table_rows(Eigen::Index rows, Eigen::Index columns, std::span<const 
 Complaint kinetic_friction(double kinetic, double breakaway);
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.
-std::string function_in_file(const std::string& name);
+std::string function_in_file(const std::string& found);
 std::string law_on_what();
 std::string target_without_law();
 std::string motion_and_start_value();

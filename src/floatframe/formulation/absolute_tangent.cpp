@@ -43,6 +43,13 @@ void AbsoluteTangent::gradients(std::span<const int> markers, const Wrench* w) n
   }
 }
 
+void AbsoluteTangent::gradients(const ConstraintPart& p, const WrenchRow& w) noexcept {
+  gradient_count_ = 2;
+  gradient(p.a, w.a.F, w.a.T, gradients_[0]);
+  gradient(p.b, w.b.F, w.b.T, gradients_[1]);
+  join_gradient(1);
+}
+
 void AbsoluteTangent::add_product(const Gradient& a, const Gradient& b, double weight,
                                   BlockLdlt& matrix) noexcept {
   int oa = 0, ob = 0;
@@ -247,8 +254,12 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
         continue;
       }
       matrix.front(place.home)(at, at) = -1.0 / t.penalty;
-      constraints_.gradient(k, r, row_);
-      gradients(place.markers, row_.data());
+      if (constraints_.continues(k + 1)) {
+        constraints_.gradient(k, r, row_);
+        gradients(place.markers, row_.data());
+      } else {
+        gradients(p, constraints_.row(k, r).gradient);
+      }
       assemble_row(place, r, matrix);
     }
     if (!t.geometric) continue;
@@ -262,8 +273,8 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
     if (constraint_kind(p.type).gradients == PartGradients::line) {
       const double w = t.s * constraints_.multipliers()[row] / p.scale;
       for (int c = 0; c < 3; ++c) {
-        const Wrench unit[] = {{-Vec3::Unit(c), Vec3::Zero()}, {Vec3::Unit(c), Vec3::Zero()}};
-        gradients(place.markers, unit);
+        const Vec3 e = Vec3::Unit(c), zero = Vec3::Zero();
+        gradients(p, {{-e, zero}, {e, zero}});
         add_rank_one(matrix, w);
       }
     }

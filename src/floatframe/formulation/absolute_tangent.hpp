@@ -68,6 +68,8 @@ class AbsoluteTangent {
   void gradient(int marker, const Vec3& force, const Vec3& torque, Gradient& g) const noexcept;
   /// The gradients of wrenches on markers into gradients_; those of a body in the first one of it.
   void gradients(std::span<const int> markers, const Wrench* w) noexcept;
+  /// Of a row between the two markers of a part: the same without loops.
+  void gradients(const ConstraintPart& p, const WrenchRow& w) noexcept;
   /// Adds gradient i to that of the same body before it.
   void join_gradient(std::size_t i) noexcept;
   void add_rank_one(BlockLdlt& matrix, double weight) noexcept;

@@ -78,7 +78,7 @@ class ConstraintSet {
       const ConstraintPart& p = parts_[k];
       ConstraintRow* rows = rows_.data() + stored_[k];
       evaluate_constraint(p, state(p.a), state(p.b), t, rows);
-      for (int r = 0; r < p.rows(); ++r) put(k, r, rows[r].phi, values_);
+      put(k, values_, [&](const ConstraintRow& row) { return row.phi; });
     }
   }
 
@@ -90,11 +90,10 @@ class ConstraintSet {
       const ConstraintPart& p = parts_[k];
       const MarkerState& a = state(p.a);
       const MarkerState& b = state(p.b);
-      for (int r = 0; r < p.rows(); ++r) {
-        const ConstraintRow& x = row(k, r);
-        const WrenchRow& g = x.gradient;
-        put(k, r, g.a.F.dot(a.v) + g.a.T.dot(a.w) + g.b.F.dot(b.v) + g.b.T.dot(b.w) + x.phi_t, out);
-      }
+      put(k, out, [&](const ConstraintRow& row) {
+        const WrenchRow& g = row.gradient;
+        return g.a.F.dot(a.v) + g.a.T.dot(a.w) + g.b.F.dot(b.v) + g.b.T.dot(b.w) + row.phi_t;
+      });
     }
   }
 
@@ -105,12 +104,11 @@ class ConstraintSet {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
       const PointMotion a = motion(p.a), b = motion(p.b);
-      for (int r = 0; r < p.rows(); ++r) {
-        const WrenchRow& g = row(k, r).gradient;
-        put(k, r,
-            g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) + g.b.T.dot(b.angular),
-            out);
-      }
+      put(k, out, [&](const ConstraintRow& row) {
+        const WrenchRow& g = row.gradient;
+        return g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) +
+               g.b.T.dot(b.angular);
+      });
     }
   }
 
@@ -121,14 +119,11 @@ class ConstraintSet {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       const ConstraintPart& p = parts_[k];
       const PointMotion a = motion(p.a), b = motion(p.b);
-      for (int r = 0; r < p.rows(); ++r) {
-        const ConstraintRow& x = row(k, r);
-        const WrenchRow& g = x.gradient;
-        put(k, r,
-            g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) +
-                g.b.T.dot(b.angular) + x.quad + x.phi_tt,
-            out);
-      }
+      put(k, out, [&](const ConstraintRow& row) {
+        const WrenchRow& g = row.gradient;
+        return g.a.F.dot(a.linear) + g.a.T.dot(a.angular) + g.b.F.dot(b.linear) +
+               g.b.T.dot(b.angular) + row.quad + row.phi_tt;
+      });
     }
   }
 
@@ -162,10 +157,17 @@ class ConstraintSet {
   double motion_power(const VecX& lambda) const noexcept;
 
  private:
-  /// Into the row of a part, or added to it.
-  void put(std::size_t part, int r, double x, VecX& out) const noexcept {
-    double& place = out[offsets_[part] + r];
-    place = parts_[part].continues ? place + x : x;
+  /// value(row) of each row of a part into `out`; of a part that continues a row, added to it.
+  template <class Value>
+  void put(std::size_t part, VecX& out, const Value& value) const noexcept {
+    const ConstraintRow* rows = rows_.data() + stored_[part];
+    double* place = out.data() + offsets_[part];
+    if (parts_[part].continues) {
+      *place += value(*rows);
+      return;
+    }
+    const int count = parts_[part].rows();
+    for (int r = 0; r < count; ++r) place[r] = value(rows[r]);
   }
 
   const Model& model_;

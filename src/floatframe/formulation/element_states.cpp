@@ -91,6 +91,7 @@ void ElementStates::solve(std::size_t element, const Ports& in, Efforts& out) no
   Scratch& s = scratch_[element];
   Eigen::Map<VecX> z(z_.data() + offsets_[element], s.z.size());
   evaluate_element(in, out);
+  if (z.size() == 0) return;
   s.size.setZero();
   find_gap(element, out, s);
   for (int k = 0; k < most_iterations; ++k) {

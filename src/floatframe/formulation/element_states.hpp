@@ -30,7 +30,6 @@ class ElementStates {
   /// zdot at the last evaluation; zero for kept numbers.
   const VecX& rates() const noexcept { return rates_; }
   const double* of(std::size_t element) const noexcept { return z_.data() + offsets_[element]; }
-  int offset(std::size_t element) const noexcept { return offsets_[element]; }
 
   /// From now on constant.
   void give(const VecX& z) noexcept {

@@ -299,8 +299,10 @@ class AugmentedLagrangian final : public Integrator {
     }
     if (pivot < 0) return true;
     assert(pivot < f_.velocities());
-    report.status = AttemptStatus::not_finite;  // a force that is no number
-    if (!std::isfinite(largest(rhs_))) return false;
+    if (!std::isfinite(largest(rhs_))) {  // so is the stiffness of forces
+      report.status = AttemptStatus::not_finite;
+      return false;
+    }
     report.status = AttemptStatus::singular_tangent;
     report.coordinate = pivot;
     return false;

@@ -31,7 +31,8 @@ struct ElementRegime {
   const char* rows_leave_out = "";
   /// At rest the wrench is minus the gradient of the energy, and motion only dissipates energy.
   bool conservative = true;
-  bool acts = true;     ///< some wrench in at least some of the examples
+  bool differences = false;  ///< slopes are differences: rounding of the measure is divided by 1e-6
+  bool acts = true;          ///< some wrench in at least some of the examples
   bool regular = true;  ///< the wrench has a derivative here. False where it has none (the ends of
                         ///< a spring coincide, a wheel flat on the road): there the tests check
                         ///< only that the tangent is finite

@@ -88,7 +88,8 @@ struct ElementValidation {
       }
       case K::function:
         if (const auto& f = std::get<ForceFunction>(*x); !f)
-          entity.error(ErrorCode::unsupported, key.name, sentences::function_in_file(f.identity()));
+          entity.error(ErrorCode::unsupported, key.name,
+                       sentences::function_in_file("'" + f.identity() + "'"));
         break;
       case K::flag:
       case K::bump_stop:

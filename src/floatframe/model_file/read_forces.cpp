@@ -171,8 +171,10 @@ class ElementReader {
       case K::bump_stop:
       case K::rebound_stop:
         return stop(key, *value);
-      case K::function:  // `validate` refuses it unless a program gives the function
-        return ForceFunction::named(value->is_scalar() ? value->node().text : value->found());
+      case K::function:  // `validate` refuses its name unless a program gives the function
+        if (value->is_scalar()) return ForceFunction::named(value->node().text);
+        value->error(ErrorCode::unsupported, sentences::function_in_file(value->found()));
+        return std::nullopt;
       case K::stiffness_matrix:
       case K::damping_matrix:
         return matrix(*value);

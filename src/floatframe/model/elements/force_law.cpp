@@ -82,14 +82,18 @@ namespace {
 constexpr const char* force_law_axis = "the turning of the axis with its body";
 constexpr ElementRegime force_law_regimes[] = {
     {.name = "line", .conservative = false},
+    {.name = "line_by_differences", .conservative = false, .differences = true},
     {.name = "along", .rows_leave_out = force_law_axis, .conservative = false},
-    {.name = "along_by_differences", .rows_leave_out = force_law_axis, .conservative = false},
+    {.name = "along_by_differences",
+     .rows_leave_out = force_law_axis,
+     .conservative = false,
+     .differences = true},
     {.name = "about_after_turns", .rows_leave_out = force_law_axis, .conservative = false}};
 
 ElementExample force_law_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
   const PiecewisePolynomial spring = example_spring(numbers), damper = example_damper(numbers);
-  const bool differences = regime == 2, turns = regime == 3;
+  const bool differences = regime == 1 || regime == 3, turns = regime == 4;
   ForceLaw f;
   f.law = [=](double s, double v, double t) -> ForceLawValue {
     const PiecewisePolynomial::Value k = spring(s), c = damper(v);
@@ -101,7 +105,7 @@ ElementExample force_law_example(std::size_t regime, ExampleNumbers& numbers) {
   x.markers = {a, turns ? numbers.marker_on_axis(a) : numbers.marker()};
   x.t = numbers(0.0, 1.0);
   x.keys(f);
-  if (regime >= 1) x.element.coordinates.push_back({});
+  if (regime >= 2) x.element.coordinates.push_back({});
   x.element.rotational = turns;
   if (turns) x.reference_angle = 6.0 * std::numbers::pi;
   return x;
