@@ -154,7 +154,7 @@ class Model:
             return self._built[1]
         text, functions = self.to_yaml(), self.functions
         if self._built is None or self._built[0] != (text, functions):
-            self._built = (text, functions), _core.read_model(text, self.file, parameters, functions)
+            self._built = (text, functions), _core.read_model(text, self.file, parameters, dict(functions))
         return self._built[1]
 
     @property
