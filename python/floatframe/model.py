@@ -211,6 +211,10 @@ class Model:
         return self._section("couplings")
 
     @property
+    def controllers(self) -> Section:
+        return self._section("controllers")
+
+    @property
     def forces(self) -> Section:
         return self._section("forces")
 

@@ -123,6 +123,22 @@ TEST(RandomMechanisms, Couplings) {
   EXPECT_GT(ran, 10);
 }
 
+TEST(RandomMechanisms, Controllers) {
+  int ran = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const auto m = with_controller(random_mechanism(seed), seed);
+    if (!m) continue;
+    const Judgement j = judge(*m);
+    EXPECT_FALSE(is_violation(j.verdict))
+        << fmt::format("seed {}: {} {}", seed, word(j.verdict), j.reason);
+    if (j.verdict == Verdict::equal || j.verdict == Verdict::second_order ||
+        j.verdict == Verdict::finer)
+      ++ran;
+  }
+  fmt::print("[ figure ] controllers {}\n", ran);
+  EXPECT_GT(ran, 20);
+}
+
 // The motion of a hinge is a table with points at 0.02, 0.08 and 0.14 s. With 238 steps they lie at
 // other places of their steps after each halving.
 TEST(RandomMechanisms, PointsOfTablesLieBetweenSteps) {

@@ -1,6 +1,7 @@
 // The tables of force elements in docs/model-file.md are what the list of forces says.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -25,6 +26,11 @@ std::string units(const ElementKey& key, const char* form) {
   return key.axis == ElementAxis::along   ? text(false)
          : key.axis == ElementAxis::about ? text(true)
                                           : text(false) + " or " + text(true);
+}
+
+std::string signal_text(const ElementKey& key, const char* form) {
+  const std::string signal = "[signal](#inputs)";
+  return key.axis == ElementAxis::none ? signal : signal + " " + units(key, form);
 }
 
 std::string value_text(const ElementKey& key) {
@@ -58,11 +64,11 @@ std::string value_text(const ElementKey& key) {
     case K::rebound_stop:
       return "`{length, stiffness}` " + units(key, "[x], [k]");
     case K::load:
-      return "[signal](#inputs) " + units(key, "[F]");
+      return signal_text(key, "[F]");
     case K::target:
-      return "[signal](#inputs) " + units(key, "[x]");
+      return signal_text(key, "[x]");
     case K::target_rate:
-      return "[signal](#inputs) " + units(key, "[v]");
+      return signal_text(key, "[v]");
     case K::motion:
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:
@@ -86,7 +92,7 @@ std::string default_text(const ElementKey& key) {
   if (key.required) return "required";
   switch (key.kind) {
     case KeyKind::number:
-      return number_text(key.fallback);
+      return std::isnan(key.fallback) ? "none" : number_text(key.fallback);
     case KeyKind::word:
       return std::string("`") + key.words[key.fallback] + "`";
     case KeyKind::flag:
@@ -118,27 +124,38 @@ std::string results_text(ElementType type) {
   return s;
 }
 
+/// The lists with types, and their word in the tables.
+constexpr std::pair<ElementList, const char*> typed_lists[] = {
+    {ElementList::forces, "type"}, {ElementList::controllers, "controller"}};
+
 TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
-  const std::string head = "| type | what it does | results |\n|---|---|---|\n";
-  std::string table = head;
-  for (const ElementType type : types_of(ElementList::forces))
-    table += std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about +
-             " | " + results_text(type) + " |\n";
-  EXPECT_EQ(test::table_in_document(head), table);
+  for (const auto& [list, word] : typed_lists) {
+    const std::string head =
+        std::string("| ") + word + " | what it does | results |\n|---|---|---|\n";
+    std::string table = head;
+    for (const ElementType type : types_of(list))
+      table +=
+          std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about + " | " +
+          (list == ElementList::controllers ? "`controller` [-]" : results_text(type)) + " |\n";
+    EXPECT_EQ(test::table_in_document(head), table);
+  }
 }
 
 TEST(ElementTable, KeysOfTheDocumentationAreThoseOfTheList) {
-  const std::string head = "| type | key | value | meaning | default |\n|---|---|---|---|---|\n";
-  std::string table = head;
-  for (const ElementType type : types_of(ElementList::forces)) {
-    std::string name = std::string("`") + element_type_name(type) + "`";
-    for (const ElementKey& key : element_kind(type).keys) {
-      table += "| " + name + " | `" + key.name + "` | " + value_text(key) + " | " + key.about +
-               " | " + default_text(key) + " |\n";
-      name.clear();
+  for (const auto& [list, word] : typed_lists) {
+    const std::string head =
+        std::string("| ") + word + " | key | value | meaning | default |\n|---|---|---|---|---|\n";
+    std::string table = head;
+    for (const ElementType type : types_of(list)) {
+      std::string name = std::string("`") + element_type_name(type) + "`";
+      for (const ElementKey& key : element_kind(type).keys) {
+        table += "| " + name + " | `" + key.name + "` | " + value_text(key) + " | " + key.about +
+                 " | " + default_text(key) + " |\n";
+        name.clear();
+      }
     }
+    EXPECT_EQ(test::table_in_document(head), table);
   }
-  EXPECT_EQ(test::table_in_document(head), table);
 }
 
 }  // namespace

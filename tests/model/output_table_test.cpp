@@ -18,6 +18,7 @@ std::string of(OutputOf what) {
                                       "rod",
                                       "joint with a motion",
                                       "[coupling](#couplings)",
+                                      "[controller](#controllers)",
                                       "[gauge](#gauges)"};
   static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];

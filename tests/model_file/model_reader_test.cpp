@@ -147,13 +147,31 @@ TEST_F(Everything, SubsystemsOfSubsystems) {
   EXPECT_EQ(kind<Tyre>(d, "right.inner.tyre").road, "hill");
 }
 
+TEST_F(Everything, ControllersAndTheirSignals) {
+  const auto& pid = std::get<Pid>(named(d.controllers, "hold").kind);
+  EXPECT_EQ(pid.measured.source, SignalSource::length);
+  EXPECT_EQ(pid.measured.element, "linear");
+  EXPECT_EQ(pid.measured.factor, 2.0);
+  EXPECT_EQ(pid.target->pieces(0.5).f, 1.5);
+  EXPECT_FALSE(pid.rate);
+  EXPECT_EQ(pid.integral, 4.0);
+  EXPECT_EQ(*pid.filter, 0.01);
+  EXPECT_EQ(*pid.upper, 5.0);
+  EXPECT_EQ(*pid.unwind, 0.5);
+  const SignalDescription& twist = kind<AppliedTorque>(d, "twist").magnitude;
+  EXPECT_EQ(twist.source, SignalSource::controller);
+  EXPECT_EQ(twist.element, "hold");
+  EXPECT_EQ(twist.factor, 0.1);
+  EXPECT_EQ(twist.pieces(0.0).f, 7.0);
+}
+
 TEST_F(Everything, OutputsAndStart) {
   std::vector<std::string> names;
   for (const OutputDescription& o : d.outputs) names.push_back(o.name);
   EXPECT_EQ(names, (std::vector<std::string>{
                        "block.x", "block.y", "block.z", "block.yaw", "block.spin", "tip.vz",
                        "hub.ax", "pin", "tube rate", "bar.2", "linear.force", "linear.length",
-                       "linear.rate", "screw", "left.inner.z", "right.inner.z"}));
+                       "linear.rate", "screw", "hold", "left.inner.z", "right.inner.z"}));
   EXPECT_EQ(named(d.outputs, "block.yaw").component, 2);
   EXPECT_EQ(named(d.outputs, "hub.ax").at.body, "left.inner.wheel");
   EXPECT_EQ(named(d.outputs, "hub.ax").at.point, Vec3(1, 1, 0.6));

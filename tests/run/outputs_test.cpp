@@ -36,6 +36,7 @@ couplings: {mesh: {terms: [{joint: drive}, {joint: shaft, factor: -2}]}}
 rods: {tie: {from: {body: ground, at: [1, 2, 1.5]}, to: {body: puck}}}
 forces:
   coil: {type: spring_damper, from: {body: arm, at: tip}, to: {body: puck}, spring: 100, damper: 20}
+controllers: {hold: {type: pid, measured: {length: coil}, proportional: 3}}
 initial:
   amplitudes: {arm: [0.0001, 0.002, -0.003]}
   amplitude_rates: {arm: [0.001, 0.02, 0.03]}
@@ -54,6 +55,7 @@ std::string columns_of_type(OutputType type) {
                                            "tie",
                                            "drive",
                                            "mesh",
+                                           "hold",
                                            "{body: arm, at: tip, toward: [0.3, 1, 0.5]}"};
   static_assert(std::size(references) == index_of(OutputOf::gauge) + 1);
   const std::string word = output_type_name(type);

@@ -188,6 +188,27 @@ TEST(ForceLaw, WhatItThrowsEndsTheStepAndNotTheSimulation) {
   }
 }
 
+// Thrown in the second part of a step that a corner divides: the whole step is undone.
+TEST(ForceLaw, WhatItThrowsUndoesTheStep) {
+  const std::string text = pendulum + R"(
+forces:
+  push: {type: torque, body: arm, direction: y, magnitude: {table: [[0.021, 0], [0.021, 1]]}}
+  f: {type: force_law, joint: hinge, law: f}
+)";
+  for (const Coordinates c : both_coordinates) {
+    const Model model = with_law(text, [](double x, double v, double t) {
+      if (t > 0.0212) throw std::range_error("too late");
+      return cubic(x) + 0.7 * v;
+    });
+    Simulation s(model, {.step = 2e-3, .coordinates = c});
+    for (int k = 0; k < 10; ++k) ASSERT_TRUE(s.step()) << s.failure();
+    const std::vector<double> before(s.outputs().begin(), s.outputs().end());
+    EXPECT_EQ(s.step().status, StepStatus::law_failed);
+    EXPECT_EQ(s.time(), 0.02);
+    EXPECT_EQ(std::vector<double>(s.outputs().begin(), s.outputs().end()), before);
+  }
+}
+
 TEST(ForceLaw, WhatItThrowsEndsTheRun) {
   const Model model = with_law(pendulum + on_hinge, [](double x, double, double t) {
     if (t > 0.1) throw 7;

@@ -17,7 +17,8 @@ class Placed {
   }
   Ports ports() const {
     return {x_.model,           element_,  markers_.data(), x_.origin,        x_.t,
-            x_.reference_angle, x_.inputs, free_branch,     x_.states.data(), x_.state_weight};
+            x_.reference_angle, x_.inputs, free_branch,     x_.states.data(), x_.state_weight,
+            x_.links.data()};
   }
 
  private:
@@ -83,6 +84,25 @@ inline VecX state_rates(const ElementExample& x) {
   const Efforts e = efforts(x);
   return VecX::Map(e.state_rates.data(), static_cast<Eigen::Index>(e.state_rates.size()));
 }
+
+/// Changes of the inner variables of an EffortTangent: states, then signals of other elements.
+inline ElementExample changed(const ElementExample& x, const VecX& inner) {
+  ElementExample out = switched(x, inner.head(x.element.states));
+  for (Eigen::Index i = x.element.states; i < inner.size(); ++i)
+    out.links[static_cast<std::size_t>(i - x.element.states)] += inner[i];
+  return out;
+}
+inline Eigen::Index inner_count(const ElementExample& x) {
+  return x.element.states + std::ssize(x.links);
+}
+/// zdot, force, length, rate.
+inline VecX results(const ElementExample& x) {
+  const Efforts e = efforts(x);
+  VecX out(x.element.states + 3);
+  out << state_rates(x), e.force, e.length, e.rate;
+  return out;
+}
+inline double largest_entry(const MatX& X) { return X.size() > 0 ? X.cwiseAbs().maxCoeff() : 0.0; }
 
 struct RowTangent {
   MatX K, C;

@@ -30,6 +30,13 @@ std::string text(const TimeFunction& f) {
   return fmt::format("{} + {:.6g} sin(2 pi {:.6g} t + {:.6g})", text(f.pieces), f.amplitude,
                      f.frequency, f.phase);
 }
+std::string text(const SignalDescription& s) {
+  std::string all = text(static_cast<const TimeFunction&>(s));
+  if (s.source != SignalSource::none)
+    all += fmt::format(" + {:.17g} {} of {}", s.factor, signal_source_words[index_of(s.source)],
+                       s.element);
+  return all;
+}
 std::string text(const AttachmentDescription& a) {
   return a.body + (a.node ? " node " + *a.node : "") + " " + text(a.point);
 }
@@ -133,7 +140,8 @@ std::string text_of(const ModelDescription& d) {
                      j.motion ? " motion " + text(*j.motion) : "");
   for (const ElementDescription& r : d.rods) s += "  " + r.name + " " + text(r) + '\n';
   for (const ElementDescription& c : d.couplings) s += "  " + c.name + " " + text(c) + '\n';
-  for (const ElementDescription& f : d.forces) s += "  " + f.name + " " + text(f) + '\n';
+  for (const auto* list : {&d.forces, &d.controllers})
+    for (const ElementDescription& f : *list) s += "  " + f.name + " " + text(f) + '\n';
   for (const RoadDescription& r : d.roads) {
     s += "  " + r.name + " " + text(r.pieces);
     for (const CosineBump& b : r.bumps)

@@ -337,4 +337,27 @@ std::optional<Mechanism> with_coupling(Mechanism m, unsigned seed) {
   return m;
 }
 
+std::optional<Mechanism> with_controller(Mechanism m, unsigned seed) {
+  const auto measured = with_force(std::move(m), ElementType::maxwell, seed);
+  if (!measured) return std::nullopt;
+  auto pulled = with_force(*measured, ElementType::spring_damper, seed + 1000);
+  if (!pulled) return std::nullopt;
+  ModelDescription& d = pulled->description;
+  ExampleNumbers numbers(seed);
+  const std::string length = d.forces[d.forces.size() - 2].name;
+  Pid pid;
+  pid.measured.source = SignalSource::length;
+  pid.measured.element = length;
+  pid.target.emplace().pieces = PiecewisePolynomial::polynomial({numbers(0.2, 1.0)});
+  pid.proportional = numbers(5.0, 15.0);
+  pid.integral = numbers(10.0, 30.0);
+  pid.derivative = numbers(0.1, 0.3);
+  pid.filter = 0.05;
+  d.controllers = {{"controller", pid, {}}};
+  SignalDescription& actuator = std::get<SpringDamper>(d.forces.back().kind).actuator.emplace();
+  actuator.source = SignalSource::controller;
+  actuator.element = "controller";
+  return pulled;
+}
+
 }  // namespace floatframe::test

@@ -41,6 +41,10 @@ std::optional<Mechanism> with_force(Mechanism mechanism, ElementType type, unsig
 /// With a coupling of two or three coordinates of joints. nullopt: there are no two.
 std::optional<Mechanism> with_coupling(Mechanism mechanism, unsigned seed);
 
+/// With a controller that measures the length of one element and pulls with another one, between
+/// other places. nullopt: there are none.
+std::optional<Mechanism> with_controller(Mechanism mechanism, unsigned seed);
+
 /// Largest rate at which a model can change at its start [1/s]: square root of the eigenvalues of
 /// (K, M) and norm of M^-1/2 C M^-1/2 on the motions that the constraints leave free and that have
 /// mass, twice the largest speed. Zero if it cannot start.

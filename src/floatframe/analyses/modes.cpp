@@ -63,7 +63,7 @@ std::vector<EnergyShare> potential_shares(const Model& model, const ModeParts& p
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (model.bodies[i].modes() > 0) shares.push_back({model.bodies[i].name, parts.bending[i]});
   for (std::size_t k = 0; k < model.elements.size(); ++k)
-    if (model.elements[k].acts) shares.push_back({model.elements[k].name, parts.springs[k]});
+    if (model.elements[k].exerts()) shares.push_back({model.elements[k].name, parts.springs[k]});
   return shares;
 }
 

@@ -28,10 +28,22 @@ struct TimeFunction {
   double amplitude = 0.0, frequency = 0.0, phase = 0.0;
 };
 
-/// The signal of a load, an actuator or a motor: a function of time, plus the value of an input if
-/// one is named.
+/// A result of an element that is a signal: of a force element its force, length or rate, or of a
+/// controller its value. The words are those of model files.
+enum class SignalSource { none, force, length, rate, controller };
+inline constexpr const char* signal_source_words[] = {"none", "force", "length", "rate",
+                                                      "controller"};
+
+/// The signal of a load, an actuator, a motor or a controller: a function of time, plus the value
+/// of an input if one is named, plus a factor times a result of an element if one is named.
 struct SignalDescription : TimeFunction {
   std::string input;
+  SignalSource source = SignalSource::none;
+  std::string element;  ///< of the source
+  double factor = 1.0;
+
+  SignalDescription() = default;
+  explicit SignalDescription(const TimeFunction& f) : TimeFunction(f) {}
 };
 
 }  // namespace floatframe

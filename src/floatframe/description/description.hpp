@@ -272,9 +272,10 @@ struct ModelDescription {
   SnapDescription snap;
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
-  std::vector<ElementDescription> rods;       ///< elements of type `rod`
-  std::vector<ElementDescription> couplings;  ///< of type `coupling`
-  std::vector<ElementDescription> forces;     ///< all others
+  std::vector<ElementDescription> rods;         ///< elements of type `rod`
+  std::vector<ElementDescription> couplings;    ///< of type `coupling`
+  std::vector<ElementDescription> controllers;  ///< of types without places
+  std::vector<ElementDescription> forces;       ///< all others
   std::vector<RoadDescription> roads;
   std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
@@ -283,7 +284,10 @@ struct ModelDescription {
   SimulationDescription simulation;
 
   const std::vector<ElementDescription>& elements(ElementList list) const {
-    return list == ElementList::rods ? rods : list == ElementList::couplings ? couplings : forces;
+    return list == ElementList::rods          ? rods
+           : list == ElementList::couplings   ? couplings
+           : list == ElementList::controllers ? controllers
+                                              : forces;
   }
 };
 

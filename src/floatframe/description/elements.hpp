@@ -175,6 +175,21 @@ struct ForceLaw {
   ForceFunction law;
 };
 
+/// A controller with proportional, integral and derivative terms of the error e = target -
+/// measured: u = proportional e + i + derivative edot, clipped to [lower, upper]. edot is that of
+/// `rate`, the rate of `measured`, if it is given, and of the target; else that of e behind a
+/// filter of first order.
+struct Pid {
+  SignalDescription measured;
+  std::optional<SignalDescription> target;  ///< absent: 0
+  std::optional<SignalDescription> rate;
+  double proportional = 0.0, integral = 0.0, derivative = 0.0;  ///< [1], [1/s], [s], times units
+  std::optional<double> filter;                                 ///< its time [s]
+  std::optional<double> lower, upper;
+  /// While u is clipped, i returns within this time [s]; absent: proportional / integral.
+  std::optional<double> unwind;
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -191,7 +206,8 @@ struct ForceLaw {
   entry(rod, Rod)                       \
   entry(motion, PrescribedMotion)       \
   entry(coupling, Coupling)             \
-  entry(force_law, ForceLaw)
+  entry(force_law, ForceLaw)            \
+  entry(pid, Pid)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,
@@ -212,10 +228,12 @@ constexpr const char* element_type_name(ElementType type) noexcept {
 }
 
 /// The lists of a description, each with names of its own. Motions are described with their joints.
-enum class ElementList { forces, rods, couplings, motions };
+enum class ElementList { forces, controllers, rods, couplings, motions };
+inline constexpr std::size_t element_list_count = 5;
 /// The section of model files.
 constexpr const char* element_list_name(ElementList list) noexcept {
-  constexpr const char* names[] = {"forces", "rods", "couplings", "joints"};
+  constexpr const char* names[element_list_count] = {"forces", "controllers", "rods", "couplings",
+                                                     "joints"};
   return names[index_of(list)];
 }
 

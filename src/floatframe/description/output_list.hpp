@@ -34,7 +34,8 @@
   entry(stress)                   \
   entry(strain)                   \
   entry(section_force)            \
-  entry(coupling_force)
+  entry(coupling_force)           \
+  entry(controller)
 // clang-format on
 
 namespace floatframe {

@@ -222,6 +222,34 @@ Complaint kinetic_friction(double kinetic, double breakaway) {
          number_text(breakaway);
 }
 
+std::string controller_needs(const std::string& key, const std::string& why) {
+  return "missing key '" + key + "', which " + why + " needs";
+}
+
+std::string controller_without_gain() {
+  return "found no gain, expected proportional, integral or derivative";
+}
+
+std::string controller_limits(double lower, double upper) {
+  return "found " + number_text(lower) + ", expected less than 'upper', " + number_text(upper);
+}
+
+std::string one_source(SignalSource first) {
+  return std::string("excludes '") + signal_source_words[index_of(first)] + "'; remove one of them";
+}
+
+std::string element_without(const std::string& type, SignalSource source) {
+  return "found a " + type + ", expected an element with a " +
+         signal_source_words[index_of(source)];
+}
+
+std::string ring_of_signals(const std::vector<std::string>& elements) {
+  std::string ring;
+  for (const std::string& element : elements) ring += element + " -> ";
+  return "found a ring of signals without a state, " + ring + elements.front() +
+         ": expected a state in it, for example a controller with 'integral' or 'filter'";
+}
+
 Complaint bearing_stiffness(const MatX& K) {
   if (K.rows() < 6 || (K.row(5).isZero(0.0) && K.col(5).isZero(0.0))) return std::nullopt;
   return "found numbers in the sixth row or column, expected zeros: a bearing lets the shaft turn "

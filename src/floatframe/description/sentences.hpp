@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "floatframe/description/attachment.hpp"
 #include "floatframe/math/piecewise_polynomial.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -52,6 +53,12 @@ std::string ground_as_child();
 std::string child_is_parent();
 std::string both_ends_on(const std::string& body);
 std::string element_of_another_list(const std::string& type);
+/// A signal names a second element; `first`: the key of the other one.
+std::string one_source(SignalSource first);
+/// A signal of an element that has no such result, for example the length of a load.
+std::string element_without(const std::string& type, SignalSource source);
+/// Elements whose forces depend on each other at once, in order.
+std::string ring_of_signals(const std::vector<std::string>& elements);
 Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);
 /// `laws`: the keys, one of which is needed.
@@ -64,6 +71,10 @@ Complaint speed_table(const MatX& rows);
 std::string table_rows(Eigen::Index rows, Eigen::Index columns, std::span<const char* const> words);
 /// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint kinetic_friction(double kinetic, double breakaway);
+/// `key` is missing because of `why`.
+std::string controller_needs(const std::string& key, const std::string& why);
+std::string controller_without_gain();
+std::string controller_limits(double lower, double upper);
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.
 std::string function_in_file(const std::string& found);

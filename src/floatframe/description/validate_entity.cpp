@@ -171,6 +171,13 @@ void Entity::function(const std::string& key, const TimeFunction& f, bool may_ju
 void Entity::signal(const std::string& key, const SignalDescription& s, const Names& names) const {
   function(key, s, true);
   if (!s.input.empty()) reference(key + ".input", "input", s.input, names.inputs);
+  if (!word(key + ".source", s.source, signal_source_words)) return;
+  if (s.source == SignalSource::none) return;
+  const bool controller = s.source == SignalSource::controller;
+  const std::string source = key + "." + signal_source_words[index_of(s.source)];
+  reference(source, controller ? "controller" : "force", s.element,
+            controller ? names.controllers : names.forces);
+  number(key + ".factor", s.factor, any_number(""));
 }
 
 void name(const char* kind, const std::string& name, std::set<std::string>& taken,

@@ -83,6 +83,8 @@ class AbsoluteFormulation final : public Formulation {
   void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
   void constraint_increments(const VecX& delta, VecX& out) noexcept override;
   void constraint_forces(const VecX& w, VecX& out) noexcept override;
+  void add_wrenches(const std::vector<int>& markers, const std::vector<Wrench>& wrenches,
+                    VecX& out) noexcept override;
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override {
     assert(q0.size() == velocities() && x.size() == velocities());
     q = q0 + x;

@@ -66,6 +66,13 @@ void AbsoluteFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
   add_constraint_forces(w, out);
 }
 
+void AbsoluteFormulation::add_wrenches(const std::vector<int>& markers,
+                                       const std::vector<Wrench>& wrenches, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::positions) && markers.size() == wrenches.size());
+  for (std::size_t i = 0; i < markers.size(); ++i)
+    kinematics_.add_wrench(markers[i], false, wrenches[i].F, wrenches[i].T, out);
+}
+
 void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
   assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0);

@@ -4,7 +4,16 @@
 
 namespace floatframe {
 
-ElementSet::ElementSet(const Model& model) : model_(model), z_(model) {
+ElementSet::ElementSet(const Model& model)
+    : model_(model),
+      order_(model),
+      links_(model.links.size()),
+      links_from_(model.elements.size()),
+      z_(model) {
+  for (std::size_t l = 0; l < model.links.size(); ++l)
+    links_from_[model.links[l].from].push_back(l);
+  for (const SignalGroup& group : order_.groups)
+    if (!group.links.empty()) rings_.emplace_back(model, group);
   for (const Element& e : model.elements) {
     states_.emplace_back(e.acts ? e.markers.size() : 0, static_cast<std::size_t>(e.states));
     std::vector<int>& slots = slots_.emplace_back();

@@ -4,6 +4,8 @@
 // is known up to whole turns; the value nearest to the angle of the last evaluation is used, so the
 // angles are a part of the state that q does not contain. States of elements
 // (element_evaluation.hpp) are given, or follow the motion at each evaluation (element_states.hpp).
+// Signals between elements are found at each evaluation, elements in an order in which these are
+// known (model/signal_order.hpp), rings of them together (signal_ring.hpp).
 // Step time: no heap, noexcept.
 #include <algorithm>
 #include <cassert>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "floatframe/formulation/element_states.hpp"
+#include "floatframe/formulation/signal_ring.hpp"
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/model.hpp"
@@ -75,8 +78,8 @@ class ElementSet {
   Ports ports(std::size_t k, const Vec3& p_WO, double t) const noexcept {
     const int at = slot(k, 0);
     const double angle = at < 0 ? 0.0 : angles_[at];
-    return {model_,  model_.elements[k], markers_[k].data(), p_WO,       t, angle,
-            inputs_, branches_[k],       z_.of(k),           z_.weight()};
+    return {model_,       model_.elements[k], markers_[k].data(), p_WO,         t, angle, inputs_,
+            branches_[k], z_.of(k),           z_.weight(),        links_.data()};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }
@@ -99,23 +102,43 @@ class ElementSet {
   /// All efforts at time t.
   void evaluate(const Vec3& p_WO, double t) noexcept {
     if (held_) return;
-    for (const std::size_t k : acting_) {
-      const Ports in = ports(k, p_WO, t);
-      if (z_.follow())
-        z_.solve(k, in, states_[k]);
-      else
-        evaluate_element(in, states_[k]);
-      set_angle(slot(k, 0), states_[k].length);
-      if (states_[k].thrown && thrown_.element < 0)
-        thrown_ = {static_cast<int>(k), states_[k].thrown};
-    }
+    if (links_.empty())
+      for (const std::size_t k : acting_) evaluate_one(k, ports(k, p_WO, t));
+    else
+      evaluate_linked([&](std::size_t k) { return ports(k, p_WO, t); });
     z_.take_rates(states_);
   }
-  /// Of the elements with states only, with `ports(k)` of element k.
+  /// Of the elements with states only, with `ports_at(k)` of element k; of all, if there are
+  /// signals between them.
   template <class PortsAt>
   void solve_states(const PortsAt& ports_at) noexcept {
-    for (const std::size_t k : z_.elements()) z_.solve(k, ports_at(k), states_[k]);
+    if (links_.empty())
+      for (const std::size_t k : z_.elements()) z_.solve(k, ports_at(k), states_[k]);
+    else
+      evaluate_linked(ports_at);
     z_.take_rates(states_);
+  }
+  /// The states at a start that gives none: of each element when the signals to it are known.
+  template <class PortsAt>
+  void start_states(const PortsAt& ports_at) noexcept {
+    if (links_.empty()) {
+      for (const std::size_t k : z_.elements()) z_.start(k, ports_at(k));
+      return;
+    }
+    measure(ports_at);
+    for (const SignalGroup& group : order_.groups)
+      for (const std::size_t k : group.elements) {
+        z_.start(k, ports_at(k));
+        evaluate_one(k, ports_at(k));
+        publish(k);
+      }
+  }
+  /// Values of `model.links`, times their factors, at the last evaluation.
+  const std::vector<double>& links() const noexcept { return links_; }
+  /// Finds them at other ports.
+  template <class PortsAt>
+  void find_links(const PortsAt& ports_at) noexcept {
+    if (!links_.empty()) evaluate_linked(ports_at);
   }
   /// Since the beginning of the last step.
   const ThrownByElement& thrown() const noexcept { return thrown_; }
@@ -127,6 +150,53 @@ class ElementSet {
   }
 
  private:
+  void evaluate_one(std::size_t k, const Ports& in) noexcept {
+    if (z_.follow())
+      z_.solve(k, in, states_[k]);
+    else
+      evaluate_element(in, states_[k]);
+    took(k);
+  }
+  void took(std::size_t k) noexcept {
+    set_angle(slot(k, 0), states_[k].length);
+    if (states_[k].thrown && thrown_.element < 0)
+      thrown_ = {static_cast<int>(k), states_[k].thrown};
+  }
+  /// Lengths and rates that are signals; what else an element gives may still depend on signals.
+  template <class PortsAt>
+  void measure(const PortsAt& ports_at) noexcept {
+    for (const std::size_t k : order_.measured) {
+      evaluate_element(ports_at(k), states_[k]);
+      set_angle(slot(k, 0), states_[k].length);
+      publish(k);
+    }
+  }
+  template <class PortsAt>
+  void evaluate_linked(const PortsAt& ports_at) noexcept {
+    measure(ports_at);
+    std::size_t ring = 0;
+    for (const SignalGroup& group : order_.groups) {
+      if (group.links.empty())
+        evaluate_one(group.elements[0], ports_at(group.elements[0]));
+      else
+        rings_[ring++].solve(ports_at, z_, links_, states_);
+      for (const std::size_t k : group.elements) {
+        if (!group.links.empty()) took(k);
+        publish(k);
+      }
+    }
+  }
+  /// The links from an element.
+  void publish(std::size_t k) noexcept {
+    for (const std::size_t l : links_from_[k]) {
+      const SignalLink& link = model_.links[l];
+      const Efforts& e = states_[k];
+      links_[l] = link.factor * (link.quantity == ElementQuantity::force    ? e.force
+                                 : link.quantity == ElementQuantity::length ? e.length
+                                                                            : e.rate);
+    }
+  }
+
   struct HeldAngle {
     int slot;
     const MarkerState *a, *b;
@@ -140,6 +210,10 @@ class ElementSet {
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;
   std::vector<std::int64_t> branches_;
+  SignalOrder order_;
+  std::vector<SignalRing> rings_;
+  std::vector<double> links_;
+  std::vector<std::vector<std::size_t>> links_from_;  ///< each element
   ElementStates z_;
   bool held_ = false;
   ThrownByElement thrown_;

@@ -4,14 +4,15 @@
 //   w z + z_hat = zdot(ports, z)                                                               (1)
 // is solved for the states of each element by a damped Newton iteration with the slopes of its law.
 // w, z_hat: those of a step (integrator/state_scheme.hpp); w = 0 = z_hat: at rest. A state that has
-// no equation at rest (its rate is zero whatever it is: a bristle that sticks) keeps its value.
+// no equation at rest, since its rate is the same whatever the states of its element are, keeps its
+// value: a bristle that sticks, an integral. Its rate there is its drift.
 // Step time: no heap, noexcept.
-#include <Eigen/LU>
 #include <cassert>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "floatframe/math/local_newton.hpp"
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -47,6 +48,12 @@ class ElementStates {
   }
   /// (1) at rest.
   void rest() noexcept { follow(0.0, zero_); }
+  /// The rates of such states at the last evaluation at rest; zero for all others.
+  const VecX& drift() const noexcept { return drift_; }
+  /// The states that kept their values at that evaluation, by their places.
+  bool keeps_value(Eigen::Index state) const noexcept { return held_[state]; }
+  /// A change of them.
+  void move(const VecX& dz) noexcept { z_ += dz; }
   /// From now on constant, with the present values.
   void stop() noexcept { follow_ = false; }
   bool follow() const noexcept { return follow_; }
@@ -62,22 +69,24 @@ class ElementStates {
   void after_step(std::size_t element, const Ports& in) noexcept;
   void take_rates(const std::vector<Efforts>& efforts) noexcept;
 
- private:
-  /// Of an element: what a Newton step needs, and the size that each of its states has had.
-  struct Scratch {
-    MatX slopes;
-    Eigen::PartialPivLU<MatX> lu;
-    VecX z, gap, dz, next, size;
-  };
-  void find_gap(std::size_t element, const Efforts& out, Scratch& s) noexcept;
-  bool find_increment(const Efforts& out, Scratch& s) const noexcept;
-  bool damped_step(std::size_t element, const Ports& in, Efforts& out, Scratch& s) noexcept;
+  // What solves for the states of several elements together uses:
+  double* of(std::size_t element) noexcept { return z_.data() + offsets_[element]; }
+  void find_gap(std::size_t element, const Efforts& out, double* gap, double* size) noexcept;
+  /// Before a solution: no state of the element is held at its value.
+  void release(std::size_t element) noexcept;
+  /// At rest, of the states whose slopes are the rows from `row` on: those without an equation.
+  void hold_drifting(std::size_t element, Eigen::Index row, LocalNewton& newton) noexcept;
+  void fail(std::size_t element) noexcept {
+    if (unsolved_ < 0) unsolved_ = static_cast<int>(element);
+  }
 
+ private:
   const Model& model_;
   std::vector<int> offsets_;
   std::vector<std::size_t> elements_;
-  std::vector<Scratch> scratch_;  ///< of each element
-  VecX z_, rates_, zero_;
+  std::vector<LocalNewton> newton_;  ///< of each element
+  VecX z_, rates_, drift_, zero_;
+  std::vector<char> held_;  ///< of each state, at rest
   const VecX* z_hat_ = nullptr;
   double weight_ = 0.0;
   bool follow_ = false;

@@ -60,7 +60,7 @@ inline constexpr double no_inertia = -1.0;
 // clang-format off
 template <class F>
 concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const VecX& in,
-                                     VecX& out) {
+                                     VecX& out, MatX& matrix) {
   // Sizes nv, nq, nc.
   { c.velocities() } noexcept -> std::same_as<int>;
   { c.configurations() } noexcept -> std::same_as<int>;
@@ -101,6 +101,10 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// Adds to lambda, and to the residual r, the multipliers of constraints that the formulation
   /// satisfies exactly, for (lambda, r), after `residual`.
   { f.balance(out, out) } noexcept -> std::same_as<void>;
+
+  /// Signals between elements add B V^T to T, for (damping, s, B, V), nv x the rank.
+  { c.signal_rank() } noexcept -> std::same_as<int>;
+  { f.signal_tangent(x, x, matrix, matrix) } noexcept -> std::same_as<void>;
 
   // Constraints at the present positions and velocities.
   { c.constraint_values() } noexcept -> std::same_as<const VecX&>;

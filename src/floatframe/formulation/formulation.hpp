@@ -16,6 +16,7 @@
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/formulation/element_set.hpp"
 #include "floatframe/formulation/local_marker.hpp"
+#include "floatframe/formulation/signal_tangent.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/independent_rows.hpp"
 #include "floatframe/model/system_motion.hpp"
@@ -66,7 +67,7 @@ class Formulation {
   }
   /// At a start that gives none, and at the end of a step.
   void start_element_states() noexcept {
-    for (const std::size_t k : element_states().elements()) element_states().start(k, ports(k));
+    element_set_.start_states([this](std::size_t k) { return ports(k); });
   }
   void change_kept_states() noexcept {
     for (const std::size_t k : element_states().elements())
@@ -74,7 +75,8 @@ class Formulation {
   }
   /// What an element acts on at the present positions and velocities.
   virtual Ports ports(std::size_t element) const noexcept = 0;
-  BranchSide branch_side(std::size_t element) const noexcept {
+  BranchSide branch_side(std::size_t element) noexcept {
+    element_set_.find_links([this](std::size_t k) { return ports(k); });
     return floatframe::branch_side(ports(element));
   }
   /// By the function of an element, since the beginning of the last step.
@@ -108,6 +110,13 @@ class Formulation {
   virtual void constraint_accelerations(const VecX& a, VecX& out) noexcept = 0;
   virtual void constraint_increments(const VecX& delta, VecX& out) noexcept = 0;
   virtual void constraint_forces(const VecX& w, VecX& out) noexcept = 0;
+  /// Adds the generalised forces of wrenches on these markers, at the present positions.
+  virtual void add_wrenches(const std::vector<int>& markers, const std::vector<Wrench>& wrenches,
+                            VecX& out) noexcept = 0;
+  int signal_rank() const noexcept { return signal_tangent_.rank(); }
+  void signal_tangent(double damping, double s, MatX& B, MatX& V) noexcept {
+    signal_tangent_.find(*this, damping, s, B, V);
+  }
   const VecX& own_frequencies_squared() const noexcept { return omega2_; }
   virtual void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept = 0;
   virtual void settle(const VecX& q0, VecX& x) const noexcept = 0;
@@ -174,6 +183,7 @@ class Formulation {
   virtual const BodyInertia& inertia(int body) const noexcept = 0;
   double gravity_energy(int body, const BodyKinematics& b) const noexcept;
 
+  SignalTangent signal_tangent_;
   mutable SystemMotion motion_;  ///< filled when it is asked for
   std::vector<const LocalMarker*> local_markers_;
 #ifndef NDEBUG  // the view of modal accelerations is moved to NaN unless it is asked for

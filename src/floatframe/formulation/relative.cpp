@@ -59,6 +59,7 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
   tree_.need_markers(needed_markers(model, constraint_set_));
   omega2_ = VecX::Zero(velocities());
   weights_ = VecX::Zero(constraints());
+  projected_ = VecX::Zero(velocities());
   terms_.resize(model.bodies.size());
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Body& body = model.bodies[i];

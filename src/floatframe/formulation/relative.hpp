@@ -93,6 +93,8 @@ class RelativeFormulation final : public Formulation {
   void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
   void constraint_increments(const VecX& delta, VecX& out) noexcept override;
   void constraint_forces(const VecX& w, VecX& out) noexcept override;
+  void add_wrenches(const std::vector<int>& markers, const std::vector<Wrench>& wrenches,
+                    VecX& out) noexcept override;
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override {
     tree_.retract(q0, x, q);
   }
@@ -143,6 +145,7 @@ class RelativeFormulation final : public Formulation {
   BodyVectors wrenches_;    ///< of the last residual or constraint forces
   BodyVectors increments_;  ///< motions of the bodies under an increment
   VecX weights_;            ///< of `solve`
+  VecX projected_;          ///< of `add_wrenches`
 };
 
 }  // namespace floatframe

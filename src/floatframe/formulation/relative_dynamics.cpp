@@ -87,6 +87,16 @@ void RelativeFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
   tree_.project(wrenches_, out);
 }
 
+void RelativeFormulation::add_wrenches(const std::vector<int>& markers,
+                                       const std::vector<Wrench>& wrenches, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::positions) && markers.size() == wrenches.size());
+  for (VecX& h : wrenches_) h.setZero();
+  for (std::size_t i = 0; i < markers.size(); ++i)
+    tree_.add_wrench(markers[i], wrenches[i].F, wrenches[i].T, wrenches_);
+  tree_.project(wrenches_, projected_);
+  out += projected_;
+}
+
 void RelativeFormulation::constraint_rates(VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
   FLOATFRAME_DEBUG(poison(out));

@@ -28,7 +28,7 @@
 // repeated until the tolerance.
 //
 // States of elements follow the iterate (state_scheme.hpp); C and K contain what follows from them.
-//
+// Signals between elements are a low-rank part of T (signal_update.hpp).
 // Nothing here allocates after construction, throws or prints. The state changes only when the step
 // is accepted.
 #include <algorithm>
@@ -41,6 +41,7 @@
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/integrator.hpp"
+#include "floatframe/integrator/signal_update.hpp"
 #include "floatframe/integrator/state_scheme.hpp"
 #include "floatframe/integrator/step_scheme.hpp"
 #include "floatframe/math/contracts.hpp"
@@ -52,7 +53,7 @@ template <EquationsOfMotion F>
 class AugmentedLagrangian final : public Integrator {
  public:
   AugmentedLagrangian(F& formulation, const StepOptions& options)
-      : Integrator(options, formulation.constraints()), f_(formulation) {
+      : Integrator(options, formulation.constraints()), f_(formulation), signals_(formulation) {
     const int nv = f_.velocities(), nc = f_.constraints();
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
@@ -297,14 +298,14 @@ class AugmentedLagrangian final : public Integrator {
       pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
       ++report.factorizations;
     }
-    if (pivot < 0) return true;
+    if (pivot < 0 && signals_.renew(f_, k.c1 / k.c2, k.s, it.penalty, newton_slot)) return true;
     assert(pivot < f_.velocities());
     if (!std::isfinite(largest(rhs_))) {  // so is the stiffness of forces
       report.status = AttemptStatus::not_finite;
       return false;
     }
     report.status = AttemptStatus::singular_tangent;
-    report.coordinate = pivot;
+    report.coordinate = pivot < 0 ? index_of_largest(rhs_) : pivot;
     return false;
   }
 
@@ -316,10 +317,12 @@ class AugmentedLagrangian final : public Integrator {
     delta_ = -k.s * rhs_;
     if (f_.constraints() == 0) {
       f_.solve(delta_, newton_slot);
+      signals_.correct(delta_);
       return;
     }
     const VecX& phi = f_.constraint_values();
     f_.solve(delta_, phi, it.penalty, work_, newton_slot);
+    signals_.correct(delta_, work_);
     // (h), the multiplier consistent with this solution. Evaluating Phi(q) after the update instead
     // would add the curvature of the constraints, alpha O(dx^2), to the multipliers.
     lambda_ += it.alpha * work_;
@@ -376,6 +379,7 @@ class AugmentedLagrangian final : public Integrator {
   }
 
   F& f_;
+  SignalUpdate<F> signals_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, rate_, work_, increments_;
   VecX z_hat_;  ///< of the states of elements

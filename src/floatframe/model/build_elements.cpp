@@ -1,9 +1,11 @@
 // Elements of the description: their markers, laws and parameters.
 #include <algorithm>
 
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
+#include "floatframe/model/signal_order.hpp"
 
 namespace floatframe {
 
@@ -70,7 +72,7 @@ void ModelBuilder::holding_elements() {
     for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
     if (!j.motion) continue;
-    const PrescribedMotion keys{j.name, {*j.motion, {}}};
+    const PrescribedMotion keys{j.name, SignalDescription(*j.motion)};
     if (add_element({j.name, keys, j.origin}))
       model.joints[model.elements.back().coordinates[0].joint].motion =
           std::ssize(model.elements) - 1;
@@ -79,11 +81,43 @@ void ModelBuilder::holding_elements() {
 
 void ModelBuilder::forces() {
   const auto holding = std::ssize(model.elements);
-  for (const ElementDescription& e : d.forces) add_element(e);
+  for (const auto* list : {&d.forces, &d.controllers})
+    for (const ElementDescription& e : *list) add_element(e);
   const int acting = static_cast<int>(std::ssize(model.elements) - holding);
   std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());
   for (Joint& joint : model.joints)
     if (joint.motion >= 0) joint.motion += acting;
+  link_signals();
+}
+
+void ModelBuilder::link_signals() {
+  const auto list_of = [](SignalSource source) {
+    return source == SignalSource::controller ? ElementList::controllers : ElementList::forces;
+  };
+  for (int k = 0; k < std::ssize(model.elements); ++k) {
+    Element& e = model.elements[k];
+    const ElementDescription described{e.name, *e.keys, {}};
+    int port = -1;
+    for (const std::optional<SignalDescription>& s : signal_values(described)) {
+      ++port;
+      if (!s || s->source == SignalSource::none) continue;
+      const int from = element(list_of(s->source), s->element);
+      if (from < 0) continue;  // it has an error
+      e.signals[port].link = std::ssize(model.links);
+      model.links.push_back({from, k, port, quantity_of(s->source), s->factor});
+    }
+  }
+  const SignalOrder order(model);
+  if (order.ring.empty() || !errors.empty()) return;
+  std::vector<std::string> names;
+  for (const std::size_t k : order.ring) names.push_back(element_name(model.elements[k]));
+  const Element& first = model.elements[order.ring.front()];
+  const ElementList list = element_kind(first.type).list;
+  for (const ElementDescription& e : d.elements(list))
+    if (e.name == first.name)
+      errors.add(ErrorCode::contradiction, e.origin.mark,
+                 std::string(element_list_name(list)) + "." + e.name + ": " +
+                     sentences::ring_of_signals(names));
 }
 
 }  // namespace floatframe

@@ -63,6 +63,10 @@ void ModelBuilder::outputs() {
         out.element = element(ElementList::couplings, o.entity);
         built = out.element >= 0;
         break;
+      case OutputOf::controller:
+        out.element = element(ElementList::controllers, o.entity);
+        built = out.element >= 0;
+        break;
       case OutputOf::motion:
         out.element = element(ElementList::motions, o.entity);
         built = out.element >= 0;

@@ -107,6 +107,14 @@ using Efforts = EffortsOf<double>;
 /// No branch is held: the law is evaluated on the branch of the present position.
 inline constexpr std::int64_t free_branch = -1;
 
+/// A signal of an element in one configuration: its value and derivatives in time. Those of inputs
+/// and of results of other elements are not known and taken as zero.
+template <class S>
+struct SignalValue {
+  S f = 0.0;
+  double df = 0.0, ddf = 0.0;
+};
+
 /// What an element acts on in one configuration.
 template <class S>
 struct PortsOf {
@@ -123,6 +131,7 @@ struct PortsOf {
   const S* states = nullptr;          ///< z, and behind them the kept numbers
   /// w of (1); infinite: z is constant.
   double state_weight = std::numeric_limits<double>::infinity();
+  const S* links = nullptr;  ///< of model.links, times their factors
 
   const S& state(std::size_t i) const noexcept { return states[i]; }
   /// dz/dp = zdot_p times this, of a state with the slope zdot_z that no other state enters.
@@ -137,11 +146,10 @@ struct PortsOf {
     return *static_cast<const Data*>(element.data.get());
   }
   /// Value and derivatives in time of a signal port; zero if it is not given.
-  PiecewisePolynomial::Value signal(std::size_t port) const noexcept {
-    return element.signals[port].given ? given_signal(element.signals[port])
-                                       : PiecewisePolynomial::Value{};
+  SignalValue<S> signal(std::size_t port) const noexcept {
+    return element.signals[port].given ? given_signal(element.signals[port]) : SignalValue<S>{};
   }
-  PiecewisePolynomial::Value given_signal(const Signal& signal) const noexcept;
+  SignalValue<S> given_signal(const Signal& signal) const noexcept;
 };
 using Ports = PortsOf<double>;
 using DualPorts = PortsOf<Dual>;
@@ -152,9 +160,14 @@ using DualPorts = PortsOf<Dual>;
 struct EffortTangent {
   MatX K;  ///< -d(wrenches)/d(motion)
   MatX C;  ///< -d(wrenches)/d(rates)
-  /// With ns states: -d(wrenches)/dz; d(zdot)/d(motion), /d(rates), /dz.
-  MatX of_states, motion, rates, slopes;
+  /// Inner variables: the states, and the signals from other elements in the order of their ports.
+  MatX of_inner;  ///< -d(wrenches)/d(inner)
+  /// Of zdot, and behind it of force, length and rate (ElementQuantity): d/d(motion), d/d(rates),
+  /// d/d(inner).
+  MatX motion, rates, slopes;
 };
+/// The number of signals of an element from other elements.
+int link_count(const Element& element) noexcept;
 
 /// Event function of the active branch of a law: see `branch_side`.
 struct BranchSide {
@@ -167,11 +180,34 @@ struct BranchSide {
 /// markers of the element.
 void evaluate_element(const Ports& in, Efforts& out) noexcept;
 
-/// The exact derivatives, by dual numbers. Allocates.
+/// Finds the exact derivatives of one element by dual numbers. Step time: no heap, noexcept.
+class TangentFinder {
+ public:
+  /// For an element of `model`. Allocates.
+  TangentFinder(const Model& model, const Element& element);
+  /// With the ports of this element.
+  const EffortTangent& find(const Ports& in) noexcept;
+  /// Only `of_inner` and `slopes`.
+  const EffortTangent& find_inner(const Ports& in) noexcept;
+  /// With respect to the motion and rates of a marker: directions (dr, dpi, v, w).
+  const EffortsOf<Dual>& along_marker(const Ports& in, int marker) noexcept;
+  /// To the inner variables from `first` on.
+  const EffortsOf<Dual>& along_inner(const Ports& in, int first) noexcept;
+
+ private:
+  void evaluate(const Ports& in) noexcept;
+  const Dual::Directions& wrench(Eigen::Index row) const noexcept;
+  const Dual::Directions& result(Eigen::Index row) const noexcept;
+
+  EffortTangent out_;
+  EffortsOf<Dual> efforts_;
+  std::vector<MarkerMotion<Dual>> motions_;
+  std::vector<const MarkerMotion<Dual>*> markers_;
+  std::vector<Dual> states_, links_;
+  std::vector<int> own_links_;  ///< in `links_`, in the order of the ports
+};
+/// The same once. Allocates.
 EffortTangent exact_tangent(const Ports& in);
-/// With respect to the motion and rates of marker `moving`: directions (dr, dpi, v, w); and to the
-/// states from `first_state` on, if `moving` is -1.
-void evaluate_element(const Ports& in, int moving, int first_state, EffortsOf<Dual>& out) noexcept;
 
 /// Where the force of an element or its slope jumps - an edge of the road, contact, a corner of a
 /// law - the element changes from one branch of its law to another. Each branch is smooth and

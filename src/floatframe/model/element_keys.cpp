@@ -82,7 +82,7 @@ std::optional<SignalDescription> ElementView::signal(const std::string& name) co
   const auto value = key_value(*force_, key(name));
   const auto* found = value ? std::get_if<SignalDescription>(&*value) : nullptr;
   if (const auto* f = value ? std::get_if<TimeFunction>(&*value) : nullptr)
-    return SignalDescription{*f, {}};
+    return SignalDescription(*f);
   return found ? std::optional(*found) : std::nullopt;
 }
 

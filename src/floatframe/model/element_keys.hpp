@@ -4,6 +4,7 @@
 // only.
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -41,8 +42,8 @@ enum class KeyKind {
 };
 
 /// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of
-/// the joint given by the key `joint`, or the first one of `terms`.
-enum class ElementAxis { along, about, coordinate };
+/// the joint given by the key `joint`, or the first one of `terms`; none: a bare number.
+enum class ElementAxis { along, about, coordinate, none };
 
 struct AxisUnits {
   const char *displacement, *rate, *force, *stiffness, *damping;
@@ -72,7 +73,8 @@ struct ElementKey {
   ElementAxis axis = ElementAxis::along;
   NumberRule rule = any_number("");
   std::span<const char* const> words = {};
-  double fallback = 0.0;                           ///< number or index of the word without the key
+  double fallback = 0.0;                           ///< number, or index of the word, without the
+                                                   ///< key; NaN: none
   std::array<double, 3> vector = {0.0, 0.0, 1.0};  ///< direction without the key
   bool axial = false;                              ///< how a direction reflects
   const char* of = nullptr;                        ///< of a stop: the key of the spring
@@ -116,6 +118,9 @@ template <class S, auto m>
 inline constexpr KeyMember member = {key_member::read<S, m>, key_member::write<S, m>};
 template <auto m>
 inline constexpr KeyMember described_by = member<decltype(key_member::owner(m)), m>;
+
+/// The `fallback` of a number that may be absent.
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A required point on a body.
 constexpr ElementKey place_key(const char* name, const char* about, KeyMember member = {}) {

@@ -40,6 +40,8 @@ struct ElementRegime {
 
 /// Type, laws and signals of an element from its keys.
 void take_keys(Element& element, const Model& model);
+/// The signals of its keys, in their order.
+std::vector<std::optional<SignalDescription>> signal_values(const ElementDescription& element);
 
 struct ElementExample {
   Model model;  ///< holds roads and inputs
@@ -48,6 +50,7 @@ struct ElementExample {
   Vec3 origin = Vec3::Zero();
   double t = 0.0, reference_angle = 0.0;
   std::vector<double> inputs;
+  std::vector<double> links;   ///< results of other elements, times their factors
   std::vector<double> states;  ///< and kept numbers
   double state_weight = std::numeric_limits<double>::infinity();
 
@@ -56,9 +59,15 @@ struct ElementExample {
   void keys(Keys keys) {
     element.keys = std::make_shared<const ElementKeys>(std::move(keys));
     take_keys(element, model);
+    link_signals();
   }
   /// A function of time plus a new input.
   SignalDescription signal(ExampleNumbers& numbers);
+  /// The same with a result of another element.
+  SignalDescription linked_signal(ExampleNumbers& numbers);
+
+ private:
+  void link_signals();
 };
 /// Fills `out`, which is clear on entry. The step calls it by name, without a pointer.
 template <ElementType type>
@@ -184,9 +193,9 @@ constexpr std::array<ElementKey, 4> load_keys(ElementAxis axis) {
 /// The load on its only marker: along an axis of the world or one that turns with the body.
 template <class S>
 Eigen::Matrix<S, 3, 1> load_of(const PortsOf<S>& in, const AppliedLoad& load) noexcept {
-  const Vec3 along = in.signal(0).f * load.direction;
-  if (!load.follows) return along.template cast<S>();
-  return in.marker(0).R * along.template cast<S>();
+  const Eigen::Matrix<S, 3, 1> along = in.signal(0).f * load.direction.template cast<S>();
+  if (!load.follows) return along;
+  return in.marker(0).R * along;
 }
 Picture picture_of_load(const Element& element, Picture::Symbol symbol, const AppliedLoad& load);
 
@@ -248,7 +257,7 @@ ElementExample example_load(bool follows, ExampleNumbers& numbers) {
   L load;
   load.direction = numbers.vector(2.0);
   load.follows = follows;
-  load.magnitude = x.signal(numbers);
+  load.magnitude = x.linked_signal(numbers);
   x.t = numbers(0.0, 1.0);
   x.keys(load);
   x.markers = {numbers.marker()};

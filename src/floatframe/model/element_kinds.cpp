@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/math/so3.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/port_measures.hpp"
@@ -35,23 +34,6 @@ bool is_signal(const ElementKey& key) noexcept {
          key.kind == KeyKind::target_rate || key.kind == KeyKind::motion;
 }
 
-MarkerMotion<Dual> constant(const MarkerState& m) {
-  return {m.r.cast<Dual>(), m.R.cast<Dual>(), m.v.cast<Dual>(), m.w.cast<Dual>()};
-}
-
-/// With unit derivatives in the directions (dr, dpi, v, w).
-MarkerMotion<Dual> moving(const MarkerState& m) {
-  MarkerMotion<Dual> out = constant(m);
-  for (int c = 0; c < 3; ++c) {
-    out.r[c].d[c] = 1.0;
-    out.v[c].d[6 + c] = 1.0;
-    out.w[c].d[9 + c] = 1.0;
-    const Mat3 turned = skew(Vec3::Unit(c)) * m.R;
-    for (int k = 0; k < 9; ++k) out.R(k).d[3 + c] = turned(k);
-  }
-  return out;
-}
-
 }  // namespace
 
 const ElementKind& element_kind(ElementType type) noexcept { return *element_list[index_of(type)]; }
@@ -67,6 +49,12 @@ std::vector<ElementType> types_of(ElementList list) {
 
 bool is_bearing(ElementType type) noexcept { return element_kind(type).bears; }
 
+bool calls_program(ElementType type) noexcept {
+  const std::span<const ElementKey> keys = element_keys(type);
+  return std::any_of(keys.begin(), keys.end(),
+                     [](const ElementKey& key) { return key.kind == KeyKind::function; });
+}
+
 bool ends_at_half_turn(const Element& element) noexcept {
   const auto ends = element_kind(element.type).ends_at_half_turn;
   return ends != nullptr && ends(element);
@@ -79,10 +67,31 @@ bool element_has(ElementType type, ElementQuantity quantity) noexcept {
 const char* element_output_unit(const Element& element, ElementQuantity quantity) noexcept {
   if (!element_has(element.type, quantity)) return "";
   const ElementAxis axis = element_kind(element.type).axis;
+  if (axis == ElementAxis::none) return "-";
   const AxisUnits units = axis_units(axis == ElementAxis::about ||
                                      (axis == ElementAxis::coordinate && element.rotational));
   const char* of[] = {units.force, units.displacement, units.rate};
   return of[index_of(quantity)];
+}
+
+ElementQuantity quantity_of(SignalSource source) noexcept {
+  return source == SignalSource::length ? ElementQuantity::length
+         : source == SignalSource::rate ? ElementQuantity::rate
+                                        : ElementQuantity::force;
+}
+
+std::vector<std::optional<SignalDescription>> signal_values(const ElementDescription& element) {
+  std::vector<std::optional<SignalDescription>> values;
+  const ElementView view(element);
+  for (const ElementKey& key : element_keys(element.type()))
+    if (is_signal(key)) values.push_back(view.signal(key.name));
+  return values;
+}
+
+int link_count(const Element& element) noexcept {
+  int count = 0;
+  for (const Signal& signal : element.signals) count += signal.link >= 0;
+  return count;
 }
 
 std::vector<ElementSignal> signals_of(const Element& element) {
@@ -141,10 +150,10 @@ void take_keys(Element& element, const Model& model) {
   element.signals.clear();
   element.acts = element_kind(element.type).dual != nullptr;
   element.holds = element_kind(element.type).rows != nullptr;
-  element.driven = element.target_jumps = false;
+  element.driven = calls_program(element.type);
+  element.target_jumps = false;
   bool rate = false;
   for (const ElementKey& key : element_keys(element.type)) {
-    element.driven = element.driven || key.kind == KeyKind::function;
     if (is_law(key)) element.laws.push_back(values.law(key.name));
     if (!is_signal(key)) continue;
     const std::optional<SignalDescription> s = values.signal(key.name);
@@ -158,7 +167,8 @@ void take_keys(Element& element, const Model& model) {
     signal.differentiated = key.kind == KeyKind::target;
     element.driven = element.driven || signal.given;
     if (s && key.kind == KeyKind::target)
-      element.target_jumps = signal.input >= 0 || !s->pieces.breaks().empty();
+      element.target_jumps =
+          signal.input >= 0 || s->source != SignalSource::none || !s->pieces.breaks().empty();
     rate = rate || (s && key.kind == KeyKind::target_rate);
     element.signals.push_back(std::move(signal));
   }
@@ -170,10 +180,12 @@ void take_keys(Element& element, const Model& model) {
 }
 
 template <class S>
-PiecewisePolynomial::Value PortsOf<S>::given_signal(const Signal& signal) const noexcept {
-  PiecewisePolynomial::Value value = evaluate(signal.function, t);
-  if (signal.input >= 0) value.f += inputs[static_cast<std::size_t>(signal.input)];
-  return value;
+SignalValue<S> PortsOf<S>::given_signal(const Signal& signal) const noexcept {
+  const PiecewisePolynomial::Value value = evaluate(signal.function, t);
+  SignalValue<S> out{value.f, value.df, value.ddf};
+  if (signal.input >= 0) out.f += inputs[static_cast<std::size_t>(signal.input)];
+  if (signal.link >= 0) out.f += links[signal.link];
+  return out;
 }
 template struct PortsOf<double>;
 template struct PortsOf<Dual>;
@@ -182,65 +194,6 @@ void evaluate_element(const Ports& in, Efforts& out) noexcept {
   assert(out.markers() == in.element.markers.size());
   out.clear();
   evaluate_of(Types{}, in, out);
-}
-
-void evaluate_element(const Ports& in, int moving_marker, int first_state,
-                      EffortsOf<Dual>& out) noexcept {
-  const std::size_t n = in.element.markers.size();
-  const int held = in.element.states + in.element.kept;
-  std::vector<Dual> states(in.states, in.states + held);
-  if (moving_marker < 0)
-    for (int i = first_state; i < std::min(in.element.states, first_state + dual_directions); ++i)
-      states[i].d[i - first_state] = 1.0;
-  std::vector<MarkerMotion<Dual>> motions;
-  std::vector<const MarkerMotion<Dual>*> markers;
-  for (std::size_t i = 0; i < n; ++i) {
-    const MarkerState& m = in.marker(static_cast<int>(i));
-    motions.push_back(static_cast<int>(i) == moving_marker ? moving(m) : constant(m));
-  }
-  for (const MarkerMotion<Dual>& m : motions) markers.push_back(&m);
-  out = EffortsOf<Dual>(n, in.element.states);
-  out.clear();
-  if (!in.element.acts) return;
-  element_kind(in.element.type)
-      .dual({in.model, in.element, markers.data(), in.origin, in.t, in.reference_angle, in.inputs,
-             in.branch, states.data(), in.state_weight},
-            out);
-}
-
-EffortTangent exact_tangent(const Ports& in) {
-  const auto n = static_cast<Eigen::Index>(in.element.markers.size());
-  const Eigen::Index ns = in.element.states;
-  EffortTangent out{MatX(6 * n, 6 * n), MatX(6 * n, 6 * n), MatX(6 * n, ns),
-                    MatX(ns, 6 * n),    MatX(ns, 6 * n),    MatX(ns, ns)};
-  EffortsOf<Dual> efforts;
-  const auto component = [&](Eigen::Index row) -> const Dual::Directions& {
-    const WrenchOf<Dual>& w = efforts.wrench[row / 6];
-    return (row % 6 < 3 ? w.F[row % 6] : w.T[row % 6 - 3]).d;
-  };
-  const auto rate = [&](Eigen::Index i) -> const Dual::Directions& {
-    return efforts.state_rates[i].d;
-  };
-  for (int j = 0; j < n; ++j) {
-    evaluate_element(in, j, 0, efforts);
-    for (Eigen::Index row = 0; row < 6 * n; ++row) {
-      out.K.row(row).segment<6>(6 * j) = -component(row).head<6>().matrix().transpose();
-      out.C.row(row).segment<6>(6 * j) = -component(row).tail<6>().matrix().transpose();
-    }
-    for (Eigen::Index i = 0; i < ns; ++i) {
-      out.motion.row(i).segment<6>(6 * j) = rate(i).head<6>().matrix().transpose();
-      out.rates.row(i).segment<6>(6 * j) = rate(i).tail<6>().matrix().transpose();
-    }
-  }
-  for (int first = 0; first < ns; first += dual_directions) {
-    evaluate_element(in, -1, first, efforts);
-    for (Eigen::Index s = first; s < std::min<Eigen::Index>(ns, first + dual_directions); ++s) {
-      for (Eigen::Index row = 0; row < 6 * n; ++row)
-        out.of_states(row, s) = -component(row)[s - first];
-      for (Eigen::Index i = 0; i < ns; ++i) out.slopes(i, s) = rate(i)[s - first];
-    }
-  }
-  return out;
 }
 
 bool has_branches(const Element& element) noexcept {
@@ -341,6 +294,23 @@ SignalDescription ElementExample::signal(ExampleNumbers& numbers) {
   model.inputs.emplace_back().name = s.input;
   inputs.push_back(numbers(-50.0, 50.0));
   return s;
+}
+
+SignalDescription ElementExample::linked_signal(ExampleNumbers& numbers) {
+  SignalDescription s = signal(numbers);
+  s.source = SignalSource::force;
+  links.push_back(numbers(-5.0, 5.0));
+  return s;
+}
+
+void ElementExample::link_signals() {
+  int link = 0;
+  const std::vector<std::optional<SignalDescription>> values =
+      signal_values({element.name, *element.keys, {}});
+  model.links.resize(links.size());
+  for (std::size_t port = 0; port < values.size(); ++port)
+    if (values[port] && values[port]->source != SignalSource::none)
+      element.signals[port].link = link++;
 }
 
 PiecewisePolynomial example_spring(ExampleNumbers& numbers) {

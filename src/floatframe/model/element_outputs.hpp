@@ -7,9 +7,6 @@
 
 namespace floatframe {
 
-/// The scalar force or torque, its measure (length, deflection, angle) and the rate of that.
-enum class ElementQuantity { force, length, rate };
-
 /// "N", "rad/s", ...; empty if elements of its type have no such quantity.
 const char* element_output_unit(const Element& element, ElementQuantity quantity) noexcept;
 /// Prescribed loads have no length and no rate.
@@ -36,6 +33,8 @@ struct ElementSignal {
 };
 /// Those that are given.
 std::vector<ElementSignal> signals_of(const Element& element);
+/// What a source of a signal is of its element.
+ElementQuantity quantity_of(SignalSource source) noexcept;
 
 /// How an element is drawn. Axes and anchors are those of its markers.
 struct Picture {
@@ -63,6 +62,9 @@ bool is_wheel_of(const Model& model, const Element& element, int body);
 const char* lifted_by(ElementType type) noexcept;
 /// Lifts it by a function of time [m].
 void lift(Element& element, const TimeFunction& height);
+
+/// Its law is a function of a program, which may throw.
+bool calls_program(ElementType type) noexcept;
 
 /// It keeps an axis, z of its markers, about which one side may turn without end.
 bool is_bearing(ElementType type) noexcept;

@@ -63,8 +63,21 @@ struct Road {
 struct Signal {
   TimeFunction function;
   int input = -1;
+  int link = -1;  ///< of Model::links: a result of an element is added
   bool given = false;
   bool differentiated = false;  ///< the rate of the function is used as well
+};
+
+/// The scalar force or torque of an element, its measure (length, deflection, angle) and the rate
+/// of that. Measure and rate follow from the motion alone.
+enum class ElementQuantity { force, length, rate };
+
+/// A result of an element, times a factor, that is part of a signal of another one.
+struct SignalLink {
+  int from = -1, to = -1;  ///< elements
+  int port = 0;            ///< the signal of the second one
+  ElementQuantity quantity{};
+  double factor = 1.0;
 };
 
 /// A coordinate of a joint that an element acts on or holds, measured at the two markers of the
@@ -99,6 +112,8 @@ struct Element {
   bool counts_turns() const noexcept { return acts && rotational; }
   /// It holds bodies to each other, as a joint does.
   bool links() const noexcept { return holds && coordinates.empty(); }
+  /// It exerts forces, as everything that acts but controllers.
+  bool exerts() const noexcept { return acts && !markers.empty(); }
 };
 
 /// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
@@ -132,7 +147,8 @@ struct Model {
   Vec3 gravity = Vec3::Zero();
   std::vector<Body> bodies;
   std::vector<Joint> joints;      ///< automatic free joints last
-  std::vector<Element> elements;  ///< those of forces, rods, couplings, motions
+  std::vector<Element> elements;  ///< of forces, controllers, rods, couplings, motions
+  std::vector<SignalLink> links;  ///< from element to element
   std::vector<Road> roads;
   std::vector<Input> inputs;
   std::vector<Marker> markers;

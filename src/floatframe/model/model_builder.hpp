@@ -21,8 +21,8 @@ struct ModelBuilder {
 
   const ModelDescription& d;
   const NameIndex body_names, road_names, input_names;
-  NameIndex joint_names;       ///< of those that are built
-  NameIndex element_names[4];  ///< of each ElementList
+  NameIndex joint_names;                        ///< of those that are built
+  NameIndex element_names[element_list_count];  ///< of each ElementList
   /// Body, node, rotation with the node, position and orientation of each marker on a body.
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
@@ -45,8 +45,10 @@ struct ModelBuilder {
   void free_joints();
   /// Rods, couplings and motions, which are known before axes are made exact.
   void holding_elements();
-  /// Builds them, and puts them first.
+  /// Builds them and controllers, and puts both first.
   void forces();
+  /// Results of elements that are signals of others.
+  void link_signals();
   /// False after an error.
   bool add_element(const ElementDescription& e);
   void outputs();

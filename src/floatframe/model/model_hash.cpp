@@ -70,13 +70,17 @@ class ModelHash {
   void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
   void add(const SignalDescription& s) {
     add(static_cast<const TimeFunction&>(s));
-    add(s.input);
+    all(s.input, s.source, s.element, s.factor);
   }
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
   void add(const ForceFunction& f) { add(f.identity()); }
   void add(const Signal& s) {
-    const auto& [function, input, given, differentiated] = s;
-    all(function, input, given);
+    const auto& [function, input, link, given, differentiated] = s;
+    all(function, input, link, given);
+  }
+  void add(const SignalLink& l) {
+    const auto& [from, to, port, quantity, factor] = l;
+    all(from, to, port, quantity, factor);
   }
   void add(const Element& e) {
     const auto& [name, type, markers, laws, signals, coordinates, road, states, kept, start, acts,
@@ -146,9 +150,9 @@ class ModelHash {
     all(p, X, X_theta);
   }
   void add(const Model& model) {
-    const auto& [name, gravity, bodies, joints, elements, roads, inputs, markers, outputs, gauges,
-                 amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
-    all(gravity, bodies, joints, elements, roads, inputs, markers, outputs, mean_mass);
+    const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
+                 gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
+    all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);

@@ -35,6 +35,7 @@ enum class OutputOf {
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `element`
   coupling,    ///< `element`
+  controller,  ///< `element`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 

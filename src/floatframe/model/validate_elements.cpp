@@ -72,7 +72,7 @@ struct ElementValidation {
       case K::load:
       case K::target:
       case K::target_rate:
-        entity.signal(key.name, std::get<SignalDescription>(*x), names);
+        signal(key, std::get<SignalDescription>(*x));
         break;
       case K::motion:
         entity.function(key.name, std::get<TimeFunction>(*x));
@@ -97,6 +97,16 @@ struct ElementValidation {
         break;
     }
     return entity.errors.size() == before;
+  }
+
+  void signal(const ElementKey& key, const SignalDescription& s) const {
+    entity.signal(key.name, s, names);
+    const auto k = s.source == SignalSource::none || s.source == SignalSource::controller
+                       ? std::nullopt
+                       : names.forces.find(s.element);
+    if (k && !element_has(d.forces[*k].type(), quantity_of(s.source)))
+      entity.error(ErrorCode::wrong_value, key.name,
+                   sentences::element_without(element_type_name(d.forces[*k].type()), s.source));
   }
 
   void table(const ElementKey& key, const MatX& rows) const {
@@ -126,7 +136,8 @@ struct ElementValidation {
 }  // namespace
 
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
-  for (const ElementList list : {ElementList::rods, ElementList::couplings, ElementList::forces}) {
+  for (const ElementList list :
+       {ElementList::rods, ElementList::couplings, ElementList::forces, ElementList::controllers}) {
     const std::string section = element_list_name(list);
     std::set<std::string> taken;
     for (const ElementDescription& e : d.elements(list)) {

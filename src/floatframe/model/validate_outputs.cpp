@@ -112,6 +112,9 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
     case OutputOf::coupling:
       entity.reference(what, "coupling", o.entity, names.couplings);
       break;
+    case OutputOf::controller:
+      entity.reference(what, "controller", o.entity, names.controllers);
+      break;
     case OutputOf::motion:
       motion_output(o, d, names, entity);
       break;

@@ -18,11 +18,11 @@
 
 namespace floatframe {
 
-enum class EntityKind { body, joint, rod, coupling, force, road, input };
-inline constexpr std::array<const char*, 7> entity_words{"body",  "joint", "rod",  "coupling",
-                                                         "force", "road",  "input"};
-inline constexpr std::array<const char*, 7> entity_keys{"bodies", "joints", "rods",  "couplings",
-                                                        "forces", "roads",  "inputs"};
+enum class EntityKind { body, joint, rod, coupling, force, controller, road, input };
+inline constexpr std::array<const char*, 8> entity_words{"body",  "joint",      "rod",  "coupling",
+                                                         "force", "controller", "road", "input"};
+inline constexpr std::array<const char*, 8> entity_keys{
+    "bodies", "joints", "rods", "couplings", "forces", "controllers", "roads", "inputs"};
 
 struct ModelInstance {
   ReadContext context;

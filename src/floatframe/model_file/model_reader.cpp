@@ -16,9 +16,9 @@
 namespace floatframe {
 namespace {
 
-const char* const top_keys[] = {"floatframe", "parameters", "points",     "bodies",  "joints",
-                                "rods",       "couplings",  "forces",     "roads",   "inputs",
-                                "outputs",    "initial",    "subsystems", "external"};
+const char* const top_keys[] = {"floatframe", "parameters", "points",  "bodies",      "joints",
+                                "rods",       "couplings",  "forces",  "controllers", "roads",
+                                "inputs",     "outputs",    "initial", "subsystems",  "external"};
 
 /// Keys allowed only in the model file itself.
 constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};
@@ -121,7 +121,7 @@ ModelDescription read_model(const std::string& path,
     read_top(*root, path, model);
     every(*root, check_keys);
     for (const auto part : {read_bodies, read_joints, read_rods, read_couplings, read_roads,
-                            read_inputs, read_forces, read_initial, read_outputs})
+                            read_inputs, read_forces, read_controllers, read_initial, read_outputs})
       every(*root, [&](const ModelInstance& self) { part(self, model); });
     read_simulation(*root, model);
     if (model.description.outputs.empty()) default_outputs(model);

@@ -43,6 +43,7 @@ class ElementReader {
   }
 
   AxisUnits units(const ElementKey& key) const {
+    if (key.axis == ElementAxis::none) return {"", "", "", "", ""};
     bool turning = key.axis != ElementAxis::along;
     if (key.axis == ElementAxis::coordinate) {
       const std::vector<CoordinateTerm> of = check_.coordinates();
@@ -262,18 +263,35 @@ void read_couplings(const ModelInstance& self, ReadModel& model) {
         read_element(self, name, s, only_type(ElementList::couplings), model));
 }
 
-void read_forces(const ModelInstance& self, ReadModel& model) {
-  const std::vector<ElementType> types = types_of(ElementList::forces);
+namespace {
+
+/// Of a list whose entities name their types.
+void read_typed(const ModelInstance& self, ReadModel& model, ElementList list, EntityKind kind,
+                std::vector<ElementDescription>& out) {
+  const std::vector<ElementType> types = types_of(list);
   std::vector<const char*> words;
   for (const ElementType type : types) words.push_back(element_type_name(type));
-  for (auto& [name, s] : active_entities(self, EntityKind::force)) {
+  for (auto& [name, s] : active_entities(self, kind)) {
     const auto value = s.require("type");
     const auto type = value ? value->word(words) : std::nullopt;
     if (!type) continue;
-    ElementDescription f = read_element(self, name, s, types[*type], model);
-    model.element_types.emplace(f.name, f.type());
-    model.description.forces.push_back(std::move(f));
+    out.push_back(read_element(self, name, s, types[*type], model));
   }
+}
+
+}  // namespace
+
+void read_forces(const ModelInstance& self, ReadModel& model) {
+  std::vector<ElementDescription>& forces = model.description.forces;
+  const std::size_t before = forces.size();
+  read_typed(self, model, ElementList::forces, EntityKind::force, forces);
+  for (std::size_t k = before; k < forces.size(); ++k)
+    model.element_types.emplace(forces[k].name, forces[k].type());
+}
+
+void read_controllers(const ModelInstance& self, ReadModel& model) {
+  read_typed(self, model, ElementList::controllers, EntityKind::controller,
+             model.description.controllers);
 }
 
 namespace {

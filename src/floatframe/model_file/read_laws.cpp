@@ -219,6 +219,30 @@ TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation
   return time_terms(*section, unit, table, TableOf::motion, time_laws);
 }
 
+namespace {
+
+/// The result of an element that a signal contains; true if one is named.
+bool read_source(const ModelInstance& self, YamlSection& section, SignalDescription& signal) {
+  for (const SignalSource source :
+       {SignalSource::force, SignalSource::length, SignalSource::rate, SignalSource::controller}) {
+    const auto value = section.get(signal_source_words[index_of(source)]);
+    if (!value) continue;
+    if (signal.source != SignalSource::none) {
+      value->error(ErrorCode::exclusive, sentences::one_source(signal.source));
+      continue;
+    }
+    signal.source = source;
+    const auto name = self.reference(
+        source == SignalSource::controller ? EntityKind::controller : EntityKind::force, *value);
+    signal.element = name.value_or("");
+  }
+  if (signal.source == SignalSource::none) return false;
+  signal.factor = section.number("factor", any_number(""), 1.0);
+  return true;
+}
+
+}  // namespace
+
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
                               Interpolation table) {
   SignalDescription signal;
@@ -231,10 +255,12 @@ SignalDescription read_signal(const ModelInstance& self, const YamlValue& value,
   const auto input = section->get("input");
   if (input)
     if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
-  function = time_terms(
-      *section, unit, table, TableOf::time,
-      input ? nullptr
-            : "a number or a map with input or one of polynomial, piecewise, table, and sine");
+  const bool source = read_source(self, *section, signal);
+  function =
+      time_terms(*section, unit, table, TableOf::time,
+                 input || source ? nullptr
+                                 : "a number or a map with input, controller, force, length, "
+                                   "rate or one of polynomial, piecewise, table, and sine");
   return signal;
 }
 

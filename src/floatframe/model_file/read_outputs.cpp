@@ -73,6 +73,8 @@ class OutputReader {
         return put(self_.reference(EntityKind::rod, what), o.entity);
       case OutputOf::coupling:
         return put(self_.reference(EntityKind::coupling, what), o.entity);
+      case OutputOf::controller:
+        return put(self_.reference(EntityKind::controller, what), o.entity);
       case OutputOf::motion:
         return put(self_.reference(EntityKind::joint, what), o.entity);
     }

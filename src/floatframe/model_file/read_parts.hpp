@@ -43,6 +43,7 @@ void read_bodies(const ModelInstance& self, ReadModel& model);
 void read_joints(const ModelInstance& self, ReadModel& model);
 void read_rods(const ModelInstance& self, ReadModel& model);
 void read_couplings(const ModelInstance& self, ReadModel& model);
+void read_controllers(const ModelInstance& self, ReadModel& model);
 void read_roads(const ModelInstance& self, ReadModel& model);
 void read_inputs(const ModelInstance& self, ReadModel& model);
 void read_forces(const ModelInstance& self, ReadModel& model);

@@ -41,7 +41,7 @@ Json joint_table(const Model& model) {
 Json force_table(const Model& model) {
   Json rows = Json::array();
   for (const Element& e : model.elements)
-    if (e.acts)
+    if (e.exerts())
       rows.push_back({e.name, element_type_name(e.type),
                       body_at(model, e.markers.size() > 1 ? e.markers.front() : -1),
                       body_at(model, e.markers.back())});

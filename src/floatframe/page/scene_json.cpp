@@ -160,7 +160,7 @@ class SceneWriter {
       const Picture bar = picture_of(e);
       if (bar.symbol == Picture::Symbol::bar)
         rods_.push_back({{"name", e.name}, {"a", point(bar.a)}, {"b", point(bar.b)}});
-      else if (e.acts)
+      else if (e.exerts())
         forces_.push_back(force(k));
     }
   }

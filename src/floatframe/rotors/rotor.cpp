@@ -11,6 +11,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/rotors/rotor_symmetry.hpp"
 
 namespace floatframe {
@@ -210,12 +211,13 @@ namespace {
 
 void require_no_states(const Model& model, const std::string& rotor) {
   for (const Element& e : model.elements)
-    if (e.states > 0)
+    if (e.states > 0 || link_count(e) > 0)
       throw InputError(
           ErrorCode::unsupported,
-          fmt::format("rotor on joint '{}': found {}, an element with states, expected a model "
+          fmt::format("rotor on joint '{}': found {}, an element with {}, expected a model "
                       "without: the analyses of rotors do not know them",
-                      rotor, element_name(e)));
+                      rotor, element_name(e),
+                      e.states > 0 ? "states" : "signals of other elements"));
 }
 
 }  // namespace

@@ -57,8 +57,7 @@ class Smooth {
  private:
   /// The branch of the present motion. A law that is held to one is smooth.
   std::int64_t branch(std::size_t k) const {
-    const Ports in = f_.ports(k);
-    return in.branch == free_branch ? branch_side(in).next : free_branch;
+    return f_.ports(k).branch == free_branch ? f_.branch_side(k).next : free_branch;
   }
   bool stays() const {
     for (std::size_t i = 0; i < watched_.size(); ++i)
@@ -81,6 +80,47 @@ VecX rates_of(const Formulation& f, const std::vector<int>& markers) {
     out.segment<6>(6 * static_cast<Eigen::Index>(i)) << m.v, m.w;
   }
   return out;
+}
+
+/// (1), (2) and, behind them, the equations of signals: u - factor h = 0.
+struct Borders {
+  MatX K, C;
+};
+Borders borders(Formulation& f, const MatX& J, const MatX& V) {
+  const Model& model = f.model();
+  const Eigen::Index nv = J.cols(), first_link = nv + state_count(model),
+                     n = first_link + std::ssize(model.links);
+  MatX K = MatX::Zero(n, n), C = K;
+  for (Eigen::Index l = first_link; l < n; ++l) K(l, l) = 1.0;
+  Eigen::Index row = 0, at = nv;
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& e = model.elements[k];
+    if (!e.acts) continue;
+    const Eigen::Index rows = 6 * std::ssize(e.markers), ns = e.states;
+    const EffortTangent t = exact_tangent(f.ports(k));
+    const auto motion = J.middleRows(row, rows), moved = V.middleRows(row, rows);
+    K.topLeftCorner(nv, nv) += motion.transpose() * (t.K * motion + t.C * moved);
+    C.topLeftCorner(nv, nv) += motion.transpose() * (t.C * motion);
+    std::vector<Eigen::Index> inner;  // unknowns
+    for (Eigen::Index i = 0; i < ns; ++i) inner.push_back(at + i);
+    for (const Signal& signal : e.signals)
+      if (signal.link >= 0) inner.push_back(first_link + signal.link);
+    for (std::size_t j = 0; j < inner.size(); ++j)
+      K.col(inner[j]).head(nv) += motion.transpose() * t.of_inner.col(j);
+    const auto add = [&](Eigen::Index to, Eigen::Index of, double factor) {
+      K.row(to).head(nv) -= factor * (t.motion.row(of) * motion + t.rates.row(of) * moved);
+      C.row(to).head(nv) -= factor * (t.rates.row(of) * motion);
+      for (std::size_t j = 0; j < inner.size(); ++j) K(to, inner[j]) -= factor * t.slopes(of, j);
+    };
+    for (Eigen::Index i = 0; i < ns; ++i) add(at + i, i, 1.0);
+    for (std::size_t l = 0; l < model.links.size(); ++l)
+      if (model.links[l].from == static_cast<int>(k))
+        add(first_link + static_cast<Eigen::Index>(l),
+            ns + static_cast<Eigen::Index>(model.links[l].quantity), model.links[l].factor);
+    row += rows;
+    at += ns;
+  }
+  return {K, C};
 }
 
 }  // namespace
@@ -110,21 +150,15 @@ ElementTangents::ElementTangents(Formulation& f, const State& s, const VecX& rea
         }).columns;
   }
   dynamics_at(f, s);
-  Eigen::Index row = 0, at = nv;
-  for (std::size_t k = 0; k < elements.size(); ++k) {  // (1), (2)
-    if (!elements[k].acts) continue;
-    const Eigen::Index rows = 6 * std::ssize(elements[k].markers);
-    const EffortTangent t = exact_tangent(f.ports(k));
-    const auto motion = J.middleRows(row, rows), moved = V.middleRows(row, rows);
-    K.topLeftCorner(nv, nv) += motion.transpose() * (t.K * motion + t.C * moved);
-    C.topLeftCorner(nv, nv) += motion.transpose() * (t.C * motion);
-    const Eigen::Index ns = elements[k].states;
-    K.block(0, at, nv, ns) = motion.transpose() * t.of_states;
-    K.block(at, 0, ns, nv) = -(t.motion * motion + t.rates * moved);
-    K.block(at, at, ns, ns) = -t.slopes;
-    C.block(at, 0, ns, nv) = -(t.rates * motion);
-    row += rows;
-    at += ns;
+  const Eigen::Index links = std::ssize(f.model().links);
+  const Borders all = borders(f, J, V);
+  const auto of = [&](const MatX& X) { return X.topRows(n); };
+  K = of(all.K).leftCols(n);
+  C = of(all.C).leftCols(n);
+  if (links > 0) {  // (3)
+    const MatX from = all.K.bottomRightCorner(links, links), to = all.K.topRightCorner(n, links);
+    K -= to * lu_solve(from, MatX(all.K.bottomLeftCorner(links, n)));
+    C -= to * lu_solve(from, MatX(all.C.bottomLeftCorner(links, n)));
   }
   C.bottomRightCorner(n - nv, n - nv).setIdentity();
   f.hold_efforts(true);

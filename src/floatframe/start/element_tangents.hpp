@@ -6,6 +6,8 @@
 // States z of elements are ns more unknowns, with the equations zdot - f(x, v, z) = 0 behind the
 // others:
 //   K_xz = J^T d(-w)/dz,  K_zx = -(f_r J + f_v V),  K_zz = -f_z,  C_zx = -f_v J,  C_zz = I      (2)
+// So are the signals u between elements, with u - factor h(x, v, z, u) = 0, which are eliminated:
+//   K -= K_u K_uu^-1 K_ux,  C -= K_u K_uu^-1 C_ux                                              (3)
 // What is left of K, the change of J under constant wrenches, is a smooth function: differences
 // while the efforts are held. (1) is dense: where it would take longer than the differences of
 // everything, these are taken. Allocates: load time only.

@@ -25,7 +25,9 @@ class Statics {
   }
 
   VecX evaluate(const VecX& q, const VecX& lambda) {
-    return residual_at(f_, 0.0, q, at_.v, lambda);
+    VecX out = residual_at(f_, 0.0, q, at_.v, lambda);
+    drift = f_.element_states().drift();
+    return out;
   }
   void find_mass(const VecX& q, const VecX& lambda) {
     const VecX rest = evaluate(q, lambda);
@@ -50,9 +52,29 @@ class Statics {
     at_.q = q;
     at_.lambda = lambda;
     K = stiffness_matrix(f_, at_);
+    find_integrals(q, lambda);
   }
-  /// Imbalance and gaps at the state of `linearise`.
-  double size() const { return largest(r) + 1e3 * weight * largest(phi); }
+  /// Imbalance and gaps at the state of `linearise`, and what integrals see.
+  double size() const {
+    double left = largest(r) + 1e3 * weight * largest(phi);
+    for (Eigen::Index i = 0; i < drift.size(); ++i)
+      if (drift[i] != 0.0) left += 1e3 * weight * std::abs(drift[i]) / reach_of_drift(i);
+    return left;
+  }
+  /// The element whose state drifts most; -1: none does.
+  int drifting() const {
+    Eigen::Index worst = 0;
+    if (drift.size() == 0 || drift.cwiseAbs().maxCoeff(&worst) == 0.0) return -1;
+    int k = 0;
+    for (Eigen::Index before = 0; const Element& e : f_.model().elements) {
+      before += e.states + e.kept;
+      if (worst < before) break;
+      ++k;
+    }
+    return k;
+  }
+  /// States that come to rest only where the system is at a certain place.
+  bool integrates() const { return !integrals_.empty(); }
   /// As `step`, with the tangent of steps at the state of `look`.
   bool step_by_tangent(double mu, VecX& dx, VecX& dlambda) {
     constexpr double s = 1e-4;  // [s2], as in steps of some 10 ms
@@ -63,16 +85,21 @@ class Statics {
     dlambda *= penalty_mass_ / s;
     return std::isfinite(largest(dx));
   }
-  /// Solves (mu M + K) dx + J^T dlambda = -r, J dx = -phi; at most 0.2 in any coordinate. False if
-  /// the solution is not finite.
-  bool step(double mu, VecX& dx, VecX& dlambda) const {
-    const Eigen::Index nv = r.size(), nc = phi.size();
+  /// Solves (mu M + K) dx + K_i di + J^T dlambda = -r, J dx = -phi, D dx + D_i di = -drift, i the
+  /// integrals; at most 0.2 in any coordinate. False if the solution is not finite.
+  bool step(double mu, VecX& dx, VecX& dlambda) {
+    const Eigen::Index nv = r.size(), ni = std::ssize(integrals_), nc = phi.size() + ni;
     MatX T = MatX::Zero(nv + nc, nv + nc);
     T.topLeftCorner(nv, nv) = K + mu * mass_;
-    T.topRightCorner(nv, nc) = J.transpose();
-    T.bottomLeftCorner(nc, nv) = J;
+    T.block(0, nv, nv, phi.size()) = J.transpose();
+    T.block(nv, 0, phi.size(), nv) = J;
+    T.topRightCorner(nv, ni) = of_integrals_.topRows(nv);
+    T.bottomRightCorner(ni, ni) = of_integrals_.bottomRows(ni);
+    T.bottomLeftCorner(ni, nv) = drift_rows_;
     VecX b(nv + nc);
-    b << -r, -phi;
+    b.head(nv) = -r;
+    b.segment(nv, phi.size()) = -phi;
+    for (Eigen::Index i = 0; i < ni; ++i) b[nv + phi.size() + i] = -drift[integrals_[i]];
     const VecX d = equilibration(T);
     const MatX Td = d.asDiagonal() * T * d.asDiagonal();
     const VecX scaled = d.cwiseProduct(b);
@@ -82,11 +109,18 @@ class Statics {
     if (!std::isfinite(length)) return false;
     x *= length > 0.2 ? 0.2 / length : 1.0;
     dx = x.head(nv);
-    dlambda = x.tail(nc);
+    dlambda = x.segment(nv, phi.size());
+    change_ = VecX::Zero(drift.size());
+    for (Eigen::Index i = 0; i < ni; ++i) change_[integrals_[i]] = x[nv + phi.size() + i];
     return true;
+  }
+  /// The change of integrals in the last `step`.
+  void move_integrals() {
+    if (integrates()) f_.element_states().move(change_);
   }
 
   VecX r, phi;
+  VecX drift;  ///< rates of states without an equation at rest
   MatX J, K;
   double weight = 0.0;  ///< the largest acting force, the reference of the imbalance [N]
 
@@ -100,7 +134,61 @@ class Statics {
     return most;
   }
 
+  /// Columns and rows of the states that keep their values but see the coordinates.
+  void find_integrals(const VecX& q, const VecX& lambda) {
+    const ElementStates& z = f_.element_states();
+    const Eigen::Index nv = r.size();
+    std::vector<Eigen::Index> held;
+    evaluate(q, lambda);
+    for (Eigen::Index i = 0; i < drift.size(); ++i)
+      if (z.keeps_value(i)) held.push_back(i);
+    integrals_.clear();
+    of_integrals_.resize(nv, 0);
+    drift_rows_.resize(0, nv);
+    if (held.empty()) return;
+    MatX rows(drift.size(), nv);
+    VecX moved = q;
+    for (Eigen::Index j = 0; j < nv; ++j) {
+      constexpr double reach = 1e-5;
+      const auto at = [&](double h) {
+        f_.retract(q, h * VecX::Unit(nv, j), moved);
+        evaluate(moved, lambda);
+        return drift;
+      };
+      const VecX over = at(reach), under = at(-reach);
+      rows.col(j) = (over - under) / (2.0 * reach);
+    }
+    reach_of_drift_ = rows.cwiseAbs().rowwise().maxCoeff();
+    for (const Eigen::Index i : held)
+      if (reach_of_drift_[i] > 0.0) integrals_.push_back(i);
+    const Eigen::Index ni = std::ssize(integrals_);
+    of_integrals_.resize(nv + ni, ni);
+    drift_rows_.resize(ni, nv);
+    for (Eigen::Index i = 0; i < ni; ++i) {
+      const Eigen::Index state = integrals_[i];
+      const double h = 1e-3 * std::max(1e-3, std::abs(z.values()[state]));
+      const auto at = [&](double by) {
+        f_.element_states().move(by * VecX::Unit(drift.size(), state));
+        VecX out(nv + ni);
+        out.head(nv) = evaluate(q, lambda);
+        for (Eigen::Index k = 0; k < ni; ++k) out[nv + k] = drift[integrals_[k]];
+        f_.element_states().move(-by * VecX::Unit(drift.size(), state));
+        return out;
+      };
+      const VecX over = at(h), under = at(-h);
+      of_integrals_.col(i) = (over - under) / (2.0 * h);
+      drift_rows_.row(i) = rows.row(state);
+    }
+    r = evaluate(q, lambda);
+  }
+  double reach_of_drift(Eigen::Index i) const {
+    return i < reach_of_drift_.size() ? reach_of_drift_[i] : 0.0;
+  }
+
   RelativeFormulation& f_;
+  std::vector<Eigen::Index> integrals_;  ///< their places among the states
+  MatX of_integrals_, drift_rows_;       ///< d(r, drift)/d(integrals), d(drift)/dx
+  VecX reach_of_drift_, change_;
   double own_weight_, penalty_mass_;
   State at_;  ///< at rest
   MatX mass_;
@@ -108,14 +196,15 @@ class Statics {
 
 /// The best state of a search so far.
 struct Best {
-  VecX q, lambda;
+  VecX q, lambda, z;
   double size = std::numeric_limits<double>::infinity();
   double weight = 0.0;
   int stalled = 0;
-  void offer(const VecX& at, const VecX& multipliers, const Statics& there) {
+  void offer(const VecX& at, const VecX& multipliers, const VecX& states, const Statics& there) {
     if (there.size() < size) {
       q = at;
       lambda = multipliers;
+      z = states;
       size = there.size();
       weight = there.weight;
       stalled = 0;
@@ -143,7 +232,7 @@ void approach_by_tangent(RelativeFormulation& f, Statics& statics, VecX q, VecX 
     tell_progress("equilibrium", large ? k / 1000.0 : k / 60.0);
     statics.look(q, lambda);
     const double size = statics.size();
-    best.offer(q, lambda, statics);
+    best.offer(q, lambda, f.element_states().values(), statics);
     if (best.done()) return;
     const bool halved = size < 0.5 * previous || size < 1e-9 * statics.weight;
     if (!halved && !large) return;
@@ -173,13 +262,14 @@ void approach(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int
     tell_progress("equilibrium", k / 200.0);
     statics.linearise(q, lambda, k == 0);
     const double size = statics.size();
-    best.offer(q, lambda, statics);
+    best.offer(q, lambda, f.element_states().values(), statics);
     if (best.done()) return;
     if (std::isfinite(previous))
       mu = size < previous ? std::max(mu * 0.1, 1e-2) : std::min(mu * 10.0, 1e6);
     previous = size;
     if (!statics.step(mu, dx, dlambda)) return;
     f.retract(q, dx, q1);
+    statics.move_integrals();
     q = q1;
     lambda += dlambda;
   }
@@ -201,8 +291,8 @@ void descend(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int&
       statics.linearise(q, lambda, first);
       first = false;
       size = statics.size();
-      best.offer(q, lambda, statics);
-      if (best.done()) return;
+      best.offer(q, lambda, f.element_states().values(), statics);
+      if (best.done() || statics.integrates()) return;
       g = statics.evaluate(q, none);
     }
     if (!statics.step(mu, dx, dlambda)) return;
@@ -262,24 +352,29 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   const VecX first = statics.evaluate(q, e.lambda);
   require_laws(f, 0.0);
   check_magnitudes(first, [&](int i) { return f.coordinate_owner(i); });
-  Best best{q, e.lambda};
+  Best best{q, e.lambda, f.element_states().values()};
   approach_by_tangent(f, statics, q, e.lambda, e.iterations, best);
   if (!best.done()) {
-    best = {q, e.lambda};
+    best = {q, e.lambda, f.element_states().values()};
     statics.find_mass(q, e.lambda);
     approach(f, statics, q, e.lambda, e.iterations, best);
   }
   if (!best.accepted()) descend(f, statics, q, e.lambda, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
+  f.element_states().give(best.z);
+  f.element_states().rest();
   const auto evaluate = [&](const VecX& at) { return statics.evaluate(at, e.lambda); };
   e.residual = largest(evaluate(q));
-  keep_neutral_positions(f, start_q, q, e.residual, best.weight, evaluate);
+  if (!statics.integrates())
+    keep_neutral_positions(f, start_q, q, e.residual, best.weight, evaluate);
   f.element_states().rest();
   const VecX r = evaluate(q);
   e.residual = largest(r);
   require_laws(f, 0.0);
-  if (const int drifting = f.element_states().unsolved(); drifting >= 0)
+  const int unsolved = f.element_states().unsolved();
+  const int drifting = unsolved < 0 && !best.accepted() ? statics.drifting() : unsolved;
+  if (drifting >= 0)
     throw RunError(ErrorCode::no_equilibrium,
                    fmt::format("no static equilibrium found: the states of {} do not come to rest",
                                element_name(f.model().elements[drifting])));

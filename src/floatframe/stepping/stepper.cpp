@@ -74,6 +74,11 @@ void Stepper::begin_at_start(bool locate_edges) {
   if (locate_edges) locator_.emplace(f_, *integrator_);
   hold_branches();
   first_ = memory();
+  for (const Element& e : model().elements)
+    if (calls_program(e.type))
+      before_ = {state_,
+                 {f_.spring_angles().begin(), f_.spring_angles().end()},
+                 {f_.force_branches().begin(), f_.force_branches().end()}};
 }
 
 void Stepper::prepare_reactions() {
@@ -98,10 +103,26 @@ void Stepper::set_edge_watch(const EdgeWatch& watch) noexcept {
 bool Stepper::advance(const PlannedStep& step) noexcept {
   assert(step.size > 0.0 && step.to > state_.t);
   least_ = min_step_ * std::max(1.0, step.size / grid_.step());
-  if (!cover(step.size)) return false;
+  if (before_) keep(*before_);
+  if (!cover(step.size)) {
+    if (before_ && has_thrown()) undo(*before_);
+    return false;
+  }
   state_.t = step.to;
   grid_.made(step);
   return true;
+}
+
+void Stepper::keep(Before& before) const noexcept {
+  before.state = state_;
+  std::copy(f_.spring_angles().begin(), f_.spring_angles().end(), before.angles.begin());
+  std::copy(f_.force_branches().begin(), f_.force_branches().end(), before.branches.begin());
+}
+
+void Stepper::undo(const Before& before) noexcept {
+  state_ = before.state;
+  f_.set_spring_angles(before.angles);
+  f_.hold_force_branches(before.branches);
 }
 
 /// Moves the state by h, in substeps if necessary. False: an attempt with the smallest substep did

@@ -69,7 +69,8 @@ class Stepper {
   const TimeGrid& grid() const noexcept { return grid_; }
 
   /// The next step of the grid. Returns false if it failed: the formulation then remains at the
-  /// failed iteration for diagnosis; the state is the last accepted one.
+  /// failed iteration for diagnosis; the state is that of the last accepted substep, or the one
+  /// before the step if the function of an element has thrown.
   bool advance() noexcept { return advance(grid_.next()); }
   /// A step planned by `grid()`. A step longer than those of the grid is not divided into more
   /// parts than one of them: its cost is bounded.
@@ -116,6 +117,15 @@ class Stepper {
   void locate_corners(const std::vector<TimeCorner>& corners);
   void prepare_reactions();
 
+  /// What a step changes, kept until it is made if the function of an element may throw.
+  struct Before {
+    State state;
+    std::vector<double> angles;
+    std::vector<std::int64_t> branches;
+  };
+  void keep(Before& before) const noexcept;
+  void undo(const Before& before) noexcept;
+
   bool cover(double h) noexcept;
   StepAttempt part(double h, bool may_meet_corner) noexcept;
   void hold_branches() noexcept;
@@ -143,7 +153,8 @@ class Stepper {
   StepAttempt last_;
   StepCounters counters_;
   std::vector<FollowedOutput> outputs_;
-  std::vector<double> inputs_;               ///< those of the last step
+  std::vector<double> inputs_;  ///< those of the last step
+  std::optional<Before> before_;
   MotionNeeds needs_;                        ///< of the outputs
   std::optional<ReactionSolver> reactions_;  ///< if an output needs them
   TimeGrid grid_;

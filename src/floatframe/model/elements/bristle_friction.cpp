@@ -58,7 +58,7 @@ void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const auto& keys = in.template keys<BristleFriction>();
   const AxisMeasure<S> m = coordinate_measure(in);
   const bool clamped = in.element.signals[0].given;
-  const double normal = clamped ? std::max(in.signal(0).f, 0.0) : 1.0;
+  const S clamp = clamped ? in.signal(0).f : S(1.0), normal = clamp > 0.0 ? clamp : S(0.0);
   const S z = in.state(0), v = m.rate, flow = bristle_rate(keys, z, v);
   out.state_rates[0] = flow;
   double slope = 0.0;
@@ -66,9 +66,10 @@ void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
     const Dual d = bristle_rate(keys, Dual::variable(z, 0), Dual::variable(v, 1));
     const double f_z = d.d[0], f_v = d.d[1], z_v = f_v * in.followed(f_z);
     out.state_slopes[0] = f_z;
-    slope = normal * (keys.stiffness * z_v + keys.damping * (f_v + f_z * z_v)) + keys.viscous;
+    slope =
+        value_of(normal) * (keys.stiffness * z_v + keys.damping * (f_v + f_z * z_v)) + keys.viscous;
   }
-  pull_back(m, S(normal * (keys.stiffness * z + keys.damping * flow) + keys.viscous * v), 0.0,
+  pull_back(m, S(normal * S(keys.stiffness * z + keys.damping * flow) + keys.viscous * v), 0.0,
             slope, out);
   // What a clamp that varies stores in the bristles counts as dissipated.
   if (!clamped) {
@@ -104,7 +105,7 @@ constexpr ElementKey bristle_friction_keys[] = {
     number_key("breakaway", "friction at which it begins to slide, times `normal`",
                positive_number("N or N m"), 0.0, described_by<&BristleFriction::breakaway>, true),
     number_key("kinetic", "the same while it slides; without it `breakaway`",
-               positive_number("N or N m"), 0.0, described_by<&BristleFriction::kinetic>),
+               positive_number("N or N m"), no_number, described_by<&BristleFriction::kinetic>),
     number_key("stribeck", "speed of the fall from `breakaway` to `kinetic`",
                non_negative_number("m/s or rad/s"), 0.0, described_by<&BristleFriction::stribeck>),
     number_key("stiffness", "of the bristles, times `normal`", positive_number("N/m or N m/rad"),
@@ -159,7 +160,7 @@ ElementExample bristle_friction_example(std::size_t regime, ExampleNumbers& numb
   const bool about = regime == 1;
   const MarkerState a = numbers.marker();
   x.markers = {a, about ? numbers.marker_on_axis(a) : numbers.marker()};
-  if (regime == 3) f.normal = x.signal(numbers);
+  if (regime == 3) f.normal = x.linked_signal(numbers);
   x.keys(f);
   x.element.rotational = about;
   const double part = regime == 1 ? numbers(0.6, 0.9) : numbers(-0.3, 0.3);

@@ -55,7 +55,7 @@ ElementExample guided_spring_example(std::size_t regime, ExampleNumbers& numbers
   f.spring = example_spring(numbers);
   f.damper = example_damper(numbers);
   x.markers = {numbers.marker(), numbers.marker()};
-  if (regime == 1) f.actuator = x.signal(numbers);
+  if (regime == 1) f.actuator = x.linked_signal(numbers);
   x.keys(f);
   return x;
 }

@@ -26,8 +26,8 @@ struct Toward {
 
 template <class S>
 Toward<S> toward_target(const PortsOf<S>& in, const AxisMeasure<S>& m) noexcept {
-  const PiecewisePolynomial::Value at = in.signal(target);
-  const double rate = in.element.signals[target_rate].given ? in.signal(target_rate).f : at.df;
+  const SignalValue<S> at = in.signal(target);
+  const S rate = in.element.signals[target_rate].given ? in.signal(target_rate).f : S(at.df);
   return {m.s - at.f, m.rate - rate, at.df};
 }
 
@@ -70,7 +70,7 @@ ElementExample joint_spring_example(std::size_t regime, ExampleNumbers& numbers)
   const MarkerState a = numbers.marker();
   x.markers = {a, turns ? numbers.marker_on_axis(a) : numbers.marker()};
   if (regime >= 3) {
-    f.actuator = x.signal(numbers);
+    f.actuator = x.linked_signal(numbers);
     f.target = x.signal(numbers);
     f.target->pieces = PiecewisePolynomial::polynomial({0.1, numbers(-1.0, 1.0)});
     f.target->amplitude = 0.0;

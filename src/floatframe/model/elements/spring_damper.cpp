@@ -43,7 +43,7 @@ ElementExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers
   MarkerState a = numbers.marker(), b = numbers.marker();
   if (regime == 1) b.r = a.r + 0.1 * numbers.direction();
   if (regime == 2) b.r = a.r;
-  if (regime == 3) f.actuator = x.signal(numbers);
+  if (regime == 3) f.actuator = x.linked_signal(numbers);
   x.markers = {a, b};
   x.keys(f);
   return x;

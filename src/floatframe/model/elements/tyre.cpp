@@ -63,7 +63,7 @@ Contact<S> contact(const PortsOf<S>& in) noexcept {
   const S slope = chained(p.slope, p.curvature, x);
   c.h = centre.r.z() + in.origin.z() - chained(p.z, p.slope, x);
   c.rate = centre.v.z() - slope * centre.v.x();
-  const PiecewisePolynomial::Value lift = in.signal(road_lift);
+  const SignalValue<S> lift = in.signal(road_lift);
   c.h -= lift.f;
   c.rate -= lift.df;
   const bool radial = t.law == TyreLaw::radial;

@@ -1,0 +1,225 @@
+// Controller of the error e = target - measured, its value
+//   u = clip(raw, lower, upper),  raw = proportional e + i + d                                 (1)
+//   idot = integral e + (u - raw) / unwind                                                     (2)
+//   d = derivative (rate of the target - rate), or behind a filter of first order             (3)
+//   d = derivative xdot,  xdot = (e - x) / filter                                              (4)
+// with the states i, if it integrates, and x, if it filters. (2) pulls i back while u is clipped.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/model/element_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// Ports of its signals.
+constexpr std::size_t measured_port = 0, target_port = 1, rate_port = 2;
+
+bool integrates(const Pid& keys) noexcept { return keys.integral != 0.0; }
+bool filters(const Element& element, const Pid& keys) noexcept {
+  return keys.derivative != 0.0 && !element.signals[rate_port].given;
+}
+double unwinding_time(const Pid& keys) noexcept {
+  return keys.unwind.value_or(std::abs(keys.proportional / keys.integral));
+}
+
+/// (1) before it is clipped, and what belongs to it.
+template <class S>
+struct PidTerms {
+  S error, filtered, raw;
+};
+
+template <class S>
+PidTerms<S> pid_terms(const PortsOf<S>& in) noexcept {
+  const Pid& keys = in.template keys<Pid>();
+  const SignalValue<S> target = in.signal(target_port);
+  PidTerms<S> out;
+  out.error = target.f - in.signal(measured_port).f;
+  out.raw = keys.proportional * out.error;
+  if (integrates(keys)) out.raw += in.state(0);
+  if (filters(in.element, keys)) {
+    out.filtered = (out.error - in.state(integrates(keys) ? 1 : 0)) / *keys.filter;  // (4)
+    out.raw += keys.derivative * out.filtered;
+  } else if (keys.derivative != 0.0) {
+    out.raw += keys.derivative * (target.df - in.signal(rate_port).f);  // (3)
+  }
+  return out;
+}
+
+/// Where raw is.
+enum class PidBranch : std::int64_t { between, below, above };
+
+PidBranch branch_at(const Pid& keys, std::int64_t held, double raw) noexcept {
+  if (held != free_branch) return static_cast<PidBranch>(held);
+  if (keys.lower && raw < *keys.lower) return PidBranch::below;
+  return keys.upper && raw > *keys.upper ? PidBranch::above : PidBranch::between;
+}
+
+template <class S>
+void pid_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  const Pid& keys = in.template keys<Pid>();
+  const PidTerms<S> x = pid_terms(in);
+  const PidBranch branch = branch_at(keys, in.branch, value_of(x.raw));
+  const bool clipped = branch != PidBranch::between;
+  const S u = branch == PidBranch::below ? S(*keys.lower) : clipped ? S(*keys.upper) : x.raw;
+  out.force = u;
+  const int count = in.element.states;
+  if (integrates(keys)) {
+    S flow = keys.integral * x.error;  // (2)
+    if (clipped) flow += (u - x.raw) / unwinding_time(keys);
+    out.state_rates[0] = flow;
+    if (clipped) out.state_slopes[0] = -1.0 / unwinding_time(keys);
+  }
+  if (!filters(in.element, keys)) return;
+  out.state_rates[count - 1] = x.filtered;
+  out.state_slopes[count * count - 1] = -1.0 / *keys.filter;
+  if (count > 1 && clipped)
+    out.state_slopes[1] = keys.derivative / *keys.filter / unwinding_time(keys);
+}
+
+BranchSide pid_side(const Ports& in) noexcept {
+  const Pid& keys = in.keys<Pid>();
+  const double raw = pid_terms(in).raw, endless = std::numeric_limits<double>::max();
+  const double under = keys.lower ? *keys.lower - raw : -endless;
+  const double over = keys.upper ? raw - *keys.upper : -endless;
+  const auto to = [](double beyond, PidBranch next) {
+    return BranchSide{beyond, static_cast<std::int64_t>(next)};
+  };
+  switch (branch_at(keys, in.branch, raw)) {
+    case PidBranch::below:
+      return in.branch == free_branch ? to(-1.0, PidBranch::below) : to(-under, PidBranch::between);
+    case PidBranch::above:
+      return in.branch == free_branch ? to(-1.0, PidBranch::above) : to(-over, PidBranch::between);
+    case PidBranch::between:
+      break;
+  }
+  if (in.branch == free_branch) return to(-1.0, PidBranch::between);
+  return under > over ? to(under, PidBranch::below) : to(over, PidBranch::above);
+}
+
+}  // namespace
+
+FLOATFRAME_LAW(pid)
+
+namespace {
+
+constexpr ElementAxis bare = ElementAxis::none;
+constexpr ElementKey gain_key(const char* name, const char* about, KeyMember member,
+                              double fallback = 0.0) {
+  return {.name = name,
+          .kind = KeyKind::number,
+          .about = about,
+          .fallback = fallback,
+          .member = member};
+}
+constexpr ElementKey pid_keys[] = {
+    {.name = "measured",
+     .kind = KeyKind::load,
+     .about = "what is controlled",
+     .required = true,
+     .axis = bare,
+     .member = described_by<&Pid::measured>},
+    law_key("target", KeyKind::target, "what it shall be; without it 0", described_by<&Pid::target>,
+            bare),
+    law_key("rate", KeyKind::load, "the rate of `measured`; without it that of the filtered error",
+            described_by<&Pid::rate>, bare),
+    gain_key("proportional", "times the error, target - measured",
+             described_by<&Pid::proportional>),
+    gain_key("integral", "times the integral of the error", described_by<&Pid::integral>),
+    gain_key("derivative", "times the rate of the error", described_by<&Pid::derivative>),
+    {.name = "filter",
+     .kind = KeyKind::number,
+     .about = "time constant of the rate of the error, needed for a `derivative` without `rate`",
+     .rule = positive_number("s"),
+     .fallback = no_number,
+     .member = described_by<&Pid::filter>},
+    gain_key("lower", "least value", described_by<&Pid::lower>, no_number),
+    gain_key("upper", "largest value", described_by<&Pid::upper>, no_number),
+    {.name = "unwind",
+     .kind = KeyKind::number,
+     .about = "time in which the integral returns while the value is limited; without it "
+              "`proportional` / `integral`",
+     .rule = positive_number("s"),
+     .fallback = no_number,
+     .member = described_by<&Pid::unwind>}};
+
+void pid_validate(const ElementCheck& check) {
+  const auto number = [&](const char* key) { return check.good(key) ? check.number(key) : 0.0; };
+  const auto required = [&](const char* key, const char* why) {
+    check.error(ErrorCode::incomplete, "", sentences::controller_needs(key, why));
+  };
+  if (check.wrong.empty() && number("proportional") == 0.0 && number("integral") == 0.0 &&
+      number("derivative") == 0.0)
+    check.error(ErrorCode::incomplete, "", sentences::controller_without_gain());
+  if (number("derivative") != 0.0 && !check.given("rate") && !check.given("filter"))
+    required("filter", "'derivative' without 'rate'");
+  const bool limited = check.good("lower") || check.good("upper");
+  if (limited && number("integral") != 0.0 && number("proportional") == 0.0 &&
+      !check.given("unwind") && !check.wrong.contains("proportional"))
+    required("unwind", "limits of 'integral' without 'proportional'");
+  if (check.good("lower") && check.good("upper") && !(number("lower") < number("upper")))
+    check.error(ErrorCode::out_of_range, "lower",
+                sentences::controller_limits(number("lower"), number("upper")));
+}
+
+void pid_states(Element& element) {
+  const Pid& keys = *std::get_if<Pid>(element.keys.get());
+  element.states = integrates(keys) + filters(element, keys);
+}
+
+/// The filter begins at the error.
+void pid_start(const Ports& in, double* states) noexcept {
+  const Pid& keys = in.keys<Pid>();
+  for (int i = 0; i < in.element.states; ++i) states[i] = 0.0;
+  if (filters(in.element, keys))
+    states[in.element.states - 1] = in.signal(target_port).f - in.signal(measured_port).f;
+}
+
+constexpr ElementRegime pid_regimes[] = {
+    {.name = "between", .conservative = false, .acts = false},
+    {.name = "clipped", .conservative = false, .acts = false},
+    {.name = "rate_is_measured", .conservative = false, .acts = false}};
+
+ElementExample pid_example(std::size_t regime, ExampleNumbers& numbers) {
+  ElementExample x;
+  Pid c;
+  c.measured = x.linked_signal(numbers);
+  c.target = x.signal(numbers);
+  c.proportional = numbers(1.0, 3.0);
+  c.integral = numbers(1.0, 3.0);
+  c.derivative = numbers(0.1, 0.3);
+  c.filter = numbers(0.01, 0.1);
+  if (regime == 1) c.lower = -1e-3, c.upper = 1e-3;
+  if (regime == 2) c.rate = x.linked_signal(numbers);
+  x.keys(c);
+  x.t = numbers(0.0, 1.0);
+  for (int i = 0; i < x.element.states; ++i) x.states.push_back(numbers(-2.0, 2.0));
+  x.state_weight = numbers(0.5, 200.0);
+  return x;
+}
+
+}  // namespace
+
+constinit const ElementKind pid_element = {
+    .about =
+        "proportional, integral and derivative terms of target - measured, with limits; the "
+        "integral does not wind up",
+    .keys = pid_keys,
+    .list = ElementList::controllers,
+    .energy = EnergyCategory::loads,
+    .axis = ElementAxis::none,
+    .measured = false,
+    .blank = [] { return ElementKeys(Pid()); },
+    .validate = pid_validate,
+    .build = [](ElementBuild&) { return true; },
+    .states = pid_states,
+    .start = pid_start,
+    .dual = pid_law<Dual>,
+    .side = pid_side,
+    .regimes = pid_regimes,
+    .example = pid_example};
+
+}  // namespace floatframe
