@@ -209,6 +209,31 @@ forces:
   }
 }
 
+// Thrown by the evaluation of the outputs of a step that was made.
+TEST(ForceLaw, WhatItThrowsInASampleUndoesTheStep) {
+  for (const Coordinates c : both_coordinates) {
+    long calls = 0, most = -1;
+    const Model model = with_law(pendulum + on_hinge, [&](double x, double v, double) {
+      if (most >= 0 && ++calls > most) throw std::range_error("late");
+      return cubic(x) + 0.7 * v;
+    });
+    Simulation s(model, {.step = 2e-3, .coordinates = c});
+    for (int k = 0; k < 20; ++k) ASSERT_TRUE(s.step()) << s.failure();
+    const SimulationState saved = s.save();
+    const std::vector<double> before(s.outputs().begin(), s.outputs().end());
+    most = 1000;
+    ASSERT_TRUE(s.step());
+    const long last = calls - 1;  // the sample is the last call
+    s.restore(saved);
+    calls = 0;
+    most = last;
+    EXPECT_EQ(s.step().status, StepStatus::law_failed);
+    EXPECT_NEAR(s.time(), 0.04, 1e-12);
+    EXPECT_EQ(std::vector<double>(s.outputs().begin(), s.outputs().end()), before);
+    EXPECT_NEAR(s.state().time, 0.04, 1e-12);
+  }
+}
+
 TEST(ForceLaw, WhatItThrowsEndsTheRun) {
   const Model model = with_law(pendulum + on_hinge, [](double x, double, double t) {
     if (t > 0.1) throw 7;

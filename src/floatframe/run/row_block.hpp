@@ -24,6 +24,9 @@ class RowBlock {
   /// Position of the next row. Does not allocate.
   double* next() noexcept { return data_.data() + columns_.size() * used_++; }
 
+  /// The last row is not to be.
+  void take_back() noexcept { --used_; }
+
   /// Between steps: true if the rows should be handed over now. The next steps are expected to take
   /// as long as the last one.
   bool due() noexcept {

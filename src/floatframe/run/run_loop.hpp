@@ -102,6 +102,15 @@ class Run {
     steps_.sample(block_ ? block_->next() : table.data.data() + table.columns.size() * rows_++);
   }
 
+  /// The law of a program has thrown in the sample.
+  void take_back() noexcept {
+    steps_.undo();
+    if (block_)
+      block_->take_back();
+    else
+      --rows_;
+  }
+
   /// After `sample`, which has brought the formulation to the state.
   void sample_state(long step) noexcept {
     state_row_ = nullptr;
@@ -138,7 +147,7 @@ class Run {
     const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
     if (sampled) sample();
     good = good && !steps_.has_thrown();
-    if (sampled && !good && !block_) --rows_;
+    if (sampled && !good) take_back();
     const Nanoseconds taken = thread_cpu_clock() - before;
     s.cpu += 1e-9 * static_cast<double>(taken);
     if (good) step_times_.add(taken);

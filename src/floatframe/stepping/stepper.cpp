@@ -76,9 +76,10 @@ void Stepper::begin_at_start(bool locate_edges) {
   first_ = memory();
   for (const Element& e : model().elements)
     if (calls_program(e.type))
-      before_ = {state_,
-                 {f_.spring_angles().begin(), f_.spring_angles().end()},
-                 {f_.force_branches().begin(), f_.force_branches().end()}};
+      before_ = {.state = state_,
+                 .angles = {f_.spring_angles().begin(), f_.spring_angles().end()},
+                 .branches = {f_.force_branches().begin(), f_.force_branches().end()},
+                 .outputs = outputs_};
 }
 
 void Stepper::prepare_reactions() {
@@ -105,7 +106,7 @@ bool Stepper::advance(const PlannedStep& step) noexcept {
   least_ = min_step_ * std::max(1.0, step.size / grid_.step());
   if (before_) keep(*before_);
   if (!cover(step.size)) {
-    if (before_ && has_thrown()) undo(*before_);
+    if (before_ && has_thrown()) undo();
     return false;
   }
   state_.t = step.to;
@@ -115,14 +116,20 @@ bool Stepper::advance(const PlannedStep& step) noexcept {
 
 void Stepper::keep(Before& before) const noexcept {
   before.state = state_;
+  before.base = grid_.base();
+  before.since_base = grid_.since_base();
+  std::copy(outputs_.begin(), outputs_.end(), before.outputs.begin());
   std::copy(f_.spring_angles().begin(), f_.spring_angles().end(), before.angles.begin());
   std::copy(f_.force_branches().begin(), f_.force_branches().end(), before.branches.begin());
 }
 
-void Stepper::undo(const Before& before) noexcept {
-  state_ = before.state;
-  f_.set_spring_angles(before.angles);
-  f_.hold_force_branches(before.branches);
+void Stepper::undo() noexcept {
+  assert(before_);
+  state_ = before_->state;
+  f_.set_spring_angles(before_->angles);
+  f_.hold_force_branches(before_->branches);
+  std::copy(before_->outputs.begin(), before_->outputs.end(), outputs_.begin());
+  grid_.restore(before_->base, before_->since_base);
 }
 
 /// Moves the state by h, in substeps if necessary. False: an attempt with the smallest substep did

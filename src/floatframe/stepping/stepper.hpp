@@ -85,6 +85,10 @@ class Stepper {
   /// True if the function of an element has thrown, in the last step or a sample after it. Steps
   /// then fail.
   bool has_thrown() noexcept;
+  /// The functions of programs are among the laws.
+  bool may_throw() const noexcept { return before_.has_value(); }
+  /// Returns to the state before the last step, for a law that has thrown in the sample after it.
+  void undo() noexcept;
   /// Index of the force element with the largest force at the last evaluation; -1: there is none.
   int largest_force() const noexcept;
 
@@ -122,9 +126,11 @@ class Stepper {
     State state;
     std::vector<double> angles;
     std::vector<std::int64_t> branches;
+    std::vector<FollowedOutput> outputs;
+    double base = 0.0;
+    std::int64_t since_base = 0;  ///< of the grid
   };
   void keep(Before& before) const noexcept;
-  void undo(const Before& before) noexcept;
 
   bool cover(double h) noexcept;
   StepAttempt part(double h, bool may_meet_corner) noexcept;

@@ -38,7 +38,8 @@ Simulation::Engine::Engine(const Model& model, const SimulationDescription& opti
       o_(options),
       steps_(model_, o_),
       joints_(steps_.model()),
-      row_(model.outputs.size() + 1, 0.0) {
+      row_(model.outputs.size() + 1, 0.0),
+      row_before_(row_) {
   for (const Input& input : model_.inputs) {
     inputs_.push_back(input.initial);
     input_owners_.push_back("input '" + input.name + "'");
@@ -118,8 +119,13 @@ StepReport Simulation::Engine::make(const PlannedStep& step) noexcept {
   const StepCounters before = counters();
   bool good = steps_.advance(step);
   if (good) {
+    if (steps_.may_throw()) row_before_ = row_;
     sample();
     good = !steps_.has_thrown();
+    if (!good) {
+      steps_.undo();
+      row_ = row_before_;
+    }
   }  // else the formulation remains at the failed iteration for diagnosis
   const StepCounters after = counters();
   last_ = StepReport();

@@ -58,6 +58,7 @@ class Simulation::Engine {
   JointFollower joints_;
   std::vector<std::string> owners_;  ///< of coordinates, then constraints, then elements
   std::vector<double> row_;          ///< time and outputs
+  std::vector<double> row_before_;   ///< those before the step
   std::vector<double> inputs_;
   bool failed_ = false, busy_ = false;
   StepReport last_;
