@@ -57,8 +57,19 @@ TEST(ValidateControllers, NamesWhatIsWrong) {
        },
        "controllers.hold.lower: out_of_range"},
       {[](D& d) { pid(d).unwind = -1.0; }, "controllers.hold.unwind: out_of_range"},
+      {[](D& d) {
+         pid(d).filter = 0.1;
+         pid(d).rate = signal_of(SignalSource::rate, "spring");
+       },
+       "controllers.hold.filter: exclusive"},
+      {[](D& d) {
+         d.controllers.push_back(d.controllers[0]);
+         d.controllers[1].name = "spring";  // states have the names of forces and controllers
+       },
+       "controllers.spring: duplicate"},
       {[](D& d) { d.controllers.push_back(d.controllers[0]); }, "controllers.hold: duplicate"},
-      {[](D& d) { d.forces.push_back(d.controllers[0]); }, "forces.hold.type: wrong_value"},
+      {[](D& d) { d.forces.push_back(d.controllers[0]); },
+       "forces.hold.type: wrong_value\ncontrollers.hold: duplicate"},
       {[](D& d) { load(d).element = "x"; }, "forces.load.magnitude.controller: not_found"},
       {[](D& d) { d.outputs.back().entity = "x"; }, "outputs.hold.u.controller: not_found"},
       // Rings without a state.

@@ -146,6 +146,22 @@ TEST(SignalsStart, AnArmIsHeldByItsControllerAlone) {
     EXPECT_LT((own.values.array() - mode.lambda).abs().minCoeff(), 1e-7 * 30.0);
 }
 
+// From a start at which the value is limited; and where the limit holds the arm back.
+TEST(SignalsStart, LimitsDoNotHideAnEquilibrium) {
+  std::string text = held_arm;
+  text.replace(text.find("target: 0.4"), 11, "target: 1.2, lower: -40, upper: 40");
+  const StaticsResult far = statics(model_of(text));
+  EXPECT_NEAR(far.forces[0].length, 1.2, 1e-9);
+  EXPECT_NEAR(far.forces[1].force, 2.0 * 9.81 * 0.3 * std::cos(1.2), 1e-6);
+  EXPECT_TRUE(far.notes.empty());
+  text.replace(text.find("1.2, lower: -40, upper: 40"), 26, "0.4, lower: -3, upper: 3");
+  const StaticsResult weak = statics(model_of(text));
+  EXPECT_NEAR(weak.forces[1].force, 3.0, 1e-9);
+  ASSERT_FALSE(weak.notes.empty());
+  EXPECT_EQ(weak.notes.back(),
+            "pid 'hold' rests at a limit: what it measures may be away from its target");
+}
+
 TEST(SignalsStart, AnIntegralThatNeverRestsIsNamed) {
   std::string text = held_arm;
   text.replace(text.find("{length: motor}"), 15, "1");
@@ -223,6 +239,45 @@ TEST(SignalsRing, WithoutAStateIsAnError) {
   b: {type: pid, measured: {controller: a}, proportional: -0.5},
   )");
   EXPECT_EQ(without_folders(error_of([&] { model_of(text); })), "model.yaml:9:3: contradiction");
+}
+
+// A loop whose gains cancel has no solution: its value would be that of nothing.
+TEST(SignalsRing, WhoseGainsCancelIsRefused) {
+  std::string text = controlled_box("target: 0.1, proportional: -1, integral: 1");
+  text.replace(text.find("{length: motor}"), 15, "{controller: hold}");
+  const Model model = model_of(text);
+  EXPECT_EQ(error_of([&] { Simulation s(model, {}); }), "no_convergence");
+  EXPECT_EQ(error_of([&] { linear_system(model); }), "no_convergence");
+}
+
+// The filter begins at the error, which depends on what it gives: no kick at the start.
+TEST(SignalsRing, AFilterBeginsAtTheErrorOfTheRing) {
+  std::string text = controlled_box("target: 1, proportional: 0.5, derivative: 0.05, filter: 0.05");
+  text.replace(text.find("{length: motor}"), 15, "{force: motor, factor: 0.1}");
+  const Simulation s(model_of(text), {});
+  EXPECT_NEAR(s.output("u"), 0.5 / 0.95, 1e-12);
+}
+
+// At rest the force of a bushing is nothing and its size has no derivative.
+TEST(SignalsOfForces, AreNumbersWhereNothingActs) {
+  const Model model = model_of(R"(
+gravity: [0, 0, 0]
+bodies: {a: {position: [0, 0, 0], rigid: {mass: 3, inertia: [1, 1, 1]}},
+         b: {position: [1, 0, 0], rigid: {mass: 2, inertia: [1, 1, 1]}}}
+joints:
+  ja: {type: prismatic, child: a, at: [0, 0, 0], axis: x}
+  jb: {type: prismatic, child: b, at: [1, 0, 0], axis: x}
+forces:
+  el: {type: bushing, from: {body: a, at: [0.5, 0, 0]}, to: {body: b, at: [0.5, 0, 0]},
+       spring_x: 100}
+  m: {type: joint_spring, joint: ja, spring: 100, damper: 1, actuator: {force: el, factor: 0.1}}
+outputs: {xa: {joint_position: ja}}
+simulation: {step: 0.002, duration: 0.1}
+)");
+  for (const Coordinates c : both_coordinates) {
+    EXPECT_EQ(*(completed_run(model, with(model.simulation, c)).table.data.end() - 1), 0.0);
+    EXPECT_TRUE(linear_system(model, {.coordinates = c}).A.allFinite());
+  }
 }
 
 // The wear of a brake whose clamp is a spring, and a force that follows the force of a spring.

@@ -229,6 +229,10 @@ std::string controller_without_gain() {
   return "found no gain, expected proportional, integral or derivative";
 }
 
+std::string filter_and_rate() {
+  return "excludes 'rate', which needs no filter; remove one of them";
+}
+
 std::string controller_limits(double lower, double upper) {
   return "found " + number_text(lower) + ", expected less than 'upper', " + number_text(upper);
 }
@@ -246,7 +250,7 @@ std::string ring_of_signals(const std::vector<std::string>& elements) {
   std::string ring;
   for (const std::string& element : elements) ring += element + " -> ";
   return "found a ring of signals without a state, " + ring + elements.front() +
-         ": expected a state in it, for example a controller with 'integral' or 'filter'";
+         ": expected a state in it, for example a controller with 'integral'";
 }
 
 Complaint bearing_stiffness(const MatX& K) {

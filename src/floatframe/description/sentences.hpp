@@ -74,6 +74,7 @@ Complaint kinetic_friction(double kinetic, double breakaway);
 /// `key` is missing because of `why`.
 std::string controller_needs(const std::string& key, const std::string& why);
 std::string controller_without_gain();
+std::string filter_and_rate();
 std::string controller_limits(double lower, double upper);
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.

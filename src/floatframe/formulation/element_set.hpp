@@ -126,12 +126,16 @@ class ElementSet {
       return;
     }
     measure(ports_at);
-    for (const SignalGroup& group : order_.groups)
-      for (const std::size_t k : group.elements) {
-        z_.start(k, ports_at(k));
-        evaluate_one(k, ports_at(k));
-        publish(k);
+    std::size_t ring = 0;
+    for (const SignalGroup& group : order_.groups) {
+      // In a ring a start may depend on the signals of the others.
+      constexpr int rounds = 50;
+      for (int round = 0; round < (group.links.empty() ? 1 : rounds); ++round) {
+        for (const std::size_t k : group.elements) z_.start(k, ports_at(k));
+        evaluate_group(group, ring, ports_at);
       }
+      ring += !group.links.empty();
+    }
   }
   /// Values of `model.links`, times their factors, at the last evaluation.
   const std::vector<double>& links() const noexcept { return links_; }
@@ -176,14 +180,21 @@ class ElementSet {
     measure(ports_at);
     std::size_t ring = 0;
     for (const SignalGroup& group : order_.groups) {
-      if (group.links.empty())
-        evaluate_one(group.elements[0], ports_at(group.elements[0]));
-      else
-        rings_[ring++].solve(ports_at, z_, links_, states_);
-      for (const std::size_t k : group.elements) {
-        if (!group.links.empty()) took(k);
-        publish(k);
-      }
+      evaluate_group(group, ring, ports_at);
+      ring += !group.links.empty();
+    }
+  }
+  /// `ring`: its place among the rings, if it is one.
+  template <class PortsAt>
+  void evaluate_group(const SignalGroup& group, std::size_t ring,
+                      const PortsAt& ports_at) noexcept {
+    if (group.links.empty())
+      evaluate_one(group.elements[0], ports_at(group.elements[0]));
+    else
+      rings_[ring].solve(ports_at, z_, links_, states_);
+    for (const std::size_t k : group.elements) {
+      if (!group.links.empty()) took(k);
+      publish(k);
     }
   }
   /// The links from an element.

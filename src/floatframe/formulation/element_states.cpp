@@ -18,7 +18,7 @@ ElementStates::ElementStates(const Model& model) : model_(model) {
     newton_.emplace_back(e.states);
   }
   z_ = rates_ = drift_ = zero_ = VecX::Zero(count);
-  held_.assign(static_cast<std::size_t>(count), 0);
+  held_.assign(z_.size(), 0);
 }
 
 /// w z + z_hat - zdot at the present states; zero for those that are held.

@@ -37,6 +37,7 @@ class ElementStates {
     assert(z.size() == z_.size());
     z_ = z;
     follow_ = false;
+    unsolved_ = -1;
   }
   /// From now on by (1), beginning with the present values; `z_hat` must outlive this.
   void follow(double weight, const VecX& z_hat) noexcept {
@@ -60,7 +61,8 @@ class ElementStates {
   double weight() const noexcept {
     return follow_ ? weight_ : std::numeric_limits<double>::infinity();
   }
-  /// The first element whose (1) had no solution since `follow`; -1: none.
+  /// The first element whose (1), or whose ring of signals, had no solution since `follow` or
+  /// `give`; -1: none.
   int unsolved() const noexcept { return unsolved_; }
 
   /// (1) of an element, and its efforts there.

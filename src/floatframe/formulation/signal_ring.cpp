@@ -18,9 +18,11 @@ SignalRing::SignalRing(const Model& model, const SignalGroup& group) : newton_(0
     for (int i = 0; i < m.states; ++i) m.columns.push_back(m.first + i);
     for (const Signal& signal : model.elements[m.element].signals)
       if (signal.link >= 0) m.columns.push_back(unknown_of[signal.link]);
-    for (const std::size_t l : group.links)
-      if (model.links[l].from == static_cast<int>(m.element))
-        m.results.push_back({unknown_of[l], static_cast<int>(l), model.links[l].factor});
+    for (const std::size_t l : group.links) {
+      const std::size_t from = model.links[l].from;
+      const int link = l;
+      if (from == m.element) m.results.push_back({unknown_of[l], link, model.links[l].factor});
+    }
   }
   y_ = VecX::Zero(count);
   newton_ = LocalNewton(count);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/formulation/formulation.hpp"
 
 namespace floatframe {
@@ -35,8 +36,10 @@ SignalTangent::SignalTangent(const Model& model) : model_(model) {
       if (e.exerts()) acting_.push_back({signal.link, i, port});
       ++port;
     }
-    for (int l = 0; l < std::ssize(model.links); ++l)
-      if (model.links[l].from == static_cast<int>(m.element)) m.results.push_back(l);
+    for (int l = 0; l < std::ssize(model.links); ++l) {
+      const std::size_t from = model.links[l].from;
+      if (from == m.element) m.results.push_back(l);
+    }
     m.own = MatX::Zero(std::ssize(m.columns), port);
   }
   const Eigen::Index n = first_link_ + std::ssize(model.links);
@@ -58,7 +61,7 @@ void SignalTangent::find_system(const Formulation& f) noexcept {
         transposed_(m.columns[j], m.first + z) -= slopes(z, j);
     }
     for (const int l : m.results) {
-      const Eigen::Index row = m.states + static_cast<Eigen::Index>(model_.links[l].quantity);
+      const Eigen::Index row = m.states + index_of(model_.links[l].quantity);
       for (Eigen::Index j = 0; j < std::ssize(m.columns); ++j)
         transposed_(m.columns[j], first_link_ + l) -= model_.links[l].factor * slopes(row, j);
     }
@@ -85,16 +88,15 @@ void SignalTangent::add_gains(Formulation& f, double damping, double s, const Ve
   const bool follow = f.element_states().follow();
   for (Member& m : members_) {
     const MatX &motion = m.tangent->motion, &rates = m.tangent->rates;
-    for (std::size_t i = 0; i < m.wrenches.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(m.wrenches); ++i) {
       Vec6 sum = Vec6::Zero();
       const auto add = [&](Eigen::Index row, double part) {
-        const Eigen::Index at = 6 * static_cast<Eigen::Index>(i);
-        sum += (part * s) * motion.row(row).segment<6>(at).transpose();
-        sum += (part * damping) * rates.row(row).segment<6>(at).transpose();
+        sum += (part * s) * motion.row(row).segment<6>(6 * i).transpose();
+        sum += (part * damping) * rates.row(row).segment<6>(6 * i).transpose();
       };
       for (int z = 0; z < m.states && follow; ++z) add(z, a[m.first + z]);
       for (const int l : m.results)
-        add(m.states + static_cast<Eigen::Index>(model_.links[l].quantity),
+        add(m.states + index_of(model_.links[l].quantity),
             model_.links[l].factor * a[first_link_ + l]);
       m.wrenches[i] = {sum.head<3>(), sum.tail<3>()};
     }
@@ -109,9 +111,8 @@ void SignalTangent::find(Formulation& f, double damping, double s, MatX& B, MatX
   for (Eigen::Index j = 0; j < rank(); ++j) {
     const Acting& acting = acting_[j];
     Member& m = members_[acting.member];
-    for (std::size_t i = 0; i < m.wrenches.size(); ++i) {
-      const Vec6 w = m.tangent->of_inner.middleRows<6>(6 * static_cast<Eigen::Index>(i)) *
-                     m.own.col(acting.port);
+    for (Eigen::Index i = 0; i < std::ssize(m.wrenches); ++i) {
+      const Vec6 w = m.tangent->of_inner.middleRows<6>(6 * i) * m.own.col(acting.port);
       m.wrenches[i] = {w.head<3>(), w.tail<3>()};
     }
     forces_.setZero(f.velocities());

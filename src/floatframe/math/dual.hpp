@@ -43,8 +43,10 @@ struct Dual {
 inline Dual chained(double f, double df, const Dual& x) noexcept { return {f, df * x.d}; }
 inline double chained(double f, double, double) noexcept { return f; }
 
+/// At zero, where it has no derivative, that is taken as zero: a length of nothing stays at rest.
 inline Dual sqrt(const Dual& x) noexcept {
   const double root = std::sqrt(x.v);
+  if (root == 0.0) return root;
   return {root, x.d / (2.0 * root)};
 }
 inline Dual abs(const Dual& x) noexcept { return x.v < 0.0 ? -x : x; }

@@ -127,6 +127,8 @@ struct ElementKind {
   void (*dual)(const DualPorts& in, EffortsOf<Dual>& out) noexcept = nullptr;
   /// For laws with branches. Called between steps.
   BranchSide (*side)(const Ports& in) noexcept = nullptr;
+  /// The branch on which an equilibrium is looked for first; `free_branch`: on any.
+  std::int64_t resting_branch = free_branch;
   Picture (*picture)(const Element& element) = nullptr;
   /// What is odd about its start, for notes of statics and checks.
   void (*note)(const Element& element, const SystemMotion& start,

@@ -183,7 +183,7 @@ template <class S>
 SignalValue<S> PortsOf<S>::given_signal(const Signal& signal) const noexcept {
   const PiecewisePolynomial::Value value = evaluate(signal.function, t);
   SignalValue<S> out{value.f, value.df, value.ddf};
-  if (signal.input >= 0) out.f += inputs[static_cast<std::size_t>(signal.input)];
+  if (signal.input >= 0) out.f += inputs[signal.input];
   if (signal.link >= 0) out.f += links[signal.link];
   return out;
 }

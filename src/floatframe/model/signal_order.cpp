@@ -60,8 +60,10 @@ std::vector<std::size_t> ring_in(const Model& model, const SignalGroup& group) {
   std::vector<std::size_t> way{group.elements.front()};
   while (true) {  // backwards along any signal
     std::size_t before = way.back();
-    for (const std::size_t l : group.links)
-      if (model.links[l].to == static_cast<int>(way.back())) before = model.links[l].from;
+    for (const std::size_t l : group.links) {
+      const std::size_t to = model.links[l].to;
+      if (to == way.back()) before = model.links[l].from;
+    }
     const auto seen = std::find(way.begin(), way.end(), before);
     if (seen != way.end()) {
       way.erase(way.begin(), seen);

@@ -30,9 +30,9 @@ constexpr Eigen::Index quantities = 3;  // of ElementQuantity
 }  // namespace
 
 TangentFinder::TangentFinder(const Model& model, const Element& element)
-    : efforts_(element.markers.size(), static_cast<std::size_t>(element.states)),
+    : efforts_(element.markers.size(), element.states),
       motions_(element.markers.size()),
-      states_(static_cast<std::size_t>(element.states + element.kept)),
+      states_(element.states + element.kept),
       links_(model.links.size()) {
   const Eigen::Index n = 6 * std::ssize(element.markers), results = element.states + quantities,
                      inner = element.states + link_count(element);
@@ -88,7 +88,7 @@ const Dual::Directions& TangentFinder::result(Eigen::Index row) const noexcept {
 }
 
 const EffortTangent& TangentFinder::find_inner(const Ports& in) noexcept {
-  const int inner = static_cast<int>(out_.slopes.cols());
+  const int inner = out_.slopes.cols();
   for (int first = 0; first < inner; first += dual_directions) {
     along_inner(in, first);
     for (int i = first; i < std::min(inner, first + dual_directions); ++i) {

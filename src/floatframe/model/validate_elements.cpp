@@ -136,10 +136,11 @@ struct ElementValidation {
 }  // namespace
 
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
+  std::set<std::string> taken;
   for (const ElementList list :
        {ElementList::rods, ElementList::couplings, ElementList::forces, ElementList::controllers}) {
     const std::string section = element_list_name(list);
-    std::set<std::string> taken;
+    if (list != ElementList::controllers) taken.clear();  // states are named by both lists
     for (const ElementDescription& e : d.elements(list)) {
       const Entity entity{errors, e.origin, section + "." + e.name};
       name(section.c_str(), e.name, taken, entity);

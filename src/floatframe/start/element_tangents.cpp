@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/element_keys.hpp"
 #include "floatframe/start/small_motions.hpp"
@@ -113,10 +114,11 @@ Borders borders(Formulation& f, const MatX& J, const MatX& V) {
       for (std::size_t j = 0; j < inner.size(); ++j) K(to, inner[j]) -= factor * t.slopes(of, j);
     };
     for (Eigen::Index i = 0; i < ns; ++i) add(at + i, i, 1.0);
-    for (std::size_t l = 0; l < model.links.size(); ++l)
-      if (model.links[l].from == static_cast<int>(k))
-        add(first_link + static_cast<Eigen::Index>(l),
-            ns + static_cast<Eigen::Index>(model.links[l].quantity), model.links[l].factor);
+    for (Eigen::Index l = 0; l < std::ssize(model.links); ++l) {
+      const SignalLink& link = model.links[l];
+      const std::size_t from = link.from;
+      if (from == k) add(first_link + l, ns + index_of(link.quantity), link.factor);
+    }
     row += rows;
     at += ns;
   }

@@ -80,6 +80,12 @@ std::string thrown_sentence(const Formulation& f, double t) {
 void require_laws(const Formulation& f, double t) {
   if (f.thrown().element >= 0)
     throw RunError(ErrorCode::step_failed, thrown_sentence(f, t), f.thrown().exception);
+  if (f.element_states().follow() || f.element_states().unsolved() < 0) return;
+  throw RunError(
+      ErrorCode::no_convergence,
+      fmt::format("the signals in the ring of {} have no solution at t = {:.9g} s: their "
+                  "gains cancel",
+                  element_name(f.model().elements[f.element_states().unsolved()]), t));
 }
 
 }  // namespace floatframe

@@ -132,7 +132,8 @@ constexpr ElementKey pid_keys[] = {
     gain_key("derivative", "times the rate of the error", described_by<&Pid::derivative>),
     {.name = "filter",
      .kind = KeyKind::number,
-     .about = "time constant of the rate of the error, needed for a `derivative` without `rate`",
+     .about = "time constant of the rate of the error, needed for a `derivative` without `rate`, "
+              "not allowed with it",
      .rule = positive_number("s"),
      .fallback = no_number,
      .member = described_by<&Pid::filter>},
@@ -156,6 +157,8 @@ void pid_validate(const ElementCheck& check) {
     check.error(ErrorCode::incomplete, "", sentences::controller_without_gain());
   if (number("derivative") != 0.0 && !check.given("rate") && !check.given("filter"))
     required("filter", "'derivative' without 'rate'");
+  if (check.given("filter") && check.given("rate"))
+    check.error(ErrorCode::exclusive, "filter", sentences::filter_and_rate());
   const bool limited = check.good("lower") || check.good("upper");
   if (limited && number("integral") != 0.0 && number("proportional") == 0.0 &&
       !check.given("unwind") && !check.wrong.contains("proportional"))
@@ -219,6 +222,7 @@ constinit const ElementKind pid_element = {
     .start = pid_start,
     .dual = pid_law<Dual>,
     .side = pid_side,
+    .resting_branch = static_cast<std::int64_t>(PidBranch::between),
     .regimes = pid_regimes,
     .example = pid_example};
 
