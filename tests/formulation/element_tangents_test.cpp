@@ -72,7 +72,7 @@ Model everything(unsigned seed) {
         road.pieces = road.pieces + PiecewisePolynomial::polynomial({20.0});
         model.roads.push_back(std::move(road));
       }
-      for (Signal& signal : e.signals) signal.input = -1;
+      for (Signal& signal : e.signals) signal.input = signal.link = -1;
       model.elements.push_back(std::move(e));
     }
   }
