@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/description/rules.hpp"

@@ -69,13 +69,13 @@ std::string force_matrix_rows(std::size_t rows);
 /// Rows of a speed and eight coefficients.
 Complaint speed_table(const MatX& rows);
 std::string table_rows(Eigen::Index rows, Eigen::Index columns, std::span<const char* const> words);
-/// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint kinetic_friction(double kinetic, double breakaway);
 /// `key` is missing because of `why`.
 std::string controller_needs(const std::string& key, const std::string& why);
 std::string controller_without_gain();
 std::string filter_and_rate();
 std::string controller_limits(double lower, double upper);
+/// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.
 std::string function_in_file(const std::string& found);

@@ -137,9 +137,7 @@ class ElementSet {
       ring += !group.links.empty();
     }
   }
-  /// Values of `model.links`, times their factors, at the last evaluation.
-  const std::vector<double>& links() const noexcept { return links_; }
-  /// Finds them at other ports.
+  /// Signals between elements at other ports.
   template <class PortsAt>
   void find_links(const PortsAt& ports_at) noexcept {
     if (!links_.empty()) evaluate_linked(ports_at);
@@ -223,7 +221,7 @@ class ElementSet {
   std::vector<std::int64_t> branches_;
   SignalOrder order_;
   std::vector<SignalRing> rings_;
-  std::vector<double> links_;
+  std::vector<double> links_;  ///< values of model.links, times their factors
   std::vector<std::vector<std::size_t>> links_from_;  ///< each element
   ElementStates z_;
   bool held_ = false;

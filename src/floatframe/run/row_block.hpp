@@ -24,7 +24,7 @@ class RowBlock {
   /// Position of the next row. Does not allocate.
   double* next() noexcept { return data_.data() + columns_.size() * used_++; }
 
-  /// The last row is not to be.
+  /// Removes the last row.
   void take_back() noexcept { --used_; }
 
   /// Between steps: true if the rows should be handed over now. The next steps are expected to take
