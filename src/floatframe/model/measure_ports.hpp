@@ -8,8 +8,6 @@
 //   rotation            R_A^T (R_P R_F^T) R_A; with A = F it is R_F^T R_P
 // Components of the first three are those in the axes A.
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <type_traits>
 
 #include "floatframe/math/dual.hpp"
@@ -50,14 +48,21 @@ struct MeasurePorts {
   }
   M rotation() const noexcept {
     if (axes && axes == relative) return axes->R.transpose() * marker->R;
-    const M turned = relative ? M(marker->R * relative->R.transpose()) : M(marker->R);
-    return axes ? M(axes->R.transpose() * turned * axes->R) : turned;
+    return axes ? M(axes->R.transpose() * turn() * axes->R) : turn();
   }
-  /// The angle less the turns that lead away from the reference.
-  S near_reference(const S& angle) const noexcept {
-    const double near =
-        std::remainder(value_of(angle) - reference, 2.0 * std::numbers::pi);
-    return chained(reference + near, 1.0, angle);
+  /// w of the rotation: dR/dt = skew(w) R.
+  V rotation_velocity() const noexcept {
+    V w = marker->w;
+    if (relative) w -= turn() * relative->w;
+    if (!axes) return w;
+    w += turn() * axes->w - axes->w;
+    return axes->R.transpose() * w;
+  }
+
+ private:
+  /// R_P R_F^T
+  M turn() const noexcept {
+    return relative ? M(marker->R * relative->R.transpose()) : M(marker->R);
   }
 };
 

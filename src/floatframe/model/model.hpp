@@ -129,7 +129,7 @@ struct Input {
 struct Output {
   std::string name, unit;
   OutputType type = OutputType::position;
-  int marker = -1, to = -1;  ///< of points; `to`: the second of two
+  int marker = -1, to = -1;   ///< of points; `to`: the second of two
   int body = -1, joint = -1;  ///< no body: of a quantity of all bodies
   int element = -1;           ///< of a force, or of a reaction
   int component = 0;

@@ -35,9 +35,9 @@ enum class OutputOf {
                ///< origin of the world
   flexible_point,  ///< a point on a body that moves: `body`, `marker`, and as `relative` the frame
                    ///< of the body
-  joint,       ///< `joint`, with the number of a coordinate: `component`
-  mode,        ///< a flexible body: `body`, with the number of a mode: `component`
-  force,       ///< a force element: `force`
+  joint,           ///< `joint`, with the number of a coordinate: `component`
+  mode,            ///< a flexible body: `body`, with the number of a mode: `component`
+  force,           ///< a force element: `force`
   reaction,    ///< what a joint (`joint`) or a rod (`rod`) transmits, about the point of `marker`,
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
@@ -85,16 +85,16 @@ inline MeasurePorts<double> measure_ports(const SystemMotion& motion, const Outp
                                           double reference = 0.0) noexcept {
   const auto [marker, to, relative, axes] = measure_markers(motion.model, output);
   const auto at = [&](int k) { return k < 0 ? nullptr : motion.markers[k]; };
-  return {motion.model, output,        at(marker),    at(to), at(relative),
-          at(axes),     motion.origin, reference};
+  return {motion.model, output,   at(marker),    at(to),
+          at(relative), at(axes), motion.origin, reference};
 }
 
 /// A measure that nothing is remembered of.
-#define FLOATFRAME_MEASURED(name)                                                                 \
-  template <>                                                                                     \
-  double output_value_of<OutputType::name>(const SystemMotion& motion, const Output& output,     \
-                                           FollowedOutput&) noexcept {                            \
-    return name##_measure(measure_ports(motion, output));                                         \
+#define FLOATFRAME_MEASURED(name)                                                            \
+  template <>                                                                                \
+  double output_value_of<OutputType::name>(const SystemMotion& motion, const Output& output, \
+                                           FollowedOutput&) noexcept {                       \
+    return name##_measure(measure_ports(motion, output));                                    \
   }
 
 template <ElementQuantity quantity>
