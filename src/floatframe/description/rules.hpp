@@ -14,6 +14,7 @@ inline constexpr const char* input_uses[] = {"held", "ramp"};
 inline constexpr const char* axes[] = {"x", "y", "z"};
 inline constexpr const char* reaction_axes[] = {"world", "parent", "child", "place"};
 inline constexpr const char* shell_layers[] = {"top", "bottom"};
+inline constexpr const char* quaternion[] = {"w", "x", "y", "z"};
 inline constexpr const char* angles[] = {"roll", "pitch", "yaw"};
 
 // Bodies.

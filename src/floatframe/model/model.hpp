@@ -129,11 +129,12 @@ struct Input {
 struct Output {
   std::string name, unit;
   OutputType type = OutputType::position;
-  int marker = -1, to = -1;  ///< of points; `to`: the second of two
-  int body = -1, joint = -1;
-  int element = -1;  ///< of a force, or of a reaction
+  int marker = -1, to = -1;   ///< of points; `to`: the second of two
+  int body = -1, joint = -1;  ///< no body: of a quantity of all bodies
+  int element = -1;           ///< of a force, or of a reaction
   int component = 0;
   int gauge = -1;
+  int relative = -1, axes = -1;  ///< markers; -1: the world
 };
 
 /// The origin of a constraint row: a joint, an element, or an element that holds a coordinate of a
@@ -153,6 +154,7 @@ struct Model {
   std::vector<Input> inputs;
   std::vector<Marker> markers;
   std::vector<Output> outputs;
+  std::vector<Output> measures;  ///< of formulas; no columns
   std::vector<Gauge> gauges;
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "floatframe/math/contracts.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -29,6 +30,13 @@ double value_of_type(std::index_sequence<I...>, const SystemMotion& motion, cons
 const OutputKind& output_kind(OutputType type) noexcept {
   assert(index_of(type) < std::size(output_list));
   return *output_list[index_of(type)];
+}
+
+std::array<int, 4> measure_markers(const Model& model, const Output& output) noexcept {
+  if (output.joint < 0) return {output.marker, output.to, output.relative, output.axes};
+  assert(is_index(output.joint, model.joints));
+  const Joint& joint = model.joints[output.joint];
+  return {joint.frame_F, joint.frame_M, -1, -1};
 }
 
 MotionNeeds needs_of_outputs(const Model& model) noexcept {

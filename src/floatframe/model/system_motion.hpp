@@ -48,9 +48,10 @@ struct SystemMotion {
   Vec3 origin = Vec3::Zero();  ///< positions of markers are measured from this point [m]
   std::vector<BodyKinematics> bodies;
   std::vector<const MarkerState*> markers;
-  std::vector<Vec3> marker_accelerations;  ///< of the points [m/s2]
-  const Efforts* efforts = nullptr;        ///< one for each element
-  std::vector<const double*> states;       ///< of each element, and behind them its kept numbers
+  std::vector<Vec3> marker_accelerations;          ///< of the points [m/s2]
+  std::vector<Vec3> marker_angular_accelerations;  ///< angular accelerations [rad/s2]
+  const Efforts* efforts = nullptr;                ///< one for each element
+  std::vector<const double*> states;  ///< of each element, and behind them its kept numbers
   struct CountedAngle {
     int joint, component;
     const double* angle;  ///< [rad]
@@ -58,7 +59,10 @@ struct SystemMotion {
   std::vector<CountedAngle> counted;     ///< angles whose turns elements count
   const Reactions* reactions = nullptr;  ///< if an output needs them
 
-  explicit SystemMotion(const Model& m) : model(m), marker_accelerations(m.markers.size()) {}
+  explicit SystemMotion(const Model& m)
+      : model(m),
+        marker_accelerations(m.markers.size()),
+        marker_angular_accelerations(m.markers.size()) {}
   SystemMotion(const SystemMotion&) = delete;
   SystemMotion& operator=(const SystemMotion&) = delete;
 
@@ -88,6 +92,7 @@ struct SystemMotion {
       for (double* e : {&b.kinetic_energy, &b.gravity_energy, &b.elastic_energy}) poison(*e);
     }
     for (Vec3& a : marker_accelerations) poison(a);
+    for (Vec3& a : marker_angular_accelerations) poison(a);
   }
 };
 
