@@ -5,6 +5,7 @@
 #include <string>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formulas/formula.hpp"
 #include "floatframe/math/piecewise_polynomial.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -26,6 +27,8 @@ struct AttachmentDescription {
 struct TimeFunction {
   PiecewisePolynomial pieces;
   double amplitude = 0.0, frequency = 0.0, phase = 0.0;
+  /// Added: of the time `t`; of a signal also of measures, inputs and results of elements.
+  SharedFormula formula;
 };
 
 /// A result of an element that is a signal: of a force element its force, length or rate, or of a

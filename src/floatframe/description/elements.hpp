@@ -190,6 +190,11 @@ struct Pid {
   std::optional<double> unwind;
 };
 
+/// The value of a formula of measures, inputs, results of elements and the time.
+struct FormulaValue {
+  SharedFormula formula;
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -207,7 +212,8 @@ struct Pid {
   entry(motion, PrescribedMotion)       \
   entry(coupling, Coupling)             \
   entry(force_law, ForceLaw)            \
-  entry(pid, Pid)
+  entry(pid, Pid)                       \
+  entry(formula, FormulaValue)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

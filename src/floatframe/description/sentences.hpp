@@ -58,6 +58,24 @@ std::string one_source(SignalSource first);
 /// A signal of an element that has no such result, for example the length of a load.
 std::string element_without(const std::string& type, SignalSource source);
 /// Elements whose forces depend on each other at once, in order.
+std::string missing_formula();
+/// A motion has another reference than the time.
+std::string formula_not_of_time(const Formula& formula);
+std::string formula_and_source(SignalSource source);
+/// What a formula refers to is not there; a suggestion follows.
+std::string formula_name(const std::string& name);
+std::string formula_function(const std::string& name);
+std::string no_such_entity(const std::string& function, const char* kind, const std::string& name);
+/// `rate` of a joint and a force of one name.
+std::string rate_of_two(const std::string& name);
+/// Outputs of more than one place or component.
+std::string named_measures_only(const std::string& function);
+std::string formula_component(const std::string& function, const std::string& found,
+                              std::span<const char* const> words);
+std::string one_argument(const std::string& function);
+std::string formula_coordinate(const std::string& joint, const std::string& found, int count);
+/// Of a force law: another reference than x, v and t.
+std::string formula_of_law(const std::string& name);
 std::string ring_of_signals(const std::vector<std::string>& elements);
 Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);

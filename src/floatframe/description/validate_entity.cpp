@@ -161,6 +161,8 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
 }
 
 void Entity::function(const std::string& key, const TimeFunction& f, bool may_jump) const {
+  if (f.formula && !may_jump && !f.formula->is_of_time())
+    error(ErrorCode::wrong_value, key, sentences::formula_not_of_time(*f.formula));
   pieces(key, f.pieces, may_jump);
   number(key + ".sine.amplitude", f.amplitude, any_number(""));
   number(key + ".sine.phase", f.phase, any_number("rad"));
@@ -173,6 +175,8 @@ void Entity::signal(const std::string& key, const SignalDescription& s, const Na
   if (!s.input.empty()) reference(key + ".input", "input", s.input, names.inputs);
   if (!word(key + ".source", s.source, signal_source_words)) return;
   if (s.source == SignalSource::none) return;
+  if (s.formula && !s.formula->is_of_time())
+    error(ErrorCode::exclusive, key, sentences::formula_and_source(s.source));
   const bool controller = s.source == SignalSource::controller;
   const std::string source = key + "." + signal_source_words[index_of(s.source)];
   reference(source, controller ? "controller" : "force", s.element,

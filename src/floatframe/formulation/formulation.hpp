@@ -75,8 +75,12 @@ class Formulation {
   }
   /// What an element acts on at the present positions and velocities.
   virtual Ports ports(std::size_t element) const noexcept = 0;
-  BranchSide branch_side(std::size_t element) noexcept {
+  /// Signals between elements at the present positions and velocities.
+  void find_links() noexcept {
     element_set_.find_links([this](std::size_t k) { return ports(k); });
+  }
+  BranchSide branch_side(std::size_t element) noexcept {
+    find_links();
     return floatframe::branch_side(ports(element));
   }
   /// By the function of an element, since the beginning of the last step.

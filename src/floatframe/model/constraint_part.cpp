@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "floatframe/core/debug_only.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/frequency.hpp"
 
@@ -21,6 +22,12 @@ PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept {
     v.f += f.amplitude * s;
     v.df += f.amplitude * w * c;
     v.ddf -= f.amplitude * w * w * s;
+  }
+  if (f.formula) {
+    const PiecewisePolynomial::Value added = formula_at(*f.formula, t);
+    v.f += added.f;
+    v.df += added.df;
+    v.ddf += added.ddf;
   }
   return v;
 }

@@ -150,6 +150,7 @@ void take_keys(Element& element, const Model& model) {
   element.signals.clear();
   element.acts = element_kind(element.type).dual != nullptr;
   element.holds = element_kind(element.type).rows != nullptr;
+  element.reads = element_kind(element.type).list == ElementList::controllers;
   element.driven = calls_program(element.type);
   element.target_jumps = false;
   bool rate = false;

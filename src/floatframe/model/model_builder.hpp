@@ -47,6 +47,16 @@ struct ModelBuilder {
   void holding_elements();
   /// Builds them and controllers, and puts both first.
   void forces();
+  /// A formula of a signal, as an element: its name, and where it is written.
+  struct InnerFormula {
+    ElementDescription element;
+    std::string path;
+  };
+  std::vector<InnerFormula> formulas;
+  /// The element without the formulas of its signals, which become elements of their own.
+  ElementDescription with_formulas_apart(const ElementDescription& e, ElementList list);
+  /// What the references of formulas stand for.
+  void connect_formulas();
   /// Results of elements that are signals of others.
   void link_signals();
   /// False after an error.

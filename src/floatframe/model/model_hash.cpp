@@ -47,8 +47,8 @@ class ModelHash {
   }
   void add(const PiecewisePolynomial& f) { all(f.breaks(), f.pieces()); }
   void add(const TimeFunction& f) {
-    const auto& [pieces, amplitude, frequency, phase] = f;
-    all(pieces, amplitude, frequency, phase);
+    const auto& [pieces, amplitude, frequency, phase, formula] = f;
+    all(pieces, amplitude, frequency, phase, formula);
   }
   void add(const CosineBump& b) {
     const auto& [start, length, height] = b;
@@ -72,6 +72,12 @@ class ModelHash {
     add(static_cast<const TimeFunction&>(s));
     all(s.input, s.source, s.element, s.factor);
   }
+  void add(const SharedFormula& f) {
+    if (!f) return;
+    add(f->text);
+    for (const auto& curve : f->curves) add(*curve);
+    for (const auto& grid : f->grids) all(grid->x, grid->y, grid->values);
+  }
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
   void add(const ForceFunction& f) { add(f.identity()); }
   void add(const Signal& s) {
@@ -82,10 +88,14 @@ class ModelHash {
     const auto& [from, to, port, quantity, factor] = l;
     all(from, to, port, quantity, factor);
   }
+  void add(const FormulaOperand& x) {
+    const auto& [kind, index, output, ports, angle] = x;
+    all(kind, index, output);
+  }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, coordinates, road, states, kept, start, acts,
-                 holds, rotational, driven, jumps, keys, data] = e;
-    all(name, type, markers, laws, signals, road, rotational);
+    const auto& [name, type, markers, laws, signals, coordinates, operands, road, states, kept,
+                 start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
+    all(name, type, markers, laws, signals, operands, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))
       if (const auto value = key_value(described, key))
@@ -96,8 +106,9 @@ class ModelHash {
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, type, marker, to, body, joint, element, component, gauge] = o;
-    all(name, type, marker, to, body, joint, element, component);
+    const auto& [name, unit, type, marker, to, body, joint, element, relative, axes, component,
+                 gauge] = o;
+    all(name, type, marker, to, body, joint, element, relative, axes, component);
     if (gauge >= 0) all(gauge);
   }
   void add(const Gauge& g) {

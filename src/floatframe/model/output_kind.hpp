@@ -71,6 +71,8 @@ struct OutputKind {
   const char* (*unit_of)(const Model& model, const Output& output) = nullptr;
   /// For a force element: the required property.
   ElementQuantity needs = ElementQuantity::force;
+  /// It is the result `needs` of an element that signals are made of.
+  bool is_signal = false;
   MotionNeeds needs_of_motion = {};
   OutputFrames frames = OutputFrames::none;
   /// Of measures: the value, and the same with its derivatives.

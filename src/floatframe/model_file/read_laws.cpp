@@ -119,13 +119,15 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
 }
 
 constexpr const char* time_laws =
-    "a number or a map with one of polynomial, piecewise, table, and sine";
+    "a number or a map with one of formula, polynomial, piecewise, table, and sine";
 
 /// The keys of a function of time; an error with `expected` if there are none, unless it is null.
-TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table, TableOf of,
-                        const char* expected) {
+TimeFunction time_terms(const ModelInstance& self, YamlSection& section, const char* unit,
+                        Interpolation table, TableOf of, const char* expected) {
   TimeFunction f;
   int laws = 0;
+  const auto formula = section.get("formula");
+  if (formula) f.formula = read_formula(self, *formula);
   if (const auto v = section.get("polynomial")) {
     ++laws;
     f.pieces = PiecewisePolynomial(
@@ -150,7 +152,7 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
     }
   }
   section.finish();
-  if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
+  if (laws > 1 || (laws == 0 && !sine && !formula && expected != nullptr))
     section.error(ErrorCode::wrong_count, "found " + std::to_string(laws) + " laws, expected " +
                                               (expected != nullptr ? expected : time_laws));
   return f;
@@ -213,10 +215,11 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
   return f;
 }
 
-TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table) {
+TimeFunction read_motion(const ModelInstance& self, const YamlValue& value, const char* unit,
+                         Interpolation table) {
   if (!value.is_map()) return constant(value, unit);
   auto section = value.section();
-  return time_terms(*section, unit, table, TableOf::motion, time_laws);
+  return time_terms(self, *section, unit, table, TableOf::motion, time_laws);
 }
 
 namespace {
@@ -256,11 +259,11 @@ SignalDescription read_signal(const ModelInstance& self, const YamlValue& value,
   if (input)
     if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
   const bool source = read_source(self, *section, signal);
-  function =
-      time_terms(*section, unit, table, TableOf::time,
-                 input || source ? nullptr
-                                 : "a number or a map with input, controller, force, length, "
-                                   "rate or one of polynomial, piecewise, table, and sine");
+  function = time_terms(self, *section, unit, table, TableOf::time,
+                        input || source
+                            ? nullptr
+                            : "a number or a map with input, controller, force, length, "
+                              "rate or one of formula, polynomial, piecewise, table, and sine");
   return signal;
 }
 
