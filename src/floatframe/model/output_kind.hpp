@@ -89,6 +89,9 @@ inline MeasurePorts<double> measure_ports(const SystemMotion& motion, const Outp
           at(relative), at(axes), motion.origin, reference};
 }
 
+/// Of a body, or with -1 of all [kg].
+double mass_of(const Model& model, int body) noexcept;
+
 /// A measure that nothing is remembered of.
 #define FLOATFRAME_MEASURED(name)                                                            \
   template <>                                                                                \
