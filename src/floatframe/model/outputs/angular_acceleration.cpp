@@ -22,7 +22,7 @@ double output_value_of<OutputType::angular_acceleration>(const SystemMotion& mot
 
 constinit const OutputKind angular_acceleration_output = {
     .about = "in the world, or as seen from `relative_to`",
-    .of = OutputOf::body_frame,
+    .of = OutputOf::body,
     .components = world_axes,
     .unit = "rad/s2",
     .needs_of_motion = {.accelerations = true, .reactions = true},
