@@ -404,7 +404,21 @@ std::string rod_has_no_axes() {
 }
 
 std::string force_without_point() {
-  return "a force is the same about every point, expected it with joint_torque only";
+  return "found a point for what is the same about every point, expected it with joint_torque or "
+         "angular_momentum only";
+}
+
+std::string without_mass(bool whole) {
+  return whole ? "found a model without mass, expected one with"
+               : "found a body without mass, expected one with";
+}
+
+std::string without_axes(const std::string& quantity) {
+  return "a " + quantity + " has no axes, expected it without the key";
+}
+
+std::string without_reference(const std::string& quantity) {
+  return "a " + quantity + " is relative to nothing, expected it without the key";
 }
 
 std::string load_without(const std::string& type, const std::string& quantity) {

@@ -118,6 +118,9 @@ std::string number_of(const char* what, int component, int n, bool from_file);
 std::string weld_does_not_move();
 /// For the force or torque of a motor.
 std::string joint_without_motion();
+std::string without_mass(bool whole);
+std::string without_axes(const std::string& quantity);
+std::string without_reference(const std::string& quantity);
 std::string rod_has_no_axes();
 std::string force_without_point();
 /// A prescribed force or torque has no length and no rate.

@@ -184,8 +184,10 @@ class Formulation {
   virtual void fill_accelerations(SystemMotion& motion) const noexcept = 0;
   /// After `dynamics`.
   virtual double body_kinetic_energy(int body) const noexcept = 0;
+  /// Of `fill_poses`; the same.
+  virtual void fill_momenta(int body, BodyKinematics& b) const noexcept = 0;
   virtual const BodyInertia& inertia(int body) const noexcept = 0;
-  double gravity_energy(int body, const BodyKinematics& b) const noexcept;
+  Vec3 first_moment(int body, const BodyKinematics& b) const noexcept;
 
   SignalTangent signal_tangent_;
   mutable SystemMotion motion_;  ///< filled when it is asked for

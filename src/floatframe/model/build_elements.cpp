@@ -88,8 +88,6 @@ void ModelBuilder::forces() {
   std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());
   for (Joint& joint : model.joints)
     if (joint.motion >= 0) joint.motion += acting;
-  connect_formulas();
-  link_signals();
 }
 
 void ModelBuilder::link_signals() {

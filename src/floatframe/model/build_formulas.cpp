@@ -54,9 +54,12 @@ class FormulaConnection {
     }
     std::vector<std::string> known{"t"};
     for (const InputDescription& i : b_.d.inputs) known.push_back(i.name);
+    for (const auto* list : {&b_.model.measures, &b_.model.outputs})
+      for (const Output& o : *list)
+        if (o.name == r.name) return connected(o, x);
     for (const auto* list : {&b_.d.measures, &b_.d.outputs})
       for (const OutputDescription& o : *list) {
-        if (o.name == r.name) return output(o, x);
+        if (o.name == r.name) return false;  // it has an error
         known.push_back(o.name);
       }
     return wrong(ErrorCode::not_found,
@@ -85,7 +88,9 @@ class FormulaConnection {
     }
     o.type = output_types[type - std::begin(output_words)];
     o.name = r.function + "(" + r.name + ")";
-    return entity(r, o) && detail(r, o) && output(o, x);
+    if (!entity(r, o) || !detail(r, o)) return false;
+    const std::optional<Output> out = b_.output(o, path_);
+    return out && connected(*out, x);
   }
 
   /// Whether the entity exists; bodies by the origin of their frame.
@@ -110,10 +115,12 @@ class FormulaConnection {
                none("coupling", names_of(ElementList::couplings));
       case Of::motion:
         return of_list(ElementList::motions, r) || none("motion", names_of(ElementList::motions));
+      case Of::mass:
+        o.whole = r.name == "model";
+        if (o.whole) return true;
+        [[fallthrough]];
       case Of::point:
-      case Of::body:
-      case Of::body_frame:
-      case Of::mass: {
+      case Of::body: {
         const auto body = b_.body_names.find(r.name);
         if (!body) return none("body", b_.body_names.names());
         o.at.body = r.name;
@@ -154,9 +161,7 @@ class FormulaConnection {
            wrong(ErrorCode::out_of_range, sentences::formula_coordinate(r.name, r.detail, n));
   }
 
-  bool output(const OutputDescription& described, FormulaOperand& x) {
-    Output out;
-    if (!b_.output(described, out)) return false;
+  bool connected(const Output& out, FormulaOperand& x) {
     const OutputKind& kind = output_kind(out.type);
     if (kind.is_signal) return link(out.element, kind.needs, x);
     x.kind = FormulaOperand::Kind::measure;
@@ -168,7 +173,7 @@ class FormulaConnection {
     } else {
       markers(measure_markers(b_.model, out), x);
     }
-    x.output = std::move(out);
+    x.output = out;
     return true;
   }
   bool link(int from, ElementQuantity quantity, FormulaOperand& x) {

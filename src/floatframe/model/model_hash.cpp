@@ -106,10 +106,11 @@ class ModelHash {
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, type, marker, to, body, joint, element, relative, axes, component,
-                 gauge] = o;
-    all(name, type, marker, to, body, joint, element, relative, axes, component);
+    const auto& [name, unit, type, marker, to, body, joint, element, component, gauge, relative,
+                 axes] = o;
+    all(name, type, marker, to, body, joint, element, component);
     if (gauge >= 0) all(gauge);
+    if (relative >= 0 || axes >= 0) all(relative, axes);
   }
   void add(const Gauge& g) {
     const auto& [body, place, section, inertia_loads, direction, modes, loads] = g;
@@ -162,8 +163,10 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
+                 measures, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] =
+        model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
+    for (const Output& o : measures) add(o);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);

@@ -29,8 +29,7 @@ double output_value_of(const SystemMotion& motion, const Output& output,
 enum class OutputOf {
   point,       ///< a point on a body: `marker`
   two_points,  ///< {from: place, to: place}: `marker` and `to`
-  body,        ///< a body that moves: `body`
-  body_frame,  ///< the same, by the frame of the body: `body`, `marker`
+  body,        ///< a body that moves: `body`, and by its frame `marker`
   mass,        ///< a body that moves or the model: `body`, -1; about the point of `marker`, -1: the
                ///< origin of the world
   flexible_point,  ///< a point on a body that moves: `body`, `marker`, and as `relative` the frame
@@ -90,6 +89,9 @@ inline MeasurePorts<double> measure_ports(const SystemMotion& motion, const Outp
   return {motion.model, output,   at(marker),    at(to),
           at(relative), at(axes), motion.origin, reference};
 }
+
+/// Of a body, or with -1 of all [kg].
+double mass_of(const Model& model, int body) noexcept;
 
 /// A measure that nothing is remembered of.
 #define FLOATFRAME_MEASURED(name)                                                            \

@@ -39,6 +39,13 @@ std::array<int, 4> measure_markers(const Model& model, const Output& output) noe
   return {joint.frame_F, joint.frame_M, -1, -1};
 }
 
+double mass_of(const Model& model, int body) noexcept {
+  if (body >= 0) return model.bodies[body].data->invariants.m;
+  double sum = 0.0;
+  for (const Body& b : model.bodies) sum += b.data->invariants.m;
+  return sum;
+}
+
 MotionNeeds needs_of_outputs(const Model& model) noexcept {
   MotionNeeds all;
   for (const Output& o : model.outputs) all = all | output_kind(o.type).needs_of_motion;

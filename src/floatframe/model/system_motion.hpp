@@ -17,7 +17,7 @@ namespace floatframe {
 /// What a reader needs in addition to poses, velocities and forces.
 struct MotionNeeds {
   bool accelerations = false;  ///< of bodies, modes and markers, after `set_accelerations`
-  bool energies = false;       ///< of the bodies, after `dynamics`
+  bool energies = false;       ///< and momenta of the bodies, after `dynamics`
   bool reactions = false;      ///< and accelerations that satisfy the equations of motion
 
   friend MotionNeeds operator|(MotionNeeds a, MotionNeeds b) noexcept {
@@ -33,13 +33,16 @@ struct BodyKinematics {
   const Vec3& w_WB;                   ///< angular velocity [rad/s]
   Eigen::Map<const VecX> y, yd, ydd;  ///< amplitudes, rates, accelerations
   // Filled.
-  Vec3 p_WB = Vec3::Zero();      ///< [m]
-  Vec3 v_WB = Vec3::Zero();      ///< of the origin [m/s]
-  Vec3 a_WB = Vec3::Zero();      ///< of the origin [m/s2]
-  Vec3 alpha_WB = Vec3::Zero();  ///< angular acceleration [rad/s2]
-  double kinetic_energy = 0.0;   ///< [J]
-  double gravity_energy = 0.0;   ///< zero at the origin of the world [J]
-  double elastic_energy = 0.0;   ///< [J]
+  Vec3 p_WB = Vec3::Zero();              ///< [m]
+  Vec3 v_WB = Vec3::Zero();              ///< of the origin [m/s]
+  Vec3 a_WB = Vec3::Zero();              ///< of the origin [m/s2]
+  Vec3 alpha_WB = Vec3::Zero();          ///< angular acceleration [rad/s2]
+  double kinetic_energy = 0.0;           ///< [J]
+  double gravity_energy = 0.0;           ///< zero at the origin of the world [J]
+  double elastic_energy = 0.0;           ///< [J]
+  Vec3 first_moment = Vec3::Zero();      ///< m p_WC [kg m]
+  Vec3 momentum = Vec3::Zero();          ///< [kg m/s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the origin of the world [kg m2/s]
 };
 
 struct SystemMotion {
@@ -89,12 +92,22 @@ struct SystemMotion {
   void poison_filled() noexcept {
     for (BodyKinematics& b : bodies) {
       for (Vec3* x : {&b.p_WB, &b.v_WB, &b.a_WB, &b.alpha_WB}) poison(*x);
+      for (Vec3* x : {&b.first_moment, &b.momentum, &b.angular_momentum}) poison(*x);
       for (double* e : {&b.kinetic_energy, &b.gravity_energy, &b.elastic_energy}) poison(*e);
     }
     for (Vec3& a : marker_accelerations) poison(a);
     for (Vec3& a : marker_angular_accelerations) poison(a);
   }
 };
+
+/// `of` a body; of -1 the sum over all.
+template <class Of>
+auto sum_of_bodies(const SystemMotion& motion, int body, Of of) noexcept {
+  if (body >= 0) return of(motion.body(body));
+  auto sum = of(motion.body(0));
+  for (std::size_t i = 1; i < motion.bodies.size(); ++i) sum += of(motion.bodies[i]);
+  return sum;
+}
 
 /// Of the modes of a body, and of all bodies [J].
 double elastic_energy(const Body& body, const BodyKinematics& motion) noexcept;

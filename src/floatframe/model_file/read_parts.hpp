@@ -55,6 +55,19 @@ void read_simulation(const ModelInstance& self, ReadModel& model);
 /// x, y, z of every rigid body.
 void default_outputs(ReadModel& model);
 
+/// A body, not the ground.
+std::optional<std::string> read_moving_body(const ModelInstance& self, const YamlValue& value);
+/// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and `along`
+/// where there are several places; false after an error. `what` is the value of a key of `s`.
+bool read_gauge(const ModelInstance& self, YamlSection& s, const YamlValue& what,
+                OutputDescription& o);
+/// Stores a value that was read in its member; false if nothing was read.
+template <class Read, class Place>
+bool put(std::optional<Read> read, Place& place) {
+  if (read) place = std::move(*read);
+  return read.has_value();
+}
+
 /// A flexible body as described: bars, or a part that is already reduced.
 struct FlexibleRead {
   FlexibleDescription description;

@@ -63,7 +63,7 @@ std::string memory_complaint(const StepperMemory& d, const StepperMemory& own, d
     if (branch < free_branch) return "is damaged: branches of forces that do not exist";
   if (d.outputs.size() != own.outputs.size()) return "is damaged: outputs of another number";
   for (const FollowedOutput& o : d.outputs)
-    if (!std::isfinite(o.time) || !std::isfinite(o.position) || !std::isfinite(o.rate))
+    if (!std::isfinite(o.time) || !all_finite(o.values))
       return "is damaged: outputs that are not finite";
   if (!consistent(d, step)) return "is damaged: times or counters that do not fit together";
   return {};

@@ -15,7 +15,7 @@ FLOATFRAME_MEASURED(angular_velocity)
 
 constinit const OutputKind angular_velocity_output = {
     .about = "in the world, or from that of `relative_to`",
-    .of = OutputOf::body_frame,
+    .of = OutputOf::body,
     .components = world_axes,
     .unit = "rad/s",
     .frames = OutputFrames::relative_to_and_in,

@@ -38,7 +38,7 @@ double output_value_of<OutputType::quaternion>(const SystemMotion& motion, const
 
 constinit const OutputKind quaternion_output = {
     .about = "rotation from the design orientation, or from that of `relative_to`",
-    .of = OutputOf::body_frame,
+    .of = OutputOf::body,
     .components = quaternion_components,
     .unit = "-",
     .frames = OutputFrames::relative_to_and_in,

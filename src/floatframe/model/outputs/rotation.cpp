@@ -66,7 +66,7 @@ constinit const OutputKind rotation_output = {
     .about =
         "from the design orientation, or from that of `relative_to`: R = Rz(yaw) Ry(pitch) "
         "Rx(roll); full turns are counted",
-    .of = OutputOf::body_frame,
+    .of = OutputOf::body,
     .components = roll_pitch_yaw_angles,
     .unit = "rad",
     .frames = OutputFrames::relative_to_and_in,
