@@ -201,6 +201,8 @@ struct OutputDescription {
   std::optional<ReferenceDescription> relative, axes;
   int component = 0;
   GaugeDescription gauge;
+  SharedFormula formula;
+  std::string unit;  ///< of a formula, for people
   Origin origin;
 };
 

@@ -43,7 +43,8 @@
   entry(centre_of_mass)           \
   entry(momentum)                 \
   entry(angular_momentum)         \
-  entry(state)
+  entry(state)                    \
+  entry(formula)
 // clang-format on
 
 namespace floatframe {

@@ -302,6 +302,12 @@ std::string formula_coordinate(const std::string& joint, const std::string& foun
          " of joint '" + joint + "', expected its number from 1 to " + std::to_string(count);
 }
 
+std::string formula_of_a_formula(const std::string& name) {
+  return "found '" + name +
+         "', an output with a formula; expected a controller of type formula, "
+         "which formulas may refer to";
+}
+
 std::string formula_of_law(const std::string& name) {
   return "found '" + name + "', expected x, v, t, numbers and parameters in the formula of a law";
 }

@@ -74,6 +74,8 @@ std::string formula_component(const std::string& function, const std::string& fo
                               std::span<const char* const> words);
 std::string one_argument(const std::string& function);
 std::string formula_coordinate(const std::string& joint, const std::string& found, int count);
+/// An output with a formula cannot be one of its references.
+std::string formula_of_a_formula(const std::string& name);
 /// Of a force law: another reference than x, v and t.
 std::string formula_of_law(const std::string& name);
 std::string ring_of_signals(const std::vector<std::string>& elements);

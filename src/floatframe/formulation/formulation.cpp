@@ -23,6 +23,7 @@ Formulation::Formulation(const Model& model, const std::vector<int>& constrained
         motion_.counted.push_back(
             {c.joint, c.component, element_set_.angle(element_set_.slot(k, i))});
   motion_.efforts = element_set_.states().data();
+  motion_.inputs = element_set_.inputs();
   for (std::size_t k = 0; k < model.elements.size(); ++k)
     motion_.states.push_back(element_set_.element_states().of(k));
   motion_.bodies.reserve(model.bodies.size());

@@ -23,25 +23,40 @@ SharedFormula formula_of(const Element& element) {
   return nullptr;
 }
 
-/// Connects one element.
+/// Finds what the references of one formula are.
 class FormulaConnection {
  public:
-  FormulaConnection(ModelBuilder& builder, std::size_t element, const ElementDescription& described,
-                    std::string path)
-      : b_(builder), element_(element), described_(described), path_(std::move(path)) {}
+  FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path)
+      : b_(builder), origin_(origin), path_(std::move(path)) {}
+  virtual ~FormulaConnection() = default;
 
-  void connect(const Formula& f) {
+  std::vector<FormulaOperand> connect(const Formula& f) {
+    std::vector<FormulaOperand> operands;
     for (const FormulaReference& r : f.references) {
       FormulaOperand x;
       if (r.is_time() || (r.function.empty() ? named(r, x) : called(r, x)))
-        element().operands.push_back(std::move(x));
+        operands.push_back(std::move(x));
     }
+    return operands;
   }
 
+ protected:
+  /// The reference is this output.
+  virtual void take(const Output& out, FormulaOperand& x) {
+    x.kind = FormulaOperand::Kind::sample;
+    x.output = out;
+  }
+  ModelBuilder& b_;
+
  private:
-  Element& element() const { return b_.model.elements[element_]; }
+  bool connected(const Output& out, FormulaOperand& x) {
+    if (output_kind(out.type).of == OutputOf::formula)
+      return wrong(ErrorCode::unsupported, sentences::formula_of_a_formula(out.name));
+    take(out, x);
+    return true;
+  }
   bool wrong(ErrorCode code, const std::string& sentence) const {
-    b_.errors.add(code, described_.origin.mark, path_ + ": " + sentence);
+    b_.errors.add(code, origin_.mark, path_ + ": " + sentence);
     return false;
   }
 
@@ -70,7 +85,7 @@ class FormulaConnection {
   bool called(const FormulaReference& r, FormulaOperand& x) {
     OutputDescription o;
     o.entity = r.name;
-    o.origin = described_.origin;
+    o.origin = origin_;
     std::string word = r.function;
     if (word == "angle") word = "joint_position";
     if (word == "rate" && b_.joint_names.find(r.name)) {
@@ -161,10 +176,24 @@ class FormulaConnection {
            wrong(ErrorCode::out_of_range, sentences::formula_coordinate(r.name, r.detail, n));
   }
 
-  bool connected(const Output& out, FormulaOperand& x) {
+  const Origin& origin_;
+  std::string path_;
+};
+
+/// Of an element, within an iteration: measures by its markers, results by signals.
+class ElementConnection final : public FormulaConnection {
+ public:
+  ElementConnection(ModelBuilder& builder, std::size_t element, const Origin& origin,
+                    const std::string& path)
+      : FormulaConnection(builder, origin, path), element_(element) {}
+
+ private:
+  Element& element() const { return b_.model.elements[element_]; }
+  void take(const Output& out, FormulaOperand& x) override {
     const OutputKind& kind = output_kind(out.type);
     if (kind.is_signal) return link(out.element, kind.needs, x);
     x.kind = FormulaOperand::Kind::measure;
+    x.output = out;
     if (!kind.value) {
       x.kind = FormulaOperand::Kind::sample;
       x.index = element().kept++;
@@ -173,17 +202,13 @@ class FormulaConnection {
     } else {
       markers(measure_markers(b_.model, out), x);
     }
-    x.output = out;
-    return true;
   }
-  bool link(int from, ElementQuantity quantity, FormulaOperand& x) {
+  void link(int from, ElementQuantity quantity, FormulaOperand& x) {
     Element& e = element();
     x.kind = FormulaOperand::Kind::link;
     x.index = static_cast<int>(std::ssize(e.signals));
-    const int link = static_cast<int>(std::ssize(b_.model.links));
-    e.signals.push_back({.link = link, .given = true});
+    e.signals.push_back({.link = static_cast<int>(std::ssize(b_.model.links)), .given = true});
     b_.model.links.push_back({from, static_cast<int>(element_), x.index, quantity, 1.0});
-    return true;
   }
   int port_of(int marker) {
     std::vector<int>& ports = element().markers;
@@ -209,10 +234,7 @@ class FormulaConnection {
     e.coordinates.push_back({out.joint, out.component, port, true});
   }
 
-  ModelBuilder& b_;
   std::size_t element_;
-  const ElementDescription& described_;
-  std::string path_;
 };
 
 }  // namespace
@@ -241,15 +263,29 @@ void ModelBuilder::connect_formulas() {
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const SharedFormula f = formula_of(model.elements[k]);
     if (!f) continue;
-    const std::string& name = model.elements[k].name;
-    const auto inner = std::find_if(formulas.begin(), formulas.end(),
-                                    [&](const InnerFormula& i) { return i.element.name == name; });
-    if (inner != formulas.end())
-      FormulaConnection(*this, k, inner->element, inner->path).connect(*f);
+    const auto connect = [&](const ElementDescription& e, const std::string& path) {
+      if (e.name == model.elements[k].name)
+        model.elements[k].operands = ElementConnection(*this, k, e.origin, path).connect(*f);
+    };
+    for (const InnerFormula& inner : formulas) connect(inner.element, inner.path);
     for (const ElementDescription& e : d.controllers)
-      if (e.name == name)
-        FormulaConnection(*this, k, e, "controllers." + name + ".formula").connect(*f);
+      connect(e, "controllers." + e.name + ".formula");
   }
+  const auto outputs_of = [&](std::vector<Output>& built,
+                              const std::vector<OutputDescription>& described,
+                              const std::string& list) {
+    std::vector<std::shared_ptr<const OutputFormula>> found(built.size());
+    for (const OutputDescription& o : described)
+      for (std::size_t k = 0; k < built.size(); ++k)
+        if (o.formula && built[k].name == o.name)
+          found[k] = std::make_shared<OutputFormula>(OutputFormula{
+              o.formula,
+              FormulaConnection(*this, o.origin, list + o.name + ".formula").connect(*o.formula)});
+    for (std::size_t k = 0; k < built.size(); ++k)
+      if (found[k]) built[k].formula = found[k];
+  };
+  outputs_of(model.outputs, d.outputs, "outputs.");
+  outputs_of(model.measures, d.measures, "measures.");
 }
 
 }  // namespace floatframe

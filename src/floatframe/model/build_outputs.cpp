@@ -28,6 +28,10 @@ std::optional<Output> ModelBuilder::output(const OutputDescription& o, const std
   out.component = o.component;
   if (!subject(o, out, who) || !frames(o, out, who)) return std::nullopt;
   const OutputKind& kind = output_kind(o.type);
+  if (!o.unit.empty()) {
+    out.unit = o.unit;
+    return out;
+  }
   out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
   return out;
 }
@@ -43,6 +47,8 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
     return out.element >= 0;
   };
   switch (output_kind(o.type).of) {
+    case OutputOf::formula:
+      return true;
     case OutputOf::point:
       out.marker = point(o.at, what);
       return out.marker >= 0;

@@ -89,6 +89,8 @@ struct CoordinatePort {
   bool counted = false;  ///< an angle that is followed over several turns
 };
 
+struct OutputFormula;
+
 struct Output {
   std::string name, unit;
   OutputType type = OutputType::position;
@@ -98,6 +100,7 @@ struct Output {
   int component = 0;
   int gauge = -1;
   int relative = -1, axes = -1;  ///< markers; -1: the world
+  std::shared_ptr<const OutputFormula> formula;
 };
 
 /// What a reference of a formula stands for.
@@ -114,6 +117,12 @@ struct FormulaOperand {
   std::array<int, 4> ports{-1, -1, -1,
                            -1};  ///< the markers of a measure among those of the element
   int angle = -1;                ///< its turns are counted: the coordinate of the element
+};
+
+/// A formula of samples, and what each of its references stands for.
+struct OutputFormula {
+  SharedFormula formula;
+  std::vector<FormulaOperand> operands;
 };
 
 /// An element: what it is connected to, by index, and what it does. The table of

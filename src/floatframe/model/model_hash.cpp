@@ -107,10 +107,11 @@ class ModelHash {
   }
   void add(const Output& o) {
     const auto& [name, unit, type, marker, to, body, joint, element, component, gauge, relative,
-                 axes] = o;
+                 axes, formula] = o;
     all(name, type, marker, to, body, joint, element, component);
     if (gauge >= 0) all(gauge);
     if (relative >= 0 || axes >= 0) all(relative, axes);
+    if (formula) all(formula->formula, formula->operands);
   }
   void add(const Gauge& g) {
     const auto& [body, place, section, inertia_loads, direction, modes, loads] = g;

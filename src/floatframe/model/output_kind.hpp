@@ -17,7 +17,8 @@ namespace floatframe {
 struct FollowedOutput {
   bool started = false;
   double time = 0.0;
-  std::array<double, 6> values{};  ///< what the kind needs of it
+  std::array<double, 6> values{};     ///< what the kind needs of it
+  std::vector<FollowedOutput> parts;  ///< of the references of a formula
 };
 
 /// The value at a sample: noexcept, no allocation. `last` is the memory of this output.
@@ -44,6 +45,7 @@ enum class OutputOf {
   coupling,    ///< `element`
   controller,  ///< `element`
   state,       ///< an element, with the number of a state: `element`, `component`
+  formula,     ///< `formula`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 
@@ -108,7 +110,11 @@ const char* unit_of_force(const Model& model, const Output& output) {
 
 const OutputKind& output_kind(OutputType type) noexcept;
 
-/// What all outputs of the model need.
+/// The memories of outputs before the first sample. Allocates.
+std::vector<FollowedOutput> followed_outputs(std::span<const Output> outputs);
+
+/// What an output, and what all outputs of the model need.
+MotionNeeds needs_of(const Output& output) noexcept;
 MotionNeeds needs_of_outputs(const Model& model) noexcept;
 
 double output_value(const SystemMotion& motion, const Output& output,

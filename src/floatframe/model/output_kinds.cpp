@@ -48,8 +48,22 @@ double mass_of(const Model& model, int body) noexcept {
 
 MotionNeeds needs_of_outputs(const Model& model) noexcept {
   MotionNeeds all;
-  for (const Output& o : model.outputs) all = all | output_kind(o.type).needs_of_motion;
+  for (const Output& o : model.outputs) all = all | needs_of(o);
   return all;
+}
+
+MotionNeeds needs_of(const Output& output) noexcept {
+  MotionNeeds all = output_kind(output.type).needs_of_motion;
+  if (output.formula)
+    for (const FormulaOperand& x : output.formula->operands) all = all | needs_of(x.output);
+  return all;
+}
+
+std::vector<FollowedOutput> followed_outputs(std::span<const Output> outputs) {
+  std::vector<FollowedOutput> out(outputs.size());
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    if (outputs[k].formula) out[k].parts.resize(outputs[k].formula->operands.size());
+  return out;
 }
 
 double output_value(const SystemMotion& motion, const Output& output,

@@ -4,6 +4,7 @@
 // formulation holds (`Formulation::motion`), valid until the formulation moves; what is not at hand
 // there is filled only if a reader needs it (`MotionNeeds`). Step time: no heap, noexcept.
 #include <cassert>
+#include <span>
 #include <vector>
 
 #include "floatframe/math/contracts.hpp"
@@ -53,6 +54,7 @@ struct SystemMotion {
   std::vector<const MarkerState*> markers;
   std::vector<Vec3> marker_accelerations;          ///< of the points [m/s2]
   std::vector<Vec3> marker_angular_accelerations;  ///< angular accelerations [rad/s2]
+  std::span<const double> inputs;                  ///< values of model.inputs
   const Efforts* efforts = nullptr;                ///< one for each element
   std::vector<const double*> states;  ///< of each element, and behind them its kept numbers
   struct CountedAngle {

@@ -137,6 +137,9 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
     case OutputOf::reaction:
       reaction(o, names, entity);
       break;
+    case OutputOf::formula:
+      if (!o.formula) entity.error(ErrorCode::missing, what, sentences::missing_formula());
+      break;
     case OutputOf::rod:
       entity.reference(what, "rod", o.entity, names.rods);
       break;

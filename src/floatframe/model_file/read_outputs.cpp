@@ -38,6 +38,9 @@ class OutputReader {
     if (found != 1) return not_one_quantity(*s, found);
     o.origin = s->origin();
     const OutputKind& kind = output_kind(o.type);
+    if (kind.of == OutputOf::formula || kind.of == OutputOf::controller)
+      if (const auto unit = s->get("unit"))
+        o.unit = unit->text("a unit, for example N").value_or("");
     const bool known = quantity(kind, *s, *s->get(output_type_name(o.type)), o);
     if (frames(kind, *s, o) && known)
       components(name, *s, o);
@@ -72,6 +75,9 @@ class OutputReader {
         return read_gauge(self_, s, what, o);
       case OutputOf::reaction:
         return reaction(s, what, o);
+      case OutputOf::formula:
+        o.formula = read_formula(self_, what);
+        return o.formula != nullptr;
       case OutputOf::rod:
         return put(self_.reference(EntityKind::rod, what), o.entity);
       case OutputOf::coupling:

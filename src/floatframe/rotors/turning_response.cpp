@@ -48,7 +48,7 @@ struct Phasors {
 class OutputSlopes {
  public:
   OutputSlopes(RelativeFormulation& f, const State& s, const std::vector<int>& outputs)
-      : f_(f), s_(s), outputs_(outputs), followed_(outputs.size()) {
+      : f_(f), s_(s), outputs_(outputs), followed_(followed_outputs(outputs)) {
     steps_ = motion_steps(f.model(), possible_masses(f, s));
     const VecX still = VecX::Zero(f.velocities());
     means_ = values(still, still, still);

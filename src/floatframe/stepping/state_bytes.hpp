@@ -47,6 +47,7 @@ class StateWriter {
       (*this)(static_cast<std::uint64_t>(o.started));
       (*this)(o.time);
       for (const double x : o.values) (*this)(x);
+      (*this)(o.parts);
     }
   }
   std::vector<std::byte> bytes;
@@ -86,11 +87,12 @@ class StateReader {
     for (int k = 0; k < 3; ++k) (*this)(v[k]);
   }
   void operator()(std::vector<FollowedOutput>& outputs) {
-    outputs.resize(count(64));
+    outputs.resize(count(72));
     for (FollowedOutput& o : outputs) {
       o.started = number() != 0;
       (*this)(o.time);
       for (double& x : o.values) (*this)(x);
+      (*this)(o.parts);
     }
   }
 
