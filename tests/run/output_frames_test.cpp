@@ -15,8 +15,12 @@ const std::string tumbling = R"(
 gravity: [0, 0, -9.81]
 points: {root: [0, 0, 3], tip: [1, 0, 3]}
 bodies:
-  a: {orientation: [0.3, 0.5, -0.4], rigid: {mass: 2, centre_of_mass: [0.1, 0, 0], inertia: [0.1, 0.2, 0.25]}}
-  b: {position: [1, 2, 0.5], rigid: {mass: 3, centre_of_mass: [1, 2.2, 0.5], inertia: [0.3, 0.2, 0.25]}}
+  a:
+    orientation: [0.3, 0.5, -0.4]
+    rigid: {mass: 2, centre_of_mass: [0.1, 0, 0], inertia: [0.1, 0.2, 0.25]}
+  b:
+    position: [1, 2, 0.5]
+    rigid: {mass: 3, centre_of_mass: [1, 2.2, 0.5], inertia: [0.3, 0.2, 0.25]}
   arm:
     flexible:
       material: {young: 7e10, poisson: 0.3, density: 2700}
