@@ -125,7 +125,7 @@ std::string without_axes(const std::string& quantity);
 std::string without_reference(const std::string& quantity);
 std::string rod_has_no_axes();
 std::string force_without_point();
-/// A prescribed force or torque has no length and no rate.
+/// A prescribed force or torque has no length and no rate, and most elements no state.
 std::string load_without(const std::string& type, const std::string& quantity);
 Complaint column_name(const std::string& name);
 /// For the whole name of a column: it already exists (`exists`), or is that of the time.

@@ -57,8 +57,8 @@ void default_outputs(ReadModel& model);
 
 /// A body, not the ground.
 std::optional<std::string> read_moving_body(const ModelInstance& self, const YamlValue& value);
-/// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and `along`
-/// where there are several places; false after an error. `what` is the value of a key of `s`.
+/// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and
+/// `along` where there are several places; false after an error. `what` is a value of `s`.
 bool read_gauge(const ModelInstance& self, YamlSection& s, const YamlValue& what,
                 OutputDescription& o);
 /// Stores a value that was read in its member; false if nothing was read.

@@ -1,5 +1,5 @@
-// Acceleration of a point, d2p_WP/dt2 [m/s2], or as seen in a frame F that moves, with d = p_P - p_F
-// and the velocity v seen there:
+// Acceleration of a point, d2p_WP/dt2 [m/s2], or as seen in a frame F that moves, with
+// d = p_P - p_F and the velocity v seen there:
 //   a_P - a_F - wdot_F x d - w_F x (w_F x d) - 2 w_F x v
 #include <cassert>
 

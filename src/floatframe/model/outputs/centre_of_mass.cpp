@@ -1,5 +1,5 @@
-// Centre of mass of a body, deformed, or of all bodies: (sum m p_WC) / (sum m) [m], in the world or from
-// the origin of a frame.
+// Centre of mass of a body, deformed, or of all bodies: (sum m p_WC) / (sum m) [m], in the world or
+// from the origin of a frame.
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {

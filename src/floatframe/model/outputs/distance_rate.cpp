@@ -1,4 +1,4 @@
-// Rate of the distance of two points [m/s]: n . (v_WB - v_WA) with n = (p_WB - p_WA) / |p_WB - p_WA|;
+// Rate of the distance of two points [m/s]: n . (v_WB - v_WA), n the unit vector along p_WB - p_WA;
 // zero where they meet.
 #include "floatframe/model/output_kind.hpp"
 

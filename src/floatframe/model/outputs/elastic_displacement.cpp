@@ -1,5 +1,5 @@
-// Displacement of a point of a body by its deformation [m], from the undeformed place in the frame of
-// the body (F, with the axes of the world in the design configuration):
+// Displacement of a point of a body by its deformation [m], from the undeformed place in the frame
+// of the body (F, with the axes of the world in the design configuration):
 //   u = p_P - p_F - R_F R_WB,design p_B,undeformed
 #include "floatframe/model/output_kind.hpp"
 

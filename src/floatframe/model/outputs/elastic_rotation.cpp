@@ -1,5 +1,5 @@
-// Rotation of a node of a body by its deformation, the rotation vector of R_F^T R_P with the frame F of
-// the body [rad].
+// Rotation of a node of a body by its deformation [rad]: the rotation vector of R_F^T R_P with the
+// frame F of the body.
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/output_kind.hpp"
 

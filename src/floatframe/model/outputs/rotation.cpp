@@ -1,14 +1,16 @@
 // Rotation of a body from its design orientation, R_WB R_WB,design^T, or from another frame [rad]:
 //   R = Rz(yaw) Ry(pitch) Rx(roll)
-// Of the angles of R, which are (roll, pitch, yaw) and (roll + pi, pi - pitch, yaw + pi) and turns,
-// those of a sample are nearest to
+// R has the angles (roll, pitch, yaw) and (roll + pi, pi - pitch, yaw + pi), and those by turns.
+// The ones of a sample are nearest to
 //   x_last + (t - t_last) (xdot_last + xdot) / 2
-// so that they go on over turns and through pitch = +-pi/2. With the angular velocity w of R, c and s
-// of yaw:
+// so that they go on over turns and through pitch = +-pi/2. With the angular velocity w of R and
+// the cosine c and sine s of yaw:
 //   rolldot = (c w_x + s w_y) / cos pitch,  pitchdot = c w_y - s w_x,
 //   yawdot = w_z + (c w_x + s w_y) tan pitch
-// where 1/cos pitch is taken as cos/(cos^2 + 0.01): bounded, where roll and yaw are not defined.
+// where 1/cos is taken as cos/max(cos^2, 0.01): bounded, where roll and yaw are not defined.
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numbers>
 
 #include "floatframe/model/axis_measure.hpp"
@@ -26,7 +28,8 @@ S rotation_measure(const MeasurePorts<S>& in) noexcept {
 /// Of the angles x with the angular velocity w.
 Vec3 rotation_rates(const Vec3& x, const Vec3& w) noexcept {
   const double c = std::cos(x[2]), s = std::sin(x[2]), cos_pitch = std::cos(x[1]);
-  const double rolldot = (c * w.x() + s * w.y()) * cos_pitch / (cos_pitch * cos_pitch + 0.01);
+  const double rolldot =
+      (c * w.x() + s * w.y()) * cos_pitch / std::max(cos_pitch * cos_pitch, 0.01);
   return {rolldot, c * w.y() - s * w.x(), w.z() + rolldot * std::sin(x[1])};
 }
 
