@@ -46,9 +46,13 @@ class ModelHash {
     all(centre, coefficients);
   }
   void add(const PiecewisePolynomial& f) { all(f.breaks(), f.pieces()); }
+  void add(const SineTerm& s) {
+    const auto& [amplitude, frequency, phase, rate, start, duration] = s;
+    all(amplitude, frequency, phase, rate, start, duration);
+  }
   void add(const TimeFunction& f) {
-    const auto& [pieces, amplitude, frequency, phase] = f;
-    all(pieces, amplitude, frequency, phase);
+    const auto& [pieces, sines, period] = f;
+    all(pieces, sines, period);
   }
   void add(const CosineBump& b) {
     const auto& [start, length, height] = b;
