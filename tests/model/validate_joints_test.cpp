@@ -39,9 +39,9 @@ TEST(Validate, Joints) {
        },
        "joints.slide.velocity: wrong_count"},
       {[](D& d) { d.joints[1].motion.emplace(); }, "joints.pin.motion: wrong_value"},
-      {[](D& d) { d.joints[0].motion->amplitude = 1.0; },
+      {[](D& d) { d.joints[0].motion->sines = {{.amplitude = 1.0}}; },
        "joints.slide.motion.sine.frequency: out_of_range"},
-      {[](D& d) { d.joints[0].motion->phase = nan; },
+      {[](D& d) { d.joints[0].motion->sines = {{.phase = nan}}; },
        "joints.slide.motion.sine.phase: out_of_range"},
       {[](D& d) {
          d.joints[0].motion->pieces = PiecewisePolynomial::polynomial({0.0, nan});

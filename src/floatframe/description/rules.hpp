@@ -44,6 +44,9 @@ inline constexpr NumberRule snap_distance{"a part of the size of the loops from 
 
 // Forces and roads.
 inline constexpr NumberRule sine_frequency = positive_number("Hz");
+inline constexpr NumberRule chirp_frequency = non_negative_number("Hz");
+inline constexpr NumberRule chirp_duration = positive_number("s");
+inline constexpr NumberRule period = positive_number("s");
 inline constexpr NumberRule rod_length = positive_number("m");
 inline constexpr NumberRule tyre_radius = positive_number("m");
 inline constexpr NumberRule tyre_stiffness = positive_number("N/m");

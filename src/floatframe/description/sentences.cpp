@@ -355,17 +355,6 @@ std::string not_used_by_joint(const std::string& type) {
   return "is not used by a " + type + " joint; remove this key";
 }
 
-std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f) {
-  const JumpReport r = largest_jump(f);
-  if (r.continuous()) return std::nullopt;
-  const double x = f.breaks()[r.at];
-  return std::make_pair(r.at, "the law jumps from " + number_text(f.piece_value(r.at, x).f) +
-                                  " to " + number_text(f.piece_value(r.at + 1, x).f) + " at " +
-                                  number_text(x) +
-                                  ", expected pieces that meet within 1e-6 of the range of the "
-                                  "law");
-}
-
 Complaint unit(const std::string& unit) {
   const bool plain = std::all_of(unit.begin(), unit.end(), [](unsigned char c) {
     return c >= ' ' && c != '"' && c != ',' && c != '[' && c != ']' && c != 127;

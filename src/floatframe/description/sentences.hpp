@@ -105,6 +105,8 @@ std::string motion_and_start_value();
 std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);
+/// Of a function of time, which has one.
+Complaint period(const TimeFunction& f, bool may_jump);
 /// The piece at whose beginning the law jumps, and the sentence.
 std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f);
 

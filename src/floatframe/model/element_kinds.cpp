@@ -289,8 +289,7 @@ BranchSide spring_side(const Ports& in, double x, double rate) noexcept {
 SignalDescription ElementExample::signal(ExampleNumbers& numbers) {
   SignalDescription s;
   s.pieces = PiecewisePolynomial::polynomial({numbers(-5.0, 5.0), numbers(1.0, 3.0)});
-  s.amplitude = numbers(1.0, 3.0);
-  s.frequency = 2.0;
+  s.sines = {{.amplitude = numbers(1.0, 3.0), .frequency = 2.0}};
   s.input = "u" + std::to_string(inputs.size());
   model.inputs.emplace_back().name = s.input;
   inputs.push_back(numbers(-50.0, 50.0));

@@ -46,9 +46,13 @@ class ModelHash {
     all(centre, coefficients);
   }
   void add(const PiecewisePolynomial& f) { all(f.breaks(), f.pieces()); }
+  void add(const SineTerm& s) {
+    const auto& [amplitude, frequency, phase, rate, start, duration] = s;
+    all(amplitude, frequency, phase, rate, start, duration);
+  }
   void add(const TimeFunction& f) {
-    const auto& [pieces, amplitude, frequency, phase, formula] = f;
-    all(pieces, amplitude, frequency, phase, formula);
+    const auto& [pieces, sines, period, formula] = f;
+    all(pieces, sines, period, formula);
   }
   void add(const CosineBump& b) {
     const auto& [start, length, height] = b;

@@ -22,7 +22,7 @@ class Loader {
     auto instance = std::make_unique<ModelInstance>();
     instance->document = document;
     instance->outer = outer;
-    instance->context = {&document->file, &instance->scope, &errors_};
+    instance->context = {&document->file, &instance->scope, &errors_, &files_.tables};
     return instance;
   }
 
