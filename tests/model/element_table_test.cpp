@@ -69,6 +69,10 @@ std::string value_text(const ElementKey& key) {
       return signal_text(key, "[x]");
     case K::target_rate:
       return signal_text(key, "[v]");
+    case K::signals:
+      return "list of [signals](#inputs)";
+    case K::matrix:
+      return "numbers, or rows of numbers";
     case K::motion:
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:

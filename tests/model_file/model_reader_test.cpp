@@ -147,6 +147,30 @@ TEST_F(Everything, SubsystemsOfSubsystems) {
   EXPECT_EQ(kind<Tyre>(d, "right.inner.tyre").road, "hill");
 }
 
+TEST_F(Everything, Blocks) {
+  const auto block = [&]<class B>(const char* name, B) {
+    return std::get<B>(named(d.controllers, name).kind);
+  };
+  const auto lead = block("lead", TransferFunction());
+  EXPECT_EQ(lead.input.element, "smooth");
+  EXPECT_EQ(lead.denominator, (MatX{{1.0, 3.0, 4.0}}));
+  EXPECT_EQ(lead.initial, BlockStart::zero);
+  const auto mix = block("mix", StateSpaceBlock());
+  ASSERT_EQ(mix.inputs.size(), 2u);
+  EXPECT_EQ(mix.inputs[0].element, "lead");
+  EXPECT_EQ(mix.inputs[1].pieces(0.0).f, 2.0);
+  EXPECT_EQ(mix.A, (MatX{{-1.0, 2.0}, {0.0, -3.0}}));
+  EXPECT_EQ(mix.D, (MatX{{0.0, 6.0}}));
+  const auto lone = block("lone", StateSpaceBlock());
+  EXPECT_EQ(lone.inputs.at(0).element, "mix");
+  EXPECT_EQ(lone.A, MatX{{-2.0}});
+  EXPECT_EQ(*block("smooth", LowPass()).frequency, 3.0);
+  EXPECT_EQ(*block("count", LimitedIntegral()).upper, 3.0);
+  EXPECT_FALSE(block("cut", Limiter()).upper);
+  EXPECT_EQ(block("slow", RateLimiter()).time, 0.01);
+  EXPECT_EQ(block("relay", Hysteresis()).initial, RelaySide::above);
+}
+
 TEST_F(Everything, ControllersAndTheirSignals) {
   const auto& pid = std::get<Pid>(named(d.controllers, "hold").kind);
   EXPECT_EQ(pid.measured.source, SignalSource::length);

@@ -39,6 +39,11 @@ std::string text(const SignalDescription& s) {
                        s.element);
   return all;
 }
+std::string text(const std::vector<SignalDescription>& signals) {
+  std::string all;
+  for (const SignalDescription& s : signals) all += (all.empty() ? "" : ", ") + text(s);
+  return "[" + all + "]";
+}
 std::string text(const AttachmentDescription& a) {
   return a.body + (a.node ? " node " + *a.node : "") + " " + text(a.point);
 }

@@ -87,6 +87,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::speed_table:
       case K::motion:  // what couplings hold is added by `with_coupling`
       case K::terms:
+      case K::signals:  // those of controllers
+      case K::matrix:
         return std::nullopt;
     }
     return std::nullopt;

@@ -195,6 +195,66 @@ struct FormulaValue {
   SharedFormula formula;
 };
 
+/// What the states of a linear block are at a start that gives none: those at rest for its inputs
+/// there, zero if it has a pole at 0; or zero.
+enum class BlockStart { rest, zero };
+
+/// y = numerator(s) / denominator(s) u; 1 x n: coefficients of descending powers of s.
+struct TransferFunction {
+  SignalDescription input;
+  MatX numerator, denominator;
+  BlockStart initial = BlockStart::rest;
+};
+
+/// xdot = A x + B u, y = C x + D u, of several inputs u and one value y.
+struct StateSpaceBlock {
+  std::vector<SignalDescription> inputs;
+  MatX A, B, C, D;  ///< D 0 x 0: zero
+  BlockStart initial = BlockStart::rest;
+};
+
+/// A low pass of first order, 1 / (1 + time s), or with a damping of second order, 1 / (1 + 2
+/// damping time s + time^2 s^2).
+struct LowPass {
+  SignalDescription input;
+  std::optional<double> time;       ///< [s], or ...
+  std::optional<double> frequency;  ///< ... 1 / (2 pi time) [Hz]
+  std::optional<double> damping;
+  BlockStart initial = BlockStart::rest;
+};
+
+/// The integral of the input, which stays within [lower, upper].
+struct LimitedIntegral {
+  SignalDescription input;
+  double initial = 0.0;
+  std::optional<double> lower, upper;
+  double unwind = 1e-3;  ///< in which it returns to a limit that a step has crossed [s]
+};
+
+/// The input, clipped to [lower, upper].
+struct Limiter {
+  SignalDescription input;
+  std::optional<double> lower, upper;
+};
+
+/// ydot = (input - y) / time, clipped to [-falling, rising].
+struct RateLimiter {
+  SignalDescription input;
+  double rising = 0.0;            ///< [1/s], times units
+  std::optional<double> falling;  ///< absent: equal to rising
+  double time = 1e-3;             ///< [s]
+};
+
+enum class RelaySide { below, above };
+
+/// `above` after the input has reached `upper`, `below` after it has reached `lower`.
+struct Hysteresis {
+  SignalDescription input;
+  double lower = 0.0, upper = 0.0;
+  double below = 0.0, above = 1.0;
+  RelaySide initial = RelaySide::below;  ///< of an input between both
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -213,7 +273,14 @@ struct FormulaValue {
   entry(coupling, Coupling)             \
   entry(force_law, ForceLaw)            \
   entry(pid, Pid)                       \
-  entry(formula, FormulaValue)
+  entry(formula, FormulaValue)          \
+  entry(transfer_function, TransferFunction) \
+  entry(state_space, StateSpaceBlock)   \
+  entry(integrator, LimitedIntegral)    \
+  entry(filter, LowPass)                \
+  entry(limiter, Limiter)               \
+  entry(rate_limiter, RateLimiter)      \
+  entry(hysteresis, Hysteresis)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -222,24 +222,17 @@ Complaint kinetic_friction(double kinetic, double breakaway) {
          number_text(breakaway);
 }
 
-std::string controller_needs(const std::string& key, const std::string& why) {
-  return "missing key '" + key + "', which " + why + " needs";
-}
-
-std::string controller_without_gain() {
-  return "found no gain, expected proportional, integral or derivative";
-}
-
-std::string filter_and_rate() {
-  return "excludes 'rate', which needs no filter; remove one of them";
-}
-
-std::string controller_limits(double lower, double upper) {
-  return "found " + number_text(lower) + ", expected less than 'upper', " + number_text(upper);
+Complaint normal_force(const SignalDescription& normal) {
+  const std::vector<PiecewisePolynomial::Piece>& pieces = normal.pieces.pieces();
+  const bool constant = normal.input.empty() && normal.source == SignalSource::none &&
+                        normal.amplitude == 0.0 && pieces.size() == 1 &&
+                        pieces[0].coefficients.size() == 1;
+  if (!constant || !(pieces[0].coefficients[0] < 0.0)) return std::nullopt;
+  return "found " + number_text(pieces[0].coefficients[0]) + ", expected a number >= 0";
 }
 
 std::string one_source(SignalSource first) {
-  return std::string("excludes '") + signal_source_words[index_of(first)] + "'; remove one of them";
+  return excludes(signal_source_words[index_of(first)]);
 }
 
 std::string element_without(const std::string& type, SignalSource source) {

@@ -95,6 +95,22 @@ std::string controller_needs(const std::string& key, const std::string& why);
 std::string controller_without_gain();
 std::string filter_and_rate();
 std::string controller_limits(double lower, double upper);
+std::string initial_beyond_limits(double initial);
+/// Of a key that is used with others only.
+std::string unused_without(const std::string& others);
+std::string excludes(const std::string& key);
+/// One of these keys is needed.
+std::string none_given(const std::vector<const char*>& keys);
+/// An empty list of signals.
+std::string no_signals();
+std::string matrix_size(Eigen::Index rows, Eigen::Index columns, Eigen::Index expected_rows,
+                        Eigen::Index expected_columns);
+/// Of a transfer function: a matrix, or too many; the first one; degrees.
+std::string coefficients(Eigen::Index rows, Eigen::Index columns, Eigen::Index most);
+std::string leading_coefficient();
+std::string improper(Eigen::Index numerator, Eigen::Index denominator);
+/// A constant that is negative.
+Complaint normal_force(const SignalDescription& normal);
 /// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.

@@ -242,19 +242,28 @@ class ElementConnection final : public FormulaConnection {
 ElementDescription ModelBuilder::with_formulas_apart(const ElementDescription& e,
                                                      ElementList list) {
   ElementDescription out = e;
+  const auto apart = [&](SignalDescription& signal, const std::string& key) {
+    if (!signal.formula || signal.formula->is_of_time()) return;
+    const std::string path = std::string(element_list_name(list)) + "." + e.name + "." + key;
+    const std::string name = e.name + "/" + key;  // no name of the user has a slash
+    formulas.push_back({{name, FormulaValue{signal.formula}, e.origin}, path + ".formula"});
+    signal.formula = nullptr;
+    signal.source = SignalSource::controller;
+    signal.element = name;
+    signal.factor = 1.0;
+  };
   for (const ElementKey& key : element_keys(e.type())) {
-    const auto value = key_value(e, key);
-    const auto* signal = value ? std::get_if<SignalDescription>(&*value) : nullptr;
-    if (!signal || !signal->formula || signal->formula->is_of_time()) continue;
-    const std::string path = std::string(element_list_name(list)) + "." + e.name + "." + key.name;
-    const std::string name = e.name + "/" + key.name;  // no name of the user has a slash
-    formulas.push_back({{name, FormulaValue{signal->formula}, e.origin}, path + ".formula"});
-    SignalDescription linked = *signal;
-    linked.formula = nullptr;
-    linked.source = SignalSource::controller;
-    linked.element = name;
-    linked.factor = 1.0;
-    set_key_value(out, key, linked);
+    auto value = key_value(e, key);
+    if (!value) continue;
+    if (auto* signal = std::get_if<SignalDescription>(&*value)) {
+      apart(*signal, key.name);
+    } else if (auto* signals = std::get_if<std::vector<SignalDescription>>(&*value)) {
+      for (std::size_t k = 0; k < signals->size(); ++k)
+        apart((*signals)[k], key.name + ("[" + std::to_string(k + 1) + "]"));
+    } else {
+      continue;
+    }
+    set_key_value(out, key, *value);
   }
   return out;
 }

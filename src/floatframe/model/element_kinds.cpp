@@ -33,6 +33,14 @@ bool is_signal(const ElementKey& key) noexcept {
   return key.kind == KeyKind::load || key.kind == KeyKind::target ||
          key.kind == KeyKind::target_rate || key.kind == KeyKind::motion;
 }
+/// Of each of its ports.
+std::vector<std::optional<SignalDescription>> signals_of(const ElementView& view,
+                                                         const ElementKey& key) {
+  if (is_signal(key)) return {view.signal(key.name)};
+  if (key.kind != KeyKind::signals) return {};
+  const auto all = std::get<std::vector<SignalDescription>>(*key_value(view.description(), key));
+  return {all.begin(), all.end()};
+}
 
 }  // namespace
 
@@ -84,7 +92,7 @@ std::vector<std::optional<SignalDescription>> signal_values(const ElementDescrip
   std::vector<std::optional<SignalDescription>> values;
   const ElementView view(element);
   for (const ElementKey& key : element_keys(element.type()))
-    if (is_signal(key)) values.push_back(view.signal(key.name));
+    for (auto& signal : signals_of(view, key)) values.push_back(std::move(signal));
   return values;
 }
 
@@ -96,18 +104,18 @@ int link_count(const Element& element) noexcept {
 
 std::vector<ElementSignal> signals_of(const Element& element) {
   std::vector<ElementSignal> out;
+  const ElementDescription described{element.name, *element.keys, {}};
   std::size_t port = 0;
   for (const ElementKey& key : element_keys(element.type)) {
-    if (!is_signal(key)) continue;
-    const Signal& signal = element.signals[port++];
-    if (!signal.given) continue;
-    const ElementQuantity quantity = key.kind == KeyKind::load          ? ElementQuantity::force
+    const bool load = key.kind == KeyKind::load || key.kind == KeyKind::signals;
+    const ElementQuantity quantity = load                               ? ElementQuantity::force
                                      : key.kind == KeyKind::target_rate ? ElementQuantity::rate
                                                                         : ElementQuantity::length;
     std::string what = key.name;
     std::replace(what.begin(), what.end(), '_', ' ');
-    out.push_back({&signal, std::move(what), key.kind != KeyKind::load,
-                   element_output_unit(element, quantity)});
+    for (std::size_t n = signals_of(ElementView(described), key).size(); n > 0; --n)
+      if (const Signal& signal = element.signals[port++]; signal.given)
+        out.push_back({&signal, what, !load, element_output_unit(element, quantity)});
   }
   return out;
 }
@@ -156,22 +164,22 @@ void take_keys(Element& element, const Model& model) {
   bool rate = false;
   for (const ElementKey& key : element_keys(element.type)) {
     if (is_law(key)) element.laws.push_back(values.law(key.name));
-    if (!is_signal(key)) continue;
-    const std::optional<SignalDescription> s = values.signal(key.name);
-    Signal signal;
-    signal.given = s.has_value();
-    if (s) {
-      signal.function = *s;
-      for (std::size_t k = 0; k < model.inputs.size(); ++k)
-        if (model.inputs[k].name == s->input) signal.input = static_cast<int>(k);
+    for (const std::optional<SignalDescription>& s : signals_of(values, key)) {
+      Signal signal;
+      signal.given = s.has_value();
+      if (s) {
+        signal.function = *s;
+        for (std::size_t k = 0; k < model.inputs.size(); ++k)
+          if (model.inputs[k].name == s->input) signal.input = static_cast<int>(k);
+      }
+      signal.differentiated = key.kind == KeyKind::target;
+      element.driven = element.driven || signal.given;
+      if (s && key.kind == KeyKind::target)
+        element.target_jumps =
+            signal.input >= 0 || s->source != SignalSource::none || !s->pieces.breaks().empty();
+      rate = rate || (s && key.kind == KeyKind::target_rate);
+      element.signals.push_back(std::move(signal));
     }
-    signal.differentiated = key.kind == KeyKind::target;
-    element.driven = element.driven || signal.given;
-    if (s && key.kind == KeyKind::target)
-      element.target_jumps =
-          signal.input >= 0 || s->source != SignalSource::none || !s->pieces.breaks().empty();
-    rate = rate || (s && key.kind == KeyKind::target_rate);
-    element.signals.push_back(std::move(signal));
   }
   element.states = element.kept = 0;
   if (const auto states = element_kind(element.type).states) states(element);

@@ -57,22 +57,18 @@ struct ElementValidation {
         break;
       case K::stiffness_matrix:
       case K::damping_matrix:
-        if (std::get<MatX>(*x).size() == 0) break;
-        entity.complain(ErrorCode::wrong_value, key.name,
-                        sentences::force_matrix(std::get<MatX>(*x)));
-        break;
       case K::speed_table:
-        if (std::get<MatX>(*x).size() == 0) break;
-        entity.complain(ErrorCode::wrong_value, key.name,
-                        sentences::speed_table(std::get<MatX>(*x)));
-        break;
       case K::table:
-        table(key, std::get<MatX>(*x));
+      case K::matrix:
+        matrix(key, std::get<MatX>(*x));
         break;
       case K::load:
       case K::target:
       case K::target_rate:
-        signal(key, std::get<SignalDescription>(*x));
+        signal(key.name, std::get<SignalDescription>(*x));
+        break;
+      case K::signals:
+        signals(key, std::get<std::vector<SignalDescription>>(*x));
         break;
       case K::motion:
         entity.function(key.name, std::get<TimeFunction>(*x));
@@ -103,21 +99,34 @@ struct ElementValidation {
     return entity.errors.size() == before;
   }
 
-  void signal(const ElementKey& key, const SignalDescription& s) const {
-    entity.signal(key.name, s, names);
+  void signal(const std::string& path, const SignalDescription& s) const {
+    entity.signal(path, s, names);
     const auto k = s.source == SignalSource::none || s.source == SignalSource::controller
                        ? std::nullopt
                        : names.forces.find(s.element);
     if (k && !element_has(d.forces[*k].type(), quantity_of(s.source)))
-      entity.error(ErrorCode::wrong_value, key.name,
+      entity.error(ErrorCode::wrong_value, path,
                    sentences::element_without(element_type_name(d.forces[*k].type()), s.source));
   }
 
-  void table(const ElementKey& key, const MatX& rows) const {
-    if (rows.rows() == 0 || rows.cols() != std::ssize(key.words))
+  void signals(const ElementKey& key, const std::vector<SignalDescription>& all) const {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      signal(std::string(key.name) + "[" + std::to_string(i + 1) + "]", all[i]);
+  }
+
+  void matrix(const ElementKey& key, const MatX& M) const {
+    if (key.kind == KeyKind::table && (M.rows() == 0 || M.cols() != std::ssize(key.words)))
       return entity.error(ErrorCode::wrong_count, key.name,
-                          sentences::table_rows(rows.rows(), rows.cols(), key.words));
-    for (Eigen::Index i = 0; i < rows.size(); ++i) entity.number(key.name, rows(i), key.rule);
+                          sentences::table_rows(M.rows(), M.cols(), key.words));
+    if (key.kind == KeyKind::matrix && key.required && M.size() == 0)
+      return entity.error(ErrorCode::missing, std::string("missing key '") + key.name + "'");
+    if (key.kind == KeyKind::table || key.kind == KeyKind::matrix) {
+      for (Eigen::Index i = 0; i < M.size(); ++i) entity.number(key.name, M(i), key.rule);
+    } else if (M.size() > 0) {
+      entity.complain(ErrorCode::wrong_value, key.name,
+                      key.kind == KeyKind::speed_table ? sentences::speed_table(M)
+                                                       : sentences::force_matrix(M));
+    }
   }
 
   void all() const {

@@ -111,6 +111,28 @@ class ElementReader {
     return value.is_list() ? rows_of(rows, key.words.size()) : std::nullopt;
   }
 
+  static std::optional<KeyValue> matrix_of_any_size(const YamlValue& value, const ElementKey& key) {
+    if (value.is_scalar()) {
+      const auto x = value.number(key.rule);
+      return x ? std::optional(KeyValue(MatX{{*x}})) : std::nullopt;
+    }
+    const auto rows = value.list("a number, a list of numbers, or rows of numbers");
+    if (!value.is_list()) return std::nullopt;
+    if (!rows.empty() && rows[0].is_list()) return rows_of(rows, rows[0].list().size());
+    const auto row = value.numbers(1, rows.size(), key.rule, "a list of numbers");
+    return row ? std::optional(KeyValue(MatX(MatX::Map(row->data(), 1, std::ssize(*row)))))
+               : std::nullopt;
+  }
+
+  /// A list of signals, or one.
+  std::optional<KeyValue> signals(const YamlValue& value) const {
+    std::vector<SignalDescription> all;
+    const auto items = value.is_list() ? value.list() : std::vector<YamlValue>{value};
+    for (const YamlValue& item : items)
+      all.push_back(read_signal(self_, item, "", Interpolation::linear));
+    return KeyValue(std::move(all));
+  }
+
   /// Factors of a mirrored file are those of the mirrored joints.
   std::optional<KeyValue> terms(const YamlValue& value) const {
     std::vector<CoordinateTerm> all;
@@ -185,6 +207,10 @@ class ElementReader {
         return speed_table(*value);
       case K::table:
         return table(*value, key);
+      case K::matrix:
+        return matrix_of_any_size(*value, key);
+      case K::signals:
+        return signals(*value);
       case K::motion:
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:

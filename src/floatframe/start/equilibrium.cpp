@@ -229,7 +229,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
     hold_resting_branches(f, false);
     statics.look(best.q, best.lambda);
     if (!best.accepted() || !(statics.size() < 1e-7 * statics.weight)) {
-      f.element_states().give(start_z);
+      f.element_states().give(statics.endless(start_z));
       best = search(f, statics, q, e.iterations);
     }
   }

@@ -49,7 +49,8 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
       look(force.laws[1](now.rate).df, slope("damper", "N s/m, N m s/rad"));
     }
     look(now.force, [&](const std::string& n) {
-      return fmt::format("the force of '{}' is {} [N, N m]", force.name, n);
+      return force.exerts() ? fmt::format("the force of '{}' is {} [N, N m]", force.name, n)
+                            : fmt::format("the value of {} is {}", element_name(force), n);
     });
   }
   return text;

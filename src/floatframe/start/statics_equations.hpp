@@ -68,6 +68,13 @@ class StaticsEquations {
     }
     return k;
   }
+  /// z after a time without end: states that drift wherever the system is reach their limits.
+  VecX endless(VecX z) const {
+    constexpr double time = 1e9;  // [s]
+    for (Eigen::Index i = 0; i < reach_of_drift_.size(); ++i)
+      if (reach_of_drift_[i] == 0.0) z[i] += time * drift[i];
+    return z;
+  }
   /// States that come to rest only where the system is at a certain place.
   bool integrates() const { return !integrals_.empty(); }
   /// As `step`, with the tangent of steps at the state of `look`.

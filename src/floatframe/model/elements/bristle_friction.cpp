@@ -125,6 +125,9 @@ constexpr ElementKey bristle_friction_keys[] = {
 
 void bristle_friction_validate(const ElementCheck& check) {
   validate_coordinate(check);
+  if (const auto normal = check.good("normal") ? check.signal("normal") : std::nullopt)
+    if (const auto complaint = sentences::normal_force(*normal))
+      check.error(ErrorCode::out_of_range, "normal", *complaint);
   if (!check.good("kinetic") || !check.good("breakaway")) return;
   if (const auto complaint =
           sentences::kinetic_friction(check.number("kinetic"), check.number("breakaway")))

@@ -4,12 +4,10 @@
 //   d = derivative (rate of the target - rate), or behind a filter of first order             (3)
 //   d = derivative xdot,  xdot = (e - x) / filter                                              (4)
 // with the states i, if it integrates, and x, if it filters. (2) pulls i back while u is clipped.
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/limits.hpp"
 
 namespace floatframe {
 
@@ -49,22 +47,16 @@ PidTerms<S> pid_terms(const PortsOf<S>& in) noexcept {
   return out;
 }
 
-/// Where raw is.
-enum class PidBranch : std::int64_t { between, below, above };
-
-PidBranch branch_at(const Pid& keys, std::int64_t held, double raw) noexcept {
-  if (held != free_branch) return static_cast<PidBranch>(held);
-  if (keys.lower && raw < *keys.lower) return PidBranch::below;
-  return keys.upper && raw > *keys.upper ? PidBranch::above : PidBranch::between;
-}
+Limits limits_of(const Pid& keys) noexcept { return {keys.lower, keys.upper}; }
 
 template <class S>
 void pid_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const Pid& keys = in.template keys<Pid>();
   const PidTerms<S> x = pid_terms(in);
-  const PidBranch branch = branch_at(keys, in.branch, value_of(x.raw));
-  const bool clipped = branch != PidBranch::between;
-  const S u = branch == PidBranch::below ? S(*keys.lower) : clipped ? S(*keys.upper) : x.raw;
+  const Limits limits = limits_of(keys);
+  const std::int64_t branch = limits.branch(in.branch, value_of(x.raw));
+  const bool clipped = branch != Limits::between;
+  const S u = limits.clip(branch, x.raw);
   out.force = u;
   const int count = in.element.states;
   if (integrates(keys)) {
@@ -81,23 +73,7 @@ void pid_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
 }
 
 BranchSide pid_side(const Ports& in) noexcept {
-  const Pid& keys = in.keys<Pid>();
-  const double raw = pid_terms(in).raw, endless = std::numeric_limits<double>::max();
-  const double under = keys.lower ? *keys.lower - raw : -endless;
-  const double over = keys.upper ? raw - *keys.upper : -endless;
-  const auto to = [](double beyond, PidBranch next) {
-    return BranchSide{beyond, static_cast<std::int64_t>(next)};
-  };
-  switch (branch_at(keys, in.branch, raw)) {
-    case PidBranch::below:
-      return in.branch == free_branch ? to(-1.0, PidBranch::below) : to(-under, PidBranch::between);
-    case PidBranch::above:
-      return in.branch == free_branch ? to(-1.0, PidBranch::above) : to(-over, PidBranch::between);
-    case PidBranch::between:
-      break;
-  }
-  if (in.branch == free_branch) return to(-1.0, PidBranch::between);
-  return under > over ? to(under, PidBranch::below) : to(over, PidBranch::above);
+  return limits_of(in.keys<Pid>()).side(in.branch, pid_terms(in).raw);
 }
 
 }  // namespace
@@ -107,13 +83,8 @@ FLOATFRAME_LAW(pid)
 namespace {
 
 constexpr ElementAxis bare = ElementAxis::none;
-constexpr ElementKey gain_key(const char* name, const char* about, KeyMember member,
-                              double fallback = 0.0) {
-  return {.name = name,
-          .kind = KeyKind::number,
-          .about = about,
-          .fallback = fallback,
-          .member = member};
+constexpr ElementKey gain_key(const char* name, const char* about, KeyMember member) {
+  return {.name = name, .kind = KeyKind::number, .about = about, .member = member};
 }
 constexpr ElementKey pid_keys[] = {
     {.name = "measured",
@@ -137,8 +108,8 @@ constexpr ElementKey pid_keys[] = {
      .rule = positive_number("s"),
      .fallback = no_number,
      .member = described_by<&Pid::filter>},
-    gain_key("lower", "least value", described_by<&Pid::lower>, no_number),
-    gain_key("upper", "largest value", described_by<&Pid::upper>, no_number),
+    lower_key(described_by<&Pid::lower>),
+    upper_key(described_by<&Pid::upper>),
     {.name = "unwind",
      .kind = KeyKind::number,
      .about = "time in which the integral returns while the value is limited; without it "
@@ -155,17 +126,29 @@ void pid_validate(const ElementCheck& check) {
   if (check.wrong.empty() && number("proportional") == 0.0 && number("integral") == 0.0 &&
       number("derivative") == 0.0)
     check.error(ErrorCode::incomplete, "", sentences::controller_without_gain());
-  if (number("derivative") != 0.0 && !check.given("rate") && !check.given("filter"))
-    required("filter", "'derivative' without 'rate'");
-  if (check.given("filter") && check.given("rate"))
+  const auto unused = [&](const char* key, const char* without) {
+    if (check.given(key) && !check.wrong.contains(key))
+      check.error(ErrorCode::incomplete, key, sentences::unused_without(without));
+  };
+  if (check.given("filter") && check.given("rate")) {
     check.error(ErrorCode::exclusive, "filter", sentences::filter_and_rate());
-  const bool limited = check.good("lower") || check.good("upper");
-  if (limited && number("integral") != 0.0 && number("proportional") == 0.0 &&
-      !check.given("unwind") && !check.wrong.contains("proportional"))
+  } else if (!check.wrong.contains("derivative")) {
+    if (number("derivative") == 0.0) {
+      unused("filter", "'derivative'");
+      unused("rate", "'derivative'");
+    } else if (!check.given("rate") && !check.given("filter")) {
+      required("filter", "'derivative' without 'rate'");
+    }
+  }
+  const bool limited = check.given("lower") || check.given("upper");
+  if (!limited)
+    unused("unwind", "'lower' or 'upper'");
+  else if (!check.wrong.contains("integral") && number("integral") == 0.0)
+    unused("unwind", "'integral'");
+  else if (number("integral") != 0.0 && number("proportional") == 0.0 && !check.given("unwind") &&
+           !check.wrong.contains("proportional"))
     required("unwind", "limits of 'integral' without 'proportional'");
-  if (check.good("lower") && check.good("upper") && !(number("lower") < number("upper")))
-    check.error(ErrorCode::out_of_range, "lower",
-                sentences::controller_limits(number("lower"), number("upper")));
+  validate_limits(check);
 }
 
 void pid_states(Element& element) {
@@ -222,7 +205,7 @@ constinit const ElementKind pid_element = {
     .start = pid_start,
     .dual = pid_law<Dual>,
     .side = pid_side,
-    .resting_branch = static_cast<std::int64_t>(PidBranch::between),
+    .resting_branch = Limits::between,
     .regimes = pid_regimes,
     .example = pid_example};
 

@@ -1,0 +1,71 @@
+// Sentences about controllers.
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/description/sentences.hpp"
+
+namespace floatframe::sentences {
+
+std::string controller_needs(const std::string& key, const std::string& why) {
+  return "missing key '" + key + "', which " + why + " needs";
+}
+
+std::string controller_without_gain() {
+  return "found no gain, expected proportional, integral or derivative";
+}
+
+std::string filter_and_rate() {
+  return "excludes 'rate', which needs no filter; remove one of them";
+}
+
+std::string controller_limits(double lower, double upper) {
+  return "found " + number_text(lower) + ", expected less than 'upper', " + number_text(upper);
+}
+
+std::string initial_beyond_limits(double initial) {
+  return "found the start value " + number_text(initial) + ", expected one within the limits";
+}
+
+std::string unused_without(const std::string& others) {
+  return "is not used without " + others + "; remove it, or give that too";
+}
+
+std::string excludes(const std::string& key) {
+  return "excludes '" + key + "'; remove one of them";
+}
+
+std::string none_given(const std::vector<const char*>& keys) {
+  return "found none of its keys, expected " + alternatives(keys);
+}
+
+std::string no_signals() { return "found an empty list, expected signals"; }
+
+std::string matrix_size(Eigen::Index rows, Eigen::Index columns, Eigen::Index expected_rows,
+                        Eigen::Index expected_columns) {
+  const auto size = [](Eigen::Index m, Eigen::Index n) {
+    return std::to_string(m) + " x " + std::to_string(n);
+  };
+  return "found " + size(rows, columns) + " numbers, expected " +
+         size(expected_rows, expected_columns);
+}
+
+std::string coefficients(Eigen::Index rows, Eigen::Index columns, Eigen::Index most) {
+  return "found " + std::to_string(rows) + " x " + std::to_string(columns) +
+         " numbers, expected a list of at most " + std::to_string(most) + " coefficients";
+}
+
+std::string leading_coefficient() {
+  return "expected at least two coefficients, of descending powers of s, the first one not 0";
+}
+
+std::string improper(Eigen::Index numerator, Eigen::Index denominator) {
+  return "found the degree " + std::to_string(numerator) +
+         ", expected at most that of the denominator, " + std::to_string(denominator);
+}
+
+std::string ring_of_signals(const std::vector<std::string>& elements) {
+  std::string ring;
+  for (const std::string& element : elements) ring += element + " -> ";
+  return "found a ring of signals without a state, " + ring + elements.front() +
+         ": expected a state in it, for example a controller with 'integral'";
+}
+
+}  // namespace floatframe::sentences
