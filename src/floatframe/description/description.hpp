@@ -199,6 +199,7 @@ struct OutputDescription {
   /// The frame that a motion is relative to, and the axes of its components; absent: the world, and
   /// the axes of `relative`.
   std::optional<ReferenceDescription> relative, axes;
+  std::string unit;  ///< of the column, of `output_units`; empty: that of SI
   int component = 0;
   GaugeDescription gauge;
   Origin origin;

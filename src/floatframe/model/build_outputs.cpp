@@ -1,6 +1,7 @@
 // Result columns: the markers, bodies, joints and forces they refer to, and their units.
 #include <algorithm>
 
+#include "floatframe/core/printable.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/gauge_place.hpp"
@@ -27,7 +28,7 @@ void ModelBuilder::output_list(const std::string& list,
     if (!subject(o, out, who) || !frames(o, out, who)) continue;
     const OutputKind& kind = output_kind(o.type);
     out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
-    built.push_back(std::move(out));
+    if (o.unit.empty() || unit(o, out, who)) built.push_back(std::move(out));
   }
 }
 
@@ -89,6 +90,22 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
     case OutputOf::reaction:
       return reaction(o, out, who);
   }
+  return false;
+}
+
+bool ModelBuilder::unit(const OutputDescription& o, Output& out, const std::string& who) {
+  std::string known = out.unit;
+  for (const OutputUnit& x : output_units) {
+    if (out.unit != x.si) continue;
+    known += std::string(" or ") + x.unit;
+    if (o.unit != x.unit) continue;
+    out.unit = x.unit;
+    out.factor = x.factor;
+    return true;
+  }
+  if (o.unit == out.unit) return true;
+  errors.add(ErrorCode::wrong_value, o.origin.mark,
+             who + ".unit: found '" + printable(o.unit) + "', expected " + known);
   return false;
 }
 

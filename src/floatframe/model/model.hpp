@@ -135,6 +135,7 @@ struct Output {
   int component = 0;
   int gauge = -1;
   int relative = -1, axes = -1;  ///< markers; -1: the world
+  double factor = 1.0;           ///< of the unit: column = factor * value in SI
 };
 
 /// The origin of a constraint row: a joint, an element, or an element that holds a coordinate of a

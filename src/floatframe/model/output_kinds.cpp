@@ -55,7 +55,8 @@ MotionNeeds needs_of_outputs(const Model& model) noexcept {
 double output_value(const SystemMotion& motion, const Output& output,
                     FollowedOutput& last) noexcept {
   assert(std::isfinite(motion.t));
-  return value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
+  return output.factor *
+         value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
 }
 
 }  // namespace floatframe
