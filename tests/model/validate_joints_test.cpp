@@ -135,6 +135,7 @@ TEST(Validate, Outputs) {
        "outputs.z.in.body: not_found"},
       {[](D& d) { d.outputs[2].relative.emplace(); }, "outputs.q.relative_to: wrong_value"},
       {[](D& d) { d.outputs[2].axes.emplace(); }, "outputs.q.in: wrong_value"},
+      {[](D& d) { d.outputs[0].unit = "deg"; }, "outputs.z.unit: wrong_value"},
       {[](D& d) { d.outputs[0].about = true; }, "outputs.z.about: incomplete"},
       {[](D& d) { d.measures = {d.outputs[0]}; }, "duplicate"},
       {[](D& d) {

@@ -248,6 +248,23 @@ TEST(OutputFrames, AnglesGoOnOverTurnsAndThroughTheLock) {
   }
 }
 
+TEST(OutputFrames, ColumnsInOtherUnits) {
+  ModelDescription d = description_of(rotor("z", 10));
+  d.outputs.back().unit = "deg";
+  d.outputs.push_back(d.outputs.back());
+  d.outputs.back().name = "speed";
+  d.outputs.back().type = OutputType::joint_velocity;
+  d.outputs.back().unit = "rpm";
+  d.simulation.step = 0.01;
+  d.simulation.duration = 1.0;
+  const ResultTable t = completed_run(d).table;
+  const std::size_t n = t.columns.size();
+  EXPECT_EQ(t.columns[n - 2].unit, "deg");
+  EXPECT_EQ(t.columns[n - 1].unit, "rpm");
+  EXPECT_NEAR(t.at(t.rows() - 1, n - 2), 1800.0 / M_PI, 1e-6);
+  EXPECT_NEAR(t.at(t.rows() - 1, n - 1), 300.0 / M_PI, 1e-6);
+}
+
 TEST(OutputFrames, SavedStatesKeepTheTurns) {
   ModelDescription d = description_of(rotor("y", 10));
   d.simulation.step = 0.01;

@@ -199,10 +199,10 @@ struct OutputDescription {
   /// The frame that a motion is relative to, and the axes of its components; absent: the world, and
   /// the axes of `relative`.
   std::optional<ReferenceDescription> relative, axes;
+  std::string unit;  ///< of the column: of `output_units`, or any text for a formula
   int component = 0;
   GaugeDescription gauge;
   SharedFormula formula;
-  std::string unit;  ///< of a formula, for people
   Origin origin;
 };
 

@@ -45,6 +45,7 @@ class FormulaConnection {
   virtual void take(const Output& out, FormulaOperand& x) {
     x.kind = FormulaOperand::Kind::sample;
     x.output = out;
+    x.output.factor = 1.0;
   }
   ModelBuilder& b_;
 
@@ -192,8 +193,8 @@ class ElementConnection final : public FormulaConnection {
   void take(const Output& out, FormulaOperand& x) override {
     const OutputKind& kind = output_kind(out.type);
     if (kind.is_signal) return link(out.element, kind.needs, x);
+    FormulaConnection::take(out, x);
     x.kind = FormulaOperand::Kind::measure;
-    x.output = out;
     if (!kind.value) {
       x.kind = FormulaOperand::Kind::sample;
       x.index = element().kept++;

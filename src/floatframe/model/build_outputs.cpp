@@ -1,6 +1,7 @@
 // Result columns: the markers, bodies, joints and forces they refer to, and their units.
 #include <algorithm>
 
+#include "floatframe/core/printable.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/gauge_place.hpp"
@@ -28,11 +29,12 @@ std::optional<Output> ModelBuilder::output(const OutputDescription& o, const std
   out.component = o.component;
   if (!subject(o, out, who) || !frames(o, out, who)) return std::nullopt;
   const OutputKind& kind = output_kind(o.type);
-  if (!o.unit.empty()) {
-    out.unit = o.unit;
+  if (kind.named_unit) {
+    out.unit = o.unit.empty() ? kind.unit : o.unit;
     return out;
   }
   out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
+  if (!o.unit.empty() && !unit(o, out, who)) return std::nullopt;
   return out;
 }
 
@@ -96,6 +98,22 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
     case OutputOf::reaction:
       return reaction(o, out, who);
   }
+  return false;
+}
+
+bool ModelBuilder::unit(const OutputDescription& o, Output& out, const std::string& who) {
+  std::string known = out.unit;
+  for (const OutputUnit& x : output_units) {
+    if (out.unit != x.si) continue;
+    known += std::string(" or ") + x.unit;
+    if (o.unit != x.unit) continue;
+    out.unit = x.unit;
+    out.factor = x.factor;
+    return true;
+  }
+  if (o.unit == out.unit) return true;
+  errors.add(ErrorCode::wrong_value, o.origin.mark,
+             who + ".unit: found '" + printable(o.unit) + "', expected " + known);
   return false;
 }
 

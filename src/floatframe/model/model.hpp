@@ -100,6 +100,7 @@ struct Output {
   int component = 0;
   int gauge = -1;
   int relative = -1, axes = -1;  ///< markers; -1: the world
+  double factor = 1.0;           ///< of the unit: column = factor * value in SI
   std::shared_ptr<const OutputFormula> formula;
 };
 

@@ -71,6 +71,8 @@ struct ModelBuilder {
   bool mass(const OutputDescription& o, Output& out, const std::string& who);
   /// The frame that it is relative to and its axes.
   bool frames(const OutputDescription& o, Output& out, const std::string& who);
+  /// The unit that the user wants.
+  bool unit(const OutputDescription& o, Output& out, const std::string& who);
   /// Its component is one of `n` numbers, of a mode or of a state.
   bool has_number(const OutputDescription& o, const char* what, int n, const std::string& who);
   /// Index of an element by its name, -1 if it is not built.

@@ -111,7 +111,7 @@ class ModelHash {
   }
   void add(const Output& o) {
     const auto& [name, unit, type, marker, to, body, joint, element, component, gauge, relative,
-                 axes, formula] = o;
+                 axes, factor, formula] = o;
     all(name, type, marker, to, body, joint, element, component);
     if (gauge >= 0) all(gauge);
     if (relative >= 0 || axes >= 0) all(relative, axes);

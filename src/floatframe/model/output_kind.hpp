@@ -4,6 +4,7 @@
 // generic tests run over the list. A sample calls `output_value_of` by name, without a pointer; the
 // data of an OutputKind are used at load time.
 #include <array>
+#include <numbers>
 #include <span>
 
 #include "floatframe/description/rules.hpp"
@@ -74,6 +75,7 @@ struct OutputKind {
   ElementQuantity needs = ElementQuantity::force;
   /// It is the result `needs` of an element that signals are made of.
   bool is_signal = false;
+  bool named_unit = false;  ///< its unit is any text of the user
   MotionNeeds needs_of_motion = {};
   OutputFrames frames = OutputFrames::none;
   /// Of measures: the value, and the same with its derivatives.
@@ -112,6 +114,21 @@ const OutputKind& output_kind(OutputType type) noexcept;
 
 /// The memories of outputs before the first sample. Allocates.
 std::vector<FollowedOutput> followed_outputs(std::span<const Output> outputs);
+
+/// Units that a column may have instead of that of SI: `factor` of them make one.
+struct OutputUnit {
+  const char *si, *unit;
+  double factor;
+};
+inline constexpr double degrees = 180.0 / std::numbers::pi;
+inline constexpr OutputUnit output_units[] = {{"rad", "deg", degrees},
+                                              {"rad/s", "deg/s", degrees},
+                                              {"rad/s", "rpm", degrees / 6.0},
+                                              {"rad/s2", "deg/s2", degrees},
+                                              {"m", "mm", 1e3},
+                                              {"N", "kN", 1e-3},
+                                              {"N m", "kN m", 1e-3},
+                                              {"Pa", "MPa", 1e-6}};
 
 /// What an output, and what all outputs of the model need.
 MotionNeeds needs_of(const Output& output) noexcept;

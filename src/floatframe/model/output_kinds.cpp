@@ -69,7 +69,8 @@ std::vector<FollowedOutput> followed_outputs(std::span<const Output> outputs) {
 double output_value(const SystemMotion& motion, const Output& output,
                     FollowedOutput& last) noexcept {
   assert(std::isfinite(motion.t));
-  return value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
+  return output.factor *
+         value_of_type(std::make_index_sequence<std::size(output_types)>{}, motion, output, last);
 }
 
 }  // namespace floatframe

@@ -38,11 +38,10 @@ class OutputReader {
     if (found != 1) return not_one_quantity(*s, found);
     o.origin = s->origin();
     const OutputKind& kind = output_kind(o.type);
-    if (kind.of == OutputOf::formula || kind.of == OutputOf::controller)
-      if (const auto unit = s->get("unit"))
-        o.unit = unit->text("a unit, for example N").value_or("");
     const bool known = quantity(kind, *s, *s->get(output_type_name(o.type)), o);
-    if (frames(kind, *s, o) && known)
+    const auto unit = s->get("unit");
+    const bool in_unit = !unit || put(unit->text("a unit"), o.unit);
+    if (frames(kind, *s, o) && in_unit && known)
       components(name, *s, o);
     else if (kind.components.key)
       s->get(kind.components.key);
@@ -107,7 +106,7 @@ class OutputReader {
     for (const OutputType type : output_types)
       if (const char* key = output_kind(type).components.key) s.get(key);
     for (const char* key : {"mode", "coordinate", "number", "about", "in", "relative_to",
-                            "direction", "inertia_loads"})
+                            "direction", "inertia_loads", "unit"})
       s.get(key);
     s.finish();
     if (found == 0 && misspelt_quantity(s)) return;  // already reported

@@ -1,5 +1,5 @@
-// Angular momentum of a body, that of its modes included, or of all bodies [N m s], about the origin
-// of the world, or with the momentum p about a point P:
+// Angular momentum of a body, that of its modes included, or of all bodies [N m s], about the
+// origin of the world, or with the momentum p about a point P:
 //   L_P = L_W - p_WP x p
 #include "floatframe/model/output_kind.hpp"
 

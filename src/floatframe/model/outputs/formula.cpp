@@ -25,6 +25,7 @@ double output_value_of<OutputType::formula>(const SystemMotion& motion, const Ou
 constinit const OutputKind formula_output = {
     .about = "value of a formula of measures, other outputs, inputs and the time",
     .of = OutputOf::formula,
-    .unit = "-"};
+    .unit = "-",
+    .named_unit = true};
 
 }  // namespace floatframe
