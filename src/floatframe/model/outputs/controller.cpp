@@ -10,7 +10,10 @@ double output_value_of<OutputType::controller>(const SystemMotion& motion, const
   return motion.effort(output.element).force;
 }
 
-constinit const OutputKind controller_output = {
-    .about = "its value", .of = OutputOf::controller, .unit = "-", .is_signal = true};
+constinit const OutputKind controller_output = {.about = "its value",
+                                                .of = OutputOf::controller,
+                                                .unit = "-",
+                                                .is_signal = true,
+                                                .named_unit = true};
 
 }  // namespace floatframe
