@@ -13,7 +13,7 @@ import sys
 
 # room -> rooms it may include. CONTRIBUTING.md draws the same picture.
 FE = {"core", "math", "fe"}
-DYNAMICS = {"core", "math", "body", "inertia", "description", "model", "formulation", "integrator"}
+DYNAMICS = {"core", "math", "formulas", "body", "inertia", "description", "model", "formulation", "integrator"}
 RUNS = {"loops", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
 TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "analyses"}
@@ -21,6 +21,7 @@ HEADERS_OF_TOOLS = {"analysis.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", 
 ALLOWED = {
     "core": set(),
     "math": {"core"},
+    "formulas": {"core", "math"},
     "fe": {"core", "math"},
     "body": FE,
     "reduction": FE | {"body"},
@@ -41,10 +42,10 @@ ALLOWED = {
     "decks": FE | {"formats", "formats/nastran", "formats/text", "formats/written"},
     "parts": FE | {"body", "reduction", "formats", "formats/body_file", "formats/sid", "formats/text", "formats/written"},
     # What the user says, and its checks.
-    "description": FE | {"body", "reduction"},
-    "model": FE | {"body", "reduction", "inertia", "description"},
-    "formulation": {"core", "math", "body", "inertia", "description", "model"},
-    "integrator": {"core", "math", "body", "inertia", "description", "model", "formulation"},
+    "description": FE | {"formulas", "body", "reduction"},
+    "model": FE | {"formulas", "body", "reduction", "inertia", "description"},
+    "formulation": {"core", "math", "formulas", "body", "inertia", "description", "model"},
+    "integrator": {"core", "math", "formulas", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.
     "loops": DYNAMICS,
     "start": DYNAMICS | {"loops"},
@@ -54,8 +55,8 @@ ALLOWED = {
     "linear": DYNAMICS | RUNS,
     "rotors": DYNAMICS | RUNS | {"linear"},
     "advice": DYNAMICS | RUNS | {"linear"},
-    "yaml": {"core", "math"},
-    "model_file": FE | {"body", "reduction", "description", "model", "formats/geometry", "formats/sid", "parts", "yaml"},
+    "yaml": {"core", "math", "formulas"},
+    "model_file": FE | {"formulas", "body", "reduction", "description", "model", "formats/geometry", "formats/sid", "parts", "yaml"},
     "history": DYNAMICS | RUNS,
     "results": DYNAMICS | RUNS,
     "page": DYNAMICS | RUNS | {"linear", "rotors", "advice", "history", "results"},
@@ -70,7 +71,7 @@ ALLOWED = {
 }
 
 # Rooms, and single files, that public headers may reach.
-PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
+PUBLIC = {"core", "math", "formulas", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
           "model", "model_file",
           "formulation/counts.hpp", "loops", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')

@@ -231,6 +231,10 @@ class Model:
         return self._section("outputs")
 
     @property
+    def measures(self) -> Section:
+        return self._section("measures")
+
+    @property
     def subsystems(self) -> Section:
         return self._section("subsystems")
 

@@ -23,8 +23,7 @@ ModelDescription chains(int modes) {
   s.add_joint("loop", JointType::prismatic, "c", 3, "d", 1).cut = true;
   Coupling first{{{"hinge", -1, 1.3}, {"nut", 0, 0.4}, {"nut", 1, -0.7}, {"plane", 1, 0.9}}, {}};
   Coupling second{{{"slide", 0, -1.0}, {"plane", 2, 1.0}, {"loop", -1, 2.0}}, TimeFunction()};
-  second.value->amplitude = 0.3;
-  second.value->frequency = 0.5;
+  second.value->sines = {{.amplitude = 0.3, .frequency = 0.5}};
   s.d.couplings = {{"first", first, {}}, {"second", second, {}}};
   return s.d;
 }

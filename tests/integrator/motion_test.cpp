@@ -24,9 +24,7 @@ TimeFunction motion(bool table) {
                               Interpolation::cubic, Beyond::hold);
   } else {
     f.pieces = PiecewisePolynomial::polynomial({0.2, 1.0});
-    f.amplitude = 0.4;
-    f.frequency = 3.0;
-    f.phase = 0.7;
+    f.sines = {{.amplitude = 0.4, .frequency = 3.0, .phase = 0.7}};
   }
   return f;
 }
@@ -87,7 +85,7 @@ TEST(PrescribedRotation, SeveralTurns) {
     RandomSystem s(32);
     s.add_body("wheel", 0);
     JointDescription& j = s.add_joint("axle", JointType::revolute, ground_name, 0, "wheel", 0);
-    j.motion = TimeFunction{PiecewisePolynomial::polynomial({0.0, 40.0}), 0.0, 0.0, 0.0};
+    j.motion = TimeFunction{PiecewisePolynomial::polynomial({0.0, 40.0})};
     s.d.outputs = {make_output("angle", OutputType::joint_position, "axle")};
     s.d.simulation.coordinates = coordinates;
     s.d.simulation.duration = 0.5;

@@ -170,5 +170,46 @@ TEST(PiecewiseBuild, EdgesAreJumpsOfValueOrSlope) {
   EXPECT_TRUE(PiecewisePolynomial({1.0, 2.0}, {{0.0, {1.0}}}).edges().empty());
 }
 
+TEST(Repeated, EqualsTheFunctionAFewPeriodsOn) {
+  for (const double period : {2.0, 3.5}) {
+    const auto f = time_table({{1, 0}, {1.5, 2}, {1.5, -1}, {3, 0}}, Interpolation::linear, period);
+    const auto all = repeated(f, period, -4.0, 12.0, 1000);
+    for (double x = -4.0; x < 12.0; x += 0.1237) {
+      const double base = x - period * std::floor((x - 1.0) / period);
+      EXPECT_NEAR(all(x).f, f(base).f, 1e-12) << x;
+      EXPECT_NEAR(all(x).df, f(base).df, 1e-12) << x;
+    }
+    EXPECT_EQ(repeated(f, 0.0, -4.0, 12.0, 1000).breaks(), f.breaks());
+    EXPECT_LE(repeated(f, period, 0.0, std::numeric_limits<double>::infinity(), 50).pieces().size(),
+              50u);
+  }
+}
+
+TEST(Steps, AreZeroBeforeTheFirst) {
+  const auto f = step_function({{1, 4}, {2, -3}});
+  EXPECT_EQ(f(0.999).f, 0.0);
+  EXPECT_EQ(f(1.0).f, 4.0);
+  EXPECT_EQ(f(1.999).f, 4.0);
+  EXPECT_EQ(f(2.0).f, -3.0);
+  EXPECT_EQ(f(9.0).df, 0.0);
+  EXPECT_EQ(test::error_of([] { step_function({{1, 4}, {1, 5}}); }), "contradiction");
+}
+
+TEST(Integral, IsContinuousAndHasTheFunctionAsItsSlope) {
+  for (const PiecewisePolynomial& f :
+       {time_table({{0, 1}, {1, 3}, {1, -2}, {2.5, 0.5}}, Interpolation::linear),
+        time_table({{-1, 1}, {1, 3}, {2.5, 0.5}, {4, 0}}, Interpolation::cubic),
+        PiecewisePolynomial::polynomial({1.0, -2.0, 3.0})})
+    for (const double x0 : {-2.0, 0.5, 9.0}) {
+      const auto F = integral(f, x0, 7.0);
+      EXPECT_NEAR(F(x0).f, 7.0, 1e-13);
+      EXPECT_TRUE(largest_jump(F).continuous());
+      for (double x = -3.0; x < 10.0; x += 0.173) {
+        EXPECT_NEAR(F(x).df, f(x).f, 1e-12) << x;
+        EXPECT_NEAR(F(x).ddf, f(x).df, 1e-12) << x;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace floatframe

@@ -105,8 +105,7 @@ void turns_only_if_it_follows(const Vec3& fixed, const Vec3& turned, Vec3 Wrench
     f.direction = Vec3(2.0, 0.0, 0.0);
     f.follows = follows;
     f.magnitude.pieces = PiecewisePolynomial::polynomial({1.0});
-    f.magnitude.amplitude = 3.0;
-    f.magnitude.frequency = 0.25;
+    f.magnitude.sines = {{.amplitude = 3.0, .frequency = 0.25}};
     ElementExample x;
     x.keys(f);
     x.markers = {at(Vec3(1.0, 2.0, 3.0), rotation_exp(0.5 * M_PI * Vec3::UnitZ()))};

@@ -11,6 +11,8 @@ std::string of(OutputOf what) {
   static const char* const words[] = {"point",
                                       "two points",
                                       "body",
+                                      "body or `model`",
+                                      "point of a body",
                                       "joint",
                                       "flexible body",
                                       "force element",
@@ -19,6 +21,7 @@ std::string of(OutputOf what) {
                                       "joint with a motion",
                                       "[coupling](#couplings)",
                                       "[controller](#controllers)",
+                                      "force element or controller",
                                       "[gauge](#gauges)"};
   static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];
@@ -27,14 +30,19 @@ std::string of(OutputOf what) {
 std::string component(OutputType type, const OutputKind& kind) {
   if (kind.of == OutputOf::joint) return "`coordinate`: 1, 2, ... (needed if there are several)";
   if (kind.of == OutputOf::mode) return "`mode`: 1, 2, ... (required)";
+  if (kind.of == OutputOf::state) return "`number`: 1, 2, ... (default 1)";
   if (type == OutputType::strain) return "`direction` (required)";
   if (!kind.components.key) return "";
   std::string words;
   for (const char* word : kind.components.words)
     words += std::string(words.empty() ? "" : ", ") + word;
-  const char* const more = kind.of != OutputOf::reaction      ? ""
-                           : type == OutputType::joint_torque ? "; `about`, `in` (below)"
-                                                              : "; `in` (below)";
+  const bool about = type == OutputType::joint_torque || type == OutputType::angular_momentum;
+  const bool in = kind.of == OutputOf::reaction || kind.frames != OutputFrames::none;
+  const char* const more = kind.frames == OutputFrames::relative_to_and_in
+                               ? "; `relative_to`, `in` (below)"
+                           : about ? "; `about`, `in` (below)"
+                           : in    ? "; `in` (below)"
+                                   : "";
   return "`" + std::string(kind.components.key) + "`: " + words + more;
 }
 

@@ -37,7 +37,7 @@ TEST(ValidateCouplings, NamesWhatIsWrong) {
        "couplings.screw.value.piecewise[1]: contradiction"},
       {[](D& d) {
          coupling(d).value.emplace();
-         coupling(d).value->amplitude = 1.0;
+         coupling(d).value->sines = {{.amplitude = 1.0}};
        },
        "couplings.screw.value.sine.frequency: out_of_range"},
       {[](D& d) { d.couplings.push_back(d.couplings[0]); }, "couplings.screw: duplicate"},

@@ -55,7 +55,7 @@ TEST(Validate, ForcesRoadsInputs) {
       {[](D& d) { kind<Tyre>(d, 3).centre.body = "ground"; }, "forces.tyre.body: wrong_value"},
       {[](D& d) { kind<AppliedForce>(d, 4).direction.setZero(); },
        "forces.load.direction: out_of_range"},
-      {[](D& d) { kind<AppliedForce>(d, 4).magnitude.amplitude = inf; },
+      {[](D& d) { kind<AppliedForce>(d, 4).magnitude.sines = {{.amplitude = inf}}; },
        "forces.load.magnitude.sine.amplitude: out_of_range\nforces.load.magnitude.sine.frequency: "
        "out_of_range"},
       {[](D& d) { d.roads[0].bumps[0].length = 0.0; }, "roads.track.bumps[1].length: out_of_range"},

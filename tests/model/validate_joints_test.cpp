@@ -39,9 +39,9 @@ TEST(Validate, Joints) {
        },
        "joints.slide.velocity: wrong_count"},
       {[](D& d) { d.joints[1].motion.emplace(); }, "joints.pin.motion: wrong_value"},
-      {[](D& d) { d.joints[0].motion->amplitude = 1.0; },
+      {[](D& d) { d.joints[0].motion->sines = {{.amplitude = 1.0}}; },
        "joints.slide.motion.sine.frequency: out_of_range"},
-      {[](D& d) { d.joints[0].motion->phase = nan; },
+      {[](D& d) { d.joints[0].motion->sines = {{.phase = nan}}; },
        "joints.slide.motion.sine.phase: out_of_range"},
       {[](D& d) {
          d.joints[0].motion->pieces = PiecewisePolynomial::polynomial({0.0, nan});
@@ -125,6 +125,26 @@ TEST(Validate, Outputs) {
       {[](D& d) { d.outputs[0].at.body = "x"; }, "outputs.z.position.body: not_found"},
       {[](D& d) { d.outputs[0].at.point.x() = nan; }, "outputs.z.position.at[1]: out_of_range"},
       {[](D& d) { d.outputs[1].at.body = "ground"; }, "outputs.yaw.rotation: wrong_value"},
+      {[](D& d) { d.outputs[0].relative.emplace().body = "x"; },
+       "outputs.z.relative_to: not_found"},
+      {[](D& d) { d.outputs[0].axes.emplace().body = "x"; }, "outputs.z.in: not_found"},
+      {[](D& d) {
+         d.outputs[0].axes.emplace().place = true;
+         d.outputs[0].axes->body = "x";
+       },
+       "outputs.z.in.body: not_found"},
+      {[](D& d) { d.outputs[2].relative.emplace(); }, "outputs.q.relative_to: wrong_value"},
+      {[](D& d) { d.outputs[2].axes.emplace(); }, "outputs.q.in: wrong_value"},
+      {[](D& d) { d.outputs[0].unit = "deg"; }, "outputs.z.unit: wrong_value"},
+      {[](D& d) { d.outputs[0].about = true; }, "outputs.z.about: incomplete"},
+      {[](D& d) { d.measures = {d.outputs[0]}; }, "duplicate"},
+      {[](D& d) {
+         d.measures = {d.outputs[0]};
+         d.measures[0].name = "m";
+         d.measures[0].at.body = "x";
+       },
+       "measures.m.position.body: not_found"},
+      {[](D& d) { d.outputs[4].type = OutputType::state; }, "outputs.F.state: wrong_value"},
       {[](D& d) { d.outputs[2].entity = "pins"; }, "outputs.q.joint_position: not_found"},
       {[](D& d) { d.outputs[4].entity = "lod"; }, "outputs.F.force: not_found"},
       {[](D& d) { d.outputs[5].entity = "load"; }, "outputs.L.length: wrong_value"},

@@ -130,7 +130,7 @@ TEST_F(Everything, Forces) {
   const auto& push = kind<AppliedForce>(d, "push");
   EXPECT_EQ(push.direction, Vec3(0, 2, 0));
   EXPECT_EQ(push.magnitude.pieces(2).f, 5.0);
-  EXPECT_EQ(push.magnitude.phase, 0.5);
+  EXPECT_EQ(push.magnitude.sines.at(0).phase, 0.5);
   EXPECT_TRUE(push.follows);
   EXPECT_EQ(named(d.forces, "twist").type(), ElementType::torque);
   EXPECT_EQ(named(d.roads, "hill").pieces(1.0).f, 0.2);

@@ -69,12 +69,10 @@ TEST_F(TableFiles, AreAmongTheFilesOfTheFingerprint) {
 
 TEST_F(TableFiles, ErrorsHaveAPlace) {
   EXPECT_EQ(errors("t,f\n0,0\n1,x\n"), "t.csv:3:1: out_of_range");
-  EXPECT_EQ(errors("0;0\n0,5;1\n"), "t.csv:2:1: out_of_range");
-  EXPECT_EQ(errors("t,f\nu,v\n0,0\n1,1\n"), "t.csv:2:1: out_of_range");
+  EXPECT_EQ(errors("t,f\nu,v\nw,x\n0,0\n1,1\n"), "t.csv:3:1: out_of_range");
   EXPECT_EQ(errors("0,0\n1,nan\n"), "t.csv:2:1: out_of_range");
-  EXPECT_EQ(errors("0,0,0\n1,1,1\n"), "t.csv:1:1: wrong_count");
+  EXPECT_EQ(errors("0,0,0\n1,1,1\n"), "model.yaml:3:81: joints.j.motion.table: wrong_count");
   EXPECT_EQ(errors("t,1\n1,1\n2,2\n"), "t.csv:1:1: out_of_range");
-  EXPECT_EQ(errors("0;0,5\n1;1\n"), "t.csv:1:1: out_of_range");
   EXPECT_EQ(errors("0,0\n2,1\n\n1,1\n"), "t.csv:4:1: wrong_value");
   EXPECT_EQ(errors("# nothing\nt,f\n0,0\n"), "model.yaml:3:81: joints.j.motion.table: wrong_count");
   EXPECT_EQ(errors(""), "model.yaml:3:81: joints.j.motion.table: wrong_count");
@@ -86,7 +84,9 @@ TEST_F(TableFiles, OnlyFilesThatAreThereAndRegular) {
   EXPECT_EQ(error_of_motion("data"), "model.yaml:3:81: unreadable");
   EXPECT_EQ(error_of_motion("/dev/zero"), "model.yaml:3:81: unreadable");
   EXPECT_EQ(error_of_motion("3"), "model.yaml:3:81: joints.j.motion.table: wrong_value");
-  EXPECT_EQ(error_of_motion("{a: 1}"), "model.yaml:3:81: joints.j.motion.table: wrong_value");
+  EXPECT_EQ(error_of_motion("{a: 1}"),
+            "model.yaml:3:74: joints.j.motion.table: missing\nmodel.yaml:3:82: "
+            "joints.j.motion.table.a: unknown_key");
 }
 
 TEST_F(TableFiles, BelongToTheFolderOfTheSubsystem) {

@@ -35,6 +35,7 @@ joints:
 couplings: {mesh: {terms: [{joint: drive}, {joint: shaft, factor: -2}]}}
 rods: {tie: {from: {body: ground, at: [1, 2, 1.5]}, to: {body: puck}}}
 forces:
+  dash: {type: maxwell, from: {body: arm, at: tip}, to: {body: puck}, branches: [[100, 20]]}
   coil: {type: spring_damper, from: {body: arm, at: tip}, to: {body: puck}, spring: 100, damper: 20}
 controllers: {hold: {type: pid, measured: {length: coil}, proportional: 3}}
 initial:
@@ -48,6 +49,8 @@ std::string columns_of_type(OutputType type) {
   static const char* const references[] = {"{body: arm, at: tip}",
                                            "{from: puck, to: {body: arm, at: tip}}",
                                            "puck",
+                                           "model",
+                                           "{body: arm, at: tip}",
                                            "loose, coordinate: 5",
                                            "arm, mode: 2",
                                            "coil",
@@ -56,13 +59,13 @@ std::string columns_of_type(OutputType type) {
                                            "drive",
                                            "mesh",
                                            "hold",
+                                           "dash",
                                            "{body: arm, at: tip, toward: [0.3, 1, 0.5]}"};
   static_assert(std::size(references) == index_of(OutputOf::gauge) + 1);
   const std::string word = output_type_name(type);
   std::string what = references[index_of(output_kind(type).of)];
   if (type == OutputType::joint_torque) what += ", about: {body: arm, at: tip}";
   if (type == OutputType::joint_force) what = "{rod: tie}, in: {body: arm}";
-  if (type == OutputType::elastic_energy) what = "arm";
   if (type == OutputType::strain) what += ", direction: [1, 2, 0]";
   return "  " + word + ": {" + word + ": " + what + "}\n";
 }
@@ -88,9 +91,11 @@ TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {
     EXPECT_TRUE(std::isfinite(x)) << a.columns[k].name;
     EXPECT_NEAR(x, y, 1e-8 * (1.0 + std::abs(x))) << a.columns[k].name;
     // Rotations begin at the design orientation.
-    const bool begins_at_zero = a.columns[k].name.starts_with("rotation") ||
-                                a.columns[k].name.starts_with("joint_position") ||
-                                a.columns[k].name.starts_with("projection_impulse");
+    const bool begins_at_zero =
+        a.columns[k].name.starts_with("rotation") ||
+        a.columns[k].name.starts_with("joint_position") ||
+        (a.columns[k].name.starts_with("quaternion") && a.columns[k].name != "quaternion.w") ||
+        a.columns[k].name.starts_with("projection_impulse");
     // Across a bar there is no stress.
     if (!a.columns[k].name.starts_with("stress.")) {
       const bool zero = begins_at_zero ? std::abs(x) < 1e-12 : x == 0.0;

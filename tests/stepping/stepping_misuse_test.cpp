@@ -211,7 +211,9 @@ TEST(SteppingMisuse, StatesOfOtherSimulations) {
       [](Model& m) { m.elements[0].laws[0] = PiecewisePolynomial::linear(3.0000001, 0.0); },
       [](Model& m) { m.inputs[0].high = 51.0; },
       [](Model& m) { m.outputs.pop_back(); },
-      [](Model& m) { m.elements[m.joints[0].motion].signals[0].function.phase = 0.1; },
+      [](Model& m) {
+        m.elements[m.joints[0].motion].signals[0].function.sines.emplace_back().phase = 0.1;
+      },
       [](Model& m) { m.bodies[0].length *= 2.0; },
       [](Model& m) { m.markers[0].X_NM.p.x() += 1e-9; }};
   for (const auto& change : changes) {

@@ -82,11 +82,8 @@ TimeFunction MechanismBuilder::time_function(double scale) {
     default:
       break;
   }
-  if (chance(0.4)) {
-    f.amplitude = scale;
-    f.frequency = random(0.5, 4.0);
-    f.phase = random(-3.0, 3.0);
-  }
+  if (chance(0.4))
+    f.sines = {{.amplitude = scale, .frequency = random(0.5, 4.0), .phase = random(-3.0, 3.0)}};
   return f;
 }
 
@@ -105,9 +102,9 @@ TimeFunction MechanismBuilder::motion() {
       break;
     }
     default:
-      f.amplitude = random(0.05, 0.15);
-      f.frequency = random(0.5, 2.0);
-      f.phase = random(-1.0, 1.0);
+      f.sines = {{.amplitude = random(0.05, 0.15),
+                  .frequency = random(0.5, 2.0),
+                  .phase = random(-1.0, 1.0)}};
   }
   return f;
 }

@@ -27,8 +27,10 @@ std::string text(const PiecewisePolynomial& p) {
   return s;
 }
 std::string text(const TimeFunction& f) {
-  return fmt::format("{} + {:.6g} sin(2 pi {:.6g} t + {:.6g})", text(f.pieces), f.amplitude,
-                     f.frequency, f.phase);
+  std::string s = text(f.pieces);
+  for (const SineTerm& x : f.sines)
+    s += fmt::format(" + {:.6g} sin(2 pi {:.6g} t + {:.6g})", x.amplitude, x.frequency, x.phase);
+  return s;
 }
 std::string text(const SignalDescription& s) {
   std::string all = text(static_cast<const TimeFunction&>(s));
@@ -97,7 +99,7 @@ std::string text(const ElementDescription& f) {
 }
 
 bool moves(const TimeFunction& f) {
-  return f.amplitude != 0.0 || f.pieces.pieces().size() > 1 ||
+  return !f.sines.empty() || f.pieces.pieces().size() > 1 ||
          f.pieces.pieces()[0].coefficients.size() > 1;
 }
 bool acts(const PiecewisePolynomial& law) {

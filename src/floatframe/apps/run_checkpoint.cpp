@@ -13,7 +13,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::string_view checkpoint_magic = "ffcheck\n";
-constexpr std::uint64_t checkpoint_version = 2;
+constexpr std::uint64_t checkpoint_version = 3;
 constexpr std::size_t checkpoint_sum_size = 32;
 
 std::string_view text_of(std::span<const std::byte> bytes) {

@@ -3,8 +3,10 @@
 // outputs are attached to and driven by.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formulas/formula.hpp"
 #include "floatframe/math/piecewise_polynomial.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -21,11 +23,23 @@ struct AttachmentDescription {
   Origin origin;
 };
 
-/// A function of time: offset polynomial pieces plus a sine: f = pieces(t) + amplitude sin(2 pi
-/// frequency t + phase).
+/// A sine, or a chirp if it has a rate: with s = t - start and c = s within [0, duration],
+///   amplitude sin(2 pi (frequency s + rate c (s - c / 2)) + phase)
+/// Its frequency goes from `frequency` at the start to `frequency + rate duration`, and is constant
+/// before and after.
+struct SineTerm {
+  double amplitude = 0.0, frequency = 0.0, phase = 0.0;  ///< [-, Hz, rad]
+  double rate = 0.0, start = 0.0, duration = 0.0;        ///< [Hz/s, s, s]
+};
+
+/// A function of time: polynomial pieces plus sines. With a period the pieces between their first
+/// break and a period later repeat, before and after.
 struct TimeFunction {
   PiecewisePolynomial pieces;
-  double amplitude = 0.0, frequency = 0.0, phase = 0.0;
+  std::vector<SineTerm> sines = {};
+  double period = 0.0;  ///< of the pieces; 0: none [s]
+  /// Added: of the time `t`; of a signal also of measures, inputs and results of elements.
+  SharedFormula formula = {};
 };
 
 /// A result of an element that is a signal: of a force element its force, length or rate, or of a

@@ -180,6 +180,12 @@ struct GaugeDescription {
   bool inertia_loads = true;      ///< false: by the modes alone
 };
 
+/// A frame on a body with the axes of the world in the design configuration: at a point or a node,
+/// or, without `place`, that of the body itself, which no mode moves.
+struct ReferenceDescription : AttachmentDescription {
+  bool place = false;
+};
+
 struct OutputDescription {
   std::string name;  ///< column title without the unit
   OutputType type = OutputType::position;
@@ -189,8 +195,14 @@ struct OutputDescription {
   bool rod = false;          ///< a reaction of a rod
   bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod
   OutputAxes in = OutputAxes::world;  ///< of a reaction; of a place: `to`
+  bool whole = false;                 ///< a quantity of all bodies together, not of `at.body`
+  /// The frame that a motion is relative to, and the axes of its components; absent: the world, and
+  /// the axes of `relative`.
+  std::optional<ReferenceDescription> relative, axes;
+  std::string unit;  ///< of the column: of `output_units`, or any text for a formula
   int component = 0;
   GaugeDescription gauge;
+  SharedFormula formula;
   Origin origin;
 };
 
@@ -279,6 +291,7 @@ struct ModelDescription {
   std::vector<RoadDescription> roads;
   std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
+  std::vector<OutputDescription> measures;  ///< of formulas; no columns
   /// Initial modal amplitudes and their rates by body name.
   std::map<std::string, VecX> amplitudes, amplitude_rates;
   SimulationDescription simulation;

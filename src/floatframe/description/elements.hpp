@@ -190,6 +190,11 @@ struct Pid {
   std::optional<double> unwind;
 };
 
+/// The value of a formula of measures, inputs, results of elements and the time.
+struct FormulaValue {
+  SharedFormula formula;
+};
+
 /// What the states of a linear block are at a start that gives none: those at rest for its inputs
 /// there, zero if it has a pole at 0; or zero.
 enum class BlockStart { rest, zero };
@@ -268,6 +273,7 @@ struct Hysteresis {
   entry(coupling, Coupling)             \
   entry(force_law, ForceLaw)            \
   entry(pid, Pid)                       \
+  entry(formula, FormulaValue)          \
   entry(transfer_function, TransferFunction) \
   entry(state_space, StateSpaceBlock)   \
   entry(integrator, LimitedIntegral)    \

@@ -5,6 +5,10 @@
 #include <atomic>
 #include <random>
 
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -22,5 +26,33 @@ std::string unique_identity() {
 
 ForceFunction::ForceFunction(Law law, std::string label, int)
     : law_(std::move(law)), identity_(label.empty() ? unique_identity() : std::move(label)) {}
+
+ForceFunction ForceFunction::of(const SharedFormula& formula) {
+  using Variable = DualNumber<2>;  // by x and v
+  std::vector<char> of_reference;
+  for (const FormulaReference& r : formula->references) {
+    const bool is_known = r.is_time() || (r.function.empty() && (r.name == "x" || r.name == "v"));
+    if (!is_known) throw InputError(ErrorCode::not_found, sentences::formula_of_law(r.name));
+    of_reference.push_back(r.name[0]);
+  }
+  ForceFunction out(
+      [formula, of_reference](double x, double v, double t) -> ForceLawValue {
+        FormulaSwitches switches;
+        FormulaFault fault;
+        const Variable y = evaluate_formula<Variable>(
+            *formula,
+            [&](int i) -> Variable {
+              const char name = of_reference[i];
+              return name == 'x'   ? Variable::variable(x, 0)
+                     : name == 'v' ? Variable::variable(v, 1)
+                                   : Variable(t);
+            },
+            switches, fault);
+        return {y.v, y.d[0], y.d[1]};
+      },
+      "formula " + formula->text);
+  out.formula_ = formula;
+  return out;
+}
 
 }  // namespace floatframe

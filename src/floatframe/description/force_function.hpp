@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "floatframe/formulas/formula.hpp"
+
 namespace floatframe {
 
 /// What such a function returns: the force, and its derivatives if it knows both.
@@ -35,6 +37,12 @@ class ForceFunction {
   /// A name in a model file, in place of a function that a program is to give.
   static ForceFunction named(std::string name) { return {nullptr, std::move(name), 0}; }
 
+  /// By a formula of x, v and t, with its exact derivatives; two with the same text are the same
+  /// function. InputError if it refers to anything else.
+  static ForceFunction of(const SharedFormula& formula);
+  /// nullptr: it has none.
+  const SharedFormula& formula() const noexcept { return formula_; }
+
   explicit operator bool() const noexcept { return law_ != nullptr; }
   ForceLawValue operator()(double x, double v, double t) const { return law_(x, v, t); }
   /// The label, or a text that no other function has.
@@ -43,6 +51,7 @@ class ForceFunction {
  private:
   ForceFunction(Law law, std::string label, int);
   Law law_;
+  SharedFormula formula_;
   std::string identity_;
 };
 

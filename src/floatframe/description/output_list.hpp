@@ -35,7 +35,16 @@
   entry(strain)                   \
   entry(section_force)            \
   entry(coupling_force)           \
-  entry(controller)
+  entry(controller)               \
+  entry(quaternion)               \
+  entry(distance_rate)            \
+  entry(elastic_displacement)     \
+  entry(elastic_rotation)         \
+  entry(centre_of_mass)           \
+  entry(momentum)                 \
+  entry(angular_momentum)         \
+  entry(state)                    \
+  entry(formula)
 // clang-format on
 
 namespace floatframe {

@@ -14,6 +14,7 @@ inline constexpr const char* input_uses[] = {"held", "ramp"};
 inline constexpr const char* axes[] = {"x", "y", "z"};
 inline constexpr const char* reaction_axes[] = {"world", "parent", "child", "place"};
 inline constexpr const char* shell_layers[] = {"top", "bottom"};
+inline constexpr const char* quaternion[] = {"w", "x", "y", "z"};
 inline constexpr const char* angles[] = {"roll", "pitch", "yaw"};
 
 // Bodies.
@@ -43,6 +44,9 @@ inline constexpr NumberRule snap_distance{"a part of the size of the loops from 
 
 // Forces and roads.
 inline constexpr NumberRule sine_frequency = positive_number("Hz");
+inline constexpr NumberRule chirp_frequency = non_negative_number("Hz");
+inline constexpr NumberRule chirp_duration = positive_number("s");
+inline constexpr NumberRule period = positive_number("s");
 inline constexpr NumberRule rod_length = positive_number("m");
 inline constexpr NumberRule tyre_radius = positive_number("m");
 inline constexpr NumberRule tyre_stiffness = positive_number("N/m");

@@ -240,6 +240,78 @@ std::string element_without(const std::string& type, SignalSource source) {
          signal_source_words[index_of(source)];
 }
 
+std::string missing_formula() { return "found no formula, expected one"; }
+
+std::string formula_not_of_time(const Formula& formula) {
+  for (const FormulaReference& r : formula.references)
+    if (!r.is_time())
+      return "found '" + (r.function.empty() ? r.name : r.function + "(" + r.name + ")") +
+             "' in the formula of a motion, expected the time t alone";
+  return "";
+}
+
+std::string formula_and_source(SignalSource source) {
+  return std::string("excludes '") + signal_source_words[index_of(source)] +
+         "'; a formula may refer to it";
+}
+
+std::string formula_name(const std::string& name) {
+  return "found '" + name + "', expected t or the name of an input, a measure or an output";
+}
+
+std::string formula_function(const std::string& name) {
+  return "found the function '" + name +
+         "', expected one of the language, `angle`, `rate` or the word of an output";
+}
+
+std::string no_such_entity(const std::string& function, const char* kind, const std::string& name) {
+  return "found " + function + "(" + name + "), expected the name of a " + kind;
+}
+
+std::string rate_of_two(const std::string& name) {
+  return "found rate(" + name + ") of a joint and a force of this name, expected joint_velocity(" +
+         name + ") or a measure {rate: " + name + "}";
+}
+
+std::string named_measures_only(const std::string& function) {
+  return "found the function '" + function +
+         "', expected the name of an entry of 'measures' or "
+         "'outputs' with this quantity";
+}
+
+std::string formula_component(const std::string& function, const std::string& found,
+                              std::span<const char* const> words) {
+  return (found.empty() ? "found no second argument of " : "found '" + found + "' in ") + function +
+         ", expected one of " + alternatives(words);
+}
+
+std::string one_argument(const std::string& function) {
+  return "found two arguments of " + function + ", expected one";
+}
+
+std::string formula_coordinate(const std::string& joint, const std::string& found, int count) {
+  if (count == 0) return "found joint '" + joint + "', expected one that moves";
+  return (found.empty() ? "found no coordinate" : "found the coordinate '" + found + "'") +
+         " of joint '" + joint + "', expected its number from 1 to " + std::to_string(count);
+}
+
+std::string formula_of_a_formula(const std::string& name) {
+  return "found '" + name +
+         "', an output with a formula; expected a controller of type formula, "
+         "which formulas may refer to";
+}
+
+std::string formula_of_law(const std::string& name) {
+  return "found '" + name + "', expected x, v, t, numbers and parameters in the formula of a law";
+}
+
+std::string ring_of_signals(const std::vector<std::string>& elements) {
+  std::string ring;
+  for (const std::string& element : elements) ring += element + " -> ";
+  return "found a ring of signals without a state, " + ring + elements.front() +
+         ": expected a state in it, for example a controller with 'integral'";
+}
+
 Complaint bearing_stiffness(const MatX& K) {
   if (K.rows() < 6 || (K.row(5).isZero(0.0) && K.col(5).isZero(0.0))) return std::nullopt;
   return "found numbers in the sixth row or column, expected zeros: a bearing lets the shaft turn "
@@ -276,17 +348,6 @@ std::string not_used_by_joint(const std::string& type) {
   return "is not used by a " + type + " joint; remove this key";
 }
 
-std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f) {
-  const JumpReport r = largest_jump(f);
-  if (r.continuous()) return std::nullopt;
-  const double x = f.breaks()[r.at];
-  return std::make_pair(r.at, "the law jumps from " + number_text(f.piece_value(r.at, x).f) +
-                                  " to " + number_text(f.piece_value(r.at + 1, x).f) + " at " +
-                                  number_text(x) +
-                                  ", expected pieces that meet within 1e-6 of the range of the "
-                                  "law");
-}
-
 Complaint unit(const std::string& unit) {
   const bool plain = std::all_of(unit.begin(), unit.end(), [](unsigned char c) {
     return c >= ' ' && c != '"' && c != ',' && c != '[' && c != ']' && c != 127;
@@ -312,47 +373,6 @@ Complaint input_initial(double initial, const std::optional<double>& low,
   return "found " + number_text(initial) + ", expected a number " +
          (low && initial < *low ? "not below min, " + number_text(*low)
                                 : "not above max, " + number_text(*high));
-}
-
-std::string number_of(const char* what, int component, int n, bool from_file) {
-  const int first = from_file ? 1 : 0;
-  return "found " + std::to_string(static_cast<long>(component) + first) + ", expected " +
-         WholeNumberRule{what, first, n - 1 + first}.expectation();
-}
-
-std::string weld_does_not_move() { return "found a weld, expected a joint that moves"; }
-
-std::string joint_without_motion() {
-  return "found a joint that moves freely, expected one with a prescribed motion";
-}
-
-std::string rod_has_no_axes() {
-  return "a rod has no axes of its own, expected world or a place {body, at}";
-}
-
-std::string force_without_point() {
-  return "a force is the same about every point, expected it with joint_torque only";
-}
-
-std::string load_without(const std::string& type, const std::string& quantity) {
-  return "a " + type + " has no " + quantity + ", expected another force element";
-}
-
-Complaint column_name(const std::string& name) {
-  if (name.empty()) return "found an empty name, expected a column name";
-  if (name.size() > rules::column_length)
-    return "found a name of " + std::to_string(name.size()) + " characters, expected at most " +
-           std::to_string(rules::column_length);
-  if (name.find_first_of(",\"[]") == std::string::npos && printable(name) == name)
-    return std::nullopt;
-  return "expected a column name without commas, quotes, brackets and control characters";
-}
-
-Complaint column_taken(const std::string& name, bool exists) {
-  if (name == "time")
-    return "found the column 'time', the name of the first column, expected another";
-  if (exists) return "the column '" + name + "' exists already";
-  return std::nullopt;
 }
 
 Complaint model_name(const std::string& name) {

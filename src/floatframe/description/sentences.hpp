@@ -58,6 +58,26 @@ std::string one_source(SignalSource first);
 /// A signal of an element that has no such result, for example the length of a load.
 std::string element_without(const std::string& type, SignalSource source);
 /// Elements whose forces depend on each other at once, in order.
+std::string missing_formula();
+/// A motion has another reference than the time.
+std::string formula_not_of_time(const Formula& formula);
+std::string formula_and_source(SignalSource source);
+/// What a formula refers to is not there; a suggestion follows.
+std::string formula_name(const std::string& name);
+std::string formula_function(const std::string& name);
+std::string no_such_entity(const std::string& function, const char* kind, const std::string& name);
+/// `rate` of a joint and a force of one name.
+std::string rate_of_two(const std::string& name);
+/// Outputs of more than one place or component.
+std::string named_measures_only(const std::string& function);
+std::string formula_component(const std::string& function, const std::string& found,
+                              std::span<const char* const> words);
+std::string one_argument(const std::string& function);
+std::string formula_coordinate(const std::string& joint, const std::string& found, int count);
+/// An output with a formula cannot be one of its references.
+std::string formula_of_a_formula(const std::string& name);
+/// Of a force law: another reference than x, v and t.
+std::string formula_of_law(const std::string& name);
 std::string ring_of_signals(const std::vector<std::string>& elements);
 Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);
@@ -101,6 +121,8 @@ std::string motion_and_start_value();
 std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);
+/// Of a function of time, which has one.
+Complaint period(const TimeFunction& f, bool may_jump);
 /// The piece at whose beginning the law jumps, and the sentence.
 std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f);
 
@@ -116,9 +138,12 @@ std::string number_of(const char* what, int component, int n, bool from_file);
 std::string weld_does_not_move();
 /// For the force or torque of a motor.
 std::string joint_without_motion();
+std::string without_mass(bool whole);
+std::string without_axes(const std::string& quantity);
+std::string without_reference(const std::string& quantity);
 std::string rod_has_no_axes();
 std::string force_without_point();
-/// A prescribed force or torque has no length and no rate.
+/// A prescribed force or torque has no length and no rate, and most elements no state.
 std::string load_without(const std::string& type, const std::string& quantity);
 Complaint column_name(const std::string& name);
 /// For the whole name of a column: it already exists (`exists`), or is that of the time.

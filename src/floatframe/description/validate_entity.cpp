@@ -161,11 +161,29 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
 }
 
 void Entity::function(const std::string& key, const TimeFunction& f, bool may_jump) const {
+  if (f.formula && !may_jump && !f.formula->is_of_time())
+    error(ErrorCode::wrong_value, key, sentences::formula_not_of_time(*f.formula));
   pieces(key, f.pieces, may_jump);
-  number(key + ".sine.amplitude", f.amplitude, any_number(""));
-  number(key + ".sine.phase", f.phase, any_number("rad"));
-  const bool sine = f.amplitude != 0.0;
-  number(key + ".sine.frequency", f.frequency, sine ? rules::sine_frequency : any_number("Hz"));
+  if (f.period != 0.0 && number(key + ".period", f.period, rules::period))
+    if (const auto text = sentences::period(f, may_jump))
+      error(ErrorCode::contradiction, key + ".period", *text);
+  for (std::size_t k = 0; k < f.sines.size(); ++k) {
+    const SineTerm& s = f.sines[k];
+    const bool chirp = s.rate != 0.0 || s.duration != 0.0;
+    const std::string name = chirp ? ".chirp" : ".sine";
+    const std::string sine =
+        key + (f.sines.size() == 1 ? name : indexed(name, static_cast<Eigen::Index>(k)));
+    number(sine + ".amplitude", s.amplitude, any_number(""));
+    number(sine + ".phase", s.phase, any_number("rad"));
+    number(sine + ".start", s.start, any_number("s"));
+    const NumberRule& frequency = chirp ? rules::chirp_frequency : rules::sine_frequency;
+    number(sine + (chirp ? ".from" : ".frequency"), s.frequency,
+           s.amplitude != 0.0 ? frequency : any_number("Hz"));
+    if (!chirp) continue;
+    if (!number(sine + ".duration", s.duration, rules::chirp_duration)) continue;
+    const double to = s.frequency + s.rate * s.duration;
+    number(sine + ".to", std::abs(to) < 1e-9 * s.frequency ? 0.0 : to, frequency);
+  }
 }
 
 void Entity::signal(const std::string& key, const SignalDescription& s, const Names& names) const {
@@ -173,6 +191,8 @@ void Entity::signal(const std::string& key, const SignalDescription& s, const Na
   if (!s.input.empty()) reference(key + ".input", "input", s.input, names.inputs);
   if (!word(key + ".source", s.source, signal_source_words)) return;
   if (s.source == SignalSource::none) return;
+  if (s.formula && !s.formula->is_of_time())
+    error(ErrorCode::exclusive, key, sentences::formula_and_source(s.source));
   const bool controller = s.source == SignalSource::controller;
   const std::string source = key + "." + signal_source_words[index_of(s.source)];
   reference(source, controller ? "controller" : "force", s.element,

@@ -113,6 +113,7 @@ class AbsoluteFormulation final : public Formulation {
   void fill_poses(SystemMotion& motion) const noexcept override;
   void fill_accelerations(SystemMotion& motion) const noexcept override;
   double body_kinetic_energy(int body) const noexcept override;
+  void fill_momenta(int body, BodyKinematics& x) const noexcept override;
   const BodyInertia& inertia(int body) const noexcept override { return terms_[body].inertia; }
   void add_constraint_forces(const VecX& w, VecX& out) const noexcept;
 

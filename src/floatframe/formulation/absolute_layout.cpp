@@ -62,7 +62,7 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
   std::size_t most_markers = 2;
   for (const Element& e : model_.elements) {
     most_markers = std::max(most_markers, e.markers.size());
-    for (std::size_t i = 0; i < e.markers.size(); ++i)
+    for (std::size_t i = 0; !e.reads && i < e.markers.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) couple(e.markers[j], e.markers[i]);
   }
   std::vector<int> rows(bodies_.size(), 0), on_ground = rows;

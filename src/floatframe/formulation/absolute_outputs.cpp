@@ -24,8 +24,11 @@ void AbsoluteFormulation::fill_accelerations(SystemMotion& motion) const noexcep
     for (int c = 0; c < 3; ++c)  // of (4): Adot x Adot is zero
       x.alpha_WB += 0.5 * b.A.col(c).cross(a.segment<3>(b.axis(c)));
   }
-  for (std::size_t k = 0; k < motion.markers.size(); ++k)
-    motion.marker_accelerations[k] = kinematics_.point_acceleration(static_cast<int>(k));
+  for (std::size_t k = 0; k < motion.markers.size(); ++k) {
+    const int marker = static_cast<int>(k);
+    motion.marker_accelerations[k] = kinematics_.point_acceleration(marker);
+    motion.marker_angular_accelerations[k] = kinematics_.acceleration_of(marker).angular;
+  }
 }
 
 double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
@@ -38,6 +41,20 @@ double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
   for (Eigen::Index k = 0; k < M.cols(); ++k)
     for (Eigen::Index l = 0; l < M.rows(); ++l) sum += 0.5 * rate(k) * M(l, k) * rate(l);
   return sum;
+}
+
+void AbsoluteFormulation::fill_momenta(int i, BodyKinematics& x) const noexcept {
+  const AbsoluteBody& b = kinematics_.bodies()[i];
+  const MatX& M = terms_[i].M;
+  const auto momentum = [&](Eigen::Index k) {  // of the coordinates k to k + 2
+    Vec3 h = M.block<3, 3>(k, 0) * b.v_WB;
+    for (int c = 0; c < 3; ++c) h += M.block<3, 3>(k, 3 + 3 * c) * b.Adot.col(c);
+    for (int j = 0; j < b.nm; ++j) h += M.block<3, 1>(k, 12 + j) * b.yd[j];
+    return h;
+  };
+  x.momentum = momentum(0);
+  x.angular_momentum = x.p_WB.cross(x.momentum);
+  for (int c = 0; c < 3; ++c) x.angular_momentum += b.A.col(c).cross(momentum(3 + 3 * c));
 }
 
 double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {

@@ -69,7 +69,7 @@ void ClusterTangent::make_elements() {
     part_elements_.push_back(std::move(e));
   }
   for (const Element& element : tree_.model().elements) {
-    if (!element.acts) {
+    if (!element.exerts()) {
       force_elements_.emplace_back();
       continue;
     }

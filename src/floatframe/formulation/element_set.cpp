@@ -21,10 +21,13 @@ ElementSet::ElementSet(const Model& model)
       slots.push_back(c.counted ? static_cast<int>(angles_.size()) : -1);
       if (c.counted) angles_.push_back(0.0);
     }
+    const auto counted =
+        std::find_if(slots.begin(), slots.end(), [](int slot) { return slot >= 0; });
+    first_slot_.push_back(counted == slots.end() ? -1 : *counted);
   }
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     if (model.elements[k].acts) acting_.push_back(k);
-    for (std::size_t i = 0; i < states_[k].markers(); ++i)
+    for (std::size_t i = 0; model.elements[k].exerts() && i < states_[k].markers(); ++i)
       wrenches_.emplace_back(model.elements[k].markers[i], &states_[k].wrench[i]);
   }
   kept_angles_ = angles_;

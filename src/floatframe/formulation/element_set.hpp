@@ -76,10 +76,20 @@ class ElementSet {
   void connect(const std::vector<const MarkerState*>& markers);
   /// What element k acts on, with positions from `p_WO`.
   Ports ports(std::size_t k, const Vec3& p_WO, double t) const noexcept {
-    const int at = slot(k, 0);
+    const int at = first_slot_[k];
     const double angle = at < 0 ? 0.0 : angles_[at];
-    return {model_,       model_.elements[k], markers_[k].data(), p_WO,         t, angle, inputs_,
-            branches_[k], z_.of(k),           z_.weight(),        links_.data()};
+    return {model_,
+            model_.elements[k],
+            markers_[k].data(),
+            p_WO,
+            t,
+            angle,
+            inputs_,
+            branches_[k],
+            z_.of(k),
+            z_.weight(),
+            links_.data(),
+            at < 0 ? nullptr : &angles_[at]};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }
@@ -159,8 +169,18 @@ class ElementSet {
       evaluate_element(in, states_[k]);
     took(k);
   }
+  /// The angles of the element are continued from the present ones.
+  void take_angles(std::size_t k) noexcept {
+    if (!model_.elements[k].reads) return set_angle(first_slot_[k], states_[k].length);
+    for (std::size_t i = 0; i < slots_[k].size(); ++i) {
+      if (slots_[k][i] < 0) continue;
+      const int port = model_.elements[k].coordinates[i].port;
+      double& angle = angles_[slots_[k][i]];
+      angle = angle_about_z<double>(*markers_[k][port], *markers_[k][port + 1], angle);
+    }
+  }
   void took(std::size_t k) noexcept {
-    set_angle(slot(k, 0), states_[k].length);
+    take_angles(k);
     if (states_[k].thrown && thrown_.element < 0)
       thrown_ = {static_cast<int>(k), states_[k].thrown};
   }
@@ -169,7 +189,7 @@ class ElementSet {
   void measure(const PortsAt& ports_at) noexcept {
     for (const std::size_t k : order_.measured) {
       evaluate_element(ports_at(k), states_[k]);
-      set_angle(slot(k, 0), states_[k].length);
+      take_angles(k);
       publish(k);
     }
   }
@@ -214,6 +234,7 @@ class ElementSet {
   const Model& model_;
   std::vector<Efforts> states_;
   std::vector<std::vector<int>> slots_;  ///< of the coordinates of each element in `angles_`
+  std::vector<int> first_slot_;          ///< of each element: of its first angle; -1: none
   std::vector<HeldAngle> held_angles_;
   std::vector<double> angles_;       ///< select the turn of the next evaluation [rad]
   std::vector<double> kept_angles_;  ///< those at the beginning of the step

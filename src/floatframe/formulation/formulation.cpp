@@ -23,6 +23,7 @@ Formulation::Formulation(const Model& model, const std::vector<int>& constrained
         motion_.counted.push_back(
             {c.joint, c.component, element_set_.angle(element_set_.slot(k, i))});
   motion_.efforts = element_set_.states().data();
+  motion_.inputs = element_set_.inputs();
   for (std::size_t k = 0; k < model.elements.size(); ++k)
     motion_.states.push_back(element_set_.element_states().of(k));
   motion_.bodies.reserve(model.bodies.size());
@@ -72,17 +73,19 @@ const SystemMotion& Formulation::motion(MotionNeeds needs,
     BodyKinematics& b = motion_.bodies[i];
     const int body = static_cast<int>(i);
     b.kinetic_energy = body_kinetic_energy(body);
-    b.gravity_energy = gravity_energy(body, b);
+    b.first_moment = first_moment(body, b);
+    b.gravity_energy = -model_.gravity.dot(b.first_moment);
+    fill_momenta(body, b);
     b.elastic_energy = elastic_energy(model_.bodies[i], b);
   }
   return motion_;
 }
 
-double Formulation::gravity_energy(int body, const BodyKinematics& b) const noexcept {
+Vec3 Formulation::first_moment(int body, const BodyKinematics& b) const noexcept {
   assert(is_index(body, model_.bodies) && b.y.size() == model_.bodies[body].modes());
   const BodyInertia& terms = inertia(body);
   const Vec3 m_bar = terms.static_moment(b.y.data());
-  return -model_.gravity.dot(terms.data().m * b.p_WB + b.R_WB * m_bar);
+  return terms.data().m * b.p_WB + b.R_WB * m_bar;
 }
 
 double Formulation::gravity_energy() const noexcept {
@@ -90,7 +93,7 @@ double Formulation::gravity_energy() const noexcept {
   fill_poses(motion_);
   double sum = 0.0;
   for (std::size_t i = 0; i < motion_.bodies.size(); ++i)
-    sum += gravity_energy(static_cast<int>(i), motion_.bodies[i]);
+    sum -= model_.gravity.dot(first_moment(static_cast<int>(i), motion_.bodies[i]));
   return sum;
 }
 

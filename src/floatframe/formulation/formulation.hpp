@@ -75,8 +75,12 @@ class Formulation {
   }
   /// What an element acts on at the present positions and velocities.
   virtual Ports ports(std::size_t element) const noexcept = 0;
-  BranchSide branch_side(std::size_t element) noexcept {
+  /// Signals between elements at the present positions and velocities.
+  void find_links() noexcept {
     element_set_.find_links([this](std::size_t k) { return ports(k); });
+  }
+  BranchSide branch_side(std::size_t element) noexcept {
+    find_links();
     return floatframe::branch_side(ports(element));
   }
   /// By the function of an element, since the beginning of the last step.
@@ -180,8 +184,10 @@ class Formulation {
   virtual void fill_accelerations(SystemMotion& motion) const noexcept = 0;
   /// After `dynamics`.
   virtual double body_kinetic_energy(int body) const noexcept = 0;
+  /// Of `fill_poses`; the same.
+  virtual void fill_momenta(int body, BodyKinematics& b) const noexcept = 0;
   virtual const BodyInertia& inertia(int body) const noexcept = 0;
-  double gravity_energy(int body, const BodyKinematics& b) const noexcept;
+  Vec3 first_moment(int body, const BodyKinematics& b) const noexcept;
 
   SignalTangent signal_tangent_;
   mutable SystemMotion motion_;  ///< filled when it is asked for

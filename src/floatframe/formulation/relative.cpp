@@ -16,7 +16,7 @@ std::vector<Cluster> number(TreeKinematics& tree, ConstraintSet& constraints) {
   std::vector<std::vector<int>> ties;
   for (const ConstraintPart& p : constraints.parts()) ties.push_back({p.a, p.b});
   for (const Element& e : tree.model().elements)
-    if (bodies_of(tree, e.markers).size() > 1) ties.push_back(e.markers);
+    if (!e.reads && bodies_of(tree, e.markers).size() > 1) ties.push_back(e.markers);
   std::vector<Cluster> clusters = find_clusters(tree, ties);
   number_coordinates(tree, clusters);
   constraints.number_rows(0);

@@ -126,6 +126,7 @@ class RelativeFormulation final : public Formulation {
   void fill_poses(SystemMotion& motion) const noexcept override;
   void fill_accelerations(SystemMotion& motion) const noexcept override;
   double body_kinetic_energy(int body) const noexcept override;
+  void fill_momenta(int body, BodyKinematics& x) const noexcept override;
   const BodyInertia& inertia(int body) const noexcept override { return terms_[body].inertia; }
 
   /// An angle of a tree joint that elements count: its place in those of `element_set_` and in q.

@@ -25,8 +25,11 @@ void RelativeFormulation::fill_accelerations(SystemMotion& motion) const noexcep
     x.a_WB = z.head<3>() + x.alpha_WB.cross(b.p_OB) + b.w_WB.cross(b.w_WB.cross(b.p_OB)) +
              model_.gravity;
   }
-  for (std::size_t k = 0; k < motion.markers.size(); ++k)
-    motion.marker_accelerations[k] = tree_.acceleration_in_world(static_cast<int>(k)).linear;
+  for (std::size_t k = 0; k < motion.markers.size(); ++k) {
+    const PointMotion x = tree_.acceleration_in_world(static_cast<int>(k));
+    motion.marker_accelerations[k] = x.linear;
+    motion.marker_angular_accelerations[k] = x.angular;
+  }
 }
 
 double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
@@ -37,6 +40,15 @@ double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
   for (Eigen::Index k = 0; k < M.cols(); ++k)
     for (Eigen::Index l = 0; l < M.rows(); ++l) sum += 0.5 * z(k) * M(l, k) * z(l);
   return sum;
+}
+
+void RelativeFormulation::fill_momenta(int i, BodyKinematics& x) const noexcept {
+  const TreeBody& b = tree_.body(i);
+  const MatX& M = terms_[i].M;
+  Vec6 h = M.topLeftCorner<6, 6>() * b.Z;  // the second half about the origin of the markers
+  for (int j = 0; j < b.nm; ++j) h += M.block<6, 1>(0, 6 + j) * b.yd[j];
+  x.momentum = h.head<3>();
+  x.angular_momentum = h.tail<3>() + tree_.origin().cross(x.momentum);
 }
 
 VecX RelativeFormulation::mass_diagonal() const {

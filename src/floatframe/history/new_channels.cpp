@@ -28,18 +28,15 @@ class RecordedParts {
                          "expected an output of its model file",
                          output.name));
     if (history_.header().complete()) return;
-    if (output_kind(output.type).needs_of_motion.reactions)
-      refuse(
-          ErrorCode::missing, history_,
-          fmt::format("output '{}': reactions need the states of all bodies, found those of some",
-                      output.name));
-    marker(output, output.marker);
-    marker(output, output.to);
+    const OutputKind& kind = output_kind(output.type);
+    const bool whole = kind.of == OutputOf::mass && output.body < 0;
+    if (kind.needs_of_motion.reactions || whole)
+      refuse(ErrorCode::missing, history_,
+             fmt::format("output '{}': {} need the states of all bodies, found those of some",
+                         output.name, whole ? "quantities of the model" : "reactions"));
+    for (const int m : {output.marker, output.to, output.relative, output.axes}) marker(output, m);
+    for (const int m : measure_markers(model_, output)) marker(output, m);
     body(output, output.body);
-    if (output.joint >= 0) {
-      marker(output, model_.joints[output.joint].frame_F);
-      marker(output, model_.joints[output.joint].frame_M);
-    }
     if (output.element >= 0)
       for (const int port : model_.elements[output.element].markers) marker(output, port);
   }

@@ -32,7 +32,7 @@ ExcitedSystem::ExcitedSystem(InitialisedModel& started, std::vector<Output> outp
       f_(*own_),
       state_(started.state()),
       original_(started.model()),
-      followed_(model_.outputs.size()) {
+      followed_(followed_outputs(model_.outputs)) {
   f_.set_spring_angles(started.formulation().spring_angles());
   const std::span<const double> values = started.formulation().inputs();
   inputs_.assign(values.begin(), values.end());

@@ -17,6 +17,13 @@ double end_slope(double h0, double h1, double d0, double d1) {
   return s;
 }
 
+/// Between intervals of lengths h and slopes d; turning points are preserved.
+double inner_slope(double h0, double h1, double d0, double d1) {
+  if (d0 * d1 <= 0.0) return 0.0;
+  const double w1 = 2.0 * h1 + h0, w2 = h1 + 2.0 * h0;
+  return (w1 + w2) / (w1 / d0 + w2 / d1);
+}
+
 std::vector<double> pchip_slopes(const std::vector<TablePoint>& p) {
   const std::size_t n = p.size();
   std::vector<double> h(n - 1), d(n - 1), s(n);
@@ -27,11 +34,7 @@ std::vector<double> pchip_slopes(const std::vector<TablePoint>& p) {
   if (n == 2) return {d[0], d[0]};
   s[0] = end_slope(h[0], h[1], d[0], d[1]);
   s[n - 1] = end_slope(h[n - 2], h[n - 3], d[n - 2], d[n - 3]);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    if (d[i - 1] * d[i] <= 0.0) continue;  // turning points are preserved
-    const double w1 = 2.0 * h[i] + h[i - 1], w2 = h[i] + 2.0 * h[i - 1];
-    s[i] = (w1 + w2) / (w1 / d[i - 1] + w2 / d[i]);
-  }
+  for (std::size_t i = 1; i + 1 < n; ++i) s[i] = inner_slope(h[i - 1], h[i], d[i - 1], d[i]);
   return s;
 }
 
@@ -65,6 +68,13 @@ void require_ascending(const std::vector<TablePoint>& p, std::size_t least, bool
                                                      (jumps ? "below" : "not above") +
                                                      " the one before it, expected ascending x");
   }
+}
+
+/// At the joint of two periods: as between two intervals.
+double slope_across(const std::vector<TablePoint>& p) {
+  const std::size_t n = p.size();
+  const double h0 = p[n - 1].x - p[n - 2].x, h1 = p[1].x - p[0].x;
+  return inner_slope(h0, h1, (p[n - 1].f - p[n - 2].f) / h0, (p[1].f - p[0].f) / h1);
 }
 
 /// Slopes at points with x ascending; zero at the ends of a table with constant ends. Zero for a
@@ -112,7 +122,8 @@ PiecewisePolynomial table_function(const std::vector<TablePoint>& p, Interpolati
   return PiecewisePolynomial(std::move(breaks), std::move(pieces));
 }
 
-PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation interpolation) {
+PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation interpolation,
+                               double period) {
   require_ascending(p, 2, true);
   for (std::size_t i = 2; i < p.size(); ++i)
     if (p[i].x == p[i - 2].x)
@@ -120,6 +131,9 @@ PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation i
           ErrorCode::duplicate,
           "point " + std::to_string(i + 1) +
               " of a table: found the same x a third time, expected two points at a jump");
+  const bool full = period > 0.0 && fills_period(p.front().x, p.back().x, period);
+  const bool joined =
+      full && p.front().f == p.back().f && p[1].x > p[0].x && p[p.size() - 2].x < p.back().x;
   std::vector<double> breaks;
   std::vector<PiecewisePolynomial::Piece> pieces{{p.front().x, {p.front().f, 0.0}}};
   for (std::size_t from = 0; from < p.size();) {
@@ -129,7 +143,9 @@ PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation i
                                        p.begin() + static_cast<std::ptrdiff_t>(to));
     std::vector<double> slopes;
     if (interpolation == Interpolation::cubic)
-      slopes = table_slopes(side, from == 0, to == p.size());
+      slopes = table_slopes(side, from == 0 && !full, to == p.size() && !full);
+    if (joined && !slopes.empty() && from == 0) slopes.front() = slope_across(p);
+    if (joined && !slopes.empty() && to == p.size()) slopes.back() = slope_across(p);
     append_pieces(side, slopes, pieces);
     for (const TablePoint& q : side)
       if (breaks.empty() || q.x > breaks.back()) breaks.push_back(q.x);
@@ -151,6 +167,66 @@ PiecewisePolynomial profile_function(const std::vector<TablePoint>& p) {
   }
   pieces.push_back({p.back().x, {p.back().f}});
   return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+PiecewisePolynomial step_function(const std::vector<TablePoint>& p) {
+  require_ascending(p, 1, false);
+  std::vector<double> breaks;
+  std::vector<PiecewisePolynomial::Piece> pieces{{p.front().x, {0.0}}};
+  for (const TablePoint& q : p) {
+    breaks.push_back(q.x);
+    pieces.push_back({q.x, {q.f}});
+  }
+  return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+bool fills_period(double x0, double x1, double period) noexcept {
+  return std::abs(x1 - x0 - period) <= 1e-9 * period;
+}
+
+PiecewisePolynomial repeated(const PiecewisePolynomial& f, double period, double from, double to,
+                             std::size_t most) {
+  const std::vector<double>& b = f.breaks();
+  if (!(period > 0.0) || b.empty()) return f;
+  // Pieces 1 to `last`; the one behind the last break is within the period unless they fill it.
+  const std::size_t last = fills_period(b.front(), b.back(), period) ? b.size() - 1 : b.size();
+  std::vector<double> breaks;
+  std::vector<PiecewisePolynomial::Piece> pieces(1);
+  double n = std::floor((from - b.front()) / period);
+  for (; n * period + b.front() <= to; n += 1.0) {
+    for (std::size_t k = 1; k <= last; ++k) {
+      breaks.push_back(b[k - 1] + n * period);
+      pieces.push_back(f.pieces()[k]);
+      pieces.back().centre += n * period;
+    }
+    if (pieces.size() + last > most) break;
+  }
+  pieces.front() = f.pieces()[last];
+  pieces.front().centre = pieces[last].centre - period;
+  return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+PiecewisePolynomial integral(const PiecewisePolynomial& f, double x, double value) {
+  std::vector<PiecewisePolynomial::Piece> pieces = f.pieces();
+  for (PiecewisePolynomial::Piece& p : pieces) {
+    p.coefficients.insert(p.coefficients.begin(), 0.0);
+    for (std::size_t j = 2; j < p.coefficients.size(); ++j)
+      p.coefficients[j] /= static_cast<double>(j);
+  }
+  const std::vector<double>& b = f.breaks();
+  const auto at = [](const PiecewisePolynomial::Piece& p, double where) {
+    double sum = 0.0;
+    for (std::size_t j = p.coefficients.size(); j-- > 0;)
+      sum = sum * (where - p.centre) + p.coefficients[j];
+    return sum;
+  };
+  const std::size_t here = f.piece_index(x);
+  pieces[here].coefficients[0] = value - at(pieces[here], x);
+  for (std::size_t k = here; k < b.size(); ++k)
+    pieces[k + 1].coefficients[0] += at(pieces[k], b[k]) - at(pieces[k + 1], b[k]);
+  for (std::size_t k = here; k-- > 0;)
+    pieces[k].coefficients[0] += at(pieces[k + 1], b[k]) - at(pieces[k], b[k]);
+  return PiecewisePolynomial(b, std::move(pieces));
 }
 
 PiecewisePolynomial operator+(const PiecewisePolynomial& a, const PiecewisePolynomial& b) {

@@ -8,6 +8,7 @@
 // (docs/theory.md).
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/types.hpp"
@@ -84,14 +85,16 @@ inline Eigen::Quaterniond quaternion_exp(const Vec3& theta) noexcept {
   return Eigen::Quaterniond(std::cos(half), s * theta.x(), s * theta.y(), s * theta.z());
 }
 
-/// Rotation vector of a unit quaternion, length in [0, pi].
-inline Vec3 quaternion_log(const Eigen::Quaterniond& q) noexcept {
-  assert(is_unit(q));
-  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
-  const Vec3 v = sign * q.vec();
-  const double n = v.norm();
-  if (n < 1e-9) return 2.0 * v;
-  return 2.0 * std::atan2(n, sign * q.w()) / n * v;
+/// Rotation vector of a unit quaternion, length in [0, pi]; also over dual numbers.
+template <class S>
+Eigen::Matrix<S, 3, 1> quaternion_log(const Eigen::Quaternion<S>& q) noexcept {
+  using std::atan2;
+  if constexpr (std::is_same_v<S, double>) assert(is_unit(q));
+  const S sign = q.w() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Matrix<S, 3, 1> v = sign * q.vec();
+  const S n = v.norm();
+  if (n < 1e-9) return S(2.0) * v;
+  return S(S(2.0) * atan2(n, S(sign * q.w())) / n) * v;
 }
 
 /// Two unit vectors that complete the unit vector n to a right-handed orthonormal triad (t1, t2,

@@ -30,15 +30,20 @@ AxisMeasure<S> axis_measure(const Eigen::Matrix<S, 3, 1>& e, const Marker& a,
   return {e.dot(d), e.dot(b.v - a.v) + a.w.cross(e).dot(d), {{-e, e.cross(d)}, {e, V::Zero()}}};
 }
 
+/// The angle within half a turn of `reference`.
+template <class S>
+S near_angle(const S& angle, double reference) noexcept {
+  const double near = std::remainder(value_of(angle) - reference, 2.0 * std::numbers::pi);
+  return chained(reference + near, 1.0, angle);
+}
+
 /// The angle of x_b from x_a about z_a, within half a turn of `reference`. Its gradient is (0, -z,
 /// 0, z) where the markers share the z axis.
 template <class S, class Marker>
 S angle_about_z(const Marker& a, const Marker& b, double reference) noexcept {
   using std::atan2;
   const Eigen::Matrix<S, 3, 1> x = b.R.col(0);
-  const S angle = atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0))));
-  const double near = std::remainder(value_of(angle) - reference, 2.0 * std::numbers::pi);
-  return chained(reference + near, 1.0, angle);
+  return near_angle(atan2(S(x.dot(a.R.col(1))), S(x.dot(a.R.col(0)))), reference);
 }
 
 /// K += weight dg/d(motion).

@@ -81,13 +81,13 @@ void ModelBuilder::holding_elements() {
 
 void ModelBuilder::forces() {
   const auto holding = std::ssize(model.elements);
-  for (const auto* list : {&d.forces, &d.controllers})
-    for (const ElementDescription& e : *list) add_element(e);
+  for (const ElementList list : {ElementList::forces, ElementList::controllers})
+    for (const ElementDescription& e : d.elements(list)) add_element(with_formulas_apart(e, list));
+  for (const InnerFormula& inner : formulas) add_element(inner.element);
   const int acting = static_cast<int>(std::ssize(model.elements) - holding);
   std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());
   for (Joint& joint : model.joints)
     if (joint.motion >= 0) joint.motion += acting;
-  link_signals();
 }
 
 void ModelBuilder::link_signals() {
@@ -113,11 +113,14 @@ void ModelBuilder::link_signals() {
   for (const std::size_t k : order.ring) names.push_back(element_name(model.elements[k]));
   const Element& first = model.elements[order.ring.front()];
   const ElementList list = element_kind(first.type).list;
-  for (const ElementDescription& e : d.elements(list))
+  const auto report = [&](const ElementDescription& e, const std::string& path) {
     if (e.name == first.name)
       errors.add(ErrorCode::contradiction, e.origin.mark,
-                 std::string(element_list_name(list)) + "." + e.name + ": " +
-                     sentences::ring_of_signals(names));
+                 path + ": " + sentences::ring_of_signals(names));
+  };
+  for (const ElementDescription& e : d.elements(list))
+    report(e, std::string(element_list_name(list)) + "." + e.name);
+  for (const InnerFormula& inner : formulas) report(inner.element, inner.path);
 }
 
 }  // namespace floatframe

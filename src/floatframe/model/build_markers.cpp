@@ -86,7 +86,18 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
   } else {
     m.X_NM = X_BM;
   }
-  // Joints and forces share equal markers.
+  return shared_marker(m);
+}
+
+int ModelBuilder::body_frame(const std::string& body) {
+  Marker m;
+  m.body = body_index(body);
+  if (m.body < 0) return -1;
+  m.X_NM.R = model.bodies[m.body].X_WB.R.transpose();
+  return shared_marker(m);
+}
+
+int ModelBuilder::shared_marker(const Marker& m) {
   const auto [it, fresh] =
       marker_places.emplace(place_of(m), static_cast<int>(model.markers.size()));
   if (fresh) model.markers.push_back(m);

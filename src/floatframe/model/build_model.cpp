@@ -61,6 +61,8 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   if (b.errors.empty()) found.notes = snap_joints(b.model, description.snap, found.locked);
   b.forces();
   b.outputs();
+  b.connect_formulas();
+  b.link_signals();
   b.errors.throw_if_any();
   b.free_joints();
   b.modal_masses();

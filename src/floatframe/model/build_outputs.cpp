@@ -1,6 +1,7 @@
 // Result columns: the markers, bodies, joints and forces they refer to, and their units.
 #include <algorithm>
 
+#include "floatframe/core/printable.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/gauge.hpp"
 #include "floatframe/model/gauge_place.hpp"
@@ -10,78 +11,151 @@
 namespace floatframe {
 
 void ModelBuilder::outputs() {
-  for (const OutputDescription& o : d.outputs) {
-    const OutputKind& kind = output_kind(o.type);
-    Output out;
-    out.name = o.name;
-    out.type = o.type;
-    out.component = o.component;
-    const std::string who = "outputs." + o.name;
-    const std::string what = who + "." + output_type_name(o.type);
-    const auto point = [&](const AttachmentDescription& at, const std::string& where) {
-      return add_marker(at, Mat3::Identity(), false, o.origin.mark, where);
-    };
-    bool built = true;  // else it, or what it refers to, has an error
-    switch (kind.of) {
-      case OutputOf::point:
-        out.marker = point(o.at, what);
-        built = out.marker >= 0;
-        break;
-      case OutputOf::two_points:
-        out.marker = point(o.at, what + ".from");
-        out.to = point(o.to, what + ".to");
-        built = out.marker >= 0 && out.to >= 0;
-        break;
-      case OutputOf::body:
-        out.body = body_index(o.at.body);
-        break;
-      case OutputOf::mode: {
-        out.body = body_index(o.at.body);
-        const int nm = model.bodies[out.body].modes();
-        built = o.component >= 0 && o.component < nm;
-        if (!built) {
-          const bool from_file = !o.origin.mark.file.empty();
-          errors.add(ErrorCode::out_of_range, o.origin.mark,
-                     who + (from_file ? ".mode: " : ".component: ") +
-                         sentences::number_of("the number of a mode", o.component, nm, from_file));
-        }
-        break;
-      }
-      case OutputOf::joint:
-        out.joint = joint_names.index(o.entity);
-        built = out.joint >= 0;
-        break;
-      case OutputOf::force:
-        out.element = element(ElementList::forces, o.entity);
-        built = out.element >= 0;
-        break;
-      case OutputOf::rod:
-        out.element = element(ElementList::rods, o.entity);
-        built = out.element >= 0;
-        break;
-      case OutputOf::coupling:
-        out.element = element(ElementList::couplings, o.entity);
-        built = out.element >= 0;
-        break;
-      case OutputOf::controller:
-        out.element = element(ElementList::controllers, o.entity);
-        built = out.element >= 0;
-        break;
-      case OutputOf::motion:
-        out.element = element(ElementList::motions, o.entity);
-        built = out.element >= 0;
-        break;
-      case OutputOf::gauge:
-        built = gauge(o, out, who);
-        break;
-      case OutputOf::reaction:
-        built = reaction(o, out, who);
-        break;
-    }
-    if (!built) continue;
-    out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
-    model.outputs.push_back(std::move(out));
+  output_list("outputs.", d.outputs, model.outputs);
+  output_list("measures.", d.measures, model.measures);
+}
+
+void ModelBuilder::output_list(const std::string& list,
+                               const std::vector<OutputDescription>& described,
+                               std::vector<Output>& built) {
+  for (const OutputDescription& o : described)
+    if (auto out = output(o, list + o.name)) built.push_back(std::move(*out));
+}
+
+std::optional<Output> ModelBuilder::output(const OutputDescription& o, const std::string& who) {
+  Output out;
+  out.name = o.name;
+  out.type = o.type;
+  out.component = o.component;
+  if (!subject(o, out, who) || !frames(o, out, who)) return std::nullopt;
+  const OutputKind& kind = output_kind(o.type);
+  if (kind.named_unit) {
+    out.unit = o.unit.empty() ? kind.unit : o.unit;
+    return out;
   }
+  out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
+  if (!o.unit.empty() && !unit(o, out, who)) return std::nullopt;
+  return out;
+}
+
+bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::string& who) {
+  const std::string what = who + "." + output_type_name(o.type);
+  const auto point = [&](const AttachmentDescription& at, const std::string& where,
+                         bool oriented = false) {
+    return add_marker(at, Mat3::Identity(), oriented, o.origin.mark, where);
+  };
+  const auto of_list = [&](ElementList list) {
+    out.element = element(list, o.entity);
+    return out.element >= 0;
+  };
+  switch (output_kind(o.type).of) {
+    case OutputOf::formula:
+      return true;
+    case OutputOf::point:
+      out.marker = point(o.at, what);
+      return out.marker >= 0;
+    case OutputOf::two_points:
+      out.marker = point(o.at, what + ".from");
+      out.to = point(o.to, what + ".to");
+      return out.marker >= 0 && out.to >= 0;
+    case OutputOf::body:
+      out.marker = body_frame(o.at.body);
+      out.body = body_index(o.at.body);
+      return true;
+    case OutputOf::mass:
+      return mass(o, out, who);
+    case OutputOf::flexible_point:
+      out.body = body_index(o.at.body);
+      out.marker = point(o.at, what, true);
+      out.relative = body_frame(o.at.body);
+      return out.marker >= 0;
+    case OutputOf::mode:
+      out.body = body_index(o.at.body);
+      return has_number(o, "mode", model.bodies[out.body].modes(), who);
+    case OutputOf::joint:
+      out.joint = joint_names.index(o.entity);
+      return out.joint >= 0;
+    case OutputOf::force:
+      return of_list(ElementList::forces);
+    case OutputOf::rod:
+      return of_list(ElementList::rods);
+    case OutputOf::coupling:
+      return of_list(ElementList::couplings);
+    case OutputOf::controller:
+      return of_list(ElementList::controllers);
+    case OutputOf::motion:
+      return of_list(ElementList::motions);
+    case OutputOf::state: {
+      if (!of_list(ElementList::forces) && !of_list(ElementList::controllers)) return false;
+      const Element& e = model.elements[out.element];
+      if (e.states > 0) return has_number(o, "state", e.states, who);
+      errors.add(ErrorCode::wrong_value, o.origin.mark,
+                 what + ": " + sentences::load_without(element_type_name(e.type), "state"));
+      return false;
+    }
+    case OutputOf::gauge:
+      return gauge(o, out, who);
+    case OutputOf::reaction:
+      return reaction(o, out, who);
+  }
+  return false;
+}
+
+bool ModelBuilder::unit(const OutputDescription& o, Output& out, const std::string& who) {
+  std::string known = out.unit;
+  for (const OutputUnit& x : output_units) {
+    if (out.unit != x.si) continue;
+    known += std::string(" or ") + x.unit;
+    if (o.unit != x.unit) continue;
+    out.unit = x.unit;
+    out.factor = x.factor;
+    return true;
+  }
+  if (o.unit == out.unit) return true;
+  errors.add(ErrorCode::wrong_value, o.origin.mark,
+             who + ".unit: found '" + printable(o.unit) + "', expected " + known);
+  return false;
+}
+
+bool ModelBuilder::has_number(const OutputDescription& o, const char* what, int n,
+                              const std::string& who) {
+  if (o.component >= 0 && o.component < n) return true;
+  const bool from_file = !o.origin.mark.file.empty();
+  const std::string key = from_file && what != std::string("state") ? what
+                          : from_file                               ? "number"
+                                                                    : "component";
+  errors.add(ErrorCode::out_of_range, o.origin.mark,
+             who + "." + key + ": " +
+                 sentences::number_of((std::string("the number of a ") + what).c_str(), o.component,
+                                      n, from_file));
+  return false;
+}
+
+bool ModelBuilder::mass(const OutputDescription& o, Output& out, const std::string& who) {
+  if (!o.whole) out.body = body_index(o.at.body);
+  if (o.about) {
+    out.marker = add_marker(o.to, Mat3::Identity(), false, o.origin.mark, who + ".about");
+    if (out.marker < 0) return false;
+  }
+  if (o.type != OutputType::centre_of_mass || mass_of(model, out.body) > 0.0) return true;
+  errors.add(ErrorCode::wrong_value, o.origin.mark,
+             who + "." + output_type_name(o.type) + ": " + sentences::without_mass(o.whole));
+  return false;
+}
+
+bool ModelBuilder::frames(const OutputDescription& o, Output& out, const std::string& who) {
+  const auto frame = [&](const ReferenceDescription& x, const char* key, int& marker) {
+    if (!x.place) {
+      marker = body_frame(x.body);
+      return true;
+    }
+    marker = add_marker(x, Mat3::Identity(), true, o.origin.mark, who + "." + key);
+    return marker >= 0;
+  };
+  bool good = !o.relative || frame(*o.relative, "relative_to", out.relative);
+  out.axes = out.relative;
+  if (o.axes) good = frame(*o.axes, "in", out.axes) && good;
+  return good;
 }
 
 bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::string& who) {

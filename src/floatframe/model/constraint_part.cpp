@@ -1,26 +1,40 @@
 // Dispatch of the constraint parts in a step: direct calls, no pointer.
 #include "floatframe/model/constraint_part.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "floatframe/core/debug_only.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/frequency.hpp"
+#include "floatframe/math/piecewise_build.hpp"
 
 namespace floatframe {
 
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept {
-  assert(std::isfinite(t) && all_finite(&f.amplitude, 1) && f.frequency >= 0.0);
-  PiecewisePolynomial::Value v = f.pieces(t);
-  if (f.amplitude != 0.0) {
-    const double w = omega_of(f.frequency);
-    const double s = std::sin(w * t + f.phase), c = std::cos(w * t + f.phase);
-    v.f += f.amplitude * s;
-    v.df += f.amplitude * w * c;
-    v.ddf -= f.amplitude * w * w * s;
+  assert(std::isfinite(t) && f.period >= 0.0);
+  PiecewisePolynomial::Value v =
+      f.pieces(f.period > 0.0 ? in_first_period(t, f.pieces.breaks().front(), f.period) : t);
+  for (const SineTerm& sine : f.sines) {
+    assert(all_finite(&sine.amplitude, 1) && sine.frequency >= 0.0);
+    const double since = t - sine.start, swept = std::clamp(since, 0.0, sine.duration);
+    const double w0 = omega_of(sine.frequency), rate = omega_of(sine.rate);
+    const double angle = w0 * since + rate * swept * (since - 0.5 * swept) + sine.phase;
+    const double w = w0 + rate * swept, s = std::sin(angle), c = std::cos(angle);
+    v.f += sine.amplitude * s;
+    v.df += sine.amplitude * w * c;
+    v.ddf -= sine.amplitude * w * w * s;
+    if (since >= 0.0 && since < sine.duration) v.ddf += sine.amplitude * rate * c;
+  }
+  if (f.formula) {
+    const PiecewisePolynomial::Value added = formula_at(*f.formula, t);
+    v.f += added.f;
+    v.df += added.df;
+    v.ddf += added.ddf;
   }
   return v;
 }

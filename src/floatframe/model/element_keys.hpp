@@ -37,7 +37,8 @@ enum class KeyKind {
   terms,             ///< coordinates of joints with factors
   stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
   damping_matrix,    ///< the same of their rates
-  function,          ///< of a program, a force
+  function,          ///< of a program or by a formula, a force
+  formula,           ///< of what it refers to
   speed_table,       ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
   table,             ///< rows of numbers, named by `words`, each valid as in `rule`
   matrix             ///< of any size; a list of numbers is a row
@@ -56,11 +57,11 @@ constexpr AxisUnits axis_units(bool turning) noexcept {
 }
 
 /// A value of a key: number, word by its place in the list of words, flag, name, direction, place,
-/// law, signal, matrix, function of time, terms, function of a program, signals.
+/// law, signal, matrix, function of time, terms, function of a program, formula, signals.
 using KeyValue =
     std::variant<double, int, bool, std::string, Vec3, AttachmentDescription, PiecewisePolynomial,
                  SignalDescription, MatX, TimeFunction, std::vector<CoordinateTerm>, ForceFunction,
-                 std::vector<SignalDescription>>;
+                 SharedFormula, std::vector<SignalDescription>>;
 
 /// A member of the struct of a type; none: a stop, which is part of its spring.
 struct KeyMember {

@@ -123,6 +123,8 @@ struct ElementKind {
   bool bears = false;       ///< `is_bearing`
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
+  /// Why its force is not a number there; for messages.
+  std::string (*complaint)(const Ports& in) = nullptr;
   /// Its law over dual numbers; null: it has none.
   void (*dual)(const DualPorts& in, EffortsOf<Dual>& out) noexcept = nullptr;
   /// For laws with branches. Called between steps.

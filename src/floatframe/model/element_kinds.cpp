@@ -158,6 +158,7 @@ void take_keys(Element& element, const Model& model) {
   element.signals.clear();
   element.acts = element_kind(element.type).dual != nullptr;
   element.holds = element_kind(element.type).rows != nullptr;
+  element.reads = element_kind(element.type).list == ElementList::controllers;
   element.driven = calls_program(element.type);
   element.target_jumps = false;
   bool rate = false;
@@ -296,8 +297,7 @@ BranchSide spring_side(const Ports& in, double x, double rate) noexcept {
 SignalDescription ElementExample::signal(ExampleNumbers& numbers) {
   SignalDescription s;
   s.pieces = PiecewisePolynomial::polynomial({numbers(-5.0, 5.0), numbers(1.0, 3.0)});
-  s.amplitude = numbers(1.0, 3.0);
-  s.frequency = 2.0;
+  s.sines = {{.amplitude = numbers(1.0, 3.0), .frequency = 2.0}};
   s.input = "u" + std::to_string(inputs.size());
   model.inputs.emplace_back().name = s.input;
   inputs.push_back(numbers(-50.0, 50.0));

@@ -9,12 +9,12 @@
 #include <cassert>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 #include <span>
 
 #include "floatframe/description/placement.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
@@ -32,33 +32,57 @@ void joint_motion_of(const JointDirections& axes, const double* q, JointMotion& 
 template <JointType type>
 void joint_bias_of(const double* v, JointMotion& m) noexcept;
 
-/// M seen from F, in axes of F.
+/// M seen from F, in axes of F, over double or Dual (math/dual.hpp).
+template <class S>
 struct JointPose {
   const Vec3& axis_2;  ///< of the joint, in the joint frame
-  Mat3 R_FM;
-  Vec3 p_FM;
+  Eigen::Matrix<S, 3, 3> R_FM;
+  Eigen::Matrix<S, 3, 1> p_FM;
   double reference;  ///< angles are returned within half a turn of it
 
-  double near_reference(double angle) const noexcept {
-    return reference + std::remainder(angle - reference, 2.0 * std::numbers::pi);
-  }
+  S near_reference(const S& angle) const noexcept { return near_angle(angle, reference); }
   /// From x_F to x_M about z.
-  double angle_about_z() const noexcept {
-    return near_reference(std::atan2(R_FM(1, 0), R_FM(0, 0)));
+  S angle_about_z() const noexcept {
+    using std::atan2;
+    return near_reference(atan2(R_FM(1, 0), R_FM(0, 0)));
+  }
+  Eigen::Matrix<S, 3, 1> rotation_vector() const noexcept {
+    return quaternion_log(Eigen::Quaternion<S>(R_FM));
   }
 };
 
+template <class S>
 struct JointTwist {
   const Vec3& axis_2;
-  const MarkerState &F, &M;
-  Vec3 v_FM, w_FM;  ///< velocity of the origin of M and angular velocity of M in F, axes of F
+  Eigen::Matrix<S, 3, 3> R_FM;
+  /// Velocity of the origin of M and angular velocity of M in F, axes of F.
+  Eigen::Matrix<S, 3, 1> v_FM, w_FM;
 };
 
 /// Coordinate `component` in the form of the user (rotation vectors), and its rate as in H v.
-template <JointType type>
-double joint_position_of(const JointPose& pose, int component) noexcept;
-template <JointType type>
-double joint_velocity_of(const JointTwist& twist, int component) noexcept;
+template <JointType type, class S>
+S joint_position_of(const JointPose<S>& pose, int component) noexcept;
+template <JointType type, class S>
+S joint_velocity_of(const JointTwist<S>& twist, int component) noexcept;
+
+/// Both of a joint, by the templates <name>_position and <name>_velocity over their scalar.
+#define FLOATFRAME_COORDINATES(name)                                                           \
+  template <>                                                                                  \
+  double joint_position_of<JointType::name>(const JointPose<double>& pose, int k) noexcept {   \
+    return name##_position(pose, k);                                                           \
+  }                                                                                            \
+  template <>                                                                                  \
+  Dual joint_position_of<JointType::name>(const JointPose<Dual>& pose, int k) noexcept {       \
+    return name##_position(pose, k);                                                           \
+  }                                                                                            \
+  template <>                                                                                  \
+  double joint_velocity_of<JointType::name>(const JointTwist<double>& twist, int k) noexcept { \
+    return name##_velocity(twist, k);                                                          \
+  }                                                                                            \
+  template <>                                                                                  \
+  Dual joint_velocity_of<JointType::name>(const JointTwist<Dual>& twist, int k) noexcept {     \
+    return name##_velocity(twist, k);                                                          \
+  }
 
 inline Mat3 rotation_about_z(double angle) noexcept {
   const double c = std::cos(angle), s = std::sin(angle);

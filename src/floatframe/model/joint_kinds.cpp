@@ -26,6 +26,30 @@ void with_type(JointType type, std::index_sequence<I...>, F f) noexcept {
 
 constexpr std::make_index_sequence<std::size(joint_list)> all_types;
 
+template <class S, class Marker>
+S position_at(const Joint& joint, const Marker& F, const Marker& M, int component,
+              double reference) noexcept {
+  assert(component >= 0 && component < joint_velocities(joint.type));
+  assert(is_unit(joint.axis_2));
+  const JointPose<S> pose{joint.axis_2, F.R.transpose() * M.R, F.R.transpose() * (M.r - F.r),
+                          reference};
+  S q = 0.0;
+  with_type(joint.type, all_types, [&](auto t) { q = joint_position_of<t()>(pose, component); });
+  return q;
+}
+
+template <class S, class Marker>
+S velocity_at(const Joint& joint, const Marker& F, const Marker& M, int component) noexcept {
+  assert(component >= 0 && component < joint_velocities(joint.type));
+  const Eigen::Matrix<S, 3, 1> d = M.r - F.r;
+  const JointTwist<S> twist{joint.axis_2, F.R.transpose() * M.R,
+                            F.R.transpose() * (M.v - F.v - F.w.cross(d)),
+                            F.R.transpose() * (M.w - F.w)};
+  S v = 0.0;
+  with_type(joint.type, all_types, [&](auto t) { v = joint_velocity_of<t()>(twist, component); });
+  return v;
+}
+
 }  // namespace
 
 const JointKind& joint_kind(JointType type) noexcept {
@@ -60,30 +84,19 @@ void joint_bias(JointType type, const double* v, JointMotion& m) noexcept {
 
 double joint_position(const Joint& joint, const MarkerState& F, const MarkerState& M, int component,
                       double reference) noexcept {
-  assert(component >= 0 && component < joint_velocities(joint.type));
-  assert(is_unit(joint.axis_2));
-  const JointPose pose{joint.axis_2, F.R.transpose() * M.R, F.R.transpose() * (M.r - F.r),
-                       reference};
-  double q = 0.0;
-  with_type(joint.type, all_types, [&](auto t) { q = joint_position_of<t()>(pose, component); });
-  return q;
+  return position_at<double>(joint, F, M, component, reference);
 }
-
+Dual joint_position(const Joint& joint, const MarkerMotion<Dual>& F, const MarkerMotion<Dual>& M,
+                    int component, double reference) noexcept {
+  return position_at<Dual>(joint, F, M, component, reference);
+}
 double joint_velocity(const Joint& joint, const MarkerState& F, const MarkerState& M,
                       int component) noexcept {
-  assert(component >= 0 && component < joint_velocities(joint.type));
-  const Vec3 d = M.r - F.r;
-  const JointTwist twist{joint.axis_2, F, M, F.R.transpose() * (M.v - F.v - F.w.cross(d)),
-                         F.R.transpose() * (M.w - F.w)};
-  double v = 0.0;
-  with_type(joint.type, all_types, [&](auto t) { v = joint_velocity_of<t()>(twist, component); });
-  return v;
+  return velocity_at<double>(joint, F, M, component);
 }
-
-Vec3 roll_pitch_yaw(const Mat3& R) noexcept {
-  assert(is_rotation(R));
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+Dual joint_velocity(const Joint& joint, const MarkerMotion<Dual>& F, const MarkerMotion<Dual>& M,
+                    int component) noexcept {
+  return velocity_at<Dual>(joint, F, M, component);
 }
 
 }  // namespace floatframe

@@ -6,6 +6,7 @@
 // coordinates. A marker is attached to a node of a flexible body and moves with its deformation, or
 // is fixed in a rigid body or in the ground:
 //   p_BM = p + X y + exp(skew(X_theta y)) p_NM,   R_BM = exp(skew(X_theta y)) R_NM.
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -88,6 +89,43 @@ struct CoordinatePort {
   bool counted = false;  ///< an angle that is followed over several turns
 };
 
+struct OutputFormula;
+
+struct Output {
+  std::string name, unit;
+  OutputType type = OutputType::position;
+  int marker = -1, to = -1;   ///< of points; `to`: the second of two
+  int body = -1, joint = -1;  ///< no body: of a quantity of all bodies
+  int element = -1;           ///< of a force, or of a reaction
+  int component = 0;
+  int gauge = -1;
+  int relative = -1, axes = -1;  ///< markers; -1: the world
+  double factor = 1.0;           ///< of the unit: column = factor * value in SI
+  std::shared_ptr<const OutputFormula> formula;
+};
+
+/// What a reference of a formula stands for.
+struct FormulaOperand {
+  enum class Kind {
+    time,
+    input,
+    link,     ///< a result of another element: the signal `index` of the element
+    measure,  ///< `output` of the present motion
+    sample    ///< `output` at the last accepted instant: the kept number `index`
+  } kind = Kind::time;
+  int index = -1;
+  Output output;
+  std::array<int, 4> ports{-1, -1, -1,
+                           -1};  ///< the markers of a measure among those of the element
+  int angle = -1;                ///< its turns are counted: the coordinate of the element
+};
+
+/// A formula of samples, and what each of its references stands for.
+struct OutputFormula {
+  SharedFormula formula;
+  std::vector<FormulaOperand> operands;
+};
+
 /// An element: what it is connected to, by index, and what it does. The table of
 /// keys of its kind gives the key of each law and signal.
 struct Element {
@@ -97,23 +135,25 @@ struct Element {
   std::vector<PiecewisePolynomial> laws;    ///< those of its keys, in their order
   std::vector<Signal> signals;              ///< those of its keys, in their order
   std::vector<CoordinatePort> coordinates;  ///< of joints, in the order of its kind
+  std::vector<FormulaOperand> operands;     ///< of the references of its formula
   int road = -1;
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
   VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
   bool acts = true;           ///< by a law
   bool holds = false;         ///< its markers, by constraints
+  bool reads = false;         ///< its markers only: it exerts nothing
   bool rotational = false;    ///< its measure is an angle
   bool driven = false;        ///< by a signal that it follows or that is a force, or by a function
   bool target_jumps = false;  ///< one that it follows may jump
   std::shared_ptr<const ElementKeys> keys;  ///< what the user has said
   std::shared_ptr<const void> data;         ///< what the kind has computed from it
   /// Its angle is followed over several turns.
-  bool counts_turns() const noexcept { return acts && rotational; }
+  bool counts_turns() const noexcept { return exerts() && rotational; }
   /// It holds bodies to each other, as a joint does.
   bool links() const noexcept { return holds && coordinates.empty(); }
   /// It exerts forces, as everything that acts but controllers.
-  bool exerts() const noexcept { return acts && !markers.empty(); }
+  bool exerts() const noexcept { return acts && !reads && !markers.empty(); }
 };
 
 /// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
@@ -124,16 +164,6 @@ struct Input {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool clamp = false;  ///< a value outside is replaced by the nearer limit, not refused
-};
-
-struct Output {
-  std::string name, unit;
-  OutputType type = OutputType::position;
-  int marker = -1, to = -1;  ///< of points; `to`: the second of two
-  int body = -1, joint = -1;
-  int element = -1;  ///< of a force, or of a reaction
-  int component = 0;
-  int gauge = -1;
 };
 
 /// The origin of a constraint row: a joint, an element, or an element that holds a coordinate of a
@@ -153,6 +183,7 @@ struct Model {
   std::vector<Input> inputs;
   std::vector<Marker> markers;
   std::vector<Output> outputs;
+  std::vector<Output> measures;  ///< of formulas; no columns
   std::vector<Gauge> gauges;
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]

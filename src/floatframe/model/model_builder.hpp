@@ -47,11 +47,34 @@ struct ModelBuilder {
   void holding_elements();
   /// Builds them and controllers, and puts both first.
   void forces();
+  /// A formula of a signal, as an element: its name, and where it is written.
+  struct InnerFormula {
+    ElementDescription element;
+    std::string path;
+  };
+  std::vector<InnerFormula> formulas;
+  /// The element without the formulas of its signals, which become elements of their own.
+  ElementDescription with_formulas_apart(const ElementDescription& e, ElementList list);
+  /// What the references of formulas stand for.
+  void connect_formulas();
   /// Results of elements that are signals of others.
   void link_signals();
   /// False after an error.
   bool add_element(const ElementDescription& e);
   void outputs();
+  void output_list(const std::string& list, const std::vector<OutputDescription>& described,
+                   std::vector<Output>& built);
+  /// Nothing, with an error, if something that it refers to is missing.
+  std::optional<Output> output(const OutputDescription& o, const std::string& who);
+  /// What an output refers to: false, with an error, if something of it is missing.
+  bool subject(const OutputDescription& o, Output& out, const std::string& who);
+  bool mass(const OutputDescription& o, Output& out, const std::string& who);
+  /// The frame that it is relative to and its axes.
+  bool frames(const OutputDescription& o, Output& out, const std::string& who);
+  /// The unit that the user wants.
+  bool unit(const OutputDescription& o, Output& out, const std::string& who);
+  /// Its component is one of `n` numbers, of a mode or of a state.
+  bool has_number(const OutputDescription& o, const char* what, int n, const std::string& who);
   /// Index of an element by its name, -1 if it is not built.
   int element(ElementList list, const std::string& name) const;
   /// Data of a reaction: false if something it refers to is missing.
@@ -70,6 +93,11 @@ struct ModelBuilder {
   /// to "who.at" or to "who.node_key".
   int add_marker(const AttachmentDescription& at, const Mat3& R_design, bool oriented,
                  const SourceMark& mark, const std::string& who, const char* node_key = "node");
+  /// The frame of a body, which no mode moves, with the axes of the world in the design
+  /// configuration; -1: of the ground.
+  int body_frame(const std::string& body);
+  /// Joints, elements and outputs share equal markers.
+  int shared_marker(const Marker& m);
   const Marker& marker(int index) const { return model.markers[index]; }
   /// World position of a marker in the design configuration.
   Vec3 design_point(int marker) const;

@@ -46,9 +46,13 @@ class ModelHash {
     all(centre, coefficients);
   }
   void add(const PiecewisePolynomial& f) { all(f.breaks(), f.pieces()); }
+  void add(const SineTerm& s) {
+    const auto& [amplitude, frequency, phase, rate, start, duration] = s;
+    all(amplitude, frequency, phase, rate, start, duration);
+  }
   void add(const TimeFunction& f) {
-    const auto& [pieces, amplitude, frequency, phase] = f;
-    all(pieces, amplitude, frequency, phase);
+    const auto& [pieces, sines, period, formula] = f;
+    all(pieces, sines, period, formula);
   }
   void add(const CosineBump& b) {
     const auto& [start, length, height] = b;
@@ -72,6 +76,12 @@ class ModelHash {
     add(static_cast<const TimeFunction&>(s));
     all(s.input, s.source, s.element, s.factor);
   }
+  void add(const SharedFormula& f) {
+    if (!f) return;
+    add(f->text);
+    for (const auto& curve : f->curves) add(*curve);
+    for (const auto& grid : f->grids) all(grid->x, grid->y, grid->values);
+  }
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
   void add(const ForceFunction& f) { add(f.identity()); }
   void add(const Signal& s) {
@@ -82,10 +92,14 @@ class ModelHash {
     const auto& [from, to, port, quantity, factor] = l;
     all(from, to, port, quantity, factor);
   }
+  void add(const FormulaOperand& x) {
+    const auto& [kind, index, output, ports, angle] = x;
+    all(kind, index, output);
+  }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, coordinates, road, states, kept, start, acts,
-                 holds, rotational, driven, jumps, keys, data] = e;
-    all(name, type, markers, laws, signals, road, rotational);
+    const auto& [name, type, markers, laws, signals, coordinates, operands, road, states, kept,
+                 start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
+    all(name, type, markers, laws, signals, operands, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))
       if (const auto value = key_value(described, key))
@@ -96,9 +110,12 @@ class ModelHash {
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, type, marker, to, body, joint, element, component, gauge] = o;
+    const auto& [name, unit, type, marker, to, body, joint, element, component, gauge, relative,
+                 axes, factor, formula] = o;
     all(name, type, marker, to, body, joint, element, component);
     if (gauge >= 0) all(gauge);
+    if (relative >= 0 || axes >= 0) all(relative, axes);
+    if (formula) all(formula->formula, formula->operands);
   }
   void add(const Gauge& g) {
     const auto& [body, place, section, inertia_loads, direction, modes, loads] = g;
@@ -151,8 +168,10 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
+                 measures, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] =
+        model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
+    for (const Output& o : measures) add(o);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);

@@ -85,8 +85,10 @@ void hint_at_angle_of_time(const std::string& kind, const std::string& name,
   std::vector<double> values;
   for (const double b : p.breaks()) values.push_back(p(b).f);
   const bool constant = values.empty() && p(0.0).df == 0.0 && p(0.0).ddf == 0.0;
-  if (beyond_a_turn(f.amplitude))
-    out.add(kind, name, turns_text("the amplitude of " + what, f.amplitude));
+  double amplitude = 0.0;
+  for (const SineTerm& s : f.sines) amplitude = std::max(amplitude, std::abs(s.amplitude));
+  if (beyond_a_turn(amplitude))
+    out.add(kind, name, turns_text("the amplitude of " + what, amplitude));
   else if (constant && beyond_a_turn(p(0.0).f))
     out.add(kind, name, turns_text(what, p(0.0).f));
   else if (looks_like_degrees(values)) {

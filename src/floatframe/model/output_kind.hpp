@@ -3,10 +3,13 @@
 // output_list.hpp: reader, validation, mirror, units, the table of the documentation and the
 // generic tests run over the list. A sample calls `output_value_of` by name, without a pointer; the
 // data of an OutputKind are used at load time.
+#include <array>
+#include <numbers>
 #include <span>
 
 #include "floatframe/description/rules.hpp"
 #include "floatframe/model/element_outputs.hpp"
+#include "floatframe/model/measure_ports.hpp"
 #include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
@@ -14,7 +17,9 @@ namespace floatframe {
 /// Last sample of an output: angles over several turns are continued from there.
 struct FollowedOutput {
   bool started = false;
-  double time = 0.0, position = 0.0, rate = 0.0;
+  double time = 0.0;
+  std::array<double, 6> values{};     ///< what the kind needs of it
+  std::vector<FollowedOutput> parts;  ///< of the references of a formula
 };
 
 /// The value at a sample: noexcept, no allocation. `last` is the memory of this output.
@@ -26,16 +31,22 @@ double output_value_of(const SystemMotion& motion, const Output& output,
 enum class OutputOf {
   point,       ///< a point on a body: `marker`
   two_points,  ///< {from: place, to: place}: `marker` and `to`
-  body,        ///< a body that moves: `body`
-  joint,       ///< `joint`, with the number of a coordinate: `component`
-  mode,        ///< a flexible body: `body`, with the number of a mode: `component`
-  force,       ///< a force element: `force`
+  body,        ///< a body that moves: `body`, and by its frame `marker`
+  mass,        ///< a body that moves or the model: `body`, -1; about the point of `marker`, -1: the
+               ///< origin of the world
+  flexible_point,  ///< a point on a body that moves: `body`, `marker`, and as `relative` the frame
+                   ///< of the body
+  joint,           ///< `joint`, with the number of a coordinate: `component`
+  mode,            ///< a flexible body: `body`, with the number of a mode: `component`
+  force,           ///< a force element: `force`
   reaction,    ///< what a joint (`joint`) or a rod (`rod`) transmits, about the point of `marker`,
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `element`
   coupling,    ///< `element`
   controller,  ///< `element`
+  state,       ///< an element, with the number of a state: `element`, `component`
+  formula,     ///< `formula`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 
@@ -46,7 +57,11 @@ struct OutputComponents {
   std::span<const char* const> words;
 };
 inline constexpr OutputComponents world_axes{"axis", rules::axes};
+inline constexpr OutputComponents quaternion_components{"component", rules::quaternion};
 inline constexpr OutputComponents roll_pitch_yaw_angles{"angle", rules::angles};
+
+/// The keys for the frame that a motion is relative to and for axes: `relative`, `axes`.
+enum class OutputFrames { none, in, relative_to_and_in };
 
 struct OutputKind {
   const char* about;  ///< its quantity: for the documentation, a phrase in Markdown
@@ -58,8 +73,37 @@ struct OutputKind {
   const char* (*unit_of)(const Model& model, const Output& output) = nullptr;
   /// For a force element: the required property.
   ElementQuantity needs = ElementQuantity::force;
+  /// It is the result `needs` of an element that signals are made of.
+  bool is_signal = false;
+  bool named_unit = false;  ///< its unit is any text of the user
   MotionNeeds needs_of_motion = {};
+  OutputFrames frames = OutputFrames::none;
+  /// Of measures: the value, and the same with its derivatives.
+  double (*value)(const MeasurePorts<double>&) noexcept = nullptr;
+  Dual (*dual)(const MeasurePorts<Dual>&) noexcept = nullptr;
 };
+
+#define FLOATFRAME_MEASURE(name) .value = name##_measure<double>, .dual = name##_measure<Dual>
+
+/// What a measure reads of the motion at a sample.
+inline MeasurePorts<double> measure_ports(const SystemMotion& motion, const Output& output,
+                                          double reference = 0.0) noexcept {
+  const auto [marker, to, relative, axes] = measure_markers(motion.model, output);
+  const auto at = [&](int k) { return k < 0 ? nullptr : motion.markers[k]; };
+  return {motion.model, output,   at(marker),    at(to),
+          at(relative), at(axes), motion.origin, reference};
+}
+
+/// Of a body, or with -1 of all [kg].
+double mass_of(const Model& model, int body) noexcept;
+
+/// A measure that nothing is remembered of.
+#define FLOATFRAME_MEASURED(name)                                                            \
+  template <>                                                                                \
+  double output_value_of<OutputType::name>(const SystemMotion& motion, const Output& output, \
+                                           FollowedOutput&) noexcept {                       \
+    return name##_measure(measure_ports(motion, output));                                    \
+  }
 
 template <ElementQuantity quantity>
 const char* unit_of_force(const Model& model, const Output& output) {
@@ -68,7 +112,26 @@ const char* unit_of_force(const Model& model, const Output& output) {
 
 const OutputKind& output_kind(OutputType type) noexcept;
 
-/// What all outputs of the model need.
+/// The memories of outputs before the first sample. Allocates.
+std::vector<FollowedOutput> followed_outputs(std::span<const Output> outputs);
+
+/// Units that a column may have instead of that of SI: `factor` of them make one.
+struct OutputUnit {
+  const char *si, *unit;
+  double factor;
+};
+inline constexpr double degrees = 180.0 / std::numbers::pi;
+inline constexpr OutputUnit output_units[] = {{"rad", "deg", degrees},
+                                              {"rad/s", "deg/s", degrees},
+                                              {"rad/s", "rpm", degrees / 6.0},
+                                              {"rad/s2", "deg/s2", degrees},
+                                              {"m", "mm", 1e3},
+                                              {"N", "kN", 1e-3},
+                                              {"N m", "kN m", 1e-3},
+                                              {"Pa", "MPa", 1e-6}};
+
+/// What an output, and what all outputs of the model need.
+MotionNeeds needs_of(const Output& output) noexcept;
 MotionNeeds needs_of_outputs(const Model& model) noexcept;
 
 double output_value(const SystemMotion& motion, const Output& output,

@@ -48,7 +48,7 @@ void TangentFinder::evaluate(const Ports& in) noexcept {
   if (!in.element.acts) return;
   element_kind(in.element.type)
       .dual({in.model, in.element, markers_.data(), in.origin, in.t, in.reference_angle, in.inputs,
-             in.branch, states_.data(), in.state_weight, links_.data()},
+             in.branch, states_.data(), in.state_weight, links_.data(), in.angles},
             efforts_);
 }
 

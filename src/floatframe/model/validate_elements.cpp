@@ -87,6 +87,10 @@ struct ElementValidation {
           entity.error(ErrorCode::unsupported, key.name,
                        sentences::function_in_file("'" + f.identity() + "'"));
         break;
+      case K::formula:
+        if (!std::get<SharedFormula>(*x))
+          entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
+        break;
       case K::flag:
       case K::bump_stop:
       case K::rebound_stop:

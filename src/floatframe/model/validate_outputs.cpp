@@ -40,15 +40,40 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
 void reaction(const OutputDescription& o, const Names& names, const Entity& entity) {
   entity.reference(output_type_name(o.type), o.rod ? "rod" : "joint", o.entity,
                    o.rod ? names.rods : names.joints);
-  if (o.about && o.type != OutputType::joint_torque)
-    entity.error(ErrorCode::incomplete, "about", sentences::force_without_point());
-  else if (o.about)
-    entity.place("about", o.at, names);
   if (!entity.word("in", o.in, rules::reaction_axes)) return;
   if (o.in == OutputAxes::place)
     entity.place("in", o.to, names);
   else if (o.rod && o.in != OutputAxes::world)
     entity.error(ErrorCode::wrong_value, "in", sentences::rod_has_no_axes());
+}
+
+/// The point that a torque or an angular momentum is about.
+void about(const OutputDescription& o, const Names& names, const Entity& entity) {
+  if (!o.about) return;
+  if (o.type != OutputType::joint_torque && o.type != OutputType::angular_momentum)
+    entity.error(ErrorCode::incomplete, "about", sentences::force_without_point());
+  else
+    entity.place("about", o.type == OutputType::joint_torque ? o.at : o.to, names);
+}
+
+void frames(const OutputDescription& o, const OutputKind& kind, const Names& names,
+            const Entity& entity) {
+  const auto frame = [&](const char* key, const std::optional<ReferenceDescription>& x) {
+    if (!x) return;
+    if (x->place)
+      entity.place(key, *x, names);
+    else if (x->body != ground_name)
+      entity.reference(key, "body", x->body, names.bodies);
+  };
+  if (o.relative && kind.frames != OutputFrames::relative_to_and_in)
+    entity.error(ErrorCode::wrong_value, "relative_to",
+                 sentences::without_reference(output_type_name(o.type)));
+  else
+    frame("relative_to", o.relative);
+  if (o.axes && kind.frames == OutputFrames::none)
+    entity.error(ErrorCode::wrong_value, "in", sentences::without_axes(output_type_name(o.type)));
+  else
+    frame("in", o.axes);
 }
 
 void gauge(const OutputDescription& o, const Entity& entity) {
@@ -93,6 +118,12 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
       moving_body();
       gauge(o, entity);
       break;
+    case OutputOf::flexible_point:
+      entity.place(what, o.at, names, false);
+      break;
+    case OutputOf::mass:
+      if (!o.whole) moving_body();
+      break;
     case OutputOf::body:
     case OutputOf::mode:
       moving_body();  // the number of modes is known when the body is reduced
@@ -106,6 +137,9 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
     case OutputOf::reaction:
       reaction(o, names, entity);
       break;
+    case OutputOf::formula:
+      if (!o.formula) entity.error(ErrorCode::missing, what, sentences::missing_formula());
+      break;
     case OutputOf::rod:
       entity.reference(what, "rod", o.entity, names.rods);
       break;
@@ -118,7 +152,13 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
     case OutputOf::motion:
       motion_output(o, d, names, entity);
       break;
+    case OutputOf::state:  // its number is known when the element is built
+      if (!names.controllers.find(o.entity))
+        entity.reference(what, "force", o.entity, names.forces);
+      break;
   }
+  about(o, names, entity);
+  frames(o, kind, names, entity);
   if (kind.components.key)
     entity.complain(ErrorCode::wrong_value, kind.components.key,
                     word_complaint(o.component, kind.components.words));
@@ -128,18 +168,20 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
 
 void outputs(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
-  for (const OutputDescription& o : d.outputs) {
-    const Entity entity{errors, o.origin, "outputs." + o.name};
+  const auto check = [&](const std::string& list, const OutputDescription& o) {
+    const Entity entity{errors, o.origin, list + "." + o.name};
     if (const auto complaint = sentences::column_name(o.name))
       entity.error(ErrorCode::wrong_value, *complaint);
     else if (const auto taken_by = sentences::column_taken(o.name, !taken.insert(o.name).second))
-      errors.add(ErrorCode::duplicate, o.origin.mark, "outputs: " + *taken_by);
+      errors.add(ErrorCode::duplicate, o.origin.mark, list + ": " + *taken_by);
     const auto kind = word_complaint(static_cast<int>(o.type), output_words);
     if (kind)
       entity.error(ErrorCode::wrong_value, *kind);
     else
       output(o, d, names, entity);
-  }
+  };
+  for (const OutputDescription& o : d.outputs) check("outputs", o);
+  for (const OutputDescription& o : d.measures) check("measures", o);
 }
 
 }  // namespace floatframe::validation

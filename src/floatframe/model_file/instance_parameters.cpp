@@ -6,6 +6,7 @@
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/printable.hpp"
+#include "floatframe/formulas/function_words.hpp"
 
 namespace floatframe {
 namespace {

@@ -22,7 +22,7 @@ class Loader {
     auto instance = std::make_unique<ModelInstance>();
     instance->document = document;
     instance->outer = outer;
-    instance->context = {&document->file, &instance->scope, &errors_};
+    instance->context = {&document->file, &instance->scope, &errors_, &files_.tables};
     return instance;
   }
 
@@ -54,6 +54,7 @@ class Loader {
       for (auto& [name, value] : points->named("a map of names to points [x, y, z]"))
         self.points.emplace(name, value.vector("m").value_or(wrong));
     }
+    read_tables(self);
     for (std::size_t k = 0; k < entity_keys.size(); ++k) collect_names(self, k);
     if (!errors_.exhausted()) subsystems(self, stack);
   }

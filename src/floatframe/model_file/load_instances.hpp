@@ -26,6 +26,8 @@ class ModelFiles {
   /// Position of the file in the order of loading (for sorting errors).
   std::size_t order(const std::string& file) const;
 
+  CsvFiles tables;  ///< by the readers of tables
+
  private:
   const YamlDocument* parse(const std::string& file, const std::string& text);
 

@@ -47,6 +47,8 @@ void place(ElementDescription& f, const Placement& x) {
 void place(OutputDescription& o, const Placement& x) {
   place(o.at, x);
   place(o.to, x);
+  if (o.relative) place(*o.relative, x);
+  if (o.axes) place(*o.axes, x);
   o.gauge.toward = x.P * o.gauge.toward;
   o.gauge.along = x.P * o.gauge.along;
   o.gauge.direction = x.P * o.gauge.direction;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/formulas/formula.hpp"
 #include "floatframe/model_file/mirror.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/yaml/yaml_value.hpp"
@@ -30,8 +31,9 @@ struct ModelInstance {
   ModelInstance* outer = nullptr;
   std::string prefix;  ///< "" or "front_left."
   ParameterScope scope;
-  Placement placement;  ///< coordinates of this file -> coordinates of the outer file
-  Placement world;      ///< coordinates of this file -> world
+  Placement placement;   ///< coordinates of this file -> coordinates of the outer file
+  Placement world;       ///< coordinates of this file -> world
+  FormulaTables tables;  ///< of the formulas in this file
   std::map<std::string, Vec3> points;  ///< coordinates of this file [m]
   /// Names defined in this file; false: switched off by `when`.
   std::array<std::map<std::string, bool>, entity_words.size()> names;

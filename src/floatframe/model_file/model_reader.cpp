@@ -16,9 +16,10 @@
 namespace floatframe {
 namespace {
 
-const char* const top_keys[] = {"floatframe", "parameters", "points",  "bodies",      "joints",
-                                "rods",       "couplings",  "forces",  "controllers", "roads",
-                                "inputs",     "outputs",    "initial", "subsystems",  "external"};
+const char* const top_keys[] = {"floatframe",  "parameters", "points",     "bodies",
+                                "joints",      "rods",       "couplings",  "forces",
+                                "controllers", "roads",      "inputs",     "outputs",
+                                "measures",    "initial",    "subsystems", "external"};
 
 /// Keys allowed only in the model file itself.
 constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};

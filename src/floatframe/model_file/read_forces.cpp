@@ -195,9 +195,11 @@ class ElementReader {
       case K::rebound_stop:
         return stop(key, *value);
       case K::function:  // `validate` refuses its name unless a program gives the function
-        if (value->is_scalar()) return ForceFunction::named(value->node().text);
-        value->error(ErrorCode::unsupported, sentences::function_in_file(value->found()));
-        return std::nullopt;
+        return read_force_function(self_, *value);
+      case K::formula: {
+        SharedFormula f = read_formula(self_, *value);
+        return f ? std::optional(KeyValue(std::move(f))) : std::nullopt;
+      }
       case K::stiffness_matrix:
       case K::damping_matrix:
         return matrix(*value);
@@ -210,7 +212,7 @@ class ElementReader {
       case K::signals:
         return signals(*value);
       case K::motion:
-        return read_motion(*value, u.displacement, Interpolation::cubic);
+        return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:
         return terms(*value);
       case K::load:

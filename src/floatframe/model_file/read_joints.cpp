@@ -153,7 +153,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.keep = s.boolean("keep", false);
   if (joint_has_one_coordinate(j.type))
     if (const auto v = s.get("motion"))
-      j.motion = read_motion(*v, joint_unit_name(j.type, 0), Interpolation::cubic);
+      j.motion = read_motion(self, *v, joint_unit_name(j.type, 0), Interpolation::cubic);
   j.cut = s.boolean("cut", false);
   s.finish();
   validate_entity(s, j.origin,

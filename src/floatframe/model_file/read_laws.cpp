@@ -1,9 +1,11 @@
 // Laws of springs, dampers and loads: functions of a length, rate, angle or time.
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/model_file/time_terms.hpp"
 #include "floatframe/yaml/read_table.hpp"
 
 namespace floatframe {
@@ -53,8 +55,15 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
 enum class TableOf {
   measure,  ///< a spring or a damper: continues along its tangents
   time,     ///< holds its end values, and may jump
-  motion    ///< function of time without jumps, for motions
+  motion,   ///< function of time without jumps, for motions
+  velocity  ///< of a motion: without jumps, too
 };
+
+constexpr const char* no_jump(TableOf of) {
+  return of == TableOf::motion     ? "a motion cannot jump"
+         : of == TableOf::velocity ? "the velocity of a motion cannot jump"
+                                   : nullptr;
+}
 
 /// Error of a point relative to those before it; empty if there is none.
 std::string table_point_error(const std::vector<TablePoint>& before, double x, TableOf of,
@@ -68,15 +77,16 @@ std::string table_point_error(const std::vector<TablePoint>& before, double x, T
   }
   return "found x = " + number_text(x) + " after " + number_text(before.back().x) +
          ", expected ascending x [" + x_unit + "]" +
-         (of == TableOf::motion && equal ? ": a motion cannot jump" : "");
+         (equal && no_jump(of) ? std::string(": ") + no_jump(of) : std::string());
 }
 
 PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Interpolation usual,
-                               TableOf of, const char* x_unit) {
+                               TableOf of, const char* x_unit, double* period = nullptr) {
   Interpolation interpolation = usual;
   constexpr const char* words[] = {"linear", "cubic"};
   section.word("interpolation", words, interpolation);
-  const TableRows table = read_table_rows(value, any_number(""), "a point [x, f]");
+  const TableRows table = read_table_rows(value, any_number(""), "a point [x, f]",
+                                          of == TableOf::measure ? "x" : "time");
   bool good = table.good;
   if (value.is_list() && value.node().items.size() < 2) {
     value.unexpected("a table of at least 2 points [x, f]");
@@ -97,10 +107,14 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
     }
     points.push_back(row.point);
   }
+  if (period) {
+    const double width = points.size() < 2 ? 1.0 : points.back().x - points.front().x;
+    *period = read_period(section, good ? width : 1.0);
+  }
   if (!good) return {};
   PiecewisePolynomial f = of == TableOf::measure
                               ? table_function(points, interpolation, Beyond::tangent)
-                              : time_table(points, interpolation);
+                              : time_table(points, interpolation, period ? *period : 0.0);
   std::size_t piece = 0;
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (points[k].x == points[k - 1].x) continue;  // a jump: no piece
@@ -119,13 +133,20 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
 }
 
 constexpr const char* time_laws =
-    "a number or a map with one of polynomial, piecewise, table, and sine";
+    "a number or a map with one of formula, polynomial, piecewise, table, steps, and sine, chirp";
+
+constexpr const char* motion_laws =
+    "a number or a map with velocity, acceleration or one of formula, polynomial, piecewise, "
+    "table, and "
+    "sine, chirp";
 
 /// The keys of a function of time; an error with `expected` if there are none, unless it is null.
-TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table, TableOf of,
-                        const char* expected) {
+TimeFunction time_terms(const ModelInstance& self, YamlSection& section, const char* unit,
+                        Interpolation table, TableOf of, const char* expected) {
   TimeFunction f;
   int laws = 0;
+  const auto formula = section.get("formula");
+  if (formula) f.formula = read_formula(self, *formula);
   if (const auto v = section.get("polynomial")) {
     ++laws;
     f.pieces = PiecewisePolynomial(
@@ -137,20 +158,16 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
   }
   if (const auto v = section.get("table")) {
     ++laws;
-    f.pieces = read_table(section, *v, table, of, "s");
+    f.pieces = read_table(section, *v, table, of, "s", &f.period);
   }
-  bool sine = false;
-  if (const auto v = section.get("sine")) {
-    sine = true;
-    if (auto s = v->section("a map with amplitude, frequency, phase")) {
-      f.amplitude = s->required_number("amplitude", any_number(unit), 0.0);
-      f.frequency = s->required_number("frequency", rules::sine_frequency, 1.0);
-      f.phase = s->number("phase", any_number("rad"), 0.0);
-      s->finish();
-    }
+  if (const auto v = section.get("steps")) {
+    ++laws;
+    f.pieces = read_steps(*v, section, f.period);
+    if (no_jump(of)) v->error(ErrorCode::wrong_value, no_jump(of));
   }
+  const bool sines = read_sines(section, unit, f.sines);
   section.finish();
-  if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
+  if (laws > 1 || (laws == 0 && !sines && !formula && expected != nullptr))
     section.error(ErrorCode::wrong_count, "found " + std::to_string(laws) + " laws, expected " +
                                               (expected != nullptr ? expected : time_laws));
   return f;
@@ -161,6 +178,13 @@ TimeFunction constant(const YamlValue& value, const char* unit) {
   if (const auto c = value.number(any_number(unit)))
     f.pieces = PiecewisePolynomial::polynomial({*c});
   return f;
+}
+
+TimeFunction time_function(const ModelInstance& self, const YamlValue& value, const char* unit,
+                           Interpolation table, TableOf of, const char* expected) {
+  if (!value.is_map()) return constant(value, unit);
+  auto section = value.section();
+  return time_terms(self, *section, unit, table, of, expected);
 }
 
 }  // namespace
@@ -213,10 +237,45 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
   return f;
 }
 
-TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table) {
+namespace {
+
+/// A motion by its velocity or its acceleration, whose key has the value `profile`.
+TimeFunction read_motion_profile(const ModelInstance& self, YamlSection& section,
+                                 const YamlValue& profile, bool acceleration,
+                                 const std::string& unit) {
+  const std::string rate = unit + "/s", rate_2 = unit + "/s2";
+  const char* own = acceleration ? rate_2.c_str() : rate.c_str();
+  const double start = section.number("start", any_number(unit.c_str()), 0.0);
+  const double speed =
+      acceleration ? section.number("velocity_at_start", any_number(rate.c_str()), 0.0) : 0.0;
+  section.finish();
+  const TableOf of = acceleration ? TableOf::time : TableOf::velocity;
+  const TimeFunction f = time_function(self, profile, own, Interpolation::linear, of, time_laws);
+  if (f.period > 0.0 || f.formula ||
+      std::any_of(f.sines.begin(), f.sines.end(),
+                  [](const SineTerm& s) { return s.rate != 0.0; })) {
+    profile.error(
+        ErrorCode::wrong_value,
+        "found a formula, a period or a chirp, expected a function with an exact integral: "
+        "polynomial, piecewise, table or steps without them, and sine");
+    return {};
+  }
+  return integral_of(acceleration ? integral_of(f, speed) : f, start);
+}
+
+}  // namespace
+
+TimeFunction read_motion(const ModelInstance& self, const YamlValue& value, const char* unit,
+                         Interpolation table) {
   if (!value.is_map()) return constant(value, unit);
   auto section = value.section();
-  return time_terms(*section, unit, table, TableOf::motion, time_laws);
+  const auto velocity = section->get("velocity"), acceleration = section->get("acceleration");
+  if (velocity && acceleration)
+    acceleration->error(ErrorCode::exclusive, "expected either velocity or acceleration");
+  if (velocity || acceleration)
+    return read_motion_profile(self, *section, velocity ? *velocity : *acceleration, !velocity,
+                               unit);
+  return time_terms(self, *section, unit, table, TableOf::motion, motion_laws);
 }
 
 namespace {
@@ -256,11 +315,12 @@ SignalDescription read_signal(const ModelInstance& self, const YamlValue& value,
   if (input)
     if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
   const bool source = read_source(self, *section, signal);
-  function =
-      time_terms(*section, unit, table, TableOf::time,
-                 input || source ? nullptr
-                                 : "a number or a map with input, controller, force, length, "
-                                   "rate or one of polynomial, piecewise, table, and sine");
+  function = time_terms(
+      self, *section, unit, table, TableOf::time,
+      input || source
+          ? nullptr
+          : "a number or a map with input, controller, force, length, "
+            "rate or one of formula, polynomial, piecewise, table, steps, and sine, chirp");
   return signal;
 }
 

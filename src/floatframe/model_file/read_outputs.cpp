@@ -13,7 +13,10 @@ namespace {
 
 class OutputReader {
  public:
-  OutputReader(const ModelInstance& self, ReadModel& model) : self_(self), model_(model) {}
+  /// Appends to `list`, whose key is `key`.
+  OutputReader(const ModelInstance& self, ReadModel& model, const char* key,
+               std::vector<OutputDescription>& list)
+      : self_(self), model_(model), key_(key), list_(list) {}
 
   void read_all(const YamlValue& outputs) {
     for (const auto& [name, value] : outputs.named("a map of column names to quantities", true))
@@ -35,18 +38,14 @@ class OutputReader {
     if (found != 1) return not_one_quantity(*s, found);
     o.origin = s->origin();
     const OutputKind& kind = output_kind(o.type);
-    if (quantity(kind, *s, *s->get(output_type_name(o.type)), o))
+    const bool known = quantity(kind, *s, *s->get(output_type_name(o.type)), o);
+    const auto unit = s->get("unit");
+    const bool in_unit = !unit || put(unit->text("a unit"), o.unit);
+    if (frames(kind, *s, o) && in_unit && known)
       components(name, *s, o);
     else if (kind.components.key)
       s->get(kind.components.key);
     s->finish();
-  }
-
-  /// Stores a value that was read in its member; false if nothing was read.
-  template <class Read, class Place>
-  static bool put(std::optional<Read> read, Place& place) {
-    if (read) place = std::move(*read);
-    return read.has_value();
   }
 
   /// The quantity of the output; false after an error.
@@ -58,7 +57,13 @@ class OutputReader {
       case OutputOf::two_points:
         return two_points(what, o);
       case OutputOf::body:
-        return put(moving_body(what), o.at.body);
+        return put(read_moving_body(self_, what), o.at.body);
+      case OutputOf::mass:
+        return mass(s, what, o);
+      case OutputOf::flexible_point:
+        return flexible_point(what, o);
+      case OutputOf::state:
+        return state(s, what, o);
       case OutputOf::joint:
         return joint(s, what, o);
       case OutputOf::mode:
@@ -66,9 +71,12 @@ class OutputReader {
       case OutputOf::force:
         return force(kind, what, o);
       case OutputOf::gauge:
-        return gauge(s, what, o);
+        return read_gauge(self_, s, what, o);
       case OutputOf::reaction:
         return reaction(s, what, o);
+      case OutputOf::formula:
+        o.formula = read_formula(self_, what);
+        return o.formula != nullptr;
       case OutputOf::rod:
         return put(self_.reference(EntityKind::rod, what), o.entity);
       case OutputOf::coupling:
@@ -87,17 +95,18 @@ class OutputReader {
     ReadErrors& errors = *self_.context.errors;
     const bool exists = !model_.columns.insert(o.name).second;
     if (const auto complaint = sentences::column_taken(o.name, exists)) {
-      errors.add(ErrorCode::duplicate, o.origin.mark, "outputs: " + *complaint);
+      errors.add(ErrorCode::duplicate, o.origin.mark, std::string(key_) + ": " + *complaint);
       return;
     }
-    if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
-    model_.description.outputs.push_back(std::move(o));
+    if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, key_)) return;
+    list_.push_back(std::move(o));
   }
 
   void not_one_quantity(YamlSection& s, int found) {
     for (const OutputType type : output_types)
       if (const char* key = output_kind(type).components.key) s.get(key);
-    for (const char* key : {"mode", "coordinate", "about", "in", "direction", "inertia_loads"})
+    for (const char* key : {"mode", "coordinate", "number", "about", "in", "relative_to",
+                            "direction", "inertia_loads", "unit"})
       s.get(key);
     s.finish();
     if (found == 0 && misspelt_quantity(s)) return;  // already reported
@@ -134,28 +143,90 @@ class OutputReader {
     }
   }
 
-  std::optional<std::string> moving_body(const YamlValue& value) {
-    const auto body = self_.reference(EntityKind::body, value);
-    if (body && *body == ground_name) {
-      value.error(ErrorCode::wrong_value, sentences::ground_is_no_body());
-      return std::nullopt;
-    }
-    return body;
-  }
-
   /// An attachment point on a body, or the origin of the frame of a body.
   std::optional<AttachmentDescription> point(const YamlValue& what) {
     if (what.is_map()) {
       auto place_section = what.section();
       return place_section ? read_attachment(self_, model_, *place_section) : std::nullopt;
     }
-    const auto body = moving_body(what);
+    const auto body = read_moving_body(self_, what);
     const auto origin = body ? frame_origin(self_, model_, *body) : std::nullopt;
     if (!origin) return std::nullopt;
     AttachmentDescription at;
     at.body = *body;
     at.point = *origin;
     return at;
+  }
+
+  bool flexible_point(const YamlValue& what, OutputDescription& o) {
+    if (!put(point(what), o.at)) return false;
+    if (o.at.body != ground_name) return true;
+    what.error(ErrorCode::wrong_value, sentences::ground_is_no_body());
+    return false;
+  }
+
+  /// `model`, or a body; `about` a point.
+  bool mass(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const auto about = o.type == OutputType::angular_momentum ? s.get("about") : std::nullopt;
+    o.about = about.has_value();
+    const bool good = !about || put(point(*about), o.to);
+    const auto name = what.text("the name of a body, or model");
+    if (!name) return false;
+    o.whole = *name == "model" && !self_.resolve(EntityKind::body, *name);
+    return (o.whole || put(read_moving_body(self_, what), o.at.body)) && good;
+  }
+
+  bool state(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    bool good = true;
+    if (const auto number = s.get("number")) {
+      const auto k = number->integer(1, 100, "the number of a state");
+      good = put(k, o.component);
+      --o.component;
+    }
+    const auto name = what.text("the name of a force element or of a controller");
+    if (!name) return false;
+    const bool controller =
+        !self_.resolve(EntityKind::force, *name) && self_.resolve(EntityKind::controller, *name);
+    const EntityKind kind = controller ? EntityKind::controller : EntityKind::force;
+    return put(self_.reference(kind, what), o.entity) && good;
+  }
+
+  /// The keys `relative_to` and `in` of a motion, after its subject.
+  bool frames(const OutputKind& kind, YamlSection& s, OutputDescription& o) {
+    const bool good = kind.frames != OutputFrames::relative_to_and_in ||
+                      put_frame(s.get("relative_to"), o.relative);
+    if (kind.frames == OutputFrames::none) return good;
+    const auto in = s.get("in");
+    if (in && !in->is_map())
+      if (const auto name = in->text("the name of a body, world or child");
+          name && (*name == "world" || *name == "child") &&
+          !self_.resolve(EntityKind::body, *name)) {
+        o.axes.emplace();
+        if (*name == "world") return good;
+        o.axes->body = o.at.body;
+        if (o.whole)
+          in->error(ErrorCode::wrong_value, "the model has no axes, expected world or a body");
+        return good && !o.whole;
+      }
+    return put_frame(in, o.axes) && good;
+  }
+
+  /// The frame of a body by its name or {body}, or at a place {body, at}.
+  bool put_frame(const std::optional<YamlValue>& value, std::optional<ReferenceDescription>& out) {
+    if (!value) return true;
+    ReferenceDescription x;
+    auto s = value->is_map() ? value->section() : std::nullopt;
+    x.place = s && (s->has("at") || s->has("node"));
+    bool good;
+    if (x.place) {
+      good = put(read_attachment(self_, model_, *s), static_cast<AttachmentDescription&>(x));
+    } else {
+      const auto body = s ? s->require("body") : value;
+      good = body && put(self_.reference(EntityKind::body, *body), x.body);
+      if (s) s->finish();
+    }
+    if (good) out = x;
+    return good;
   }
 
   bool two_points(const YamlValue& what, OutputDescription& o) {
@@ -232,57 +303,8 @@ class OutputReader {
     return false;
   }
 
-  /// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and
-  /// `along` where there are several places.
-  bool gauge(YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    const bool strain = o.type == OutputType::strain;
-    const auto direction = strain ? s.require("direction") : std::nullopt;
-    const auto loads = s.get("inertia_loads");
-    bool good = place_of_gauge(what, o);
-    good = direction_of(direction, o.gauge.direction) && good && (direction || !strain);
-    return (!loads || put(loads->boolean(), o.gauge.inertia_loads)) && good;
-  }
-
-  bool place_of_gauge(const YamlValue& what, OutputDescription& o) {
-    auto place = what.section("a place, for example {body: arm, node: 1204}");
-    if (!place) return false;
-    const auto body = place->require("body");
-    const auto node = place->get("node"), at = place->get("at"), layer = place->get("layer"),
-               toward = place->get("toward"), along = place->get("along"),
-               material = place->get("material");
-    place->finish();
-    bool good = body && put(moving_body(*body), o.at.body);
-    if (node.has_value() == at.has_value()) {
-      place->error(node ? ErrorCode::exclusive : ErrorCode::missing,
-                   node ? "'node' and 'at' exclude each other; remove one of them"
-                        : "missing key 'node' or 'at'");
-      good = false;
-    } else {
-      good = (at ? put(self_.read_point(*at), o.at.point) : node_of_gauge(*node, o)) && good;
-    }
-    if (layer) {
-      const auto word = layer->word(rules::shell_layers);
-      good = word && good;
-      if (word) o.gauge.layer = static_cast<GaugeDescription::Layer>(*word + 1);
-    }
-    if (material) good = put(material->text("the name of a material"), o.gauge.material) && good;
-    good = direction_of(along, o.gauge.along) && good;
-    return direction_of(toward, o.gauge.toward) && good;
-  }
-
-  static bool direction_of(const std::optional<YamlValue>& value, Vec3& out) {
-    return !value || put(read_direction(*value), out);
-  }
-
-  /// A whole number is a node number in the finite-element file.
-  static bool node_of_gauge(const YamlValue& value, OutputDescription& o) {
-    if (value.looks_like_number())
-      return put(value.integer(1, 2147483647, "the number of a node"), o.gauge.node);
-    return put(value.text("the number or the name of a node"), o.at.node);
-  }
-
   bool mode(YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    const auto body = moving_body(what);
+    const auto body = read_moving_body(self_, what);
     const auto number = s.require("mode");
     if (!body || !number) return false;
     o.at.body = *body;
@@ -301,6 +323,8 @@ class OutputReader {
 
   const ModelInstance& self_;
   ReadModel& model_;
+  const char* key_;
+  std::vector<OutputDescription>& list_;
 };
 
 }  // namespace
@@ -308,9 +332,11 @@ class OutputReader {
 void read_outputs(const ModelInstance& self, ReadModel& model) {
   if (!self.root) return;
   YamlSection root = *self.root;
-  const auto value = root.get("outputs");
-  if (!value) return;
-  OutputReader(self, model).read_all(*value);
+  const auto read = [&](const char* key, std::vector<OutputDescription>& list) {
+    if (const auto value = root.get(key)) OutputReader(self, model, key, list).read_all(*value);
+  };
+  read("outputs", model.description.outputs);
+  read("measures", model.description.measures);
 }
 
 void read_added_outputs(const ModelInstance& root, ReadModel& model) {
@@ -319,7 +345,7 @@ void read_added_outputs(const ModelInstance& root, ReadModel& model) {
     if (document.root.line == 0) continue;  // parse error, already reported
     const ReadContext context{&document.file, &root.scope, root.context.errors};
     const YamlValue value(context, document.root, "outputs");
-    OutputReader(root, model).read_all(value);
+    OutputReader(root, model, "outputs", model.description.outputs).read_all(value);
   }
 }
 

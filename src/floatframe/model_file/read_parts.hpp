@@ -55,6 +55,19 @@ void read_simulation(const ModelInstance& self, ReadModel& model);
 /// x, y, z of every rigid body.
 void default_outputs(ReadModel& model);
 
+/// A body, not the ground.
+std::optional<std::string> read_moving_body(const ModelInstance& self, const YamlValue& value);
+/// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and
+/// `along` where there are several places; false after an error. `what` is a value of `s`.
+bool read_gauge(const ModelInstance& self, YamlSection& s, const YamlValue& what,
+                OutputDescription& o);
+/// Stores a value that was read in its member; false if nothing was read.
+template <class Read, class Place>
+bool put(std::optional<Read> read, Place& place) {
+  if (read) place = std::move(*read);
+  return read.has_value();
+}
+
 /// A flexible body as described: bars, or a part that is already reduced.
 struct FlexibleRead {
   FlexibleDescription description;
@@ -135,9 +148,16 @@ struct LawUnits {
   const char* slope = "N/m";
 };
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
+/// A formula with the parameters and names of this file; nullptr after an error.
+SharedFormula read_formula(const ModelInstance& self, const YamlValue& value);
+/// {formula: ...} of x, v and t, or the name of a function that a program is to give.
+std::optional<ForceFunction> read_force_function(const ModelInstance& self, const YamlValue& value);
+/// The section `tables`.
+void read_tables(ModelInstance& self);
 /// A function of time: a number is a constant, tables hold their end values, `sine` may be added.
 /// For the motion of a joint, which has no jumps.
-TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table);
+TimeFunction read_motion(const ModelInstance& self, const YamlValue& value, const char* unit,
+                         Interpolation table);
 /// The same with jumps (two points of a table with the same time), or {input: name}, or both in one
 /// map, which are added.
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,

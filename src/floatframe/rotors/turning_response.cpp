@@ -48,7 +48,7 @@ struct Phasors {
 class OutputSlopes {
  public:
   OutputSlopes(RelativeFormulation& f, const State& s, const std::vector<int>& outputs)
-      : f_(f), s_(s), outputs_(outputs), followed_(outputs.size()) {
+      : f_(f), s_(s), outputs_(outputs), followed_(followed_outputs(f.model().outputs)) {
     steps_ = motion_steps(f.model(), possible_masses(f, s));
     const VecX still = VecX::Zero(f.velocities());
     means_ = values(still, still, still);
@@ -75,8 +75,8 @@ class OutputSlopes {
     VecX y(static_cast<Eigen::Index>(outputs_.size()));
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
       const Output& output = f_.model().outputs[static_cast<std::size_t>(outputs_[k])];
-      if (!followed_[k].started) output_value(motion, output, followed_[k]);
-      FollowedOutput last = followed_[k];
+      if (!followed_[outputs_[k]].started) output_value(motion, output, followed_[outputs_[k]]);
+      FollowedOutput last = followed_[outputs_[k]];
       y[static_cast<Eigen::Index>(k)] = output_value(motion, output, last);
     }
     return y;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
@@ -39,11 +40,12 @@ class CauseFinder {
 
   /// A corner: the velocity jumps.
   void motion(const std::string& name, const TimeFunction& f, const char* unit) {
-    if (f.pieces.edges().empty()) return;
-    const double range = range_of_values(f.pieces);
-    for (const double e : f.pieces.edges()) {
+    const PiecewisePolynomial pieces = pieces_of(f);
+    if (pieces.edges().empty()) return;
+    const double range = range_of_values(pieces);
+    for (const double e : pieces.edges()) {
       if (e < from_ || e > to_) continue;
-      const EdgeSides s = edge_sides(f.pieces, e);
+      const EdgeSides s = edge_sides(pieces, e);
       const double jump = s.right.df - s.left.df;
       // The path in ten steps at this velocity, relative to the total range.
       const double share = 10.0 * step_ * std::abs(jump) / std::max(range, 1e-300);
@@ -63,15 +65,16 @@ class CauseFinder {
   /// Jumps of values that are only sampled by steps (time_corners.hpp): a large part of the total
   /// variation of a table within one step. Jumps at which steps are divided are resolved.
   void sampled(const std::string& name, const TimeFunction& f, const char* unit) {
-    const std::vector<double>& breaks = f.pieces.breaks();
+    const PiecewisePolynomial pieces = pieces_of(f);
+    const std::vector<double>& breaks = pieces.breaks();
     if (breaks.empty()) return;
-    const double range = std::max(range_of_values(f.pieces), 1e-300);
+    const double range = std::max(range_of_values(pieces), 1e-300);
     for (std::size_t k = 0; k < breaks.size(); ++k) {
       if (breaks[k] < from_ || breaks[k] > to_ || divided(breaks[k])) continue;
-      const double here = edge_sides(f.pieces, breaks[k]).left.f;
+      const double here = edge_sides(pieces, breaks[k]).left.f;
       double way = 0.0;
       for (std::size_t n = k + 1; n < breaks.size() && breaks[n] - breaks[k] < step_; ++n) {
-        const double there = edge_sides(f.pieces, breaks[n]).right.f - here;
+        const double there = edge_sides(pieces, breaks[n]).right.f - here;
         if (std::abs(there) > std::abs(way)) way = there;
       }
       const double share = std::abs(way) / range;
@@ -85,6 +88,10 @@ class CauseFinder {
   const std::string& text() const { return text_; }
 
  private:
+  PiecewisePolynomial pieces_of(const TimeFunction& f) const {
+    return repeated(f.pieces, f.period, from_ - f.period, to_, most_repeated_pieces);
+  }
+
   void offer(double share, std::string text) {
     if (!(share > share_)) return;
     share_ = share;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "floatframe/math/frequency.hpp"
+#include "floatframe/math/piecewise_build.hpp"
 
 namespace floatframe {
 namespace {
@@ -64,6 +65,15 @@ Passed passed_value(const PiecewisePolynomial& table, double step, double begin,
   return worst;
 }
 
+/// Of sines and of the two ends of chirps [Hz].
+double highest_frequency(const TimeFunction& f) {
+  double most = 0.0;
+  for (const SineTerm& s : f.sines)
+    if (s.amplitude != 0.0)
+      most = std::max({most, std::abs(s.frequency), std::abs(s.frequency + s.rate * s.duration)});
+  return most;
+}
+
 std::string subject(const Forcing& worst, int others) {
   return others == 0 ? worst.name : fmt::format("{} (and {} more)", worst.name, others);
 }
@@ -76,14 +86,16 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
   std::vector<RangeWarning> out;
   const std::vector<Forcing> all = all_forcing(model);
   const Forcing* worst = nullptr;
-  double phase = limits.phase;
+  double phase = limits.phase, highest = 0.0;
   int count = 0;
   for (const Forcing& f : all) {
-    const double x = omega_of(std::abs(f.function->frequency)) * step;
-    if (f.function->amplitude == 0.0 || !(x > limits.phase)) continue;
+    const double frequency = highest_frequency(*f.function);
+    const double x = omega_of(frequency) * step;
+    if (!(x > limits.phase)) continue;
     ++count;
     if (x > phase) {
       phase = x;
+      highest = frequency;
       worst = &f;
     }
   }
@@ -94,13 +106,16 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
              "the step of {:g} s is too long for {}: its sine of {:g} Hz goes through {:.3g} rad "
              "of phase in each step (limit {:g} rad), {:.2g} steps per period; take a step of at "
              "most {:.2g} s",
-             step, subject(*worst, count - 1), std::abs(worst->function->frequency), phase,
-             limits.phase, 2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
+             step, subject(*worst, count - 1), highest, phase, limits.phase,
+             2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
   worst = nullptr;
   count = 0;
   Passed most;
   for (const Forcing& f : all) {
-    const Passed p = passed_value(f.function->pieces, step, begin, duration, located);
+    const TimeFunction& function = *f.function;
+    const Passed p = passed_value(
+        repeated(function.pieces, function.period, begin, begin + duration, most_repeated_pieces),
+        step, begin, duration, located);
     if (!(p.part > limits.passed)) continue;
     ++count;
     if (p.part > most.part) {

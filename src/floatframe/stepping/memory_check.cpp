@@ -62,9 +62,15 @@ std::string memory_complaint(const StepperMemory& d, const StepperMemory& own, d
   for (const std::int64_t branch : d.force_branches)
     if (branch < free_branch) return "is damaged: branches of forces that do not exist";
   if (d.outputs.size() != own.outputs.size()) return "is damaged: outputs of another number";
-  for (const FollowedOutput& o : d.outputs)
-    if (!std::isfinite(o.time) || !std::isfinite(o.position) || !std::isfinite(o.rate))
-      return "is damaged: outputs that are not finite";
+  for (std::size_t k = 0; k < d.outputs.size(); ++k) {
+    const FollowedOutput& o = d.outputs[k];
+    bool finite = std::isfinite(o.time) && all_finite(o.values);
+    for (const FollowedOutput& part : o.parts)
+      finite = finite && std::isfinite(part.time) && all_finite(part.values);
+    if (!finite) return "is damaged: outputs that are not finite";
+    if (o.parts.size() != own.outputs[k].parts.size())
+      return "is damaged: outputs with formulas of another size";
+  }
   if (!consistent(d, step)) return "is damaged: times or counters that do not fit together";
   return {};
 }

@@ -14,7 +14,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::string_view state_magic = "ffstate\n";
-constexpr std::uint64_t state_version = 4;
+constexpr std::uint64_t state_version = 5;
 constexpr const char* saved_state = "the saved state";
 constexpr std::size_t checksum_size = 32;
 

@@ -45,7 +45,9 @@ class StateWriter {
     (*this)(static_cast<std::uint64_t>(outputs.size()));
     for (const FollowedOutput& o : outputs) {
       (*this)(static_cast<std::uint64_t>(o.started));
-      for (const double x : {o.time, o.position, o.rate}) (*this)(x);
+      (*this)(o.time);
+      for (const double x : o.values) (*this)(x);
+      (*this)(o.parts);
     }
   }
   std::vector<std::byte> bytes;
@@ -85,10 +87,12 @@ class StateReader {
     for (int k = 0; k < 3; ++k) (*this)(v[k]);
   }
   void operator()(std::vector<FollowedOutput>& outputs) {
-    outputs.resize(count(32));
+    outputs.resize(count(72));
     for (FollowedOutput& o : outputs) {
       o.started = number() != 0;
-      for (double* x : {&o.time, &o.position, &o.rate}) (*this)(*x);
+      (*this)(o.time);
+      for (double& x : o.values) (*this)(x);
+      (*this)(o.parts);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floatframe/loops/redundancy.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/start/light_motion.hpp"
 #include "floatframe/start/overflow.hpp"
 #include "floatframe/start/positive_mass.hpp"
@@ -43,6 +44,13 @@ std::string Stepper::step_failure() {
   // An excessive force is a more useful hint than the coordinate it acts on.
   const int force = largest_force();
   const bool unknown = force >= 0 && std::isnan(f_.effort(force).force);
+  if (unknown && element_kind(model().elements[force].type).complaint) {
+    f_.find_links();
+    const std::string why = element_kind(model().elements[force].type).complaint(f_.ports(force));
+    if (!why.empty())
+      return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}: {}",
+                         state_.t, smallest(), element_name(model().elements[force]), why);
+  }
   const std::string who = unknown              ? "force '" + model().elements[force].name + "'"
                           : last_.element >= 0 ? element_name(model().elements[last_.element])
                           : last_.constraint >= 0

@@ -31,7 +31,6 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
       grid_(start_.state().t, options.step, limits.duration) {
   find_corners(options, limits);
   begin_at_start(options.locate_edges && !limits.bounded);
-  prepare_reactions();
   if (reactions_ && !reactions_->open_outputs().empty())
     start_.add_note(open_outputs_note(reactions_->open_outputs()));
   if (options.locate_edges && limits.bounded)
@@ -48,7 +47,6 @@ Stepper::Stepper(const Stepper& found, double duration)
       grid_(start_.state().t, found.grid_.step(), duration) {
   locate_corners({found.corners().begin(), found.corners().end()});
   begin_at_start(found.locator_.has_value());
-  prepare_reactions();
 }
 
 void Stepper::find_corners(const SimulationDescription& o, const StepLimits& limits) {
@@ -68,10 +66,21 @@ void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
 void Stepper::begin_at_start(bool locate_edges) {
   assert(min_step_ >= 0.0);
   needs_ = needs_of_outputs(model());
-  outputs_.resize(model().outputs.size());
+  outputs_ = followed_outputs(model().outputs);
+  std::size_t place = 0;
+  for (const Element& e : model().elements) {
+    for (const FormulaOperand& x : e.operands)
+      if (x.kind == FormulaOperand::Kind::sample) {
+        samples_.push_back({&x.output, place + e.states + x.index});
+        sampled_ = sampled_ | needs_of(x.output);
+      }
+    place += e.states + e.kept;
+  }
   inputs_.assign(f_.inputs().begin(), f_.inputs().end());
   state_ = start_.state();
   if (locate_edges) locator_.emplace(f_, *integrator_);
+  prepare_reactions();
+  take_samples();
   hold_branches();
   first_ = memory();
   for (const Element& e : model().elements)
@@ -83,7 +92,7 @@ void Stepper::begin_at_start(bool locate_edges) {
 }
 
 void Stepper::prepare_reactions() {
-  if (!needs_.reactions) return;
+  if (!(needs_ | sampled_).reactions) return;
   reactions_.emplace(f_.coordinates(), model(), start_.inertia(), start_.state(),
                      ReactionOptions{step_options_.penalty_mass, grid_.step(),
                                      !start_.report().redundant.empty()});
@@ -143,6 +152,7 @@ bool Stepper::cover(double h) noexcept {
   const bool divided = locator_ || (corners_ && corners_->within(state_.t, h));
   count(last_ = part(h, true));
   if (last_.accepted()) {
+    take_samples();
     ++counters_.steps;
     return true;
   }
@@ -152,6 +162,7 @@ bool Stepper::cover(double h) noexcept {
     const double now = std::min(sub, remaining);
     count(last_ = part(now, true));
     if (last_.accepted()) {
+      take_samples();
       remaining -= now;
       ++counters_.substeps;
       if (remaining > 0.0 && sub < 0.5 * h) sub *= 2.0;
@@ -213,21 +224,34 @@ void Stepper::count(const StepAttempt& r) noexcept {
 
 void Stepper::sample(double* row) noexcept {
   assert(row && state_.q.size() == f_.configurations());
-  assert(reactions_ || !needs_.reactions);
+  *row++ = state_.t;
+  const SystemMotion& motion = present_motion(needs_);
+  for (std::size_t k = 0; k < model().outputs.size(); ++k)
+    *row++ = output_value(motion, model().outputs[k], outputs_[k]);
+}
+
+const SystemMotion& Stepper::present_motion(MotionNeeds needs) noexcept {
+  assert(reactions_ || !needs.reactions);
   kinematics_at(f_, state_);
-  if (needs_.energies || needs_.reactions)
+  if (needs.energies || needs.reactions)
     f_.dynamics();
   else
     f_.forces();
-  if (reactions_) {
+  if (needs.reactions) {
     reactions_->solve(state_, f_.inputs(), f_.spring_angles(), f_.force_branches());
     reactions_->set_impulses(f_.constraint_set(), integrator_->impulses());
   }
-  f_.set_accelerations(reactions_ ? reactions_->accelerations() : state_.a);
-  *row++ = state_.t;
-  const SystemMotion& motion = f_.motion(needs_, reactions_ ? &reactions_->reactions() : nullptr);
-  for (std::size_t k = 0; k < model().outputs.size(); ++k)
-    *row++ = output_value(motion, model().outputs[k], outputs_[k]);
+  f_.set_accelerations(needs.reactions ? reactions_->accelerations() : state_.a);
+  return f_.motion(needs, needs.reactions ? &reactions_->reactions() : nullptr);
+}
+
+/// Of outputs that formulas refer to, which they keep until the end of the next step.
+void Stepper::take_samples() noexcept {
+  if (samples_.empty()) return;
+  const SystemMotion& motion = present_motion(sampled_);
+  FollowedOutput nothing;
+  for (const Sample& s : samples_)
+    state_.z[static_cast<Eigen::Index>(s.place)] = output_value(motion, *s.output, nothing);
 }
 
 Energies Stepper::energies() noexcept {

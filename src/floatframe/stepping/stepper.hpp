@@ -136,6 +136,9 @@ class Stepper {
   StepAttempt part(double h, bool may_meet_corner) noexcept;
   void hold_branches() noexcept;
   void take_inputs(double h) noexcept;
+  /// With what readers need, at the present state.
+  const SystemMotion& present_motion(MotionNeeds needs) noexcept;
+  void take_samples() noexcept;
   void count(const StepAttempt& attempt) noexcept;
 
   // What `failure` is made of.
@@ -161,7 +164,12 @@ class Stepper {
   std::vector<FollowedOutput> outputs_;
   std::vector<double> inputs_;  ///< those of the last step
   std::optional<Before> before_;
-  MotionNeeds needs_;                        ///< of the outputs
+  MotionNeeds needs_, sampled_;  ///< of the outputs; of formulas
+  struct Sample {
+    const Output* output;
+    std::size_t place;  ///< among the states of elements
+  };
+  std::vector<Sample> samples_;              ///< what formulas know of the last accepted instant
   std::optional<ReactionSolver> reactions_;  ///< if an output needs them
   TimeGrid grid_;
   StepperMemory first_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
@@ -25,6 +26,8 @@ struct Kinks {
   std::vector<Kink> located;  ///< or dense
   double velocity_at = 0.0, velocity_jump = 0.0;
   std::size_t velocity_jumps = 0;  ///< of a motion
+  bool all = true;                 ///< false: of a function that repeats, up to `until`
+  double until = 0.0;              ///< [s]
 };
 
 /// Largest magnitudes of value and derivatives at the breaks, and of slopes between them (at the
@@ -57,10 +60,19 @@ bool ends_a_short_piece(const std::vector<double>& breaks, std::size_t k, double
 /// Of the instants in (begin, end].
 Kinks kinks_of(const Forcing& forcing, double begin, double end, double step) {
   constexpr double rounding = 1e-9;  // of the largest value, slope or curvature
-  const PiecewisePolynomial& f = forcing.function->pieces;
+  const TimeFunction& function = *forcing.function;
+  const PiecewisePolynomial f =
+      repeated(function.pieces, function.period, begin, end, most_repeated_pieces);
   const std::vector<double>& breaks = f.breaks();
   Kinks out;
+  for (const SineTerm& s : function.sines)
+    for (const double at : {s.start, s.start + s.duration})
+      if (s.rate != 0.0 && (forcing.rate || forcing.kind == Forcing::Kind::motion) && at > begin &&
+          at <= end)
+        out.located.push_back({at, false});
   if (breaks.empty()) return out;
+  out.until = breaks.back();
+  out.all = function.period == 0.0 || !(out.until + function.period < end);
   const PiecewisePolynomial::Value most = largest_at_breaks(f);
   for (std::size_t k = 0; k < breaks.size();) {
     const double at = breaks[k];
@@ -85,6 +97,8 @@ Kinks kinks_of(const Forcing& forcing, double begin, double end, double step) {
       out.located.push_back({at, false});
     }
   }
+  std::sort(out.located.begin(), out.located.end(),
+            [](const Kink& a, const Kink& b) { return a.at < b.at; });
   return out;
 }
 
@@ -175,6 +189,11 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
   const double end = o.begin + o.duration + time_corner_width * o.step;
   for (const Forcing& f : all_forcing(model)) {
     Kinks k = kinks_of(f, o.begin, end, o.step);
+    if (!k.all)
+      out.dense.push_back(
+          fmt::format("{} repeats too often: steps are divided at its corners up "
+                      "to t = {:.6g} s, after that it is sampled at their ends",
+                      f.name, k.until));
     if (k.velocity_jumps > 0) out.velocity_jumps.push_back(velocity_note(f, k));
     const std::size_t dense = o.all ? 0 : thin_out(k.located, o);
     if (dense > 0) {

@@ -19,6 +19,9 @@ namespace floatframe {
 /// Corners within this fraction of a step count as one.
 inline constexpr double time_corner_width = 1e-6;
 
+/// Pieces of a function that repeats up to which its corners are looked at.
+inline constexpr std::size_t most_repeated_pieces = 100'000;
+
 /// The functions go from their left sides at `from` to their right sides at `to` [s].
 struct TimeCorner {
   double from = 0.0, to = 0.0;

@@ -1,20 +1,15 @@
 #include "floatframe/yaml/expression.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "floatframe/core/ascii.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/yaml/expression_words.hpp"
+#include "floatframe/formulas/function_words.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr int deepest_expression = 100;
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 std::string in_quotes(std::string_view s) {
   std::string t(1, '\'');
@@ -31,31 +26,48 @@ struct Operand {
   bool typed = true;
 };
 
-/// Recursive descent; one function per level of precedence. Everything is read and checked: syntax,
-/// names, numbers of arguments, types; values are computed only if `needed_`.
-class Parser {
+/// Everything is checked: names, numbers of arguments, types; values are computed only if
+/// `needed_`.
+class Evaluator {
  public:
-  Parser(std::string_view text, const ParameterScope& scope, bool suggest)
-      : text_(text), scope_(scope), suggest_(suggest) {}
+  Evaluator(const ParameterScope& scope, bool suggest) : scope_(scope), suggest_(suggest) {}
 
-  ParameterValue whole() {
-    skip_blanks();
-    if (at_ == text_.size()) throw ExpressionError("the expression is empty");
-    Operand v = disjunction();
-    skip_blanks();
-    if (at_ != text_.size()) throw ExpressionError("unexpected " + here());
-    return std::move(v.value);
+  Operand of(const SyntaxNode& node) {
+    using Kind = SyntaxNode::Kind;
+    switch (node.kind) {
+      case Kind::number:
+        return {node.number};
+      case Kind::truth:
+        return {node.number != 0.0};
+      case Kind::text:
+        return {node.word};
+      case Kind::name:
+        return named(node.word);
+      case Kind::chain:
+        return chain(node);
+      case Kind::power: {
+        const double a = number(of(node.parts[0]), "^"), b = number(of(node.parts[1]), "^");
+        return result([&] { return std::pow(a, b); });
+      }
+      case Kind::sign: {
+        const double a = number(of(node.parts[0]), node.word);
+        return result([&] { return node.word == "-" ? -a : a; });
+      }
+      case Kind::comparison:
+        return comparison(node);
+      case Kind::all:
+      case Kind::any:
+        return junction(node);
+      case Kind::negation:
+        return truth(!boolean(of(node.parts[0]), "not"));
+      case Kind::call:
+        return call(node);
+    }
+    return {};
   }
 
  private:
-  struct DepthGuard {  // bounds the recursion for any text
-    explicit DepthGuard(int& d) : depth(d) {
-      if (++depth > deepest_expression) throw ExpressionError("nested too deeply");
-    }
-    ~DepthGuard() { --depth; }
-    int& depth;
-  };
-  struct NeededScope {  // in its scope, parts read are needed only if the condition holds
+  struct NeededScope {  // in its scope, parts are needed only if the condition holds
     NeededScope(bool& n, bool condition) : needed(n), before(n) { needed = needed && condition; }
     ~NeededScope() { needed = before; }
     NeededScope(const NeededScope&) = delete;
@@ -74,102 +86,45 @@ class Parser {
     return {x, true, true};
   }
 
-  Operand disjunction() {
-    Operand v = conjunction();
-    while (word("or")) {
-      const bool a = boolean(v, "or");
-      const NeededScope other(needed_, !a);
-      v = truth(boolean(conjunction(), "or") || a);
+  Operand junction(const SyntaxNode& node) {
+    const bool stops = node.kind == SyntaxNode::Kind::any;
+    bool v = boolean(of(node.parts[0]), node.word);
+    for (std::size_t k = 1; k < node.parts.size(); ++k) {
+      const NeededScope other(needed_, v != stops);
+      const bool b = boolean(of(node.parts[k]), node.word);
+      v = stops ? b || v : b && v;
+    }
+    return truth(v);
+  }
+  Operand comparison(const SyntaxNode& node) {
+    const Operand a = of(node.parts[0]), b = of(node.parts[1]);
+    const std::string& o = node.word;
+    if (a.typed && b.typed && a.value.index() != b.value.index())
+      throw ExpressionError("cannot compare " + std::string(type_name(a.value)) + " with " +
+                            type_name(b.value));
+    if (o == "==") return truth(a.value == b.value);
+    if (o == "!=") return truth(a.value != b.value);
+    const double x = number(a, o), y = number(b, o);
+    return truth(o == "<=" ? x <= y : o == ">=" ? x >= y : o == "<" ? x < y : x > y);
+  }
+  Operand chain(const SyntaxNode& node) {
+    Operand v = of(node.parts[0]);
+    for (std::size_t k = 1; k < node.parts.size(); ++k) {
+      const char op = node.word[k - 1];
+      const double a = number(v, std::string(1, op));
+      const double b = number(of(node.parts[k]), std::string(1, op));
+      v = result([&] {
+        if (op == '/' && b == 0.0) throw ExpressionError("division by zero");
+        return op == '+' ? a + b : op == '-' ? a - b : op == '*' ? a * b : a / b;
+      });
     }
     return v;
   }
-  Operand conjunction() {
-    Operand v = negation();
-    while (word("and")) {
-      const bool a = boolean(v, "and");
-      const NeededScope other(needed_, a);
-      v = truth(boolean(negation(), "and") && a);
-    }
-    return v;
-  }
-  Operand negation() {
-    const DepthGuard deeper(depth_);
-    if (word("not")) return truth(!boolean(negation(), "not"));
-    return comparison();
-  }
-  Operand comparison() {
-    const Operand a = sum();
-    for (const char* op : {"==", "!=", "<=", ">=", "<", ">"}) {
-      if (!symbol(op)) continue;
-      const Operand b = sum();
-      const std::string o = op;
-      if (a.typed && b.typed && a.value.index() != b.value.index())
-        throw ExpressionError("cannot compare " + std::string(type_name(a.value)) + " with " +
-                              type_name(b.value));
-      if (o == "==") return truth(a.value == b.value);
-      if (o == "!=") return truth(a.value != b.value);
-      const double x = number(a, op), y = number(b, op);
-      return truth(o == "<=" ? x <= y : o == ">=" ? x >= y : o == "<" ? x < y : x > y);
-    }
-    return a;
-  }
-  /// Operands of one level with operators between them, from left to right.
-  template <class Compute>
-  Operand chain(const char* first, const char* second, Operand (Parser::*next)(), Compute compute) {
-    Operand v = (this->*next)();
-    for (;;) {
-      const char* op = symbol(first) ? first : symbol(second) ? second : nullptr;
-      if (op == nullptr) return v;
-      const double a = number(v, op), b = number((this->*next)(), op);
-      v = result([&] { return compute(op == first, a, b); });
-    }
-  }
-  Operand sum() {
-    return chain("+", "-", &Parser::product,
-                 [](bool plus, double a, double b) { return plus ? a + b : a - b; });
-  }
-  Operand product() {
-    return chain("*", "/", &Parser::sign, [](bool times, double a, double b) {
-      if (!times && b == 0.0) throw ExpressionError("division by zero");
-      return times ? a * b : a / b;
-    });
-  }
-  Operand sign() {
-    const DepthGuard deeper(depth_);
-    for (const char* op : {"-", "+"})
-      if (symbol(op)) {
-        const double a = number(sign(), op);
-        return result([&] { return *op == '-' ? -a : a; });
-      }
-    return power();
-  }
-  Operand power() {
-    Operand v = primary();
-    if (!symbol("^")) return v;
-    const double a = number(v, "^"), b = number(sign(), "^");
-    return result([&] { return std::pow(a, b); });
-  }
-  Operand primary() {
-    skip_blanks();
-    if (at_ == text_.size()) throw ExpressionError("a value is missing at the end");
-    const char c = text_[at_];
-    if (c == '(') {
-      ++at_;
-      Operand v = disjunction();
-      if (!symbol(")")) throw ExpressionError("a ')' is missing");
-      return v;
-    }
-    if (c == '\'' || c == '"') return {quoted(c)};
-    if (is_digit(c) || c == '.') return {literal()};
-    if (!is_letter(c)) throw ExpressionError("unexpected " + here());
-    const std::string_view name = identifier();
-    if (symbol("(")) return call(name);
-    if (name == "true") return {true};
-    if (name == "false") return {false};
+  Operand named(const std::string& name) const {
     const auto it = scope_.find(name);  // a parameter hides a constant of the same name
     if (it != scope_.end()) return {it->second};
     if (const auto value = constant_value(name)) return {*value};
-    if (is_reserved_name(name)) throw ExpressionError("unexpected " + in_quotes(name));
+    if (is_function_name(name, true)) throw ExpressionError("unexpected " + in_quotes(name));
     throw ExpressionError("unknown parameter " + in_quotes(name) + suggestion(name));
   }
   std::string suggestion(std::string_view name) const {
@@ -180,89 +135,47 @@ class Parser {
       known.push_back(std::move(name_of_constant));
     return did_you_mean(name, known);
   }
-  std::string quoted(char quote) {
-    const std::size_t end = text_.find(quote, at_ + 1);
-    if (end == std::string_view::npos) throw ExpressionError("a text is not closed");
-    std::string s(text_.substr(at_ + 1, end - at_ - 1));
-    at_ = end + 1;
-    return s;
-  }
-  double literal() {
-    const std::size_t begin = at_;
-    const auto digits = [&] {
-      while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
-    };
-    digits();
-    if (at_ < text_.size() && text_[at_] == '.') ++at_, digits();
-    if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
-      std::size_t k = at_ + 1;
-      if (k < text_.size() && (text_[k] == '+' || text_[k] == '-')) ++k;
-      if (k < text_.size() && is_digit(text_[k])) at_ = k, digits();
-    }
-    while (at_ < text_.size() &&
-           (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '.'))
-      ++at_;
-    const std::string_view s = text_.substr(begin, at_ - begin);
-    const PlainScalar p = classify_plain_scalar(s);
-    if (p.kind != PlainScalar::Kind::number)
-      throw ExpressionError("'" + std::string(s) + "' is not a number" +
-                            (p.complaint.empty() ? "" : " (" + p.complaint + ")"));
-    return p.number;
-  }
-  /// The arguments of `f`; for an `if` only the branch selected by its condition is needed.
-  std::vector<Operand> arguments(const std::string& f) {
+  /// The arguments; for an `if` only the branch selected by its condition is needed.
+  std::vector<Operand> arguments(const SyntaxNode& node) {
     std::vector<Operand> v;
-    if (symbol(")")) return v;
     bool condition = true;
-    do {
-      const NeededScope chosen(needed_, f != "if" || v.empty() || (v.size() == 1) == condition);
-      v.push_back(disjunction());
+    for (const SyntaxNode& part : node.parts) {
+      const NeededScope chosen(needed_,
+                               node.word != "if" || v.empty() || (v.size() == 1) == condition);
+      v.push_back(of(part));
       if (v.size() == 1)
         if (const bool* x = std::get_if<bool>(&v[0].value)) condition = *x;
-    } while (symbol(","));
-    if (!symbol(")")) throw ExpressionError("a ')' is missing");
+    }
     return v;
   }
-  Operand call(std::string_view name) {
-    const std::string f(name);
-    const std::vector<Operand> v = arguments(f);
-    if (!is_function_name(name))
-      throw ExpressionError("unknown function " + in_quotes(f) +
-                            (suggest_ ? did_you_mean(name, function_names()) : ""));
-    const auto need = [&](std::size_t n) {
-      if (v.size() != n)
-        throw ExpressionError(f + " takes " + std::to_string(n) +
-                              (n == 1 ? " argument" : " arguments") + ", found " +
-                              std::to_string(v.size()));
-    };
-    if (f == "if") {
-      need(3);
-      const bool first = boolean(v[0], "if");
-      if (needed_) return v[first ? 1 : 2];
-      const bool same = v[1].typed && v[2].typed && v[1].value.index() == v[2].value.index();
-      return {v[1].value, false, same};
-    }
-    if (f == "min" || f == "max") {
-      if (v.empty()) throw ExpressionError(f + " takes at least 1 argument, found 0");
-      double best = number(v[0], f);
-      for (const Operand& x : v) {
-        const double y = number(x, f);
-        best = f == "min" ? std::min(best, y) : std::max(best, y);
-      }
-      return result([&] { return best; });
-    }
-    if (f == "atan2") {
-      need(2);
-      const double y = number(v[0], f), x = number(v[1], f);
-      return result([&] { return std::atan2(y, x); });
-    }
-    need(1);
-    const double x = number(v[0], f);
+  Operand call(const SyntaxNode& node) {
+    const std::string& f = node.word;
+    const std::vector<Operand> v = arguments(node);
+    if (!is_function_name(f, true))
+      throw ExpressionError(
+          (is_function_name(f) ? "only formulas have the function " : "unknown function ") +
+          in_quotes(f) + (suggest_ ? did_you_mean(f, function_names(true)) : ""));
+    const UnaryFunction* unary = unary_function(f);
+    const FunctionWord* word = function_word(f);
+    if (const std::string complaint =
+            argument_complaint(f, unary ? 1 : word->fewest, unary ? 1 : word->most, v.size());
+        !complaint.empty())
+      throw ExpressionError(complaint);
+    if (word && word->function == Function::if_) return selected(v);
+    std::vector<double> x;
+    for (const Operand& operand : v) x.push_back(number(operand, f));
     return result([&] {
-      const UnaryFunction& g = *unary_function(name);
-      if (!g.defined(x)) throw ExpressionError(f + " of " + number_text(x) + " is not defined");
-      return g.value(x);
+      if (!unary) return function_of(word->function, x);
+      if (!unary->defined(x[0]))
+        throw ExpressionError(f + " of " + number_text(x[0]) + " is not defined");
+      return unary->at(x[0]).f;
     });
+  }
+  Operand selected(const std::vector<Operand>& v) const {
+    const bool first = boolean(v[0], "if");
+    if (needed_) return v[first ? 1 : 2];
+    const bool same = v[1].typed && v[2].typed && v[1].value.index() == v[2].value.index();
+    return {v[1].value, false, same};
   }
 
   static double number(const Operand& v, std::string_view where) {
@@ -280,43 +193,27 @@ class Parser {
     return v.value.index() == 2 ? in_quotes(std::get<std::string>(v.value)) : value_text(v.value);
   }
 
-  void skip_blanks() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-  }
-  std::string here() const { return in_quotes(text_.substr(at_, 12)); }
-  bool symbol(std::string_view s) {
-    skip_blanks();
-    if (text_.substr(at_, s.size()) != s) return false;
-    at_ += s.size();
-    return true;
-  }
-  bool word(std::string_view w) {
-    skip_blanks();
-    if (text_.substr(at_, w.size()) != w) return false;
-    const std::size_t next = at_ + w.size();
-    if (next < text_.size() && (is_letter(text_[next]) || is_digit(text_[next]))) return false;
-    at_ = next;
-    return true;
-  }
-  std::string_view identifier() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]))) ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-
-  std::string_view text_;
   const ParameterScope& scope_;
   bool suggest_;
-  std::size_t at_ = 0;
-  int depth_ = 0;
   bool needed_ = true;
 };
 
 }  // namespace
 
+std::string value_text(const ParameterValue& value) {
+  if (const bool* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
+  if (const double* x = std::get_if<double>(&value)) return number_text(*x);
+  return std::get<std::string>(value);
+}
+
+const char* type_name(const ParameterValue& value) {
+  constexpr std::array names{"true or false", "a number", "a text"};
+  return names[value.index()];
+}
+
 ParameterValue evaluate_expression(std::string_view text, const ParameterScope& scope,
                                    bool suggest) {
-  return Parser(text, scope, suggest).whole();
+  return Evaluator(scope, suggest).of(parse_expression(text)).value;
 }
 
 ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope,

@@ -1,97 +1,185 @@
 #include "floatframe/yaml/read_table.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <string_view>
+#include <optional>
+
+#include "floatframe/yaml/csv_file.hpp"
 
 namespace floatframe {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+/// What is taken of a CSV file.
+struct TableChoice {
+  std::optional<YamlValue> column, argument;
+  double scale = 1.0, offset = 0.0, argument_scale = 1.0;
+  DecimalSign sign = DecimalSign::automatic;
+};
 
-/// The cells of a line: separated by semicolons, else by commas, else by blanks.
-std::vector<std::string_view> cells(std::string_view line) {
-  std::vector<std::string_view> out;
-  const char separator = line.find(';') != std::string_view::npos   ? ';'
-                         : line.find(',') != std::string_view::npos ? ','
-                                                                    : ' ';
-  for (;;) {
-    const std::size_t end = separator == ' ' ? line.find_first_of(" \t") : line.find(separator);
-    out.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) return out;
-    line.remove_prefix(end + 1);
-    if (separator == ' ') line = trimmed(line);
-  }
-}
-
-class TableFile {
+class TableReader {
  public:
-  TableFile(const YamlValue& value, const NumberRule& rule, TableRows& out)
-      : value_(value), rule_(rule), out_(out) {}
+  TableReader(const YamlValue& value, const NumberRule& rule, const char* argument, TableRows& out)
+      : value_(value), rule_(rule), argument_(argument), out_(out) {}
 
-  void read(const std::string& text) {
-    std::string_view rest = text;
-    if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
-    bool header = true;  // a header line may still follow
-    for (int line = 1; !rest.empty(); ++line) {
-      const std::size_t end = rest.find('\n');
-      std::string_view content = rest.substr(0, end);
-      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-      content = trimmed(content.substr(0, content.find('#')));
-      if (content.empty()) continue;
-      if (!row(content, line, header)) out_.good = false;
-      header = false;
-      if (stop_) return;
+  void points(const char* point) {
+    out_.good = true;
+    out_.file = *value_.context().file;
+    out_.path = value_.path();
+    std::size_t number = 0;
+    for (const YamlValue& item : value_.list()) {
+      ++number;
+      const auto p = item.numbers(2, 2, rule_, point);
+      out_.good = out_.good && p;
+      if (p)
+        out_.rows.push_back({{(*p)[0], (*p)[1]}, item.mark().line, item.mark().column, number});
     }
+  }
+
+  void columns() {
+    auto section = value_.section();
+    const auto name = section->require("file");
+    TableChoice choice;
+    choice.column = section->get("column");
+    choice.argument = section->get(argument_);
+    choice.scale = section->number("scale", any_number(""), 1.0);
+    choice.offset = section->number("offset", any_number(""), 0.0);
+    const std::string scale = std::string(argument_) + "_scale";
+    choice.argument_scale = section->number(scale.c_str(), positive_number(""), 1.0);
+    constexpr const char* words[] = {"automatic", "point", "comma"};
+    section->word("decimal", words, choice.sign);
+    section->finish();
+    if (!name) return;
+    if (const auto text = name->text("the name of a CSV file")) file(*name, *text, choice);
+  }
+
+  void file(const YamlValue& at, const std::string& name, const TableChoice& choice) {
+    out_.file = (std::filesystem::path(*value_.context().file).parent_path() / name)
+                    .lexically_normal()
+                    .string();
+    const std::shared_ptr<const CsvFile> csv = parsed(at, choice.sign);
+    if (!csv) return;
+    out_.good = true;
+    if (csv->rows() == 0 && csv->uneven == 0 && !choice.column && !choice.argument) return;
+    if (choice.sign == DecimalSign::automatic && csv->separator != ',' && csv->commas &&
+        csv->points) {
+      at.error(ErrorCode::contradiction,
+               "found numbers with decimal points and with commas in '" + out_.file +
+                   "', expected one of them; decimal: point or comma says which");
+      out_.good = false;
+      return;
+    }
+    const std::size_t none = csv->columns;
+    const std::size_t x = choice.argument ? index_of_column(*choice.argument, *csv) : 0;
+    std::size_t f = none;
+    if (choice.column) {
+      f = index_of_column(*choice.column, *csv);
+    } else if (csv->columns == 2) {
+      f = x == 0 ? 1 : 0;
+    } else {
+      at.error(ErrorCode::wrong_count, number_of_columns(*csv));
+    }
+    out_.good = x != none && f != none;
+    if (out_.good) take(*csv, x, f, choice);
   }
 
  private:
-  bool row(std::string_view content, int line, bool header) {
-    const std::vector<std::string_view> words = cells(content);
-    const TableRow place{{}, line, 1, out_.rows.size() + 1};
-    const auto is_name = [](std::string_view word) {
-      return classify_plain_scalar(word).kind == PlainScalar::Kind::text;
-    };
-    if (header && std::all_of(words.begin(), words.end(), is_name)) return true;
-    if (words.size() != 2) {
-      out_.error(ErrorCode::wrong_count, place,
-                 "found " + std::to_string(words.size()) +
-                     (words.size() == 1 ? " column" : " columns") + ", expected two");
-      stop_ = true;  // the other rows have the same number
-      return false;
+  std::shared_ptr<const CsvFile> parsed(const YamlValue& at, DecimalSign sign) {
+    CsvFiles own;
+    CsvFiles& files = value_.context().tables ? *value_.context().tables : own;
+    const std::pair key{out_.file, sign};
+    if (const auto known = files.find(key); known != files.end()) return known->second;
+    std::string text;
+    if (!read_text_file(out_.file, text, *out_.errors, at.mark(), at.path()) ||
+        !out_.errors->take_of("characters in all CSV files of tables", text.size(),
+                              limits::table_text, at.mark(), at.path()))
+      return nullptr;
+    return files[key] = std::make_shared<const CsvFile>(parse_csv(std::move(text), sign));
+  }
+
+  static std::string list_of(const CsvFile& csv) {
+    std::string list;
+    for (std::size_t k = 0; k < csv.names.size() && k < 20; ++k)
+      list += (k == 0 ? "" : ", ") + csv.names[k].substr(0, 40);
+    return csv.names.size() > 20 ? list + ", ..." : list;
+  }
+
+  std::string number_of_columns(const CsvFile& csv) const {
+    const std::string names = list_of(csv);
+    const std::string found = "found " + std::to_string(csv.columns) +
+                              (csv.columns == 1 ? " column" : " columns") + " in '" + out_.file +
+                              "'" + (names.empty() ? "" : " (" + names + ")");
+    if (csv.columns < 2) return found + ", expected two or more";
+    return found + ", expected the column to take: {file: " +
+           std::filesystem::path(out_.file).filename().string() +
+           ", column: " + (csv.names.size() > 1 ? csv.names[1].substr(0, 40) : std::string("2")) +
+           "}";
+  }
+
+  /// From 0; the number of columns after an error.
+  std::size_t index_of_column(const YamlValue& value, const CsvFile& csv) const {
+    if (value.looks_like_number()) {
+      const auto k = value.integer(1, static_cast<int>(csv.columns), "the number of a column");
+      return k ? static_cast<std::size_t>(*k - 1) : csv.columns;
     }
-    double x[2] = {0.0, 0.0};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const PlainScalar p = classify_plain_scalar(words[k]);
-      x[k] = p.number;
-      if (p.kind == PlainScalar::Kind::number) continue;
-      out_.error(ErrorCode::out_of_range, place,
-                 "found '" + std::string(words[k].substr(0, 40)) +
-                     "', expected a number with a decimal point" +
-                     (p.complaint.empty() ? "" : " (" + p.complaint + ")") +
-                     (header ? ", or names in both columns of the first line" : ""));
-      return false;
-    }
-    for (const double v : x)
-      if (!rule_.holds(v)) {
-        out_.error(ErrorCode::out_of_range, place,
-                   "found " + number_text(v) + ", expected " + rule_.expectation());
-        return false;
+    const auto name = value.text("the name or the number of a column");
+    if (!name) return csv.columns;
+    const std::size_t k = csv.column(*name);
+    if (k < csv.columns) return k;
+    if (csv.names.empty())
+      value.error(ErrorCode::not_found,
+                  "found '" + *name + "', but '" + out_.file +
+                      "' has no line of names, expected the number of a column from 1 to " +
+                      std::to_string(csv.columns));
+    else
+      value.not_known("found '" + *name + "', expected one of the columns of '" + out_.file +
+                          "': " + list_of(csv),
+                      *name, [&] { return csv.names; });
+    return csv.columns;
+  }
+
+  void take(const CsvFile& csv, std::size_t x, std::size_t f, const TableChoice& choice) {
+    for (std::size_t k = 0; k < csv.rows(); ++k) {
+      const TableRow place{{}, csv.lines[k], 1, k + 1};
+      double point[2] = {0.0, 0.0};
+      std::string bad;
+      for (const std::size_t column : {x, f}) {
+        const double raw = csv.at(k, column);
+        double& value = point[column == f ? 1 : 0];
+        value = column == f ? choice.scale * raw + choice.offset : choice.argument_scale * raw;
+        if (!bad.empty() || rule_.holds(value)) continue;
+        bad = std::isnan(raw) ? no_number(csv, k, column)
+                              : "found " + number_text(value) + ", expected " + rule_.expectation();
       }
-    stop_ = !out_.errors->take_of("rows in all CSV files of tables", 1, limits::table_rows,
-                                  value_.mark(), value_.path());
-    out_.rows.push_back({{x[0], x[1]}, line, 1, place.number});
-    return !stop_;
+      if (!bad.empty()) {
+        out_.error(ErrorCode::out_of_range, place, bad);
+        out_.good = false;
+        continue;
+      }
+      if (!out_.errors->take_of("rows in all CSV files of tables", 1, limits::table_rows,
+                                value_.mark(), value_.path()))
+        return;
+      out_.rows.push_back({{point[0], point[1]}, place.line, 1, place.number});
+    }
+    if (csv.uneven == 0) return;
+    out_.error(ErrorCode::wrong_count, {{}, csv.uneven_line, 1, csv.rows() + 1},
+               "found " + std::to_string(csv.uneven) + (csv.uneven == 1 ? " column" : " columns") +
+                   ", expected " + std::to_string(csv.columns) + " as in the first row");
+    out_.good = false;
+  }
+
+  static std::string no_number(const CsvFile& csv, std::size_t row, std::size_t column) {
+    const std::string cell = csv.cell(row, column);
+    const PlainScalar p = classify_plain_scalar(cell);
+    return "found '" + cell.substr(0, 40) + "', expected a number with a decimal " +
+           (csv.commas ? "comma" : "point") +
+           (p.complaint.empty() ? "" : " (" + p.complaint + ")") +
+           (row == 0 && csv.names.empty() ? ", or names in all columns of the first line" : "");
   }
 
   const YamlValue& value_;
   const NumberRule& rule_;
+  const char* argument_;
   TableRows& out_;
-  bool stop_ = false;
 };
 
 }  // namespace
@@ -101,37 +189,20 @@ void TableRows::error(ErrorCode code, const TableRow& row, const std::string& se
   errors->add(code, {file, row.line, row.column}, who + sentence);
 }
 
-TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point) {
+TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point,
+                          const char* argument) {
   TableRows out;
   out.errors = value.context().errors;
+  TableReader reader(value, rule, argument, out);
   const std::string what = std::string("a list of points ") +
                            std::string(point).substr(std::string(point).find('[')) +
-                           " or the name of a CSV file";
-  if (value.is_list()) {
-    out.good = true;
-    out.file = *value.context().file;
-    out.path = value.path();
-    std::size_t number = 0;
-    for (const YamlValue& item : value.list()) {
-      ++number;
-      const auto p = item.numbers(2, 2, rule, point);
-      out.good = out.good && p;
-      if (p) out.rows.push_back({{(*p)[0], (*p)[1]}, item.mark().line, item.mark().column, number});
-    }
-    return out;
-  }
-  const auto name = value.text(what.c_str());
-  if (!name) return out;
-  out.file = (std::filesystem::path(*value.context().file).parent_path() / *name)
-                 .lexically_normal()
-                 .string();
-  std::string text;
-  if (!read_text_file(out.file, text, *out.errors, value.mark(), value.path()) ||
-      !out.errors->take_of("characters in all CSV files of tables", text.size(), limits::table_text,
-                           value.mark(), value.path()))
-    return out;
-  out.good = true;
-  TableFile(value, rule, out).read(text);
+                           ", the name of a CSV file or a map with file and column";
+  if (value.is_list())
+    reader.points(point);
+  else if (value.is_map())
+    reader.columns();
+  else if (const auto name = value.text(what.c_str()))
+    reader.file(value, *name, {});
   return out;
 }
 

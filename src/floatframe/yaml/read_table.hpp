@@ -1,5 +1,5 @@
 #pragma once
-// Tables of two columns: a list of points [x, f] in the model file, or the name of a CSV file.
+// Tables of two columns: a list of points [x, f] in the model file, or columns of a CSV file.
 #include <string>
 #include <vector>
 
@@ -23,9 +23,11 @@ struct TableRows {
   void error(ErrorCode code, const TableRow& row, const std::string& sentence) const;
 };
 
-/// Reads a list of points, or the CSV file named by `value`, relative to the present file: two
-/// columns separated by commas, semicolons or blanks, one header line or none, comments after #.
-/// `point` describes a point for messages ("a point [x, f]").
-TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point);
+/// Reads a list of points, or a CSV file (csv_file.hpp), relative to the present file: its name if
+/// it has two columns, or {file, column, <argument>, scale, offset, <argument>_scale, decimal} with
+/// columns by name or number from 1. The values are scale times those of the file plus offset.
+/// `point` describes a point for messages ("a point [x, f]"); `argument`: "x" or "time".
+TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point,
+                          const char* argument = "x");
 
 }  // namespace floatframe

@@ -14,6 +14,7 @@
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/math/types.hpp"
+#include "floatframe/yaml/csv_file.hpp"
 #include "floatframe/yaml/expression.hpp"
 #include "floatframe/yaml/yaml_tree.hpp"
 
@@ -24,6 +25,7 @@ struct ReadContext {
   const std::string* file = nullptr;
   const ParameterScope* scope = nullptr;
   ReadErrors* errors = nullptr;
+  CsvFiles* tables = nullptr;  ///< those parsed already, optional
 };
 
 class YamlSection;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/port_measures.hpp"
@@ -78,6 +79,30 @@ void force_law_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
 FLOATFRAME_LAW(force_law)
 
 namespace {
+
+/// Of a law by a formula, at the length or coordinate and rate of the last evaluation.
+std::string force_law_complaint(const Ports& in) {
+  const SharedFormula& f = in.keys<ForceLaw>().law.formula();
+  if (!f) return "";
+  double x = 0.0, v = 0.0;
+  if (in.element.coordinates.empty()) {
+    const LineMeasure<double> line = line_measure(in);
+    x = line.length, v = line.rate;
+  } else {
+    const AxisMeasure<double> m = coordinate_measure(in);
+    x = m.s, v = m.rate;
+  }
+  FormulaSwitches switches;
+  FormulaFault fault;
+  evaluate_formula<double>(
+      *f,
+      [&](int i) {
+        const FormulaReference& r = f->references[i];
+        return r.is_time() ? in.t : r.name == "x" ? x : v;
+      },
+      switches, fault);
+  return fault_text(*f, fault);
+}
 
 constexpr const char* force_law_axis = "the turning of the axis with its body";
 constexpr ElementRegime force_law_regimes[] = {
@@ -151,7 +176,8 @@ Picture force_law_picture(const Element& element) {
 
 constinit const ElementKind force_law_element = {
     .about =
-        "a function of a program, F(x, v, t): tension along a line of the length x, or a force on "
+        "a function of a program or a formula, F(x, v, t): tension along a line of the length x, "
+        "or a force on "
         "a joint against its coordinate x",
     .keys = force_law_keys,
     .axis = ElementAxis::coordinate,
@@ -159,6 +185,7 @@ constinit const ElementKind force_law_element = {
     .validate = force_law_validate,
     .build = force_law_build,
     .along_line = true,
+    .complaint = force_law_complaint,
     .dual = force_law_law<Dual>,
     .picture = force_law_picture,
     .regimes = force_law_regimes,

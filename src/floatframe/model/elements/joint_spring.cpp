@@ -73,7 +73,7 @@ ElementExample joint_spring_example(std::size_t regime, ExampleNumbers& numbers)
     f.actuator = x.linked_signal(numbers);
     f.target = x.signal(numbers);
     f.target->pieces = PiecewisePolynomial::polynomial({0.1, numbers(-1.0, 1.0)});
-    f.target->amplitude = 0.0;
+    f.target->sines.clear();
     f.target_rate = x.signal(numbers);
     x.inputs[1] *= 0.01;
     x.t = numbers(0.0, 1.0);

@@ -23,15 +23,21 @@ void joint_motion_of<JointType::cylindrical>(const JointDirections&, const doubl
 template <>
 void joint_bias_of<JointType::cylindrical>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::cylindrical>(const JointPose& pose, int component) noexcept {
+namespace {
+
+template <class S>
+S cylindrical_position(const JointPose<S>& pose, int component) noexcept {
   return component == 0 ? pose.p_FM.z() : pose.angle_about_z();
 }
 
-template <>
-double joint_velocity_of<JointType::cylindrical>(const JointTwist& twist, int component) noexcept {
+template <class S>
+S cylindrical_velocity(const JointTwist<S>& twist, int component) noexcept {
   return component == 0 ? twist.v_FM.z() : twist.w_FM.z();
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(cylindrical)
 
 namespace {
 

@@ -27,16 +27,21 @@ void joint_motion_of<JointType::free>(const JointDirections&, const double* q,
 template <>
 void joint_bias_of<JointType::free>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::free>(const JointPose& pose, int component) noexcept {
-  return component < 3 ? pose.p_FM[component]
-                       : quaternion_log(Eigen::Quaterniond(pose.R_FM))[component - 3];
+namespace {
+
+template <class S>
+S free_position(const JointPose<S>& pose, int component) noexcept {
+  return component < 3 ? pose.p_FM[component] : pose.rotation_vector()[component - 3];
 }
 
-template <>
-double joint_velocity_of<JointType::free>(const JointTwist& twist, int component) noexcept {
+template <class S>
+S free_velocity(const JointTwist<S>& twist, int component) noexcept {
   return component < 3 ? twist.v_FM[component] : twist.w_FM[component - 3];
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(free)
 
 namespace {
 

@@ -42,19 +42,25 @@ void joint_motion_of<JointType::planar>(const JointDirections& axes, const doubl
 template <>
 void joint_bias_of<JointType::planar>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::planar>(const JointPose& pose, int component) noexcept {
+namespace {
+
+template <class S>
+S planar_position(const JointPose<S>& pose, int component) noexcept {
   if (component == 2) return pose.angle_about_z();
   const PlanarDirections d(Vec3::UnitZ(), pose.axis_2);
   return pose.p_FM.dot(component == 0 ? d.e1 : d.e2);
 }
 
-template <>
-double joint_velocity_of<JointType::planar>(const JointTwist& twist, int component) noexcept {
+template <class S>
+S planar_velocity(const JointTwist<S>& twist, int component) noexcept {
   if (component == 2) return twist.w_FM.z();
   const PlanarDirections d(Vec3::UnitZ(), twist.axis_2);
   return twist.v_FM.dot(component == 0 ? d.e1 : d.e2);
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(planar)
 
 namespace {
 

@@ -20,15 +20,21 @@ void joint_motion_of<JointType::prismatic>(const JointDirections&, const double*
 template <>
 void joint_bias_of<JointType::prismatic>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::prismatic>(const JointPose& pose, int) noexcept {
+namespace {
+
+template <class S>
+S prismatic_position(const JointPose<S>& pose, int) noexcept {
   return pose.p_FM.z();
 }
 
-template <>
-double joint_velocity_of<JointType::prismatic>(const JointTwist& twist, int) noexcept {
+template <class S>
+S prismatic_velocity(const JointTwist<S>& twist, int) noexcept {
   return twist.v_FM.z();
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(prismatic)
 
 namespace {
 

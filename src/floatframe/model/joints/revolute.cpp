@@ -20,15 +20,21 @@ void joint_motion_of<JointType::revolute>(const JointDirections&, const double* 
 template <>
 void joint_bias_of<JointType::revolute>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::revolute>(const JointPose& pose, int) noexcept {
+namespace {
+
+template <class S>
+S revolute_position(const JointPose<S>& pose, int) noexcept {
   return pose.angle_about_z();
 }
 
-template <>
-double joint_velocity_of<JointType::revolute>(const JointTwist& twist, int) noexcept {
+template <class S>
+S revolute_velocity(const JointTwist<S>& twist, int) noexcept {
   return twist.w_FM.z();
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(revolute)
 
 namespace {
 

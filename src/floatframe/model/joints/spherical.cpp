@@ -25,15 +25,21 @@ void joint_motion_of<JointType::spherical>(const JointDirections&, const double*
 template <>
 void joint_bias_of<JointType::spherical>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::spherical>(const JointPose& pose, int component) noexcept {
-  return quaternion_log(Eigen::Quaterniond(pose.R_FM))[component];
+namespace {
+
+template <class S>
+S spherical_position(const JointPose<S>& pose, int component) noexcept {
+  return pose.rotation_vector()[component];
 }
 
-template <>
-double joint_velocity_of<JointType::spherical>(const JointTwist& twist, int component) noexcept {
+template <class S>
+S spherical_velocity(const JointTwist<S>& twist, int component) noexcept {
   return twist.w_FM[component];
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(spherical)
 
 namespace {
 

@@ -36,30 +36,41 @@ void joint_bias_of<JointType::universal>(const double* v, JointMotion& m) noexce
   m.bias.tail<3>() = v[0] * v[1] * e1.cross(e2);
 }
 
-template <>
-double joint_position_of<JointType::universal>(const JointPose& pose, int component) noexcept {
-  const Vec3 e2 = pose.axis_2, z = Vec3::UnitZ();
-  const Vec3 turned = pose.R_FM * e2;
-  const double q1 = std::atan2(z.dot(e2.cross(turned)), e2.dot(turned) - e2.z() * turned.z());
+namespace {
+
+template <class S>
+S universal_position(const JointPose<S>& pose, int component) noexcept {
+  using std::atan2, std::cos, std::sin;
+  using V = Eigen::Matrix<S, 3, 1>;
+  const Vec3& e2 = pose.axis_2;
+  const V turned = pose.R_FM * V(e2.template cast<S>());
+  const S q1 = atan2(S(e2.x() * turned.y() - e2.y() * turned.x()),
+                     S(e2.x() * turned.x() + e2.y() * turned.y()));
   if (component == 0) return pose.near_reference(q1);
-  const Mat3 rest = rotation_exp(-q1 * z) * pose.R_FM;
   Vec3 t1, t2;
   orthonormal_complement(e2, t1, t2);
-  const Vec3 s = rest * t1;
-  return pose.near_reference(std::atan2(s.dot(t2), s.dot(t1)));
+  V s = pose.R_FM * V(t1.template cast<S>());  // turned back by q1 about z
+  const S c = cos(q1), n = sin(q1);
+  s = V(c * s.x() + n * s.y(), c * s.y() - n * s.x(), s.z());
+  const auto part = [&s](const Vec3& t) {
+    return S(t.x() * s.x() + t.y() * s.y() + t.z() * s.z());
+  };
+  return pose.near_reference(atan2(part(t2), part(t1)));
 }
 
-template <>
-double joint_velocity_of<JointType::universal>(const JointTwist& twist, int component) noexcept {
-  const Mat3 R_FM = twist.F.R.transpose() * twist.M.R;
-  const Vec3 z = Vec3::UnitZ();
-  const Vec3 e2 = R_FM * twist.axis_2;
-  const double c = z.dot(e2);
-  const double a = z.dot(twist.w_FM), b = e2.dot(twist.w_FM);
-  const double det = 1.0 - c * c;
+template <class S>
+S universal_velocity(const JointTwist<S>& twist, int component) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  const V e2 = twist.R_FM * V(twist.axis_2.template cast<S>());
+  const S c = e2.z(), a = twist.w_FM.z(), b = e2.dot(twist.w_FM);
+  const S det = 1.0 - c * c;
   assert(!(det <= 0.0));  // axes that are not parallel
   return component == 0 ? (a - c * b) / det : (b - c * a) / det;
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(universal)
 
 namespace {
 

@@ -13,15 +13,21 @@ void joint_motion_of<JointType::weld>(const JointDirections&, const double*,
 template <>
 void joint_bias_of<JointType::weld>(const double*, JointMotion&) noexcept {}
 
-template <>
-double joint_position_of<JointType::weld>(const JointPose&, int) noexcept {
+namespace {
+
+template <class S>
+S weld_position(const JointPose<S>&, int) noexcept {
   return 0.0;
 }
 
-template <>
-double joint_velocity_of<JointType::weld>(const JointTwist&, int) noexcept {
+template <class S>
+S weld_velocity(const JointTwist<S>&, int) noexcept {
   return 0.0;
 }
+
+}  // namespace
+
+FLOATFRAME_COORDINATES(weld)
 
 namespace {
 

@@ -11,6 +11,6 @@ double output_value_of<OutputType::controller>(const SystemMotion& motion, const
 }
 
 constinit const OutputKind controller_output = {
-    .about = "its value", .of = OutputOf::controller, .unit = "-"};
+    .about = "its value", .of = OutputOf::controller, .unit = "-", .is_signal = true};
 
 }  // namespace floatframe

@@ -2,14 +2,20 @@
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
+namespace {
 
-template <>
-double output_value_of<OutputType::distance>(const SystemMotion& motion, const Output& output,
-                                             FollowedOutput&) noexcept {
-  return (motion.marker(output.to).r - motion.marker(output.marker).r).norm();
+template <class S>
+S distance_measure(const MeasurePorts<S>& in) noexcept {
+  return (in.to->r - in.marker->r).norm();
 }
 
-constinit const OutputKind distance_output = {
-    .about = "length of the line between them", .of = OutputOf::two_points, .unit = "m"};
+}  // namespace
+
+FLOATFRAME_MEASURED(distance)
+
+constinit const OutputKind distance_output = {.about = "length of the line between them",
+                                              .of = OutputOf::two_points,
+                                              .unit = "m",
+                                              FLOATFRAME_MEASURE(distance)};
 
 }  // namespace floatframe

@@ -13,6 +13,7 @@ constinit const OutputKind force_output = {
     .about = "force or torque, tension positive; of a tyre the contact force",
     .of = OutputOf::force,
     .unit = "N or N m",
-    .unit_of = unit_of_force<ElementQuantity::force>};
+    .unit_of = unit_of_force<ElementQuantity::force>,
+    .is_signal = true};
 
 }  // namespace floatframe

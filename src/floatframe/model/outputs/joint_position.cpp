@@ -7,11 +7,16 @@
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
-
 namespace {
 
 const char* joint_position_unit(const Model& model, const Output& output) {
   return joint_unit_name(model.joints[output.joint].type, output.component);
+}
+
+template <class S>
+S joint_position_measure(const MeasurePorts<S>& in) noexcept {
+  return joint_position(in.model.joints[in.output.joint], *in.marker, *in.to, in.output.component,
+                        in.reference);
 }
 
 }  // namespace
@@ -19,20 +24,23 @@ const char* joint_position_unit(const Model& model, const Output& output) {
 template <>
 double output_value_of<OutputType::joint_position>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput& last) noexcept {
-  const Joint& joint = motion.model.joints[output.joint];
-  const MarkerState& F = motion.marker(joint.frame_F);
-  const MarkerState& M = motion.marker(joint.frame_M);
-  const double rate = joint_velocity(joint, F, M, output.component);
-  const double expected = last.started
-                              ? last.position + 0.5 * (motion.t - last.time) * (last.rate + rate)
-                              : motion.start_position(output.joint, output.component);
-  last = {true, motion.t, joint_position(joint, F, M, output.component, expected), rate};
-  return last.position;
+  auto& [started, time, values] = last;
+  double &q = values[0], &qdot = values[1];
+  MeasurePorts<double> in = measure_ports(motion, output);
+  const double rate =
+      joint_velocity(in.model.joints[output.joint], *in.marker, *in.to, output.component);
+  in.reference = started ? q + 0.5 * (motion.t - time) * (qdot + rate)
+                         : motion.start_position(output.joint, output.component);
+  started = true;
+  time = motion.t;
+  qdot = rate;
+  return q = joint_position_measure(in);
 }
 
 constinit const OutputKind joint_position_output = {.about = "coordinate; full turns are counted",
                                                     .of = OutputOf::joint,
                                                     .unit = "m or rad",
-                                                    .unit_of = joint_position_unit};
+                                                    .unit_of = joint_position_unit,
+                                                    FLOATFRAME_MEASURE(joint_position)};
 
 }  // namespace floatframe

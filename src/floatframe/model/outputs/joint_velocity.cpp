@@ -4,27 +4,26 @@
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
-
 namespace {
 
 const char* joint_velocity_unit(const Model& model, const Output& output) {
   return joint_unit_name(model.joints[output.joint].type, output.component, true);
 }
 
+template <class S>
+S joint_velocity_measure(const MeasurePorts<S>& in) noexcept {
+  return joint_velocity(in.model.joints[in.output.joint], *in.marker, *in.to, in.output.component);
+}
+
 }  // namespace
 
-template <>
-double output_value_of<OutputType::joint_velocity>(const SystemMotion& motion, const Output& output,
-                                                   FollowedOutput&) noexcept {
-  const Joint& joint = motion.model.joints[output.joint];
-  return joint_velocity(joint, motion.marker(joint.frame_F), motion.marker(joint.frame_M),
-                        output.component);
-}
+FLOATFRAME_MEASURED(joint_velocity)
 
 constinit const OutputKind joint_velocity_output = {
     .about = "rate of the coordinate; of rotation vectors the angular velocity",
     .of = OutputOf::joint,
     .unit = "m/s or rad/s",
-    .unit_of = joint_velocity_unit};
+    .unit_of = joint_velocity_unit,
+    FLOATFRAME_MEASURE(joint_velocity)};
 
 }  // namespace floatframe

@@ -14,6 +14,7 @@ constinit const OutputKind length_output = {
     .of = OutputOf::force,
     .unit = "m or rad",
     .unit_of = unit_of_force<ElementQuantity::length>,
-    .needs = ElementQuantity::length};
+    .needs = ElementQuantity::length,
+    .is_signal = true};
 
 }  // namespace floatframe

@@ -1,18 +1,24 @@
-// Position of a point, p_WP [m].
-#include <cassert>
-
+// Position of a point, p_WP [m], or p_WP - p_WF from the origin of a frame F.
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
+namespace {
 
-template <>
-double output_value_of<OutputType::position>(const SystemMotion& motion, const Output& output,
-                                             FollowedOutput&) noexcept {
-  assert(output.component >= 0 && output.component < 3);
-  return motion.place(output.marker)[output.component];
+template <class S>
+S position_measure(const MeasurePorts<S>& in) noexcept {
+  return in.along(in.position());
 }
 
+}  // namespace
+
+FLOATFRAME_MEASURED(position)
+
 constinit const OutputKind position_output = {
-    .about = "in the world", .of = OutputOf::point, .components = world_axes, .unit = "m"};
+    .about = "in the world, or from the origin of `relative_to`",
+    .of = OutputOf::point,
+    .components = world_axes,
+    .unit = "m",
+    .frames = OutputFrames::relative_to_and_in,
+    FLOATFRAME_MEASURE(position)};
 
 }  // namespace floatframe

@@ -7,12 +7,13 @@ template <>
 double output_value_of<OutputType::potential_energy>(const SystemMotion& motion,
                                                      const Output& output,
                                                      FollowedOutput&) noexcept {
-  return motion.body(output.body).gravity_energy;
+  return sum_of_bodies(motion, output.body,
+                       [](const BodyKinematics& b) { return b.gravity_energy; });
 }
 
 constinit const OutputKind potential_energy_output = {
     .about = "energy in gravity, zero with the centre of mass at the height of the origin",
-    .of = OutputOf::body,
+    .of = OutputOf::mass,
     .unit = "J",
     .needs_of_motion = {.energies = true}};
 

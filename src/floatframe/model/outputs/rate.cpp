@@ -14,6 +14,7 @@ constinit const OutputKind rate_output = {
     .of = OutputOf::force,
     .unit = "m/s or rad/s",
     .unit_of = unit_of_force<ElementQuantity::rate>,
-    .needs = ElementQuantity::rate};
+    .needs = ElementQuantity::rate,
+    .is_signal = true};
 
 }  // namespace floatframe

@@ -1,24 +1,13 @@
-// Scalars in a model file: interpretation of plain ones, notation of numbers.
+// Interpretation of plain scalars.
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include "floatframe/core/ascii.hpp"
-#include "floatframe/yaml/expression.hpp"
+#include "floatframe/formulas/syntax_tree.hpp"
 
 namespace floatframe {
-std::string value_text(const ParameterValue& value) {
-  if (const bool* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
-  if (const double* x = std::get_if<double>(&value)) return number_text(*x);
-  return std::get<std::string>(value);
-}
-
-const char* type_name(const ParameterValue& value) {
-  constexpr std::array names{"true or false", "a number", "a text"};
-  return names[value.index()];
-}
-
 PlainScalar classify_plain_scalar(std::string_view text) {
   using Kind = PlainScalar::Kind;
   const auto bad = [](Kind kind, const char* complaint) {

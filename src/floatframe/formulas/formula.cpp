@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
+
+namespace floatframe {
+
+std::string fault_text(const Formula& f, const FormulaFault& fault) {
+  const std::string& source = f.sources[static_cast<std::size_t>(fault.step)];
+  switch (fault.kind) {
+    case FormulaFault::Kind::none:
+      return "";
+    case FormulaFault::Kind::division:
+      return "division by zero in '" + source + "'";
+    case FormulaFault::Kind::domain:
+      return "'" + source + "' is not defined for " + number_text(fault.at);
+    case FormulaFault::Kind::overflow:
+      return "'" + source + "' is not a finite number";
+  }
+  return "";
+}
+
+namespace {
+
+/// splitmix64
+std::uint64_t mixed(std::uint64_t x) noexcept {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// A normal number of mean 0 and deviation 1 (Box-Muller) for each seed and k.
+double normal_number(double seed, double k) noexcept {
+  const auto at = [](std::uint64_t bits) {  // in (0, 1]
+    return static_cast<double>((bits >> 11) + 1) * 0x1p-53;
+  };
+  const std::uint64_t a = mixed(mixed(static_cast<std::uint64_t>(std::llround(seed))) ^
+                                static_cast<std::uint64_t>(std::llround(k)));
+  return std::sqrt(-2.0 * std::log(at(a))) * std::cos(2.0 * std::numbers::pi * at(mixed(a)));
+}
+
+/// The interval of x, and where x is in it.
+struct GridPlace {
+  Eigen::Index k;
+  double part, width;  ///< width 0: beyond the ends
+};
+GridPlace place_in(const VecX& points, double x) noexcept {
+  const Eigen::Index n = points.size();
+  if (!(x > points[0])) return {0, 0.0, 0.0};
+  if (x >= points[n - 1]) return {n - 2, 1.0, 0.0};
+  const auto k = std::upper_bound(points.data(), points.data() + n, x) - points.data() - 1;
+  const double width = points[k + 1] - points[k];
+  return {k, (x - points[k]) / width, width};
+}
+
+}  // namespace
+
+FunctionValue noise_at(double seed, double x) noexcept {
+  const double k = std::floor(x), a = normal_number(seed, k), b = normal_number(seed, k + 1.0);
+  return {a + (x - k) * (b - a), b - a};
+}
+
+GridValue grid_at(const GridTable& grid, double x, double y) noexcept {
+  const GridPlace i = place_in(grid.x, x), j = place_in(grid.y, y);
+  const double f00 = grid.values(i.k, j.k), f10 = grid.values(i.k + 1, j.k),
+               f01 = grid.values(i.k, j.k + 1), f11 = grid.values(i.k + 1, j.k + 1);
+  const double left = f00 + i.part * (f10 - f00), right = f01 + i.part * (f11 - f01);
+  const double across = (f10 - f00) + j.part * ((f11 - f01) - (f10 - f00));
+  return {left + j.part * (right - left), i.width > 0.0 ? across / i.width : 0.0,
+          j.width > 0.0 ? (right - left) / j.width : 0.0};
+}
+
+PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept {
+  FormulaSwitches switches;
+  FormulaFault fault;
+  const Jet y = evaluate_formula<Jet>(
+      f, [&](int) { return Jet(t, 1.0); }, switches, fault);
+  return {y.f, y.df, y.ddf};
+}
+
+}  // namespace floatframe

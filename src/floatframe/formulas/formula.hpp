@@ -1,0 +1,106 @@
+#pragma once
+// A formula of a model: a text that is compiled once, by `compile_formula`, and evaluated in steps
+// over double, dual numbers or functions of time (formula_evaluation.hpp). Immutable, shared by
+// threads.
+//   language     syntax_tree.hpp, constants and functions of function_words.hpp
+//   references   t, the time; names and functions that are no part of the language: to be
+//                connected by the model: `tip.z`, `angle(arm)`, `rotation(body, yaw)`
+//   switches     where a comparison, clip, min, max, abs or sign changes from one smooth piece to
+//                another: they can be held, so that a step ends at their edges
+// It is a stack machine: each step takes its operands from the top of the stack and leaves one.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "floatframe/formulas/syntax_tree.hpp"
+#include "floatframe/math/piecewise_polynomial.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+/// A table of two variables on a grid: bilinear between its points, its end values beyond.
+struct GridTable {
+  VecX x, y;    ///< ascending, at least two each
+  MatX values;  ///< [x][y]
+};
+/// The tables of formulas by name.
+struct FormulaTables {
+  std::map<std::string, std::shared_ptr<const PiecewisePolynomial>> curves;
+  std::map<std::string, std::shared_ptr<const GridTable>> grids;
+};
+
+/// What a formula reads of its model.
+struct FormulaReference {
+  std::string function;  ///< empty: a name alone
+  std::string name;      ///< `t` for the time
+  std::string detail;    ///< second argument: a word, or the number of a coordinate
+  bool is_time() const noexcept { return function.empty() && (name == "t" || name == "time"); }
+  bool operator==(const FormulaReference&) const = default;
+};
+
+enum class FormulaOp : std::uint8_t {
+  number,
+  reference,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  power_of_number,  ///< exponent: `number`
+  negative,
+  unary,
+  atan2,
+  min,
+  max,
+  abs,
+  sign,
+  smooth_sign,
+  clip,
+  smoothstep,
+  chirp,
+  noise,
+  curve,
+  grid,
+  less,
+  less_equal,
+  equal,
+  not_,
+  jump,
+  jump_unless  ///< takes the condition
+};
+
+struct UnaryFunction;
+
+struct FormulaStep {
+  FormulaOp op = FormulaOp::number;
+  int index = -1;  ///< reference, table, target of a jump, or the switch
+  double number = 0.0;
+  const UnaryFunction* function = nullptr;
+};
+
+struct Formula {
+  std::string text;  ///< with all parentheses
+  std::vector<FormulaStep> steps;
+  std::vector<std::string> sources;  ///< the text of each step, for messages
+  std::vector<FormulaReference> references;
+  std::vector<std::shared_ptr<const PiecewisePolynomial>> curves;
+  std::vector<std::shared_ptr<const GridTable>> grids;
+  int switches = 0;
+
+  static constexpr int deepest_stack = 32;
+  static constexpr int most_switches = 31;  ///< that can be held
+  /// It depends on nothing but the time.
+  bool is_of_time() const noexcept;
+};
+using SharedFormula = std::shared_ptr<const Formula>;
+
+/// Throws ExpressionError. Its value is a number.
+SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables = {});
+/// The same from a text: InputError.
+SharedFormula formula(std::string_view text, const FormulaTables& tables = {});
+
+}  // namespace floatframe

@@ -1,0 +1,390 @@
+// From syntax trees to formulas.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/formulas/formula.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
+
+namespace floatframe {
+namespace {
+
+enum class Type { number, truth };
+
+std::string in_quotes(const std::string& s) { return "'" + s + "'"; }
+
+/// Steps of each node after those of its parts.
+class Compiler {
+ public:
+  Compiler(Formula& out, const FormulaTables& tables) : out_(out), tables_(tables) {}
+
+  Type emit(const SyntaxNode& node) {
+    using Kind = SyntaxNode::Kind;
+    switch (node.kind) {
+      case Kind::number:
+        return constant(node.number);
+      case Kind::truth:
+        constant(node.number);
+        return Type::truth;
+      case Kind::text:
+        throw ExpressionError("found the text " + in_quotes(node.word) + ", expected a number");
+      case Kind::name:
+        return name(node);
+      case Kind::chain:
+        return chain(node);
+      case Kind::power:
+        return power(node);
+      case Kind::sign:
+        number(node.parts[0], node.word);
+        if (node.word == "-") add(node, FormulaOp::negative, 1);
+        return Type::number;
+      case Kind::comparison:
+        return comparison(node);
+      case Kind::all:
+      case Kind::any:
+        return junction(node);
+      case Kind::negation:
+        truth(node.parts[0], node.word);
+        add(node, FormulaOp::not_, 1);
+        return Type::truth;
+      case Kind::call:
+        return call(node);
+    }
+    return Type::number;
+  }
+
+ private:
+  void add(const SyntaxNode& node, FormulaOp op, int operands, int index = -1, double value = 0.0,
+           const UnaryFunction* function = nullptr) {
+    depth_ += 1 - operands;
+    if (depth_ > Formula::deepest_stack) throw ExpressionError("nested too deeply");
+    out_.steps.push_back({op, index, value, function});
+    out_.sources.push_back(expression_text(node));
+    fold(operands);
+  }
+  /// Replaces a step of numbers alone by its value, if that is finite.
+  void fold(int operands) {
+    const auto n = std::ssize(out_.steps);
+    const FormulaStep& last = out_.steps.back();
+    if (operands < 1 || n <= operands || n - 1 - operands < target_ || last.index >= 0) return;
+    Formula part;
+    for (auto k = n - 1 - operands; k < n; ++k) {
+      part.steps.push_back(out_.steps[k]);
+      if (k < n - 1 && out_.steps[k].op != FormulaOp::number) return;
+    }
+    FormulaSwitches switches;
+    FormulaFault fault;
+    const double value = evaluate_formula<double>(
+        part, [](int) { return 0.0; }, switches, fault);
+    if (fault.kind != FormulaFault::Kind::none) return;
+    out_.steps.resize(n - 1 - operands);
+    std::string source = out_.sources.back();
+    out_.sources.resize(n - 1 - operands);
+    out_.steps.push_back({FormulaOp::number, -1, value, nullptr});
+    out_.sources.push_back(std::move(source));
+  }
+  Type constant(double value) {
+    add({SyntaxNode::Kind::number, value, "", {}}, FormulaOp::number, 0, -1, value);
+    return Type::number;
+  }
+  void number(const SyntaxNode& part, const std::string& where) { need(part, where, Type::number); }
+  void truth(const SyntaxNode& part, const std::string& where) { need(part, where, Type::truth); }
+  void need(const SyntaxNode& part, const std::string& where, Type type) {
+    if (emit(part) != type)
+      throw ExpressionError(in_quotes(where) + " needs " +
+                            (type == Type::number ? "numbers" : "true or false") + ", found " +
+                            in_quotes(expression_text(part)));
+  }
+  int new_switch() { return out_.switches++; }
+
+  Type chain(const SyntaxNode& node) {
+    number(node.parts[0], std::string(1, node.word[0]));
+    for (std::size_t k = 1; k < node.parts.size(); ++k) {
+      const char op = node.word[k - 1];
+      number(node.parts[k], std::string(1, op));
+      SyntaxNode part{
+          SyntaxNode::Kind::chain,
+          0.0,
+          node.word.substr(0, k),
+          {node.parts.begin(), node.parts.begin() + static_cast<std::ptrdiff_t>(k + 1)}};
+      add(part,
+          op == '+'   ? FormulaOp::add
+          : op == '-' ? FormulaOp::subtract
+          : op == '*' ? FormulaOp::multiply
+                      : FormulaOp::divide,
+          2);
+    }
+    return Type::number;
+  }
+  Type power(const SyntaxNode& node) {
+    number(node.parts[0], "^");
+    const std::size_t before = out_.steps.size();
+    number(node.parts[1], "^");
+    if (out_.steps.size() != before + 1 || out_.steps.back().op != FormulaOp::number) {
+      add(node, FormulaOp::power, 2);
+      return Type::number;
+    }
+    const double exponent = out_.steps.back().number;
+    out_.steps.pop_back();
+    out_.sources.pop_back();
+    --depth_;
+    add(node, FormulaOp::power_of_number, 1, -1, exponent);
+    return Type::number;
+  }
+  Type comparison(const SyntaxNode& node) {
+    const std::string& o = node.word;
+    const bool turned = o == ">" || o == ">=", equality = o == "==" || o == "!=";
+    const Type first = emit(node.parts[turned ? 1 : 0]);
+    const Type second = emit(node.parts[turned ? 0 : 1]);
+    if (first != second || (first == Type::truth && !equality))
+      throw ExpressionError("cannot compare the operands of " + in_quotes(o) + " in " +
+                            in_quotes(expression_text(node)));
+    if (equality) {
+      add(node, FormulaOp::equal, 2);
+      if (o == "!=") add(node, FormulaOp::not_, 1);
+    } else {
+      const bool strict = o == "<" || o == ">";
+      add(node, strict ? FormulaOp::less : FormulaOp::less_equal, 2, new_switch());
+    }
+    return Type::truth;
+  }
+  /// A jump whose target is set by `arrive`.
+  std::size_t leap(const SyntaxNode& node, FormulaOp op) {
+    add(node, op, op == FormulaOp::jump_unless ? 2 : 1, 0);
+    return out_.steps.size() - 1;
+  }
+  void arrive(std::size_t from) {
+    target_ = std::ssize(out_.steps);
+    out_.steps[from].index = static_cast<int>(target_);
+  }
+  /// The parts in order, until one decides: b and c is if(b, c, false).
+  Type junction(const SyntaxNode& node) {
+    const bool any = node.kind == SyntaxNode::Kind::any;
+    std::vector<std::size_t> decided;
+    for (std::size_t k = 0; k + 1 < node.parts.size(); ++k) {
+      truth(node.parts[k], node.word);
+      if (any) add(node.parts[k], FormulaOp::not_, 1);
+      decided.push_back(leap(node, FormulaOp::jump_unless));
+    }
+    truth(node.parts.back(), node.word);
+    const std::size_t over = leap(node, FormulaOp::jump);
+    for (const std::size_t from : decided) arrive(from);
+    constant(any ? 1.0 : 0.0);
+    arrive(over);
+    return Type::truth;
+  }
+  Type selection(const SyntaxNode& node) {
+    truth(node.parts[0], "if");
+    const std::size_t unless = leap(node, FormulaOp::jump_unless);
+    const Type type = emit(node.parts[1]);
+    const std::size_t over = leap(node, FormulaOp::jump);
+    arrive(unless);
+    if (emit(node.parts[2]) != type)
+      throw ExpressionError("found a number and a condition as the results of " +
+                            in_quotes(expression_text(node)) + ", expected the same kind");
+    arrive(over);
+    return type;
+  }
+
+  Type name(const SyntaxNode& node) {
+    if (const auto value = constant_value(node.word)) return constant(*value);
+    return reference(node, {"", node.word == "time" ? "t" : node.word, ""});
+  }
+  Type reference(const SyntaxNode& node, const FormulaReference& r) {
+    const auto it = std::find(out_.references.begin(), out_.references.end(), r);
+    const auto index = it - out_.references.begin();
+    if (it == out_.references.end()) out_.references.push_back(r);
+    add(node, FormulaOp::reference, 0, static_cast<int>(index));
+    return Type::number;
+  }
+
+  Type call(const SyntaxNode& node) {
+    const std::string& f = node.word;
+    const UnaryFunction* unary = unary_function(f);
+    const FunctionWord* word = function_word(f);
+    if (!unary && !word) return measure(node);
+    if (const std::string complaint = argument_complaint(f, unary ? 1 : word->fewest,
+                                                         unary ? 1 : word->most, node.parts.size());
+        !complaint.empty())
+      throw ExpressionError(complaint);
+    if (unary) {
+      number(node.parts[0], f);
+      f == "abs" ? add(node, FormulaOp::abs, 1, new_switch())
+                 : add(node, FormulaOp::unary, 1, -1, 0.0, unary);
+      return Type::number;
+    }
+    return function(node, word->function);
+  }
+  /// `angle(arm)`, `rotation(body, yaw)`, `force('front-left')`
+  Type measure(const SyntaxNode& node) {
+    const auto word_of = [&](const SyntaxNode& part) -> std::string {
+      using Kind = SyntaxNode::Kind;
+      if (part.kind == Kind::name || part.kind == Kind::text) return part.word;
+      if (part.kind == Kind::number) return number_text(part.number);
+      throw ExpressionError("found " + in_quotes(expression_text(part)) + " in " +
+                            in_quotes(node.word) + ", expected a name");
+    };
+    if (node.parts.empty() || node.parts.size() > 2)
+      throw ExpressionError(argument_complaint(node.word, 1, 2, node.parts.size()));
+    return reference(node, {node.word, word_of(node.parts[0]),
+                            node.parts.size() > 1 ? word_of(node.parts[1]) : ""});
+  }
+  void numbers(const SyntaxNode& node) {
+    for (const SyntaxNode& part : node.parts) number(part, node.word);
+  }
+  /// A part that is the same number at any time.
+  double constant_part(const SyntaxNode& part, const std::string& where) {
+    const std::size_t before = out_.steps.size();
+    number(part, where);
+    if (out_.steps.size() != before + 1 || out_.steps.back().op != FormulaOp::number)
+      throw ExpressionError("found " + in_quotes(expression_text(part)) + " in " +
+                            in_quotes(where) + ", expected a constant number");
+    const double value = out_.steps.back().number;
+    out_.steps.pop_back();
+    out_.sources.pop_back();
+    --depth_;
+    return value;
+  }
+
+  Type function(const SyntaxNode& node, Function f) {
+    switch (f) {
+      case Function::if_:
+        return selection(node);
+      case Function::min:
+      case Function::max:
+        number(node.parts[0], node.word);
+        for (std::size_t k = 1; k < node.parts.size(); ++k) {
+          number(node.parts[k], node.word);
+          add(node, f == Function::min ? FormulaOp::min : FormulaOp::max, 2, new_switch());
+        }
+        return Type::number;
+      case Function::atan2:
+        numbers(node);
+        add(node, FormulaOp::atan2, 2);
+        return Type::number;
+      case Function::clip:
+        numbers(node);
+        add(node, FormulaOp::clip, 3, new_switch());
+        return Type::number;
+      case Function::smoothstep:
+        numbers(node);
+        add(node, FormulaOp::smoothstep, 5);
+        return Type::number;
+      case Function::sign:
+        numbers(node);
+        node.parts.size() > 1 ? add(node, FormulaOp::smooth_sign, 2)
+                              : add(node, FormulaOp::sign, 1, new_switch());
+        return Type::number;
+      case Function::chirp:
+        number(node.parts[0], node.word);
+        for (std::size_t k = 1; k < 4; ++k) constant(constant_part(node.parts[k], node.word));
+        add(node, FormulaOp::chirp, 4);
+        return Type::number;
+      case Function::sum_of_sines:
+        return sines(node);
+      case Function::noise:
+        return noise(node);
+      case Function::table:
+      case Function::table2:
+        return table(node, f == Function::table2);
+    }
+    return Type::number;
+  }
+  /// sum a sin(2 pi f x + p) of sum_of_sines(x, a, f, p, a, f, p, ...)
+  Type sines(const SyntaxNode& node) {
+    if (node.parts.size() % 3 != 1)
+      throw ExpressionError("found " + std::to_string(node.parts.size()) +
+                            " arguments of sum_of_sines, expected x and amplitude, frequency, "
+                            "phase of each sine");
+    for (std::size_t k = 1; k < node.parts.size(); k += 3) {
+      const double a = constant_part(node.parts[k], node.word),
+                   f = constant_part(node.parts[k + 1], node.word),
+                   p = constant_part(node.parts[k + 2], node.word);
+      constant(a);
+      constant(2.0 * std::numbers::pi * f);
+      number(node.parts[0], node.word);
+      add(node, FormulaOp::multiply, 2);
+      constant(p);
+      add(node, FormulaOp::add, 2);
+      add(node, FormulaOp::unary, 1, -1, 0.0, unary_function("sin"));
+      add(node, FormulaOp::multiply, 2);
+      if (k > 1) add(node, FormulaOp::add, 2);
+    }
+    return Type::number;
+  }
+  Type noise(const SyntaxNode& node) {
+    const double seed = constant_part(node.parts[0], node.word),
+                 dt = constant_part(node.parts[1], node.word);
+    if (!(dt > 0.0))
+      throw ExpressionError("found the interval " + number_text(dt) +
+                            " of noise, expected a positive number");
+    reference(node, {"", "t", ""});
+    constant(dt);
+    add(node, FormulaOp::divide, 2);
+    add(node, FormulaOp::noise, 1, -1, seed);
+    return Type::number;
+  }
+  Type table(const SyntaxNode& node, bool grid) {
+    const SyntaxNode& first = node.parts[0];
+    using Kind = SyntaxNode::Kind;
+    if (first.kind != Kind::name && first.kind != Kind::text)
+      throw ExpressionError("found " + in_quotes(expression_text(first)) + " in " +
+                            in_quotes(node.word) + ", expected the name of a table");
+    const auto missing = [&](const auto& tables, bool other) {
+      std::vector<std::string> known;
+      for (const auto& [key, value] : tables) known.push_back(key);
+      throw ExpressionError(
+          other ? "the table " + in_quotes(first.word) + " has " +
+                      (grid ? "one variable, expected 'table'" : "two variables, expected 'table2'")
+                : "unknown table " + in_quotes(first.word) + did_you_mean(first.word, known));
+    };
+    int index = 0;
+    if (grid) {
+      const auto it = tables_.grids.find(first.word);
+      if (it == tables_.grids.end()) missing(tables_.grids, tables_.curves.contains(first.word));
+      index = static_cast<int>(std::ssize(out_.grids));
+      out_.grids.push_back(it->second);
+    } else {
+      const auto it = tables_.curves.find(first.word);
+      if (it == tables_.curves.end()) missing(tables_.curves, tables_.grids.contains(first.word));
+      index = static_cast<int>(std::ssize(out_.curves));
+      out_.curves.push_back(it->second);
+    }
+    for (std::size_t k = 1; k < node.parts.size(); ++k) number(node.parts[k], node.word);
+    add(node, grid ? FormulaOp::grid : FormulaOp::curve, grid ? 2 : 1, index);
+    return Type::number;
+  }
+
+  Formula& out_;
+  const FormulaTables& tables_;
+  int depth_ = 0;
+  std::ptrdiff_t target_ = 0;  ///< steps before are not folded: a jump ends here
+};
+
+}  // namespace
+
+bool Formula::is_of_time() const noexcept {
+  return std::all_of(references.begin(), references.end(),
+                     [](const FormulaReference& r) { return r.is_time(); });
+}
+
+SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables) {
+  auto out = std::make_shared<Formula>();
+  out->text = expression_text(tree);
+  if (Compiler(*out, tables).emit(tree) != Type::number)
+    throw ExpressionError("found a condition, expected a number: if(condition, a, b) chooses one");
+  return out;
+}
+
+SharedFormula formula(std::string_view text, const FormulaTables& tables) {
+  try {
+    return compile_formula(parse_expression(text), tables);
+  } catch (const ExpressionError& e) {
+    throw InputError(ErrorCode::wrong_value, "formula '" + std::string(text) + "': " + e.what());
+  }
+}
+
+}  // namespace floatframe

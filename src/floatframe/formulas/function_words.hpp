@@ -1,0 +1,65 @@
+#pragma once
+// The words of expressions: constants and functions.
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "floatframe/formulas/scalars.hpp"
+
+namespace floatframe {
+
+/// In SI units.
+std::optional<double> constant_value(std::string_view name);
+std::vector<std::string> constant_names();
+
+/// A function of one number.
+struct UnaryFunction {
+  const char* name;
+  FunctionValue (*at)(double x);
+  bool (*defined)(double x);
+};
+/// nullptr if there is none of that name.
+const UnaryFunction* unary_function(std::string_view name);
+
+/// The other functions.
+enum class Function {
+  atan2,
+  min,
+  max,
+  if_,
+  clip,
+  smoothstep,
+  sign,
+  chirp,
+  sum_of_sines,
+  noise,
+  table,
+  table2
+};
+struct FunctionWord {
+  Function function;
+  const char* name;
+  std::size_t fewest, most;    ///< numbers of arguments
+  bool formulas_only = false;  ///< not in parameters
+};
+const FunctionWord* function_word(std::string_view name);
+
+/// Functions of any number of arguments; those of parameters only, if `in_parameters`.
+bool is_function_name(std::string_view name, bool in_parameters = false);
+std::vector<std::string> function_names(bool in_parameters);
+
+/// A constant that a parameter of the same name may hide (deg, mm, ...).
+bool is_constant_name(std::string_view name);
+/// A name that a parameter cannot have: pi, true, and, ...
+bool is_reserved_name(std::string_view name);
+
+/// atan2, min, max, clip, smoothstep or sign of numbers.
+double function_of(Function f, const std::vector<double>& x);
+/// Of the cubic from (x0, y0) to (x1, y1) that is flat at both ends and beyond.
+FunctionValue smoothstep(double x, double x0, double y0, double x1, double y1) noexcept;
+/// "clip takes 3 arguments, found 2"; empty if the count is right.
+std::string argument_complaint(const std::string& name, std::size_t fewest, std::size_t most,
+                               std::size_t found);
+
+}  // namespace floatframe
