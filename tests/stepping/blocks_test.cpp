@@ -218,12 +218,12 @@ TEST(BlocksLimits, AnIntegralLeavesItsLimitAtOnce) {
 // A sum of terms, limited as a whole.
 TEST(BlocksLimits, ALimiterClipsASum) {
   const Model model =
-      model_of(block_box("type: limiter, upper: 3, lower: -3, input: {polynomial: [0.5, 10], "
+      model_of(block_box("type: limiter, upper: 3, lower: -3, input: {polynomial: [0.5, 20], "
                          "controller: c, factor: 2}",
                          "  c: {type: pid, measured: {length: motor}, proportional: 20}\n"));
   Simulation s = located(model, Coordinates::relative);
   EXPECT_EQ(s.output("u"), 0.5);
-  go(s, 0.45);
+  go(s, 0.3);
   EXPECT_EQ(s.output("u"), 3.0);
   EXPECT_EQ(s.counters().edges, 1);
 }

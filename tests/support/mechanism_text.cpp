@@ -80,6 +80,7 @@ struct ValueText {
   std::string operator()(bool yes) const { return yes ? "true" : "false"; }
   std::string operator()(const std::string& s) const { return s; }
   std::string operator()(const ForceFunction& f) const { return f.identity(); }
+  std::string operator()(const SharedFormula& f) const { return f ? f->text : "none"; }
   std::string operator()(const MatX& m) const {
     return fmt::format("{} x {}: {:.17g}", m.rows(), m.cols(), fmt::join(m.reshaped(), ", "));
   }

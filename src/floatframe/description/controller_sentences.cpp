@@ -1,4 +1,5 @@
-// Sentences about controllers.
+// Sentences about controllers and signals.
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/description/sentences.hpp"
 
@@ -59,6 +60,15 @@ std::string leading_coefficient() {
 std::string improper(Eigen::Index numerator, Eigen::Index denominator) {
   return "found the degree " + std::to_string(numerator) +
          ", expected at most that of the denominator, " + std::to_string(denominator);
+}
+
+std::string one_source(SignalSource first) {
+  return excludes(signal_source_words[index_of(first)]);
+}
+
+std::string element_without(const std::string& type, SignalSource source) {
+  return "found a " + type + ", expected an element with a " +
+         signal_source_words[index_of(source)];
 }
 
 std::string ring_of_signals(const std::vector<std::string>& elements) {

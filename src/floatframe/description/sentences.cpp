@@ -225,19 +225,10 @@ Complaint kinetic_friction(double kinetic, double breakaway) {
 Complaint normal_force(const SignalDescription& normal) {
   const std::vector<PiecewisePolynomial::Piece>& pieces = normal.pieces.pieces();
   const bool constant = normal.input.empty() && normal.source == SignalSource::none &&
-                        normal.amplitude == 0.0 && pieces.size() == 1 &&
+                        normal.sines.empty() && !normal.formula && pieces.size() == 1 &&
                         pieces[0].coefficients.size() == 1;
   if (!constant || !(pieces[0].coefficients[0] < 0.0)) return std::nullopt;
   return "found " + number_text(pieces[0].coefficients[0]) + ", expected a number >= 0";
-}
-
-std::string one_source(SignalSource first) {
-  return excludes(signal_source_words[index_of(first)]);
-}
-
-std::string element_without(const std::string& type, SignalSource source) {
-  return "found a " + type + ", expected an element with a " +
-         signal_source_words[index_of(source)];
 }
 
 std::string missing_formula() { return "found no formula, expected one"; }
