@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/enum_index.hpp"
@@ -20,13 +21,22 @@ double relative_error(const VerifiedOutput& o) noexcept {
   return o.range > 0.0 ? o.error / o.range : std::numeric_limits<double>::infinity();
 }
 
+/// Relative to the range, or to 1e-6 of the largest output of the same unit: an output that is
+/// rounding compared with others would come first otherwise.
 std::vector<const VerifiedOutput*> largest_error_first(const Verification& v) {
-  std::vector<const VerifiedOutput*> order;
-  for (const VerifiedOutput& o : v.outputs) order.push_back(&o);
-  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
-    return relative_error(*a) > relative_error(*b);
-  });
-  return order;
+  std::map<std::string, double> largest;  // by unit
+  for (const VerifiedOutput& o : v.outputs)
+    largest[o.column.unit] = std::max(largest[o.column.unit], o.magnitude);
+  std::vector<std::pair<double, const VerifiedOutput*>> order;
+  for (const VerifiedOutput& o : v.outputs) {
+    const double size = std::max(o.range, 1e-6 * largest[o.column.unit]);
+    order.emplace_back(o.range > 0.0 ? relative_error(o) * o.range / size : relative_error(o), &o);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<const VerifiedOutput*> out;
+  for (const auto& [weight, o] : order) out.push_back(o);
+  return out;
 }
 
 std::string percent(double x) { return fmt::format("{:.2g} %", 100.0 * x); }
@@ -106,8 +116,8 @@ std::string verification_text(const Verification& v) {
   }
   if (!table.empty()) text += table.text(2);
   if (all > shown)
-    text += fmt::format("  and {} more, {} of them at round-off; all are in the summary\n",
-                        all - shown, round_off);
+    text += fmt::format("  and {} more{}; all are in the summary\n", all - shown,
+                        round_off > 0 ? fmt::format(", {} of them at round-off", round_off) : "");
   return text;
 }
 

@@ -8,9 +8,9 @@ namespace floatframe {
 namespace {
 
 constexpr double least_order = 0.5, largest_order = 3.5;
-/// Rounding, relative to the range of an output, and to the largest output of the same unit; with a
-/// range below the last, relative to that one, an output is nothing but rounding.
-constexpr double rounding_of_range = 1e-10, rounding_of_unit = 1e-12, least_range = 1e-9;
+/// Rounding, relative to the range of an output, and to the largest output of the same unit. With a
+/// range below `least_range`, relative to the latter, the whole output is rounding.
+constexpr double rounding_of_range = 1e-10, rounding_of_unit = 1e-12, least_range = 1e-8;
 
 double apart(double a, double b) noexcept {
   if (std::isfinite(a) && std::isfinite(b)) return std::abs(a - b);
@@ -83,8 +83,8 @@ Verification StepDifferences::result() {
   }
   for (VerifiedOutput& o : found_.outputs) {
     const double unit = largest[o.column.unit];
-    estimate(o, std::max(o.range < least_range * unit ? o.range : rounding_of_range * o.range,
-                         rounding_of_unit * unit));
+    estimate(o, std::max(rounding_of_range * o.range,
+                         (o.range < least_range * unit ? least_range : rounding_of_unit) * unit));
   }
   return std::move(found_);
 }
