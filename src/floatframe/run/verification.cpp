@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_pieces.hpp"
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/run/run.hpp"
@@ -26,13 +24,16 @@ std::string named(const Verification& v, const Chosen& chosen) {
   return (names.size() == 1 ? "output " : "outputs ") + names_text(names, 4);
 }
 
-std::string likely_causes(const Model& model, const SimulationDescription& o) {
-  std::string text;
+/// `converges`: slowly, but it does.
+std::string likely_causes(const Model& model, const SimulationDescription& o, bool converges) {
+  if (model.elements.empty())
+    return std::string(converges ? "" : "a chaotic motion or ") +
+           "a step that is long for the fastest motion";
+  std::string text = converges ? "" : "impacts, a chaotic motion, ";
   if (!o.locate_edges && std::any_of(model.elements.begin(), model.elements.end(),
                                      [](const Element& e) { return has_branches(e); }))
-    text = "corners and jumps of forces within steps (locate_edges: true divides steps there), ";
-  if (!model.elements.empty()) text += "friction, tables that steps sample, or ";
-  return text + "a step that is long for the fastest motion";
+    text += "corners and jumps of forces within steps (locate_edges: true divides steps there), ";
+  return text + "friction, tables that steps sample, or a step that is long for the fastest motion";
 }
 
 void add_low_orders(const std::string& causes, Verification& v) {
@@ -53,17 +54,15 @@ void add_low_orders(const std::string& causes, Verification& v) {
 }
 
 void add_sentences(const Model& model, const SimulationDescription& description, Verification& v) {
-  const std::string causes = likely_causes(model, description);
-  add_low_orders(causes, v);
+  add_low_orders(likely_causes(model, description, true), v);
   const auto is = [](Convergence c) {
     return [c](const VerifiedOutput& o) { return o.convergence == c; };
   };
   if (const std::string names = named(v, is(Convergence::none)); !names.empty())
     v.sentences.push_back(
         fmt::format("not converging at these steps: {}; the error is as large as the difference or "
-                    "larger; likely "
-                    "because of impacts, a chaotic motion, {}",
-                    names, causes));
+                    "larger; likely because of {}",
+                    names, likely_causes(model, description, false)));
   if (const std::string names = named(v, is(Convergence::too_coarse)); !names.empty())
     v.sentences.push_back(fmt::format(
         "falling faster than the method converges: {}; the step is too long for an estimate of the "
