@@ -137,13 +137,15 @@ def run(
     *,
     duration: float | None = None,
     progress: bool | Callable[[float], object] = False,
+    verify: bool = False,
     **options: Unpack[Options],
 ) -> Result:
     """Runs a model; options not given are those of the model. The result of a run that fails contains all samples before the
     failure, and `res.summary["status"]` shows it.
 
     duration: [s]. progress: True for a bar (of tqdm, if installed), or a function of the fraction done (0..1), called at most
-    20 times a second. All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
+    20 times a second. verify: makes the run again at a half and a quarter of the step, in about seven times the time:
+    `res.summary["verification"]` has the difference, order and estimated error of each output. All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
 
     Other Python threads keep running meanwhile, and Ctrl-C ends the run. Raises InputError for invalid input, RunError if the
     start cannot be found.
@@ -151,7 +153,7 @@ def run(
     core = built(model)
     with Bar(progress) as bar:
         settings = [f"{name}={value}" for name, value in model.parameters.items()]
-        return Result(_core.run(core, duration, bar.show, as_dict(options), model.file, settings), model)
+        return Result(_core.run(core, duration, bar.show, verify, as_dict(options), model.file, settings), model)
 
 
 def state_again(text: str) -> _core.State:

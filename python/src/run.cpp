@@ -6,7 +6,7 @@ namespace floatframe::python {
 namespace {
 
 std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& duration,
-                                   const nb::object& progress, const Keywords& given,
+                                   const nb::object& progress, bool verify, const Keywords& given,
                                    const std::string& model_file,
                                    const std::vector<std::string>& settings) {
   SimulationDescription simulation = described(model, options_of(given));
@@ -22,7 +22,17 @@ std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& d
   options.progress = [&fraction](double f) { fraction = f; };
   auto result = std::make_shared<KeptRun>();
   interruptible(
-      stop, [&] { *result = run_and_keep(model, simulation, options); },
+      stop,
+      [&] {
+        RunOptions first = options;
+        if (verify) first.progress = [&fraction](double f) { fraction = f / 7.0; };
+        *result = run_and_keep(model, simulation, first);
+        RunSummary& summary = result->result.summary;
+        if (!verify || summary.status == "interrupted" || summary.steps == 0) return;
+        options.progress = [&fraction](double f) { fraction = (1.0 + 6.0 * f) / 7.0; };
+        summary.verification = verify_steps(model, simulation, summary.duration,
+                                            rows_of(result->result.table), options);
+      },
       [&] {
         if (!progress.is_none()) progress(fraction.load());
       });
@@ -75,7 +85,7 @@ void bind_run(nb::module_& m) {
         save_run(model, run, folder);
       });
   m.def("run", run_model, nb::arg("model"), nb::arg("duration").none(), nb::arg("progress").none(),
-        nb::arg("options"), nb::arg("model_file"), nb::arg("settings"));
+        nb::arg("verify"), nb::arg("options"), nb::arg("model_file"), nb::arg("settings"));
 }
 
 }  // namespace floatframe::python

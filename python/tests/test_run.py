@@ -31,6 +31,16 @@ def test_results_are_those_of_the_command_line(tmp_path, example, options):
     assert header == [f"{name} [{unit}]" if unit else name for name, unit in res.units.items()]
 
 
+def test_verify_estimates_the_error():
+    pendulum = ff.Model.load(ff.example("flexible_pendulum"))
+    plain, res = (ff.run(pendulum, step=5e-5, duration=0.1, verify=verify) for verify in (False, True))
+    assert np.array_equal(plain.table, res.table) and "verification" not in plain.summary
+    tip = {o["name"]: o for o in res.summary["verification"]["outputs"]}["tip.y"]
+    assert tip["order"] == pytest.approx(2, abs=0.1)
+    fine = ff.run(pendulum, step=5e-5 / 16, duration=0.1)["tip.y"][::16]
+    assert tip["error"] == pytest.approx(np.abs(fine - res["tip.y"]).max(), rel=0.05)
+
+
 def test_parameters_are_those_of_set(iltis):
     fast = ff.Model.load(ff.example("iltis"), speed=10)
     slow = ff.Model.load(ff.example("iltis"), speed=np.float64(3))

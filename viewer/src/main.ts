@@ -155,7 +155,7 @@ async function build(app: HTMLElement): Promise<void> {
   const curves = part('The curves are', () => (channels.length > 0 ? new Curves(channels, hub, page.kind === 'compare' || page.curves?.names ? (page.curves?.names ?? ['first', 'second']) : null) : null));
   sections.push(['view', '3-D view', view?.element ?? noView]);
   sections.push(['curves', 'Curves', curves?.element ?? null]);
-  sections.push(['trust', 'Trust', part('What tells whether to trust the run is', () => trustSection((page.trust?.rows ?? []) as string[][], trusted, page.trust?.notes ?? {}, hub))]);
+  sections.push(['trust', 'Trust', part('What tells whether to trust the run is', () => trustSection((page.trust?.rows ?? []) as string[][], page.trust?.tables ?? [], trusted, page.trust?.notes ?? {}, hub))]);
   sections.push(['facts', page.kind === 'reduce' ? 'The part' : 'Model', part('The tables of the model are', () => factsSection(page))]);
   sections.push(['speed', 'Speed', part('The times of the steps are', () => speedSection(page, report))]);
   const present = sections.filter(([, , element]) => element !== null);

@@ -21,8 +21,11 @@
 #include "floatframe/page/page_writer.hpp"
 #include "floatframe/page/run_page.hpp"
 #include "floatframe/results/notes_text.hpp"
+#include "floatframe/results/results_reader.hpp"
+#include "floatframe/results/verification_report.hpp"
 #include "floatframe/run/range_warnings.hpp"
 #include "floatframe/run/run.hpp"
+#include "floatframe/run/verification.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 
 namespace floatframe {
@@ -33,6 +36,7 @@ struct RunArguments {
   std::string coordinates, inertia, step, duration, out, write_state;
   std::string checkpoint_every, record;
   bool resume = false, no_report = false, quiet = false, strict = false, overwrite = false;
+  bool verify = false;
 };
 
 void apply(const RunArguments& arguments, SimulationDescription& simulation) {
@@ -163,12 +167,17 @@ int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
   if (summary.status != "completed" && has_table && !summary.strict)
     say(fmt::format("the results up to {:.9g} s are kept in {} and marked as partial",
                     cut_at.value_or(summary.duration), paths.folder));
+  if (summary.verification)
+    for (const std::string& sentence : summary.verification->sentences)
+      say("verification: " + sentence);
   // After a failed step there is no hint to resume: the step would fail again.
   if ((interrupted || cut_at) && std::filesystem::exists(paths.checkpoint))
     say("the same command with --resume continues the run");
   if (const std::string kept = files.kept_sentence(); !kept.empty()) say(kept);
   for (const std::string& sentence : unwritten) say(sentence);
-  if (interrupted && unwritten.empty()) return 128 + StopSignal::number();
+  if ((interrupted || (summary.verification && summary.verification->interrupted)) &&
+      unwritten.empty())
+    return 128 + StopSignal::number();
   return summary.status == "completed" && unwritten.empty() ? exit_code::done : exit_code::failed;
 }
 
@@ -179,8 +188,45 @@ int complete_before(const RunArguments& arguments, const RunPaths& paths) {
   if (!arguments.write_state.empty())
     throw InputError(ErrorCode::unknown_key,
                      fmt::format("--write-state: {}; its state at the end is not known", text));
+  if (arguments.verify)
+    throw InputError(ErrorCode::exists,
+                     fmt::format("--verify: {}; without --resume it is made and verified", text));
   say(text);
   return exit_code::done;
+}
+
+void require_verifiable(const SimulationDescription& simulation) {
+  if (!(simulation.duration > 0.0))
+    throw InputError(ErrorCode::out_of_range,
+                     "--verify: found a duration of 0 s, expected one with steps to halve");
+}
+
+/// The rows of the run: those on disk if it wrote them there.
+NextRow next_row(const RunFiles& files, const RunPaths& paths, const ResultTable& table) {
+  if (!files.streams()) return rows_of(table);
+  const auto reader = std::make_shared<ResultsReader>(paths.results);
+  return [reader] { return reader->next() ? reader->row().data() : nullptr; };
+}
+
+/// Verifies a run whose files are complete, and adds the result to these. Each failure is a
+/// sentence in the result.
+std::vector<std::string> verify(const RunArguments& arguments, RunFiles& files,
+                                const RunPaths& paths, const Model& model,
+                                const SimulationDescription& simulation, Report& report) {
+  RunSummary& summary = report.result.summary;
+  if (summary.status == "interrupted" || summary.steps == 0 || files.cut_at()) {
+    say("--verify: the run did not come to its end, so it is not verified");
+    return {};
+  }
+  RunOptions options;
+  options.stop = &StopSignal::flag();
+  {
+    ProgressBar bar(!arguments.quiet, 100.0, "% of the verification");
+    options.progress = [&bar](double fraction) { bar.show(fraction); };
+    summary.verification = verify_steps(model, simulation, summary.duration,
+                                        next_row(files, paths, report.result.table), options);
+  }
+  return files.rewrite(report);
 }
 
 using WallClock = std::chrono::steady_clock;
@@ -202,6 +248,7 @@ int run_model(const RunArguments& arguments) {
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   require_writable({{"--write-state", arguments.write_state}}, files_of(used), arguments.overwrite);
+  if (arguments.verify) require_verifiable(description.simulation);
   const RunPaths paths = make_paths(arguments, description.name);
   require_writable({{"--write-state", arguments.write_state},
                     {"--out", paths.results},
@@ -232,23 +279,25 @@ int run_model(const RunArguments& arguments) {
   report.result.summary.files = used.files;
   if (arguments.strict) make_strict(report.result.summary);
 
-  const RunSummary summary = report.result.summary;
+  const RunSummary& summary = report.result.summary;
   const bool state = report.result.state && (summary.status == "completed" || summary.strict);
-  const std::shared_ptr<const SystemState> end_state = report.result.state;
   const bool has_table = !report.result.table.columns.empty();
-  std::vector<std::string> unwritten = files.finish(std::move(report));
+  std::vector<std::string> unwritten = files.finish(report);
   if (state) {
     try {
-      write_file(arguments.write_state, state_json(*end_state));
+      write_file(arguments.write_state, state_json(*report.result.state));
     } catch (const OutputError& error) {
       unwritten.emplace_back(error.what());
     }
   }
+  const std::string wall = wall_text(begin, computed);
+  if (arguments.verify && unwritten.empty() && !files.untouched())
+    unwritten = verify(arguments, files, paths, model, description.simulation, report);
   if (!arguments.quiet && !files.untouched())
     print((has_table ? summary_text(summary) : "") +
           files_text(paths, has_table, arguments.no_report) +
-          (state ? fmt::format("  state    {}\n", arguments.write_state) : "") +
-          wall_text(begin, computed));
+          (state ? fmt::format("  state    {}\n", arguments.write_state) : "") + wall +
+          (summary.verification ? verification_text(*summary.verification) : ""));
   return end_of(paths, summary, has_table, unwritten, files);
 }
 
@@ -278,6 +327,9 @@ Command run_command() {
                        "Record the states of the run in DIR/states.ffr, or not; default: as in the "
                        "model file, else states"),
            flag("--no-report", a->no_report, "Do not write report.html"),
+           flag("--verify", a->verify,
+                "Make the run again at a half and a quarter of the step: difference, order and "
+                "estimated error of each output; about seven times the time"),
            flag("--strict", a->strict, "Warnings count as errors: exit code 1, results are kept"),
            flag("--quiet", a->quiet,
                 "No progress bar, no summary; errors and warnings are still shown")}),

@@ -179,7 +179,7 @@ void RunFiles::keep(const RunCheckpoint& checkpoint) {
   });
 }
 
-void RunFiles::write_report(Report& report) const {
+void RunFiles::write_report(const Report& report) const {
   if (page_template().empty()) return;
   const ResultTable& table = report.result.table;
   PageCurves curves;
@@ -213,7 +213,7 @@ void RunFiles::finish_states(const RunSummary& summary, std::vector<std::string>
   }
 }
 
-std::vector<std::string> RunFiles::finish(Report&& report) {
+std::vector<std::string> RunFiles::finish(Report& report) {
   if (from_ && !results_) return {};  // not begun: nothing has changed
   const RunResult& result = report.result;
   untouched_ = !results_ && result.table.rows() == 0 && (holds_completed_ || holds_checkpoint_);
@@ -246,6 +246,16 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
   if (completed || !results_) remove_file(paths_.checkpoint);
   if ((completed || result.summary.strict) && failed.empty()) remove_set_aside(paths_);
   return failed;
+}
+
+std::vector<std::string> RunFiles::rewrite(const Report& report) {
+  try {
+    if (options_.report) write_report(report);
+    write_file(paths_.summary, summary_json(report.result.summary));
+    return {};
+  } catch (const OutputError& error) {
+    return {error.what()};
+  }
 }
 
 std::string RunFiles::kept_sentence() const {

@@ -62,7 +62,9 @@ class RunFiles {
   std::string kept_sentence() const;
 
   /// Writes all remaining files. Each failure is a sentence in the result.
-  std::vector<std::string> finish(Report&& report);
+  std::vector<std::string> finish(Report& report);
+  /// Writes report and summary again, after `finish`.
+  std::vector<std::string> rewrite(const Report& report);
 
   /// Time of the last row [s], if writing failed during the run.
   std::optional<double> cut_at() const noexcept { return cut_at_; }
@@ -76,7 +78,7 @@ class RunFiles {
   void require_no_unfinished_run() const;
   void resume();
   /// The page of the viewer, if the program contains the viewer.
-  void write_report(Report& report) const;
+  void write_report(const Report& report) const;
   void finish_states(const RunSummary& summary, std::vector<std::string>& failed);
 
   RunPaths paths_;

@@ -1,6 +1,7 @@
 #include "floatframe/page/page_trust.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,8 @@
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/page/html_text.hpp"
 #include "floatframe/page/page_curves.hpp"
+#include "floatframe/page/page_json.hpp"
+#include "floatframe/results/verification_report.hpp"
 #include "floatframe/run/range_watch.hpp"
 #include "floatframe/run/state_layout.hpp"
 
@@ -150,6 +153,19 @@ void add_trust_curves(const StateHistory& history, Json& trust, PageBuffer& buff
        "Relative to the size of the body; of a modal amplitude the largest displacement that it "
        "makes. Linear modes hold for small deformations: beyond a tenth of the size the run "
        "warns."}};
+}
+
+void add_verification(const Verification& v, Json& trust) {
+  std::string note = "The run was made again with " + verification_scope(v) +
+                     ". The order is log2 of the ratio of the largest differences, the error of "
+                     "the run is extrapolated with it.";
+  for (const std::string& sentence : v.sentences) {
+    note += ' ' + sentence + '.';
+    char& first = note[note.size() - sentence.size() - 1];
+    first = static_cast<char>(std::toupper(static_cast<unsigned char>(first)));
+  }
+  trust["tables"] = tables_json({{"Dependence on the step", verification_columns(),
+                                  verification_rows(v, v.outputs.size()), note}});
 }
 
 }  // namespace floatframe

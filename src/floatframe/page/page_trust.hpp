@@ -9,6 +9,7 @@
 namespace floatframe {
 
 class StateHistory;
+struct Verification;
 
 /// Limit of numbers in all of these curves.
 inline constexpr std::size_t most_numbers_of_trust = 300'000;
@@ -17,5 +18,8 @@ inline constexpr std::size_t most_numbers_of_trust = 300'000;
 /// health data.
 void add_trust_curves(const StateHistory& history, nlohmann::ordered_json& trust,
                       PageBuffer& buffer);
+
+/// Adds the table of a verification to the "tables" of the "trust" of a page.
+void add_verification(const Verification& verification, nlohmann::ordered_json& trust);
 
 }  // namespace floatframe

@@ -15,6 +15,7 @@
 #include "floatframe/page/page_json.hpp"
 #include "floatframe/page/page_trust.hpp"
 #include "floatframe/page/scene_json.hpp"
+#include "floatframe/results/verification_report.hpp"
 #include "floatframe/run/run.hpp"
 #include "floatframe/start/check.hpp"
 
@@ -94,6 +95,9 @@ Json trust_rows(const RunSummary& s) {
                     s.energy.largest_remainder, s.energy.largest_remainder_at, 100.0 * part),
         part < 0.05);
   }
+  if (s.verification)
+    row("error estimated from runs at shorter steps", verification_verdict(*s.verification),
+        s.verification->sentences.empty());
   row("limits of the method that were left",
       s.warnings.empty() ? "none" : plural(static_cast<long>(s.warnings.size()), "warning"),
       s.warnings.empty());
@@ -189,6 +193,7 @@ Json run_page(const Report& report, const PageCurves& curves, PageBuffer& buffer
   page["tables"] = page_tables(report);
   page["curves"] = curves_json(curves, report.subjects, buffer);
   page["trust"] = {{"channels", Json::array()}, {"rows", began ? trust_rows(s) : Json::array()}};
+  if (s.verification) add_verification(*s.verification, page["trust"]);
   page["speed"] = {{"rows", began ? speed_rows(report) : Json::array()},
                    {"step_times", step_times_json(s.step_times)}};
   return page;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/results/json_values.hpp"
+#include "floatframe/results/verification_report.hpp"
 
 namespace floatframe {
 namespace {
@@ -93,6 +94,7 @@ std::string summary_json(const RunSummary& s) {
                  {"inertia", s.inertia},
                  {"step_s", s.step}});
   if (began) json.update(measured(s));
+  if (s.verification) json["verification"] = verification_json(*s.verification);
   json.update({{"status", s.status}, {"message", s.message}});
   if (!s.files.empty()) {
     json["settings"] = settings(s.settings);

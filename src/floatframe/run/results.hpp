@@ -6,6 +6,7 @@
 #include <exception>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,41 @@ struct StepTimes {
   std::vector<std::uint64_t> counts;  ///< from the first bin with a step to the last
 };
 
+/// How the differences of an output fall with the step.
+enum class Convergence {
+  regular,     ///< with an order from 0.5 to 3.5
+  round_off,   ///< not at all: they are rounding
+  none,        ///< with an order below 0.5, or not
+  too_coarse,  ///< with an order above 3.5, which the method does not have
+  unknown      ///< there are no instants at a quarter of the step
+};
+/// In this order.
+inline constexpr std::array<const char*, 5> convergence_names{"regular", "round-off", "none",
+                                                              "too coarse", "unknown"};
+
+/// An output of a run compared with runs at half and a quarter of its step.
+struct VerifiedOutput {
+  Column column;
+  double largest = 0, at = 0;       ///< difference to the run at half the step, and when [s]
+  double first = 0, second = 0;     ///< D1 and D2 over the instants of all three runs
+  double range = 0, magnitude = 0;  ///< max x - min x, max |x| of the run
+  Convergence convergence = Convergence::unknown;
+  double order = 0;  ///< if regular
+  double error = 0;  ///< estimated for the run; without an order the difference itself
+};
+
+/// How a run depends on its step: what `verify_steps` finds.
+struct Verification {
+  double step = 0;                      ///< of the run [s]
+  std::size_t instants = 0;             ///< of the run and of that at half the step
+  double from = 0, to = 0;              ///< common span [s]
+  std::vector<VerifiedOutput> outputs;  ///< in the order of the model
+  /// Runs that ended early, and outputs that do not converge as the method does.
+  std::vector<std::string> sentences;
+  bool interrupted = false;
+  double cpu = 0;  ///< of both runs [s]
+};
+
 /// The steps are the output steps that were accepted.
 struct RunSummary : StepCounters {
   std::string model, coordinates, inertia;
@@ -85,6 +121,7 @@ struct RunSummary : StepCounters {
   /// content. Empty unless the caller fills them.
   std::vector<std::string> settings;
   std::map<std::string, std::string> files;
+  std::optional<Verification> verification;  ///< if requested
 };
 
 struct RunResult {

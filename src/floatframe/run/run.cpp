@@ -21,6 +21,10 @@ void check_step(const SimulationDescription& o) {
             o.step, o.duration));
 }
 
+long steps_per_row(const SimulationDescription& o) noexcept {
+  return o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step)) : 1;
+}
+
 RunSummary asked_summary(const std::string& model, const SimulationDescription& o) {
   RunSummary s;
   s.model = model;

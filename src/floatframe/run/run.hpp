@@ -20,6 +20,9 @@ struct StateLayout;
 /// is zero.
 void check_step(const SimulationDescription& options);
 
+/// The distance of rows in steps.
+long steps_per_row(const SimulationDescription& options) noexcept;
+
 /// Complete state of an interrupted run: the rest of the run and its summary are those of an
 /// uninterrupted run, bit for bit. It is valid for one model, one set of options, and the build of
 /// the library that made it.

@@ -27,7 +27,7 @@ class Run {
         options_(options),
         steps_(given, o, {.duration = o.duration}),
         planned_(steps_.grid().steps()),
-        every_(o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step)) : 1),
+        every_(steps_per_row(o)),
         checkpoint_every_(options.checkpoint && options.checkpoint_every > 0.0
                               ? std::max(1L, std::lround(options.checkpoint_every / o.step))
                               : 0) {

@@ -205,7 +205,7 @@ export interface PageJson {
   tables?: TableJson[] | null;
   curves?: CurvesJson | null;
   /** Channels have times of their own if `time` is given; notes are sentences by group. */
-  trust?: { time?: View | null; channels?: ChannelJson[] | null; rows?: string[][] | null; notes?: Record<string, string> | null } | null;
+  trust?: { time?: View | null; channels?: ChannelJson[] | null; rows?: string[][] | null; tables?: TableJson[] | null; notes?: Record<string, string> | null } | null;
   /** Step times in ms. */
   speed?: { rows?: string[][] | null; step_times?: { edges: number[]; counts: number[]; median?: number | null; percent_99?: number | null } | null } | null;
   scene?: SceneJson | null;

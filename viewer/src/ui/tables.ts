@@ -66,6 +66,15 @@ export function tableOf(table: TableJson): HTMLElement {
   );
 }
 
+/** A table with its heading and note; folded if it is long. */
+function tableBlock(table: TableJson, open = false): HTMLElement {
+  const body = tableOf(table);
+  const note = table.note ? h('p', { class: 'hint' }, table.note) : null;
+  return table.rows.length > 20
+    ? h('details', { class: 'fold', open }, h('summary', {}, `${table.heading} (${table.rows.length} rows)`), body, note)
+    : h('div', { class: 'fact wide' }, h('h3', {}, table.heading), body, note);
+}
+
 export function factsSection(page: PageJson): HTMLElement | null {
   const facts = page.facts ?? [];
   const tables = page.tables ?? [];
@@ -75,15 +84,8 @@ export function factsSection(page: PageJson): HTMLElement | null {
     { id: 'facts', class: 'card' },
     h('div', { class: 'section-head' }, h('h2', {}, page.kind === 'reduce' ? 'The part' : 'Model')),
     facts.length > 0 ? h('div', { class: 'fact-grid' }, ...facts.map((fact) => h('div', { class: 'fact' }, h('h3', {}, fact.heading), tableOf({ ...fact, columns: null })))) : null,
-    ...tables.map((table, k) => {
-      const large = table.rows.length > 20;
-      const body = tableOf(table);
-      const note = table.note ? h('p', { class: 'hint' }, table.note) : null;
-      // The result of a page of vibrations is its first table: it stands open, on paper, too.
-      return large
-        ? h('details', { class: 'fold', open: page.kind === 'modes' && k === 0 }, h('summary', {}, `${table.heading} (${table.rows.length} rows)`), body, note)
-        : h('div', { class: 'fact wide' }, h('h3', {}, table.heading), body, note);
-    }),
+    // The result of a page of vibrations is its first table: it stands open, on paper, too.
+    ...tables.map((table, k) => tableBlock(table, page.kind === 'modes' && k === 0)),
   );
 }
 
@@ -131,7 +133,7 @@ function sharedPlots(channels: Channel[], hub: Hub): HTMLElement[] {
   );
 }
 
-export function trustSection(rows: string[][], channels: Channel[], notes: Record<string, string>, hub: Hub): HTMLElement | null {
+export function trustSection(rows: string[][], tables: TableJson[], channels: Channel[], notes: Record<string, string>, hub: Hub): HTMLElement | null {
   if (rows.length + channels.length === 0) return null;
   const element = h('section', { id: 'trust', class: 'card' }, h('div', { class: 'section-head' }, h('h2', {}, 'Can I trust it?')));
   if (rows.length > 0) {
@@ -146,6 +148,7 @@ export function trustSection(rows: string[][], channels: Channel[], notes: Recor
       ),
     );
   }
+  element.append(...tables.map((table) => tableBlock(table)));
   const known = GROUPS.map(([key]) => key);
   for (const [key, heading] of [...GROUPS, ['', 'More'] as [string, string]]) {
     const members = channels.filter((c) => (key === '' ? !known.includes(c.group) : c.group === key));
