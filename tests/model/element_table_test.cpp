@@ -78,7 +78,9 @@ std::string value_text(const ElementKey& key) {
     case K::terms:
       return "list of `{joint, coordinate, factor}`";
     case K::function:
-      return "function of a program";
+      return "function of a program, or `{formula}`";
+    case K::formula:
+      return "[formula](#formulas)";
     case K::stiffness_matrix:
       return "6 x 6 [N/m, N, N m/m, N m/rad] or 2 x 2 [N/m]";
     case K::damping_matrix:

@@ -208,7 +208,9 @@ class ElementConnection final : public FormulaConnection {
     Element& e = element();
     x.kind = FormulaOperand::Kind::link;
     x.index = static_cast<int>(std::ssize(e.signals));
-    e.signals.push_back({.link = static_cast<int>(std::ssize(b_.model.links)), .given = true});
+    Signal& signal = e.signals.emplace_back();
+    signal.link = static_cast<int>(std::ssize(b_.model.links));
+    signal.given = true;
     b_.model.links.push_back({from, static_cast<int>(element_), x.index, quantity, 1.0});
   }
   int port_of(int marker) {

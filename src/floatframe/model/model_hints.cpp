@@ -136,6 +136,31 @@ void hint_at_angles(const ModelDescription& description, const Model& model, Hin
       out.add("body", body, turns_text("its start offset", offset.rotation->norm()));
 }
 
+/// Formulas of what is known only at the end of a step.
+void hint_at_samples(const Model& model, HintList& out) {
+  for (const Element& e : model.elements) {
+    std::string names;
+    for (const FormulaOperand& x : e.operands)
+      if (x.kind == FormulaOperand::Kind::sample)
+        names += (names.empty() ? "'" : ", '") + x.output.name + "'";
+    if (!names.empty())
+      out.add("formula", e.name,
+              "reads " + names +
+                  " of the end of the step before: results are of first order in the step, and "
+                  "linear systems hold them constant");
+  }
+}
+
+void hint_at_switches(const Model& model, HintList& out) {
+  for (const Element& e : model.elements) {
+    const FormulaValue* keys = std::get_if<FormulaValue>(e.keys.get());
+    if (keys && keys->formula->switches > 0)
+      out.add("formula", e.name,
+              "has corners or jumps (comparisons, clip, min, max, abs, sign) that steps cross; "
+              "locate_edges: true divides steps there");
+  }
+}
+
 bool joint_turns(const Joint& j) {
   JointMotion motion;
   const double drawn[6] = {};
@@ -269,6 +294,8 @@ ModelHints model_hints(const ModelDescription& description, const Model& model) 
   hint_at_angles(description, model, hints);
   hint_at_inertia(description, model, hints);
   hint_at_clamps(description, model, hints);
+  hint_at_samples(model, hints);
+  if (!description.simulation.locate_edges) hint_at_switches(model, hints);
   return {hints.texts(), {}, bar_bending(description, model)};
 }
 

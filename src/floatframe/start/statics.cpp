@@ -136,7 +136,8 @@ StaticsResult statics(const Model& model) {
     const BodyKinematics& m = motion.bodies[i];
     b.name = model.bodies[i].name;
     b.position = m.p_WB;
-    b.roll_pitch_yaw = roll_pitch_yaw(m.R_WB * model.bodies[i].X_WB.R.transpose());
+    b.roll_pitch_yaw =
+        floatframe::roll_pitch_yaw<double>(m.R_WB * model.bodies[i].X_WB.R.transpose());
     b.amplitudes = m.y;
     s.bodies.push_back(b);
   }

@@ -104,7 +104,7 @@ ElementExample formula_example(std::size_t regime, ExampleNumbers& numbers) {
   x.model.inputs.emplace_back().name = "u";
   x.links.push_back(numbers(-2.0, 2.0));
   x.keys(keys);
-  x.element.signals.push_back({.link = 0, .given = true});
+  x.element.signals.emplace_back().link = 0;
   const auto measure = [](OutputType type, int component, std::array<int, 4> ports) {
     FormulaOperand m{.kind = FormulaOperand::Kind::measure, .ports = ports};
     m.output.type = type;
