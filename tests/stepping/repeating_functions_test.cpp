@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "floatframe/run/run.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "floatframe/stepping/time_corners.hpp"
-#include "floatframe/run/run.hpp"
 #include "support/coordinates.hpp"
 #include "support/model_text.hpp"
 
