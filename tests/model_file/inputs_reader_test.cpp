@@ -35,7 +35,7 @@ TEST(InputsInFiles, EveryKeyArrives) {
   EXPECT_EQ(force<AppliedForce>(d, "push").magnitude.input, "push");
   const auto& tie = force<SpringDamper>(d, "tie");
   EXPECT_EQ(tie.actuator->input, "pull");
-  EXPECT_EQ(tie.actuator->amplitude, 1.0);
+  EXPECT_EQ(tie.actuator->sines.at(0).amplitude, 1.0);
   EXPECT_EQ(force<GuidedSpring>(d, "guide").actuator->input, "pull");
   const auto& motor = force<JointSpring>(d, "motor");
   EXPECT_EQ(motor.target->input, "angle");

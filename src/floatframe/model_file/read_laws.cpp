@@ -166,6 +166,10 @@ TimeFunction time_terms(const ModelInstance& self, YamlSection& section, const c
     if (no_jump(of)) v->error(ErrorCode::wrong_value, no_jump(of));
   }
   const bool sines = read_sines(section, unit, f.sines);
+  if (f.period > 0.0 && !f.pieces.breaks().empty())
+    if (const auto text = sentences::period(f, !no_jump(of)))
+      section.get(section.has("period") ? "period" : "periodic")
+          ->error(ErrorCode::contradiction, *text);
   section.finish();
   if (laws > 1 || (laws == 0 && !sines && !formula && expected != nullptr))
     section.error(ErrorCode::wrong_count, "found " + std::to_string(laws) + " laws, expected " +

@@ -109,16 +109,17 @@ class CsvParser {
  private:
   char separator_of(std::string_view line) const {
     if (find_unquoted(line, ";") != std::string_view::npos) return ';';
-    if (sign_ == DecimalSign::comma) return ' ';
+    const char blank = find_unquoted(line, "\t") != std::string_view::npos ? '\t' : ' ';
+    if (sign_ == DecimalSign::comma) return blank;
     if (sign_ == DecimalSign::automatic) {
       // Decimal commas between blanks: no cell is a number otherwise.
-      const std::vector<std::string_view> words = cells_of(line, ' ');
+      const std::vector<std::string_view> words = cells_of(line, blank);
       if (words.size() > 1 && std::all_of(words.begin(), words.end(), [](std::string_view word) {
             return has_decimal_comma(word) || word.find(',') == std::string_view::npos;
           }))
-        return ' ';
+        return blank;
     }
-    return find_unquoted(line, ",") != std::string_view::npos ? ',' : ' ';
+    return find_unquoted(line, ",") != std::string_view::npos ? ',' : blank;
   }
 
   std::optional<double> number(std::string_view cell, char separator) const {
@@ -139,8 +140,7 @@ class CsvParser {
     return std::all_of(words.begin(), words.end(), is_csv_name);
   }
 
-  /// Names with blanks over columns between tabs or blanks are separated as the columns only if
-  /// that gives their number.
+  /// Separated as the columns, or otherwise if that gives their number.
   void read_names(std::string_view line) {
     for (const char separator : {file_.separator, '\t', ';', ','}) {
       const std::vector<std::string_view> words = cells_of(line, separator);
