@@ -235,6 +235,10 @@ class Model:
         return self._section("measures")
 
     @property
+    def tables(self) -> Section:
+        return self._section("tables")
+
+    @property
     def subsystems(self) -> Section:
         return self._section("subsystems")
 

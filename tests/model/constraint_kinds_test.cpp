@@ -24,7 +24,7 @@ struct Case {
 };
 
 const TimeFunction& motion() {
-  static const TimeFunction f{PiecewisePolynomial::polynomial({0.1, 0.3, -0.2}), 0.2, 1.5, 0.4};
+  static const TimeFunction f{PiecewisePolynomial::polynomial({0.1, 0.3, -0.2}), {{0.2, 1.5, 0.4}}};
   return f;
 }
 

@@ -22,6 +22,7 @@ std::string of(OutputOf what) {
                                       "[coupling](#couplings)",
                                       "[controller](#controllers)",
                                       "force element or controller",
+                                      "[formula](#formulas)",
                                       "[gauge](#gauges)"};
   static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];

@@ -60,6 +60,7 @@ std::string columns_of_type(OutputType type) {
                                            "mesh",
                                            "hold",
                                            "dash",
+                                           "3 * length(coil) + 2",
                                            "{body: arm, at: tip, toward: [0.3, 1, 0.5]}"};
   static_assert(std::size(references) == index_of(OutputOf::gauge) + 1);
   const std::string word = output_type_name(type);

@@ -39,10 +39,14 @@ outputs: {a: {joint_position: shoulder}, b: {joint_position: elbow}}
 )");
 const std::string by_formulas = two_arms(R"(
 forces:
-  drive: {type: joint_spring, joint: elbow, actuator: {formula: '-k * angle(elbow) - c * rate(elbow) + u'}}
-  hold: {type: joint_spring, joint: shoulder, actuator: {formula: '-200 * angle(shoulder) - 9 * rate(shoulder)'
-}
-}
+  drive:
+    type: joint_spring
+    joint: elbow
+    actuator: {formula: '-k * angle(elbow) - c * rate(elbow) + u'}
+  hold:
+    type: joint_spring
+    joint: shoulder
+    actuator: {formula: '-200 * angle(shoulder) - 9 * rate(shoulder)'}
 outputs: {a: {joint_position: shoulder}, b: {joint_position: elbow}}
 )");
 
@@ -58,7 +62,10 @@ TEST_P(InFormulas, ActAsSpringsOfTheSameLaw) {
 }
 
 TEST_P(InFormulas, HaveTheSamePolesAndStatics) {
-  const Model springs = model_of(by_springs), formulas = model_of(by_formulas);
+  const auto resting = [](std::string text) {
+    return model_of(text.replace(text.find(", velocity: 1"), 13, ""));
+  };
+  const Model springs = resting(by_springs), formulas = resting(by_formulas);
   const StaticsResult at_rest = statics(springs), same = statics(formulas);
   EXPECT_NEAR(at_rest.bodies[1].roll_pitch_yaw[1], same.bodies[1].roll_pitch_yaw[1], 1e-9);
   const LinearSystem a = linear_system(springs, {.coordinates = GetParam()});
@@ -71,9 +78,11 @@ TEST_P(InFormulas, HaveTheSamePolesAndStatics) {
 TEST_P(InFormulas, ConvergeQuadratically) {
   const Model model = model_of(two_arms(R"(
 forces:
-  far: {type: joint_spring, joint: shoulder, actuator: {formula: '-3e5 * angle(elbow) - 2e5 * angle(shoulder) - 2e3 * rate(elbow) - 2e3 * rate(shoulder)'
-}
-}
+  far:
+    type: joint_spring
+    joint: shoulder
+    actuator: {formula: '-3e5 * angle(elbow) - 2e5 * angle(shoulder) - 2e3 * rate(elbow) - 2e3 *
+      rate(shoulder)'}
   hold: {type: joint_spring, joint: elbow, spring: 2e5, damper: 2e3}
 )"));
   SimulationOptions o{.coordinates = GetParam()};
@@ -91,7 +100,10 @@ TEST_P(InFormulas, MotionsHaveExactDerivatives) {
 bodies: {arm: {rigid: {mass: 2, centre_of_mass: [0.3, 0, 0], inertia: [0.001, 0.06, 0.06]}}}
 joints: {hinge: {type: revolute, child: arm, at: [0, 0, 0], axis: y, motion: )" +
                                  motion + R"(}}
-outputs: {q: {joint_position: hinge}, m: {motion_force: hinge}, a: {angular_acceleration: arm, axis: y}}
+outputs:
+  q: {joint_position: hinge}
+  m: {motion_force: hinge}
+  a: {angular_acceleration: arm, axis: y}
 simulation: {step: 0.001, duration: 0.2}
 )");
     return completed_run(model, with(model.simulation, GetParam())).table.data;
@@ -116,16 +128,9 @@ TEST_P(InFormulas, LawsAreThoseOfPrograms) {
   const Model formula = model_of(R"(
 bodies: {ball: {position: [0, 0, 0], rigid: {mass: 1}}}
 joints: {fall: {type: prismatic, child: ball, at: [0, 0, 0], axis: z, position: 0.5}}
-forces: {contact: {type: force_law, joint: fall, law: {formula: 'if(x < 0, -1e6 * (-x) ^ 1.5, 0)'
-  }
-  }
-  }
-  outputs : {
-  z : {
-  joint_position:
-    fall
-  }
-  }
+forces:
+  contact: {type: force_law, joint: fall, law: {formula: 'if(x < 0, -1e6 * (-x) ^ 1.5, 0)'}}
+outputs: {z: {joint_position: fall}}
 simulation: {step: 0.001, duration: 0.7}
 )");
   ModelDescription d = description_of(R"(
@@ -191,7 +196,9 @@ outputs: {b: {joint_position: elbow}}
 forces: {hold: {type: joint_spring, joint: shoulder, spring: 200, damper: 9}}
 outputs: {b: {joint_position: elbow}}
 )"));
-  std::get<RigidDescription>(d.bodies[1].kind).J_C(1, 1) += 0.02;
+  Mat3& J = std::get<RigidDescription>(d.bodies[1].kind).J_C;
+  J(0, 0) += 0.02;
+  J(1, 1) += 0.02;
   SimulationDescription o = exact.simulation;
   o.step = 1e-4;
   const double with_inertia = completed_run(build_model(d), o).table.data.back();
@@ -205,34 +212,22 @@ TEST(FormulaTurns, AreCounted) {
 gravity: [0, 0, 0]
 bodies: {disc: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0.02, 0.02, 0.02]}}}
 joints: {spin: {type: revolute, child: disc, at: [0, 0, 0], axis: z, position: 20}}
-forces: {m: {type: joint_spring, joint: spin, actuator: {formula: '-2 * angle(spin)'
-}
-}
-}
-outputs : {
-q : {
-joint_position:
-  spin
-}
-  , f : {
-  force:
-    m
-  }
-}
+forces: {m: {type: joint_spring, joint: spin, actuator: {formula: '-2 * angle(spin)'}}}
+outputs: {q: {joint_position: spin}, f: {force: m}}
 simulation: {step: 0.001, duration: 0.7}
 )");
   for (const Coordinates c : both_coordinates) {
     const auto rows = completed_run(model, with(model.simulation, c)).table.data;
-    for (std::size_t k = 0; k + 2 < rows.size(); k += 3) {
-      EXPECT_NEAR(rows[k + 1], 20 * std::cos(10 * rows[k]), 1e-2);
+    for (std::size_t k = 0; k + 2 < rows.size(); k += 3)
       EXPECT_NEAR(std::abs(rows[k + 2]), std::abs(2 * rows[k + 1]), 1e-9);
-    }
+    EXPECT_NEAR(rows[rows.size() - 2], 20 * std::cos(7.0), 0.4);  // 0.2 rad per step
   }
 }
 
 TEST(FormulaFailures, NameFormulaAndTime) {
   const Model model = model_of(two_arms(R"(
-forces: {m: {type: torque, body: lower, direction: [0, 1, 0], magnitude: {formula: '1 / (0.01 - t) ^ 0.5'}}}
+forces:
+  m: {type: torque, body: lower, direction: y, magnitude: {formula: '1 / (0.01 - t) ^ 0.5'}}
 )"));
   Simulation s(model);
   std::string failure;
@@ -250,23 +245,20 @@ std::string refused(const std::string& formula) {
   });
 }
 
-TEST(FormulaErrors, AreOneSentence) {
-  EXPECT_NE(refused("2 * kk").find("found 'kk', expected t or the name of an input, a measure or "
-                                   "an output"),
-            std::string::npos)
-      << refused("2 * kk");
-  EXPECT_NE(refused("angle(elbw)")
-                .find("found angle(elbw), expected the name of a joint; did you "
-                      "mean 'elbow'?"),
-            std::string::npos)
-      << refused("angle(elbw)");
-  EXPECT_NE(refused("position(lower)").find("expected one of"), std::string::npos)
-      << refused("position(lower)");
-  EXPECT_NE(refused("speed(lower)").find("found the function 'speed'"), std::string::npos);
-  EXPECT_NE(refused("1 +").find("a value is missing at the end"), std::string::npos);
-  EXPECT_NE(refused("stress(lower)").find("expected the name of an entry of 'measures'"),
-            std::string::npos)
-      << refused("stress(lower)");
+TEST(FormulaErrors, HaveACode) {
+  const auto has = [](const std::string& formula, const std::string& code) {
+    const std::string error = refused(formula);
+    EXPECT_TRUE(error.ends_with(": " + code)) << formula << ": " << error;
+  };
+  has("2 * kk", "not_found");
+  has("angle(elbw)", "not_found");
+  has("angle(elbow, 2)", "out_of_range");
+  has("position(lower)", "wrong_value");
+  has("speed(lower)", "not_found");
+  has("force(lower)", "not_found");
+  has("kinetic_energy(lower, 2)", "wrong_count");
+  has("stress(lower)", "unsupported");
+  has("1 +", "wrong_value");
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ std::string text(const TimeFunction& f) {
   std::string s = text(f.pieces);
   for (const SineTerm& x : f.sines)
     s += fmt::format(" + {:.6g} sin(2 pi {:.6g} t + {:.6g})", x.amplitude, x.frequency, x.phase);
+  if (f.formula) s += " + " + f.formula->text;
   return s;
 }
 std::string text(const SignalDescription& s) {

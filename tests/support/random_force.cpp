@@ -49,6 +49,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
         const double c = size * ends.damping * numbers(0.5, 1.5);
         return PiecewisePolynomial::polynomial({0.0, c, 0.1 * c, 0.05 * c});
       }
+      case K::formula:
+        return formula("t");
       case K::load: {
         SignalDescription s;
         s.pieces = PiecewisePolynomial::polynomial({size * numbers(-3.0, 3.0), size});

@@ -355,6 +355,11 @@ std::optional<Mechanism> with_controller(Mechanism m, unsigned seed) {
   pid.filter = 0.05;
   d.controllers = {{"controller", pid, {}}};
   SignalDescription& actuator = std::get<SpringDamper>(d.forces.back().kind).actuator.emplace();
+  if (seed % 2 == 0) {
+    actuator.formula = formula("controller(controller) - 0.5 * velocity('" + d.bodies.front().name +
+                               "', x) * tanh(length('" + length + "'))");
+    return pulled;
+  }
   actuator.source = SignalSource::controller;
   actuator.element = "controller";
   return pulled;

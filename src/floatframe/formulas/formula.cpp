@@ -72,12 +72,26 @@ GridValue grid_at(const GridTable& grid, double x, double y) noexcept {
           j.width > 0.0 ? (right - left) / j.width : 0.0};
 }
 
-PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept {
+namespace {
+
+Jet jet_at(const Formula& f, double t, FormulaFault& fault) noexcept {
   FormulaSwitches switches;
-  FormulaFault fault;
-  const Jet y = evaluate_formula<Jet>(
+  return evaluate_formula<Jet>(
       f, [&](int) { return Jet(t, 1.0); }, switches, fault);
+}
+
+}  // namespace
+
+PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept {
+  FormulaFault fault;
+  const Jet y = jet_at(f, t, fault);
   return {y.f, y.df, y.ddf};
+}
+
+std::string fault_at(const Formula& f, double t) {
+  FormulaFault fault;
+  jet_at(f, t, fault);
+  return fault_text(f, fault);
 }
 
 }  // namespace floatframe

@@ -1,8 +1,8 @@
 #pragma once
 // A formula of a model: a text that is compiled once, by `compile_formula`, and evaluated in steps
-// over double, dual numbers or functions of time (formula_evaluation.hpp). Immutable, shared by
+// over double, dual numbers or functions of time. Immutable, shared by
 // threads.
-//   language     syntax_tree.hpp, constants and functions of function_words.hpp
+//   language     that of expressions in model files, with more functions
 //   references   t, the time; names and functions that are no part of the language: to be
 //                connected by the model: `tip.z`, `angle(arm)`, `rotation(body, yaw)`
 //   switches     where a comparison, clip, min, max, abs or sign changes from one smooth piece to

@@ -271,7 +271,8 @@ S evaluate_formula(const Formula& f, const ValueOf& value_of_reference, FormulaS
   return fault.kind == FormulaFault::Kind::none ? y : S(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Of a formula of time alone.
+/// Of a formula of time alone; and why it has no value there.
 PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept;
+std::string fault_at(const Formula& f, double t);
 
 }  // namespace floatframe

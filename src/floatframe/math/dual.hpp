@@ -1,7 +1,8 @@
 #pragma once
 // Dual numbers x + sum_k d_k e_k, e_j e_k = 0: a value with its derivatives in n directions, exact
-// to rounding: Dual those of the motion and rates of a marker, 12. Laws of elements are templates over their scalar, so that one text gives the value
-// and its derivatives. Works as a scalar of Eigen.
+// to rounding: Dual those of the motion and rates of a marker, 12. Laws of elements are templates
+// over their scalar, so that one text gives the value and its derivatives. Works as a scalar of
+// Eigen.
 #include <Eigen/Core>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/start/light_motion.hpp"
@@ -25,11 +26,29 @@ std::string lost_masses(const SystemMotion& motion) {
 
 std::string Stepper::failure() {
   if (has_thrown()) return thrown_sentence(f_, state_.t);
+  if (std::string why = undefined_formula(); !why.empty()) return why;
   std::string text = step_failure();  // first: refers to the failed iteration
   if (std::string numbers = overflow(); !numbers.empty()) text = std::move(numbers);
   kinematics_at(f_, state_);
   const std::string lost = lost_masses(f_.motion());
   return text + (lost.empty() ? light_motion_note(f_, state_) : "; " + lost);
+}
+
+/// Of an element whose force is not a number, at the failed iteration: its formula, or that of one
+/// of its signals.
+std::string Stepper::undefined_formula() {
+  const int k = largest_force();
+  if (k < 0 || !std::isnan(f_.effort(k).force)) return {};
+  const Element& e = model().elements[static_cast<std::size_t>(k)];
+  f_.find_links();
+  const Ports ports = f_.ports(static_cast<std::size_t>(k));
+  const auto complaint = element_kind(e.type).complaint;
+  std::string why = complaint ? complaint(ports) : std::string();
+  for (const Signal& signal : e.signals)
+    if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
+  if (why.empty()) return {};
+  return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}: {}",
+                     state_.t, smallest(), element_name(e), why);
 }
 
 /// From the results of the last iteration.
@@ -44,13 +63,6 @@ std::string Stepper::step_failure() {
   // An excessive force is a more useful hint than the coordinate it acts on.
   const int force = largest_force();
   const bool unknown = force >= 0 && std::isnan(f_.effort(force).force);
-  if (unknown && element_kind(model().elements[force].type).complaint) {
-    f_.find_links();
-    const std::string why = element_kind(model().elements[force].type).complaint(f_.ports(force));
-    if (!why.empty())
-      return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}: {}",
-                         state_.t, smallest(), element_name(model().elements[force]), why);
-  }
   const std::string who = unknown              ? "force '" + model().elements[force].name + "'"
                           : last_.element >= 0 ? element_name(model().elements[last_.element])
                           : last_.constraint >= 0
@@ -83,7 +95,8 @@ int Stepper::largest_force() const noexcept {
   int force = -1;
   for (std::size_t k = 0; k < model().elements.size(); ++k) {
     const double x = std::abs(f_.effort(static_cast<int>(k)).force);
-    if (!(x <= worst)) {
+    if (std::isnan(x)) return static_cast<int>(k);
+    if (x > worst) {
       worst = x;
       force = static_cast<int>(k);
     }

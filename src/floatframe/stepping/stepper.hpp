@@ -143,6 +143,7 @@ class Stepper {
 
   // What `failure` is made of.
   std::string step_failure();
+  std::string undefined_formula();
   std::string singular_position();
   std::string overflow();
   std::string unreachable_tolerance() const;

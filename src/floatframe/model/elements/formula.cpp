@@ -105,8 +105,15 @@ ElementExample formula_example(std::size_t regime, ExampleNumbers& numbers) {
   x.links.push_back(numbers(-2.0, 2.0));
   x.keys(keys);
   x.element.signals.emplace_back().link = 0;
-  const auto measure = [](OutputType type, int component, std::array<int, 4> ports) {
-    FormulaOperand m{.kind = FormulaOperand::Kind::measure, .ports = ports};
+  const auto operand = [](FormulaOperand::Kind kind) {
+    FormulaOperand m;
+    m.kind = kind;
+    m.index = 0;
+    return m;
+  };
+  const auto measure = [&](OutputType type, int component, std::array<int, 4> ports) {
+    FormulaOperand m = operand(FormulaOperand::Kind::measure);
+    m.ports = ports;
     m.output.type = type;
     m.output.component = component;
     m.output.marker = ports[0];
@@ -116,14 +123,14 @@ ElementExample formula_example(std::size_t regime, ExampleNumbers& numbers) {
     return m;
   };
   for (const FormulaReference& r : keys.formula->references)
-    x.element.operands.push_back(
-        r.name == "z"      ? measure(OutputType::position, 2, {0, -1, 1, 2})
-        : r.name == "vx"   ? measure(OutputType::velocity, 0, {1, -1, 0, 0})
-        : r.name == "d"    ? measure(OutputType::distance, 0, {0, 2, -1, -1})
-        : r.name == "rate" ? measure(OutputType::angular_velocity, 1, {2, -1, -1, 0})
-        : r.name == "u"    ? FormulaOperand{.kind = FormulaOperand::Kind::input, .index = 0}
-        : r.name == "s"    ? FormulaOperand{.kind = FormulaOperand::Kind::link, .index = 0}
-                           : FormulaOperand{.kind = FormulaOperand::Kind::time});
+    x.element.operands.push_back(r.name == "z"    ? measure(OutputType::position, 2, {0, -1, 1, 2})
+                                 : r.name == "vx" ? measure(OutputType::velocity, 0, {1, -1, 0, 0})
+                                 : r.name == "d"  ? measure(OutputType::distance, 0, {0, 2, -1, -1})
+                                 : r.name == "rate"
+                                     ? measure(OutputType::angular_velocity, 1, {2, -1, -1, 0})
+                                 : r.name == "u" ? operand(FormulaOperand::Kind::input)
+                                 : r.name == "s" ? operand(FormulaOperand::Kind::link)
+                                                 : operand(FormulaOperand::Kind::time));
   return x;
 }
 

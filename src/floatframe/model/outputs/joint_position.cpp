@@ -24,7 +24,7 @@ S joint_position_measure(const MeasurePorts<S>& in) noexcept {
 template <>
 double output_value_of<OutputType::joint_position>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput& last) noexcept {
-  auto& [started, time, values] = last;
+  auto& [started, time, values, parts] = last;
   double &q = values[0], &qdot = values[1];
   MeasurePorts<double> in = measure_ports(motion, output);
   const double rate =
