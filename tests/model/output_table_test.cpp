@@ -37,7 +37,7 @@ std::string component(OutputType type, const OutputKind& kind) {
   std::string words;
   for (const char* word : kind.components.words)
     words += std::string(words.empty() ? "" : ", ") + word;
-  const bool about = type == OutputType::joint_torque || type == OutputType::angular_momentum;
+  const bool about = kind.about_point;
   const bool in = kind.of == OutputOf::reaction || kind.frames != OutputFrames::none;
   const char* const more = kind.frames == OutputFrames::relative_to_and_in
                                ? "; `relative_to`, `in` (below)"

@@ -135,7 +135,7 @@ TEST(Validate, Outputs) {
        "outputs.z.in.body: not_found"},
       {[](D& d) { d.outputs[2].relative.emplace(); }, "outputs.q.relative_to: wrong_value"},
       {[](D& d) { d.outputs[2].axes.emplace(); }, "outputs.q.in: wrong_value"},
-      {[](D& d) { d.outputs[0].unit = "deg"; }, "outputs.z.unit: wrong_value"},
+      {[](D& d) { d.outputs[0].unit = "deg"; }, "wrong_value"},
       {[](D& d) { d.outputs[0].about = true; }, "outputs.z.about: incomplete"},
       {[](D& d) { d.measures = {d.outputs[0]}; }, "duplicate"},
       {[](D& d) {
@@ -144,7 +144,7 @@ TEST(Validate, Outputs) {
          d.measures[0].at.body = "x";
        },
        "measures.m.position.body: not_found"},
-      {[](D& d) { d.outputs[4].type = OutputType::state; }, "outputs.F.state: wrong_value"},
+      {[](D& d) { d.outputs[4].type = OutputType::state; }, "wrong_value"},
       {[](D& d) { d.outputs[2].entity = "pins"; }, "outputs.q.joint_position: not_found"},
       {[](D& d) { d.outputs[4].entity = "lod"; }, "outputs.F.force: not_found"},
       {[](D& d) { d.outputs[5].entity = "load"; }, "outputs.L.length: wrong_value"},

@@ -27,6 +27,8 @@ bodies:
       bars: {one: {from: root, to: tip, elements: 4, section: {round: 0.02}}}
       clamped: [root]
       static_modes: [{point: tip, dofs: [x, y, z]}]
+      mass_model: hermite
+      section_inertia: true
 joints:
   a: {type: free, child: a, velocity: [3, -0.4, 0.5, 1, 2, -3]}
   b: {type: free, child: b, velocity: [-1, 0.4, 2, -2, 1, 2]}

@@ -278,7 +278,7 @@ TEST(SteppingMisuse, DamagedBytes) {
   more.insert(more.end() - 32, 8, std::byte{});
   EXPECT_EQ(refused(sealed(more)), "damaged");
   auto newer = bytes;
-  newer[8] = std::byte{5};
+  newer[8] = std::byte{6};
   EXPECT_EQ(refused(sealed(newer)), "mismatch");
   EXPECT_EQ(refused({}).substr(0, 43), "wrong_file");
 }

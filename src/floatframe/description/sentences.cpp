@@ -239,9 +239,7 @@ Complaint bearing_stiffness(const MatX& K) {
 
 std::string function_in_file(const std::string& found) {
   return "found " + found +
-         ", expected a function, which only a program gives (C++, Python); a model file has "
-         "tables: "
-         "the spring and damper of a joint_spring or spring_damper";
+         ", expected {formula: ...}, or a function that a program gives (C++, Python)";
 }
 
 std::string law_on_what() {

@@ -7,7 +7,7 @@ namespace floatframe::sentences {
 
 std::string number_of(const char* what, int component, int n, bool from_file) {
   const int first = from_file ? 1 : 0;
-  return "found " + std::to_string(static_cast<long>(component) + first) + ", expected " +
+  return "found " + std::to_string(component + first) + ", expected " +
          WholeNumberRule{what, first, n - 1 + first}.expectation();
 }
 

@@ -7,7 +7,7 @@
 namespace floatframe {
 
 std::string fault_text(const Formula& f, const FormulaFault& fault) {
-  const std::string& source = f.sources[static_cast<std::size_t>(fault.step)];
+  const std::string& source = f.sources[fault.step];
   switch (fault.kind) {
     case FormulaFault::Kind::none:
       return "";
@@ -34,10 +34,9 @@ std::uint64_t mixed(std::uint64_t x) noexcept {
 /// A normal number of mean 0 and deviation 1 (Box-Muller) for each seed and k.
 double normal_number(double seed, double k) noexcept {
   const auto at = [](std::uint64_t bits) {  // in (0, 1]
-    return static_cast<double>((bits >> 11) + 1) * 0x1p-53;
+    return ((bits >> 11) + 1) * 0x1p-53;
   };
-  const std::uint64_t a = mixed(mixed(static_cast<std::uint64_t>(std::llround(seed))) ^
-                                static_cast<std::uint64_t>(std::llround(k)));
+  const std::uint64_t a = mixed(mixed(std::llround(seed)) ^ std::llround(k));
   return std::sqrt(-2.0 * std::log(at(a))) * std::cos(2.0 * std::numbers::pi * at(mixed(a)));
 }
 

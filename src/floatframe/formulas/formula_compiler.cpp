@@ -105,11 +105,10 @@ class Compiler {
     for (std::size_t k = 1; k < node.parts.size(); ++k) {
       const char op = node.word[k - 1];
       number(node.parts[k], std::string(1, op));
-      SyntaxNode part{
-          SyntaxNode::Kind::chain,
-          0.0,
-          node.word.substr(0, k),
-          {node.parts.begin(), node.parts.begin() + static_cast<std::ptrdiff_t>(k + 1)}};
+      SyntaxNode part{SyntaxNode::Kind::chain,
+                      0.0,
+                      node.word.substr(0, k),
+                      {node.parts.begin(), node.parts.begin() + k + 1}};
       add(part,
           op == '+'   ? FormulaOp::add
           : op == '-' ? FormulaOp::subtract
@@ -158,7 +157,7 @@ class Compiler {
   }
   void arrive(std::size_t from) {
     target_ = std::ssize(out_.steps);
-    out_.steps[from].index = static_cast<int>(target_);
+    out_.steps[from].index = target_;
   }
   /// The parts in order, until one decides: b and c is if(b, c, false).
   Type junction(const SyntaxNode& node) {
@@ -197,7 +196,7 @@ class Compiler {
     const auto it = std::find(out_.references.begin(), out_.references.end(), r);
     const auto index = it - out_.references.begin();
     if (it == out_.references.end()) out_.references.push_back(r);
-    add(node, FormulaOp::reference, 0, static_cast<int>(index));
+    add(node, FormulaOp::reference, 0, index);
     return Type::number;
   }
 
@@ -345,12 +344,12 @@ class Compiler {
     if (grid) {
       const auto it = tables_.grids.find(first.word);
       if (it == tables_.grids.end()) missing(tables_.grids, tables_.curves.contains(first.word));
-      index = static_cast<int>(std::ssize(out_.grids));
+      index = std::ssize(out_.grids);
       out_.grids.push_back(it->second);
     } else {
       const auto it = tables_.curves.find(first.word);
       if (it == tables_.curves.end()) missing(tables_.curves, tables_.grids.contains(first.word));
-      index = static_cast<int>(std::ssize(out_.curves));
+      index = std::ssize(out_.curves);
       out_.curves.push_back(it->second);
     }
     for (std::size_t k = 1; k < node.parts.size(); ++k) number(node.parts[k], node.word);

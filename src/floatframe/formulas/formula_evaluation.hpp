@@ -33,7 +33,7 @@ struct FormulaSwitches {
   static std::int64_t with(std::int64_t all, int k, int piece) noexcept {
     return (all & ~(std::int64_t{3} << (2 * k))) | (std::int64_t{piece} << (2 * k));
   }
-  int piece_of(int k) const noexcept { return static_cast<int>((held >> (2 * k)) & 3); }
+  int piece_of(int k) const noexcept { return (held >> (2 * k)) & 3; }
   /// `natural`: the piece at the present values; `beyond_of(piece, next)`: beyond the nearest edge
   /// of a piece, and what is there.
   template <class Beyond>
@@ -73,7 +73,7 @@ class FormulaMachine {
       : f_(f), reference_(value_of_reference), switches_(switches), fault_(fault) {}
 
   S run() noexcept {
-    const int n = static_cast<int>(f_.steps.size());
+    const int n = std::ssize(f_.steps);
     for (at_ = 0; at_ < n; ++at_) step(f_.steps[at_]);
     assert(top_ == 1);
     return stack_[0];
@@ -267,7 +267,7 @@ S evaluate_formula(const Formula& f, const ValueOf& value_of_reference, FormulaS
                    FormulaFault& fault) noexcept {
   const S y = FormulaMachine<S, ValueOf>(f, value_of_reference, switches, fault).run();
   if (fault.kind == FormulaFault::Kind::none && !std::isfinite(value_of(y)))
-    fault = {FormulaFault::Kind::overflow, static_cast<int>(f.steps.size()) - 1, value_of(y)};
+    fault.kind = FormulaFault::Kind::overflow, fault.step = std::ssize(f.steps) - 1;
   return fault.kind == FormulaFault::Kind::none ? y : S(std::numeric_limits<double>::quiet_NaN());
 }
 

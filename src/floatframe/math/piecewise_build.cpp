@@ -139,8 +139,7 @@ PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation i
   for (std::size_t from = 0; from < p.size();) {
     std::size_t to = from + 1;  // the points up to the next jump
     while (to < p.size() && p[to].x > p[to - 1].x) ++to;
-    const std::vector<TablePoint> side(p.begin() + static_cast<std::ptrdiff_t>(from),
-                                       p.begin() + static_cast<std::ptrdiff_t>(to));
+    const std::vector<TablePoint> side(p.begin() + from, p.begin() + to);
     std::vector<double> slopes;
     if (interpolation == Interpolation::cubic)
       slopes = table_slopes(side, from == 0 && !full, to == p.size() && !full);
@@ -210,8 +209,7 @@ PiecewisePolynomial integral(const PiecewisePolynomial& f, double x, double valu
   std::vector<PiecewisePolynomial::Piece> pieces = f.pieces();
   for (PiecewisePolynomial::Piece& p : pieces) {
     p.coefficients.insert(p.coefficients.begin(), 0.0);
-    for (std::size_t j = 2; j < p.coefficients.size(); ++j)
-      p.coefficients[j] /= static_cast<double>(j);
+    for (std::size_t j = 2; j < p.coefficients.size(); ++j) p.coefficients[j] /= j;
   }
   const std::vector<double>& b = f.breaks();
   const auto at = [](const PiecewisePolynomial::Piece& p, double where) {

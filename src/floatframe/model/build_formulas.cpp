@@ -65,7 +65,7 @@ class FormulaConnection {
   bool named(const FormulaReference& r, FormulaOperand& x) {
     if (const auto input = b_.input_names.find(r.name)) {
       x.kind = FormulaOperand::Kind::input;
-      x.index = static_cast<int>(*input);
+      x.index = *input;
       return true;
     }
     std::vector<std::string> known{"t"};
@@ -160,7 +160,7 @@ class FormulaConnection {
     if (components.key) {
       const auto& words = components.words;
       const auto at = std::find(words.begin(), words.end(), r.detail);
-      o.component = static_cast<int>(at - words.begin());
+      o.component = at - words.begin();
       if (at != words.end()) return true;
       return wrong(ErrorCode::wrong_value,
                    sentences::formula_component(r.function, r.detail, words));
@@ -184,7 +184,7 @@ class FormulaConnection {
 /// Of an element, within an iteration: measures by its markers, results by signals.
 class ElementConnection final : public FormulaConnection {
  public:
-  ElementConnection(ModelBuilder& builder, std::size_t element, const Origin& origin,
+  ElementConnection(ModelBuilder& builder, int element, const Origin& origin,
                     const std::string& path)
       : FormulaConnection(builder, origin, path), element_(element) {}
 
@@ -207,18 +207,18 @@ class ElementConnection final : public FormulaConnection {
   void link(int from, ElementQuantity quantity, FormulaOperand& x) {
     Element& e = element();
     x.kind = FormulaOperand::Kind::link;
-    x.index = static_cast<int>(std::ssize(e.signals));
+    x.index = std::ssize(e.signals);
     Signal& signal = e.signals.emplace_back();
-    signal.link = static_cast<int>(std::ssize(b_.model.links));
+    signal.link = std::ssize(b_.model.links);
     signal.given = true;
-    b_.model.links.push_back({from, static_cast<int>(element_), x.index, quantity, 1.0});
+    b_.model.links.push_back({from, element_, x.index, quantity, 1.0});
   }
   int port_of(int marker) {
     std::vector<int>& ports = element().markers;
     const auto at = std::find(ports.begin(), ports.end(), marker);
     const auto port = at - ports.begin();
     if (at == ports.end()) ports.push_back(marker);
-    return static_cast<int>(port);
+    return port;
   }
   void markers(const std::array<int, 4>& all, FormulaOperand& x) {
     for (std::size_t k = 0; k < all.size(); ++k)
@@ -228,16 +228,16 @@ class ElementConnection final : public FormulaConnection {
   void coordinate(const Output& out, FormulaOperand& x) {
     Element& e = element();
     const Joint& joint = b_.model.joints[out.joint];
-    const int port = static_cast<int>(std::ssize(e.markers));
+    const int port = std::ssize(e.markers);
     e.markers.insert(e.markers.end(), {joint.frame_F, joint.frame_M});
     x.ports = {port, port + 1, -1, -1};
     const auto axis = coordinate_axis(joint.type, joint.axis_2, out.component);
     if (!axis || !axis->turns) return;
-    x.angle = static_cast<int>(std::ssize(e.coordinates));
+    x.angle = std::ssize(e.coordinates);
     e.coordinates.push_back({out.joint, out.component, port, true});
   }
 
-  std::size_t element_;
+  int element_;
 };
 
 }  // namespace

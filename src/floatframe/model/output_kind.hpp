@@ -75,7 +75,8 @@ struct OutputKind {
   ElementQuantity needs = ElementQuantity::force;
   /// It is the result `needs` of an element that signals are made of.
   bool is_signal = false;
-  bool named_unit = false;  ///< its unit is any text of the user
+  bool about_point = false;  ///< it is about a point, the key `about`
+  bool named_unit = false;   ///< its unit is any text of the user
   MotionNeeds needs_of_motion = {};
   OutputFrames frames = OutputFrames::none;
   /// Of measures: the value, and the same with its derivatives.

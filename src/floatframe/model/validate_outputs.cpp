@@ -50,10 +50,10 @@ void reaction(const OutputDescription& o, const Names& names, const Entity& enti
 /// The point that a torque or an angular momentum is about.
 void about(const OutputDescription& o, const Names& names, const Entity& entity) {
   if (!o.about) return;
-  if (o.type != OutputType::joint_torque && o.type != OutputType::angular_momentum)
+  if (!output_kind(o.type).about_point)
     entity.error(ErrorCode::incomplete, "about", sentences::force_without_point());
   else
-    entity.place("about", o.type == OutputType::joint_torque ? o.at : o.to, names);
+    entity.place("about", output_kind(o.type).of == OutputOf::reaction ? o.at : o.to, names);
 }
 
 void frames(const OutputDescription& o, const OutputKind& kind, const Names& names,

@@ -98,8 +98,7 @@ std::shared_ptr<const GridTable> read_grid(const YamlValue& value) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto row = list[i].numbers(y.size(), y.size(), any_number(""), what.c_str());
     if (!row) return nullptr;
-    grid.values.row(static_cast<Eigen::Index>(i)) =
-        VecX::Map(row->data(), grid.values.cols()).transpose();
+    grid.values.row(i) = VecX::Map(row->data(), grid.values.cols()).transpose();
   }
   return std::make_shared<const GridTable>(std::move(grid));
 }
@@ -126,11 +125,14 @@ SharedFormula read_formula(const ModelInstance& self, const YamlValue& value) {
 std::optional<ForceFunction> read_force_function(const ModelInstance& self,
                                                  const YamlValue& value) {
   if (value.is_scalar()) return ForceFunction::named(value.node().text);
-  auto section = value.section("a map with formula");
-  if (!section) return std::nullopt;
-  const auto text = section->require("formula");
+  auto section = value.is_map() ? value.section() : std::nullopt;
+  const auto text = section ? section->get("formula") : std::nullopt;
+  if (!text) {
+    value.error(ErrorCode::unsupported, sentences::function_in_file(value.found()));
+    return std::nullopt;
+  }
   section->finish();
-  const SharedFormula f = text ? compiled(self, *text, true) : nullptr;
+  const SharedFormula f = compiled(self, *text, true);
   if (!f) return std::nullopt;
   try {
     return ForceFunction::of(f);

@@ -167,7 +167,7 @@ class OutputReader {
 
   /// `model`, or a body; `about` a point.
   bool mass(YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    const auto about = o.type == OutputType::angular_momentum ? s.get("about") : std::nullopt;
+    const auto about = output_kind(o.type).about_point ? s.get("about") : std::nullopt;
     o.about = about.has_value();
     const bool good = !about || put(point(*about), o.to);
     const auto name = what.text("the name of a body, or model");
@@ -281,7 +281,7 @@ class OutputReader {
     if (const auto about = s.get("about")) {
       o.about = true;
       good = put(point(*about), o.at) && good;
-      if (o.type != OutputType::joint_torque) {
+      if (!output_kind(o.type).about_point) {
         about->error(ErrorCode::incomplete, sentences::force_without_point());
         good = false;
       }

@@ -61,8 +61,7 @@ std::string order_text(const VerifiedOutput& o) {
 
 std::string verification_scope(const Verification& v) {
   return fmt::format("steps of {:g} and {:g} ms, at {} from {:g} to {:g} s", 500.0 * v.step,
-                     250.0 * v.step, plural(static_cast<long>(v.instants), "instant"), v.from,
-                     v.to);
+                     250.0 * v.step, plural(v.instants, "instant"), v.from, v.to);
 }
 
 std::string verification_verdict(const Verification& v) {
@@ -108,9 +107,9 @@ std::string verification_text(const Verification& v) {
   const auto round_off = std::count_if(
       v.outputs.begin(), v.outputs.end(),
       [](const VerifiedOutput& o) { return o.convergence == Convergence::round_off; });
-  const long all = static_cast<long>(v.outputs.size()), shown = std::min(all - round_off, most);
+  const long all = std::ssize(v.outputs), shown = std::min(all - round_off, most);
   TextTable table(verification_columns(), {0, 1});
-  for (std::vector<std::string>& row : verification_rows(v, static_cast<std::size_t>(shown))) {
+  for (std::vector<std::string>& row : verification_rows(v, shown)) {
     for (std::string& cell : row) cell = printable(cell);
     table.add(std::move(row));
   }

@@ -74,7 +74,7 @@ void add_sentences(const Model& model, const SimulationDescription& description,
 RunResult run_part(const Model& model, const SimulationDescription& given, int part,
                    double duration, const RunOptions& options) {
   SimulationDescription o = given;
-  o.output_interval = static_cast<double>(steps_per_row(given)) * given.step;
+  o.output_interval = steps_per_row(given) * given.step;
   o.step = given.step / part;
   o.duration = std::max(duration, o.step);
   o.min_step = std::min(given.min_step, o.step);

@@ -39,9 +39,9 @@ std::string Stepper::failure() {
 std::string Stepper::undefined_formula() {
   const int k = largest_force();
   if (k < 0 || !std::isnan(f_.effort(k).force)) return {};
-  const Element& e = model().elements[static_cast<std::size_t>(k)];
+  const Element& e = model().elements[k];
   f_.find_links();
-  const Ports ports = f_.ports(static_cast<std::size_t>(k));
+  const Ports ports = f_.ports(k);
   const auto complaint = element_kind(e.type).complaint;
   std::string why = complaint ? complaint(ports) : std::string();
   for (const Signal& signal : e.signals)
@@ -94,11 +94,11 @@ int Stepper::largest_force() const noexcept {
   double worst = 0.0;
   int force = -1;
   for (std::size_t k = 0; k < model().elements.size(); ++k) {
-    const double x = std::abs(f_.effort(static_cast<int>(k)).force);
-    if (std::isnan(x)) return static_cast<int>(k);
+    const double x = std::abs(f_.effort(k).force);
+    if (std::isnan(x)) return k;
     if (x > worst) {
       worst = x;
-      force = static_cast<int>(k);
+      force = k;
     }
   }
   return force;

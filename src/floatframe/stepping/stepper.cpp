@@ -250,8 +250,7 @@ void Stepper::take_samples() noexcept {
   if (samples_.empty()) return;
   const SystemMotion& motion = present_motion(sampled_);
   FollowedOutput nothing;
-  for (const Sample& s : samples_)
-    state_.z[static_cast<Eigen::Index>(s.place)] = output_value(motion, *s.output, nothing);
+  for (const Sample& s : samples_) state_.z[s.place] = output_value(motion, *s.output, nothing);
 }
 
 Energies Stepper::energies() noexcept {
@@ -259,8 +258,7 @@ Energies Stepper::energies() noexcept {
   f_.forces();
   Energies e;
   e.potential = f_.gravity_energy();
-  for (std::size_t k = 0; k < model().elements.size(); ++k)
-    e.potential += f_.effort(static_cast<int>(k)).energy;
+  for (std::size_t k = 0; k < model().elements.size(); ++k) e.potential += f_.effort(k).energy;
   e.elastic = elastic_energy(f_.motion());
   e.kinetic = f_.kinetic_energy(state_.v);
   return e;

@@ -165,7 +165,7 @@ class CsvParser {
       file_.points = file_.points || word.find('.') != std::string_view::npos;
     }
     file_.lines.push_back(line.number);
-    file_.starts.push_back(static_cast<std::size_t>(line.content.data() - file_.text.data()));
+    file_.starts.push_back(line.content.data() - file_.text.data());
   }
 
   CsvFile& file_;

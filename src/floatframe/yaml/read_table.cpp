@@ -118,8 +118,8 @@ class TableReader {
   /// From 0; the number of columns after an error.
   std::size_t index_of_column(const YamlValue& value, const CsvFile& csv) const {
     if (value.looks_like_number()) {
-      const auto k = value.integer(1, static_cast<int>(csv.columns), "the number of a column");
-      return k ? static_cast<std::size_t>(*k - 1) : csv.columns;
+      const auto k = value.integer(1, csv.columns, "the number of a column");
+      return k ? *k - 1 : csv.columns;
     }
     const auto name = value.text("the name or the number of a column");
     if (!name) return csv.columns;

@@ -111,10 +111,12 @@ ElementExample formula_example(std::size_t regime, ExampleNumbers& numbers) {
     m.index = 0;
     return m;
   };
-  const auto measure = [&](OutputType type, int component, std::array<int, 4> ports) {
+  // The n-th measure of points, of two points or of bodies.
+  const auto measure = [&](OutputOf of, int n, int component, std::array<int, 4> ports) {
     FormulaOperand m = operand(FormulaOperand::Kind::measure);
     m.ports = ports;
-    m.output.type = type;
+    for (const OutputType type : output_types)
+      if (output_kind(type).of == of && output_kind(type).value && n-- == 0) m.output.type = type;
     m.output.component = component;
     m.output.marker = ports[0];
     m.output.to = ports[1];
@@ -123,14 +125,14 @@ ElementExample formula_example(std::size_t regime, ExampleNumbers& numbers) {
     return m;
   };
   for (const FormulaReference& r : keys.formula->references)
-    x.element.operands.push_back(r.name == "z"    ? measure(OutputType::position, 2, {0, -1, 1, 2})
-                                 : r.name == "vx" ? measure(OutputType::velocity, 0, {1, -1, 0, 0})
-                                 : r.name == "d"  ? measure(OutputType::distance, 0, {0, 2, -1, -1})
-                                 : r.name == "rate"
-                                     ? measure(OutputType::angular_velocity, 1, {2, -1, -1, 0})
-                                 : r.name == "u" ? operand(FormulaOperand::Kind::input)
-                                 : r.name == "s" ? operand(FormulaOperand::Kind::link)
-                                                 : operand(FormulaOperand::Kind::time));
+    x.element.operands.push_back(r.name == "z"    ? measure(OutputOf::point, 0, 2, {0, -1, 1, 2})
+                                 : r.name == "vx" ? measure(OutputOf::point, 1, 0, {1, -1, 0, 0})
+                                 : r.name == "d"
+                                     ? measure(OutputOf::two_points, 0, 0, {0, 2, -1, -1})
+                                 : r.name == "rate" ? measure(OutputOf::body, 1, 1, {2, -1, -1, 0})
+                                 : r.name == "u"    ? operand(FormulaOperand::Kind::input)
+                                 : r.name == "s"    ? operand(FormulaOperand::Kind::link)
+                                                    : operand(FormulaOperand::Kind::time));
   return x;
 }
 

@@ -23,6 +23,7 @@ constinit const OutputKind angular_momentum_output = {
     .of = OutputOf::mass,
     .components = world_axes,
     .unit = "N m s",
+    .about_point = true,
     .needs_of_motion = {.energies = true},
     .frames = OutputFrames::in};
 

@@ -32,6 +32,7 @@ constinit const OutputKind joint_torque_output = {
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N m",
+    .about_point = true,
     .needs_of_motion = {.reactions = true}};
 
 }  // namespace floatframe
