@@ -108,7 +108,7 @@ TEST_F(TableColumns, ErrorsSayWhichColumnsThereAre) {
             "model.yaml:4:84: forces.f.magnitude.table.column: out_of_range");
   EXPECT_EQ(errors(csv, "{file: t.csv, column: Fx, time: tme}"),
             "model.yaml:4:94: forces.f.magnitude.table.time: not_found");
-  EXPECT_EQ(errors("0,1,2\n1,4,5\n", "{file: t.csv, column: Fx}"),
+  EXPECT_EQ(errors("0,1,2\n1,4,5\n", "{file: t.csv, column: G}"),
             "model.yaml:4:84: forces.f.magnitude.table.column: not_found");
   EXPECT_EQ(errors(csv, "{file: t.csv, colum: Fx}"),
             "model.yaml:4:69: forces.f.magnitude.table.file: wrong_count\nmodel.yaml:4:76: "

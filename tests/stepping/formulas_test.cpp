@@ -258,7 +258,7 @@ TEST(FormulaErrors, HaveACode) {
   has("force(lower)", "not_found");
   has("kinetic_energy(lower, 2)", "wrong_count");
   has("stress(lower)", "unsupported");
-  has("1 +", "wrong_value");
+  has("(1 + 2", "wrong_value");
 }
 
 }  // namespace
