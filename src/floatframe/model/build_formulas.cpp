@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <map>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/description/sentences.hpp"
@@ -272,29 +273,31 @@ ElementDescription ModelBuilder::with_formulas_apart(const ElementDescription& e
 }
 
 void ModelBuilder::connect_formulas() {
+  std::map<std::string, std::pair<const Origin*, std::string>> written;  // of controllers
+  for (const ElementDescription& e : d.controllers)
+    written[e.name] = {&e.origin, "controllers." + e.name + ".formula"};
+  for (const InnerFormula& inner : formulas)
+    written[inner.element.name] = {&inner.element.origin, inner.path};
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const SharedFormula f = formula_of(model.elements[k]);
     if (!f) continue;
-    const auto connect = [&](const ElementDescription& e, const std::string& path) {
-      if (e.name == model.elements[k].name)
-        model.elements[k].operands = ElementConnection(*this, k, e.origin, path).connect(*f);
-    };
-    for (const InnerFormula& inner : formulas) connect(inner.element, inner.path);
-    for (const ElementDescription& e : d.controllers)
-      connect(e, "controllers." + e.name + ".formula");
+    const auto& [origin, path] = written.at(model.elements[k].name);
+    model.elements[k].operands = ElementConnection(*this, k, *origin, path).connect(*f);
   }
   const auto outputs_of = [&](std::vector<Output>& built,
                               const std::vector<OutputDescription>& described,
                               const std::string& list) {
-    std::vector<std::shared_ptr<const OutputFormula>> found(built.size());
+    std::map<std::string, const OutputDescription*> with_formula;
     for (const OutputDescription& o : described)
-      for (std::size_t k = 0; k < built.size(); ++k)
-        if (o.formula && built[k].name == o.name)
-          found[k] = std::make_shared<OutputFormula>(OutputFormula{
-              o.formula,
-              FormulaConnection(*this, o.origin, list + o.name + ".formula").connect(*o.formula)});
-    for (std::size_t k = 0; k < built.size(); ++k)
-      if (found[k]) built[k].formula = found[k];
+      if (o.formula) with_formula[o.name] = &o;
+    for (Output& out : built) {
+      const auto it = with_formula.find(out.name);
+      if (it == with_formula.end()) continue;
+      const OutputDescription& o = *it->second;
+      out.formula = std::make_shared<OutputFormula>(OutputFormula{
+          o.formula,
+          FormulaConnection(*this, o.origin, list + o.name + ".formula").connect(*o.formula)});
+    }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");
   outputs_of(model.measures, d.measures, "measures.");

@@ -207,6 +207,8 @@ void evaluate_element(const Ports& in, Efforts& out) noexcept {
 
 bool has_branches(const Element& element) noexcept {
   if (element_kind(element.type).side == nullptr) return false;
+  if (const auto* keys = std::get_if<FormulaValue>(element.keys.get()))
+    return keys->formula->switches > 0;
   return element.laws.empty() ||
          std::any_of(element.laws.begin(), element.laws.end(),
                      [](const PiecewisePolynomial& law) { return !law.edges().empty(); });

@@ -12,6 +12,7 @@
 
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/union_find.hpp"
+#include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/joint_kind.hpp"
@@ -153,8 +154,7 @@ void hint_at_samples(const Model& model, HintList& out) {
 
 void hint_at_switches(const Model& model, HintList& out) {
   for (const Element& e : model.elements) {
-    const FormulaValue* keys = std::get_if<FormulaValue>(e.keys.get());
-    if (keys && keys->formula->switches > 0)
+    if (std::holds_alternative<FormulaValue>(*e.keys) && has_branches(e))
       out.add("formula", e.name,
               "has corners or jumps (comparisons, clip, min, max, abs, sign) that steps cross; "
               "locate_edges: true divides steps there");

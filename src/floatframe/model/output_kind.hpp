@@ -2,7 +2,8 @@
 // Interface of an output. A new output is one file model/outputs/<name>.cpp and one entry in
 // output_list.hpp: reader, validation, mirror, units, the table of the documentation and the
 // generic tests run over the list. A sample calls `output_value_of` by name, without a pointer; the
-// data of an OutputKind are used at load time.
+// data of an OutputKind are used at load time, but for `value` and `dual`, which formulas call in
+// steps.
 #include <array>
 #include <numbers>
 #include <span>
