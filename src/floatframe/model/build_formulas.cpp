@@ -166,6 +166,10 @@ class FormulaConnection {
       return wrong(ErrorCode::wrong_value,
                    sentences::formula_component(r.function, r.detail, words));
     }
+    if (output_kind(o.type).of == OutputOf::controller) {
+      o.value = r.detail;
+      return true;
+    }
     const bool joint = output_kind(o.type).of == OutputOf::joint;
     if (!joint)
       return r.detail.empty() || wrong(ErrorCode::wrong_count, sentences::one_argument(r.function));
@@ -193,7 +197,7 @@ class ElementConnection final : public FormulaConnection {
   Element& element() const { return b_.model.elements[element_]; }
   void take(const Output& out, FormulaOperand& x) override {
     const OutputKind& kind = output_kind(out.type);
-    if (kind.is_signal) return link(out.element, kind.needs, x);
+    if (kind.is_signal) return link(out, kind.needs, x);
     FormulaConnection::take(out, x);
     x.kind = FormulaOperand::Kind::measure;
     if (!kind.value) {
@@ -205,14 +209,14 @@ class ElementConnection final : public FormulaConnection {
       markers(measure_markers(b_.model, out), x);
     }
   }
-  void link(int from, ElementQuantity quantity, FormulaOperand& x) {
+  void link(const Output& out, ElementQuantity quantity, FormulaOperand& x) {
     Element& e = element();
     x.kind = FormulaOperand::Kind::link;
     x.index = std::ssize(e.signals);
     Signal& signal = e.signals.emplace_back();
     signal.link = std::ssize(b_.model.links);
     signal.given = true;
-    b_.model.links.push_back({from, element_, x.index, quantity, 1.0});
+    b_.model.links.push_back({out.element, element_, x.index, quantity, 1.0, out.component});
   }
   int port_of(int marker) {
     std::vector<int>& ports = element().markers;

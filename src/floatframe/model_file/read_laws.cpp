@@ -298,6 +298,8 @@ bool read_source(const ModelInstance& self, YamlSection& section, SignalDescript
     const auto name = self.reference(
         source == SignalSource::controller ? EntityKind::controller : EntityKind::force, *value);
     signal.element = name.value_or("");
+    if (source != SignalSource::controller) continue;
+    if (const auto v = section.get("output")) signal.value = v->text("a name or number").value_or("");
   }
   if (signal.source == SignalSource::none) return false;
   signal.factor = section.number("factor", any_number(""), 1.0);

@@ -1,0 +1,108 @@
+#include "floatframe/model_file/linear_file.hpp"
+
+#include <algorithm>
+
+#include "floatframe/formats/body_file/npy.hpp"
+#include "floatframe/formats/body_file/zip_store.hpp"
+#include "floatframe/formats/matlab/mat_read.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* linear_matrices[] = {"A", "B", "C", "D"};
+
+bool is_of_linear_system(std::string_view name) {
+  return name == "inputs" || name == "outputs" || std::ranges::count(linear_matrices, name) > 0;
+}
+
+/// One number or a list is a row.
+MatX matrix_of(const NpyArray& array) {
+  const std::vector<std::size_t>& shape = array.shape;
+  if (shape.size() > 2)
+    throw InputError(ErrorCode::wrong_count,
+                     "found the shape " + shape_text(shape) + ", expected a matrix");
+  const Eigen::Index rows = shape.size() == 2 ? shape[0] : 1,
+                     columns = shape.empty() ? 1 : shape.back();
+  MatX M(rows, columns);
+  std::visit(
+      [&](const auto& values) {
+        for (Eigen::Index i = 0; i < rows; ++i)
+          for (Eigen::Index j = 0; j < columns; ++j)
+            M(i, j) = static_cast<double>(values[i * columns + j]);
+      },
+      array.values);
+  return M;
+}
+
+std::vector<MatVariable> variables_of_npz(const std::string& bytes, const std::string& file) {
+  std::vector<MatVariable> all;
+  for (const ZipMember& member : read_zip(bytes, file)) {
+    const std::string name = member.name.substr(0, member.name.rfind(".npy"));
+    if (!is_of_linear_system(name)) continue;
+    if (name.size() > 1)
+      all.push_back({name, read_npy_texts(member.content)});
+    else
+      all.push_back({name, matrix_of(read_npy(member.content))});
+  }
+  return all;
+}
+
+/// Empty if it is one.
+std::string complaint_of(const std::vector<MatVariable>& all) {
+  const auto find = [&](std::string_view name) {
+    return std::find_if(all.begin(), all.end(),
+                        [&](const MatVariable& v) { return v.name == name; });
+  };
+  for (const char* name : linear_matrices) {
+    const auto it = find(name);
+    if (it == all.end() && *name != 'D')
+      return std::string("found no matrix ") + name + ", expected A, B, C and D";
+    if (it != all.end() && !std::holds_alternative<MatX>(it->value))
+      return std::string("found texts in ") + name + ", expected numbers";
+  }
+  for (const auto& [name, of, columns] :
+       {std::tuple("inputs", "B", true), std::tuple("outputs", "C", false)}) {
+    const auto names = find(name);
+    if (names == all.end()) continue;
+    const auto* texts = std::get_if<std::vector<std::string>>(&names->value);
+    const MatX& M = std::get<MatX>(find(of)->value);
+    const Eigen::Index count = columns ? M.cols() : M.rows();
+    if (!texts || std::ssize(*texts) != count)
+      return "found " + (texts ? std::to_string(texts->size()) + " names in '" : "numbers in '") +
+             name + "', expected " + std::to_string(count) + " names, as " + of + " has " +
+             (columns ? "columns" : "rows");
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::vector<MatVariable>> read_linear_file(const ModelInstance& self,
+                                                         const YamlValue& value) {
+  const auto name = value.text("the name of a file");
+  if (!name) return std::nullopt;
+  const std::string file = sibling_path(self, *name);
+  std::string bytes;
+  if (!read_text_file(file, bytes, *self.context.errors, value.mark(), value.path()))
+    return std::nullopt;
+  const auto fail = [&](ErrorCode code, const std::string& why) {
+    value.error(code, "'" + file + "': " + why);
+    return std::nullopt;
+  };
+  try {
+    const bool npz = bytes.starts_with("PK");
+    if (!npz && !bytes.starts_with("MATLAB"))
+      return fail(ErrorCode::wrong_file,
+                  "found neither an .npz nor a .mat file, expected one of `floatframe linearize`");
+    std::vector<MatVariable> all = npz ? variables_of_npz(bytes, "") : read_mat(bytes);
+    std::erase_if(all, [](const MatVariable& v) { return !is_of_linear_system(v.name); });
+    if (const std::string why = complaint_of(all); !why.empty())
+      return fail(ErrorCode::wrong_file, why);
+    return all;
+  } catch (const InputError& e) {
+    return fail(e.errors().front().code, e.errors().front().message);
+  }
+}
+
+}  // namespace floatframe
