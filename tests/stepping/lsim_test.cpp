@@ -17,10 +17,15 @@ TEST(LinearBlock, OfOrderSixBehindNoiseIsThatOfLsim) {
   const VecX u = to_vector(data["noise"]), y = to_vector(data["response"]);
   const Model model = model_of(fmt::format(
       R"(
-bodies: {{box: {{rigid: {{mass: 1}}}}}}
+bodies: {{box: {{position: [0, 0, 0], rigid: {{mass: 1}}}}}}
 joints: {{slide: {{type: prismatic, child: box, at: [0, 0, 0], axis: x}}}}
 controllers:
-  b: {{type: transfer_function, initial: zero, input: {{formula: 'noise({0}, {1})'}}, numerator: {2}, denominator: {3}}}
+  b:
+    type: transfer_function
+    initial: zero
+    input: {{formula: 'noise({0}, {1})'}}
+    numerator: {2}
+    denominator: {3}
 outputs: {{u: {{formula: 'noise({0}, {1})'}}, y: {{controller: b}}}}
 simulation: {{step: {1}, duration: {4}, output_interval: {1}}}
 )",

@@ -91,11 +91,7 @@ struct ElementValidation {
         if (!std::get<SharedFormula>(*x))
           entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
         break;
-      case K::flag:
-      case K::bump_stop:
-      case K::rebound_stop:
-      case K::names:
-      case K::linear_file:
+      default:  // flags, stops, names and files of linear systems
         break;
     }
     return entity.errors.size() == before;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/formats/body_file/npy.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
 #include "floatframe/formats/matlab/mat_read.hpp"
+#include "floatframe/model/element_keys.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
@@ -76,8 +78,7 @@ std::string complaint_of(const std::vector<MatVariable>& all) {
   return "";
 }
 
-}  // namespace
-
+/// A, B, C are there.
 std::optional<std::vector<MatVariable>> read_linear_file(const ModelInstance& self,
                                                          const YamlValue& value) {
   const auto name = value.text("the name of a file");
@@ -103,6 +104,56 @@ std::optional<std::vector<MatVariable>> read_linear_file(const ModelInstance& se
   } catch (const InputError& e) {
     return fail(e.errors().front().code, e.errors().front().message);
   }
+}
+
+}  // namespace
+
+std::vector<std::string> take_linear_file(const ModelInstance& self, const YamlValue& value,
+                                          const YamlSection& section, ElementDescription& element) {
+  std::vector<std::string> inputs;
+  const std::size_t before = self.context.errors->size();
+  for (const char* key : {"A", "B", "C", "D", "outputs"})
+    if (section.has(key)) value.error(ErrorCode::exclusive, sentences::excludes(key));
+  if (self.context.errors->size() != before) return inputs;
+  const auto file = read_linear_file(self, value);
+  if (!file) return inputs;
+  const ElementView view(element);
+  for (const MatVariable& v : *file) {
+    if (v.name == "inputs")
+      inputs = std::get<std::vector<std::string>>(v.value);
+    else
+      std::visit([&](const auto& x) { set_key_value(element, view.key(v.name), x); }, v.value);
+  }
+  return inputs;
+}
+
+bool names_inputs(const YamlValue& value, const std::vector<std::string>& inputs) {
+  return value.is_map() &&
+         (inputs.size() > 1 ||
+          std::ranges::any_of(value.node().entries, [&](const YamlEntry& e) {
+            return std::ranges::count(inputs, e.key) > 0;
+          }));
+}
+
+std::vector<SignalDescription> read_named_signals(const ModelInstance& self,
+                                                  const YamlValue& value,
+                                                  const std::vector<std::string>& inputs) {
+  std::vector<SignalDescription> all(inputs.size());
+  for (const auto& [name, item] : value.named("a map of inputs of the file", true)) {
+    const auto it = std::ranges::find(inputs, name);
+    if (it == inputs.end())
+      item.not_known("found no input of this name in the file", name, [&] { return inputs; });
+    else
+      all[it - inputs.begin()] = read_signal(self, item, "", Interpolation::linear);
+  }
+  return all;
+}
+
+std::optional<std::vector<std::string>> read_names(const YamlValue& value) {
+  std::vector<std::string> names;
+  for (const YamlValue& item : value.list("a list of names"))
+    names.push_back(item.text("a name").value_or(""));
+  return value.is_list() ? std::optional(names) : std::nullopt;
 }
 
 }  // namespace floatframe

@@ -125,42 +125,10 @@ class ElementReader {
                : std::nullopt;
   }
 
-  /// Into the keys A, B, C, D and `outputs`, which exclude it.
-  void linear_file(const YamlValue& value) {
-    for (const char* key : {"A", "B", "C", "D", "outputs"})
-      if (s_.has(key)) value.error(ErrorCode::exclusive, sentences::excludes(key));
-    const std::size_t before = self_.context.errors->size();
-    const auto file = read_linear_file(self_, value);
-    if (!file || self_.context.errors->size() != before) return;
-    for (const MatVariable& v : *file) {
-      if (v.name == "inputs")
-        file_inputs_ = std::get<std::vector<std::string>>(v.value);
-      else
-        std::visit([&](const auto& x) { set_key_value(f_, check_.key(v.name), x); }, v.value);
-    }
-  }
-
-  /// A map of inputs of the file.
-  std::optional<KeyValue> named_signals(const YamlValue& value) const {
-    std::vector<SignalDescription> all(file_inputs_.size());
-    for (const auto& [name, item] : value.named("a map of inputs of the file", true)) {
-      const auto it = std::find(file_inputs_.begin(), file_inputs_.end(), name);
-      if (it == file_inputs_.end())
-        item.not_known("found no input of this name in the file", name,
-                       [&] { return file_inputs_; });
-      else
-        all[it - file_inputs_.begin()] = read_signal(self_, item, "", Interpolation::linear);
-    }
-    return KeyValue(std::move(all));
-  }
-
-  /// A list of signals, or one.
+  /// A list of signals, or one, or those of inputs of a file.
   std::optional<KeyValue> signals(const YamlValue& value) const {
-    const bool named =
-        value.is_map() &&
-        std::any_of(value.node().entries.begin(), value.node().entries.end(),
-                    [&](const YamlEntry& e) { return std::ranges::count(file_inputs_, e.key) > 0; });
-    if (named || (value.is_map() && file_inputs_.size() > 1)) return named_signals(value);
+    if (names_inputs(value, file_inputs_))
+      return KeyValue(read_named_signals(self_, value, file_inputs_));
     std::vector<SignalDescription> all;
     const auto items = value.is_list() ? value.list() : std::vector<YamlValue>{value};
     for (const YamlValue& item : items)
@@ -247,13 +215,11 @@ class ElementReader {
       case K::signals:
         return signals(*value);
       case K::names: {
-        std::vector<std::string> names;
-        for (const YamlValue& item : value->list("a list of names"))
-          names.push_back(item.text("a name").value_or(""));
-        return value->is_list() ? std::optional(KeyValue(std::move(names))) : std::nullopt;
+        auto names = read_names(*value);
+        return names ? std::optional(KeyValue(std::move(*names))) : std::nullopt;
       }
       case K::linear_file:
-        linear_file(*value);
+        file_inputs_ = take_linear_file(self_, *value, s_, f_);
         return std::nullopt;
       case K::motion:
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);

@@ -19,7 +19,7 @@ PAIRS = (3.0, 0.1), (8.0, 0.2), (15.0, 0.3)  # of poles: rad/s, damping ratio
 NUMERATOR = [40.0, 900.0, 5000.0, 120000.0]
 MODEL = f"""\
 floatframe: 1
-bodies: {{box: {{rigid: {{mass: 1}}}}}}
+bodies: {{box: {{position: [0, 0, 0], rigid: {{mass: 1}}}}}}
 joints: {{slide: {{type: prismatic, child: box, at: [0, 0, 0], axis: x}}}}
 outputs: {{noise: {{formula: "noise({SEED}, {INTERVAL})"}}}}
 simulation: {{step: {INTERVAL}, duration: {DURATION}}}
@@ -32,7 +32,7 @@ def noise(program):
         path.write_text(MODEL, encoding="utf-8")
         subprocess.run([program, "run", path, "--quiet", "--no-report", "--out", folder + "/out"], check=True)
         with open(folder + "/out/results.csv", encoding="utf-8") as file:
-            return [float(row["noise"]) for row in csv.DictReader(file)]
+            return [float(row["noise [-]"]) for row in csv.DictReader(file)]
 
 
 def main():
