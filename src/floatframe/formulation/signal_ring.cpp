@@ -21,7 +21,8 @@ SignalRing::SignalRing(const Model& model, const SignalGroup& group) : newton_(0
     for (const std::size_t l : group.links) {
       const std::size_t from = model.links[l].from;
       const int link = l;
-      if (from == m.element) m.results.push_back({unknown_of[l], link, model.links[l].result(), model.links[l].factor});
+      if (from == m.element)
+        m.results.push_back({unknown_of[l], link, model.links[l].result(), model.links[l].factor});
     }
   }
   y_ = VecX::Zero(count);

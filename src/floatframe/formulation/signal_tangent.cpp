@@ -95,8 +95,7 @@ void SignalTangent::add_gains(Formulation& f, double damping, double s, const Ve
       };
       for (int z = 0; z < m.states && follow; ++z) add(z, a[m.first + z]);
       for (const int l : m.results)
-        add(m.states + model_.links[l].result(),
-            model_.links[l].factor * a[first_link_ + l]);
+        add(m.states + model_.links[l].result(), model_.links[l].factor * a[first_link_ + l]);
       m.wrenches[i] = {sum.head<3>(), sum.tail<3>()};
     }
     f.add_wrenches(model_.elements[m.element].markers, m.wrenches, out);

@@ -32,7 +32,8 @@ TangentFinder::TangentFinder(const Model& model, const Element& element)
       motions_(element.markers.size()),
       states_(element.states + element.kept),
       links_(model.links.size()) {
-  const Eigen::Index n = 6 * std::ssize(element.markers), results = element.states + 3 + element.further(),
+  const Eigen::Index n = 6 * std::ssize(element.markers),
+                     results = element.states + 3 + element.further(),
                      inner = element.states + link_count(element);
   out_ = {MatX::Zero(n, n),       MatX::Zero(n, n),       MatX::Zero(n, inner),
           MatX::Zero(results, n), MatX::Zero(results, n), MatX::Zero(results, inner)};

@@ -129,14 +129,12 @@ std::vector<std::string> take_linear_file(const ModelInstance& self, const YamlV
 
 bool names_inputs(const YamlValue& value, const std::vector<std::string>& inputs) {
   return value.is_map() &&
-         (inputs.size() > 1 ||
-          std::ranges::any_of(value.node().entries, [&](const YamlEntry& e) {
+         (inputs.size() > 1 || std::ranges::any_of(value.node().entries, [&](const YamlEntry& e) {
             return std::ranges::count(inputs, e.key) > 0;
           }));
 }
 
-std::vector<SignalDescription> read_named_signals(const ModelInstance& self,
-                                                  const YamlValue& value,
+std::vector<SignalDescription> read_named_signals(const ModelInstance& self, const YamlValue& value,
                                                   const std::vector<std::string>& inputs) {
   std::vector<SignalDescription> all(inputs.size());
   for (const auto& [name, item] : value.named("a map of inputs of the file", true)) {

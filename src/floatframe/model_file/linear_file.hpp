@@ -20,8 +20,7 @@ std::vector<std::string> take_linear_file(const ModelInstance& self, const YamlV
 /// A map of inputs of the file to signals, rather than one signal.
 bool names_inputs(const YamlValue& value, const std::vector<std::string>& inputs);
 /// In the order of the file; those that are not given are zero.
-std::vector<SignalDescription> read_named_signals(const ModelInstance& self,
-                                                  const YamlValue& value,
+std::vector<SignalDescription> read_named_signals(const ModelInstance& self, const YamlValue& value,
                                                   const std::vector<std::string>& inputs);
 /// A list of names.
 std::optional<std::vector<std::string>> read_names(const YamlValue& value);
