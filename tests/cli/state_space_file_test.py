@@ -103,7 +103,7 @@ class StateSpaceFile(RunCase):
                 ("packed.npz", "0", "'packed.npz': "), ("short.mat", "0", "'short.mat': the MATLAB file is damaged"),
                 ("new.mat", "0", "version 7.3"), ("without_a.npz", "0", "found no matrix A"),
                 ("without_c.npz", "0", "found no matrix C"), ("[1]", "0", "found a list of 1"),
-                (both, "[0, 0]", "excludes 'A'"), ("plant.npz", "[0, 0, 0]", "B: found 4 x 2 numbers, expected 4 x 3"),
+                (both, "[0, 0]", "excludes 'A'"), ("plant.npz", "[0, 0, 0]", "found 3 signals, expected 2 for the inputs of the file: push, pull"),
                 ("plant.npz", "{pusch: 0}", "found no input of this name in the file, did you mean 'push'?"),
                 ("plant.npz", "{push: {input: nothing}}", "unknown input 'nothing'")):
             with self.subTest(file=file, inputs=inputs):

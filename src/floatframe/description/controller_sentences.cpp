@@ -49,6 +49,14 @@ std::string no_such_value(const std::string& found, const std::vector<std::strin
          (names.size() > 20 ? " or another one" : "") + did_you_mean(found, names);
 }
 
+std::string signals_of_file(std::size_t found, const std::vector<std::string>& inputs) {
+  std::string names;
+  for (std::size_t k = 0; k < std::min<std::size_t>(inputs.size(), 20); ++k)
+    names += (k == 0 ? "" : ", ") + inputs[k];
+  return "found " + std::to_string(found) + (found == 1 ? " signal" : " signals") + ", expected " +
+         std::to_string(inputs.size()) + " for the inputs of the file: " + names;
+}
+
 std::string too_many_states(Eigen::Index states, Eigen::Index most) {
   return "found " + std::to_string(states) + " states, expected at most " + std::to_string(most);
 }

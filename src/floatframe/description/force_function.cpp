@@ -29,7 +29,7 @@ ForceFunction::ForceFunction(Law law, std::string label, int)
 
 ForceFunction ForceFunction::of(const SharedFormula& formula) {
   using Variable = DualNumber<2>;  // by x and v
-  std::vector<int> of_reference;  // 0: x, 1: v, 2: the time
+  std::vector<int> of_reference;   // 0: x, 1: v, 2: the time
   for (const FormulaReference& r : formula->references) {
     const bool is_known = r.is_time() || (r.function.empty() && (r.name == "x" || r.name == "v"));
     if (!is_known)

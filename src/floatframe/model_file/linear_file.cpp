@@ -1,6 +1,7 @@
 #include "floatframe/model_file/linear_file.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/formats/body_file/npy.hpp"
@@ -62,14 +63,21 @@ std::string complaint_of(const std::vector<MatVariable>& all) {
       return std::string("found no matrix ") + name + ", expected A, B, C and D";
     if (it != all.end() && !std::holds_alternative<MatX>(it->value))
       return std::string("found texts in ") + name + ", expected numbers";
+    if (it != all.end() && !std::get<MatX>(it->value).allFinite())
+      return std::string("found a number in ") + name + " that is not finite";
   }
+  const auto matrix = [&](const char* name) { return std::get<MatX>(find(name)->value); };
+  const MatX A = matrix("A"), B = matrix("B"), C = matrix("C");
+  const MatX D = find("D") == all.end() ? MatX(C.rows(), B.cols()) : matrix("D");
+  if (A.rows() != A.cols() || B.rows() != A.rows() || C.cols() != A.rows() ||
+      D.rows() != C.rows() || D.cols() != B.cols() || C.rows() == 0 || B.cols() == 0)
+    return "found matrices that do not fit each other, expected A n x n, B n x m, C p x n, D p x m";
   for (const auto& [name, of, columns] :
        {std::tuple("inputs", "B", true), std::tuple("outputs", "C", false)}) {
     const auto names = find(name);
     if (names == all.end()) continue;
     const auto* texts = std::get_if<std::vector<std::string>>(&names->value);
-    const MatX& M = std::get<MatX>(find(of)->value);
-    const Eigen::Index count = columns ? M.cols() : M.rows();
+    const Eigen::Index count = columns ? B.cols() : C.rows();
     if (!texts || std::ssize(*texts) != count)
       return "found " + (texts ? std::to_string(texts->size()) + " names in '" : "numbers in '") +
              name + "', expected " + std::to_string(count) + " names, as " + of + " has " +
@@ -118,6 +126,9 @@ std::vector<std::string> take_linear_file(const ModelInstance& self, const YamlV
   const auto file = read_linear_file(self, value);
   if (!file) return inputs;
   const ElementView view(element);
+  for (const MatVariable& v : *file)
+    for (Eigen::Index k = 1; v.name == "B" && k <= std::get<MatX>(v.value).cols(); ++k)
+      inputs.push_back(std::to_string(k));
   for (const MatVariable& v : *file) {
     if (v.name == "inputs")
       inputs = std::get<std::vector<std::string>>(v.value);

@@ -13,8 +13,8 @@ namespace floatframe {
 struct ModelInstance;
 
 /// Sets the keys A, B, C, D and `outputs`, which exclude the file, from the file named by the
-/// value, relative to the model file. Returns the names of its inputs. One error at the value if
-/// there is no such system.
+/// value, relative to the model file. Returns the names of its inputs, without names their
+/// numbers. One error at the value if there is no such system.
 std::vector<std::string> take_linear_file(const ModelInstance& self, const YamlValue& value,
                                           const YamlSection& section, ElementDescription& element);
 /// A map of inputs of the file to signals, rather than one signal.

@@ -133,6 +133,8 @@ class ElementReader {
     const auto items = value.is_list() ? value.list() : std::vector<YamlValue>{value};
     for (const YamlValue& item : items)
       all.push_back(read_signal(self_, item, "", Interpolation::linear));
+    if (!file_inputs_.empty() && all.size() != file_inputs_.size())
+      value.error(ErrorCode::wrong_count, sentences::signals_of_file(all.size(), file_inputs_));
     return KeyValue(std::move(all));
   }
 
