@@ -206,10 +206,11 @@ struct TransferFunction {
   BlockStart initial = BlockStart::rest;
 };
 
-/// xdot = A x + B u, y = C x + D u, of several inputs u and one value y.
+/// xdot = A x + B u, y = C x + D u, of inputs u and values y.
 struct StateSpaceBlock {
   std::vector<SignalDescription> inputs;
-  MatX A, B, C, D;  ///< D 0 x 0: zero
+  MatX A, B, C, D;                   ///< D 0 x 0: zero
+  std::vector<std::string> outputs;  ///< names of the values; empty: only their numbers from 1
   BlockStart initial = BlockStart::rest;
 };
 

@@ -103,6 +103,11 @@ std::string excludes(const std::string& key);
 std::string none_given(const std::vector<const char*>& keys);
 /// An empty list of signals.
 std::string no_signals();
+/// Of a controller.
+std::string no_such_value(const std::string& found, const std::vector<std::string>& names);
+std::string signals_of_file(std::size_t found, const std::vector<std::string>& inputs);
+std::string too_many_states(Eigen::Index states, Eigen::Index most);
+std::string names_of_values(std::size_t names, Eigen::Index rows);
 std::string matrix_size(Eigen::Index rows, Eigen::Index columns, Eigen::Index expected_rows,
                         Eigen::Index expected_columns);
 /// Of a transfer function: a matrix, or too many; the first one; degrees.

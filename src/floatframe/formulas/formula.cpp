@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/formulas/formula_evaluation.hpp"
 
@@ -91,6 +92,19 @@ std::string fault_at(const Formula& f, double t) {
   FormulaFault fault;
   jet_at(f, t, fault);
   return fault_text(f, fault);
+}
+
+bool Formula::is_of_time() const noexcept {
+  return std::all_of(references.begin(), references.end(),
+                     [](const FormulaReference& r) { return r.is_time(); });
+}
+
+SharedFormula formula(std::string_view text, const FormulaTables& tables) {
+  try {
+    return compile_formula(parse_expression(text), tables);
+  } catch (const ExpressionError& e) {
+    throw InputError(ErrorCode::wrong_value, "formula '" + std::string(text) + "': " + e.what());
+  }
 }
 
 }  // namespace floatframe

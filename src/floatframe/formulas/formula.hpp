@@ -48,9 +48,12 @@ enum class FormulaOp : std::uint8_t {
   add,
   subtract,
   multiply,
+  add_number,       ///< `number`
+  multiply_number,  ///< the same
   divide,
   power,
   power_of_number,  ///< exponent: `number`
+  small_power,      ///< the same, of 2, 3, ... `Formula::small_exponent`
   negative,
   unary,
   atan2,
@@ -92,6 +95,7 @@ struct Formula {
   int switches = 0;
 
   static constexpr int deepest_stack = 32;
+  static constexpr int small_exponent = 8;
   static constexpr int most_switches = 31;  ///< that can be held
   /// It depends on nothing but the time.
   bool is_of_time() const noexcept;

@@ -15,7 +15,7 @@ ElementSet::ElementSet(const Model& model)
   for (const SignalGroup& group : order_.groups)
     if (!group.links.empty()) rings_.emplace_back(model, group);
   for (const Element& e : model.elements) {
-    states_.emplace_back(e.acts ? e.markers.size() : 0, static_cast<std::size_t>(e.states));
+    states_.emplace_back(e.acts ? e.markers.size() : 0, e.states, e.further());
     std::vector<int>& slots = slots_.emplace_back();
     for (const CoordinatePort& c : e.coordinates) {
       slots.push_back(c.counted ? static_cast<int>(angles_.size()) : -1);

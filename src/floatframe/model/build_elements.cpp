@@ -104,7 +104,8 @@ void ModelBuilder::link_signals() {
       const int from = element(list_of(s->source), s->element);
       if (from < 0) continue;  // it has an error
       e.signals[port].link = std::ssize(model.links);
-      model.links.push_back({from, k, port, quantity_of(s->source), s->factor});
+      const int value = value_index(model.elements[from].values, s->value);
+      model.links.push_back({from, k, port, quantity_of(s->source), s->factor, value});
     }
   }
   const SignalOrder order(model);

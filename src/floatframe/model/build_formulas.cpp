@@ -27,8 +27,10 @@ SharedFormula formula_of(const Element& element) {
 /// Finds what the references of one formula are.
 class FormulaConnection {
  public:
-  FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path)
-      : b_(builder), origin_(origin), path_(std::move(path)) {}
+  /// `key`: that of the entity with this origin, which holds the formula.
+  FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path,
+                    const std::string& key)
+      : b_(builder), origin_(origin), path_(std::move(path)), mark_(origin.of(key)) {}
   virtual ~FormulaConnection() = default;
 
   std::vector<FormulaOperand> connect(const Formula& f) {
@@ -58,7 +60,7 @@ class FormulaConnection {
     return true;
   }
   bool wrong(ErrorCode code, const std::string& sentence) const {
-    b_.errors.add(code, origin_.mark, path_ + ": " + sentence);
+    b_.errors.add(code, mark_, path_ + ": " + sentence);
     return false;
   }
 
@@ -120,8 +122,14 @@ class FormulaConnection {
     switch (output_kind(o.type).of) {
       case Of::joint:
         return b_.joint_names.find(r.name) || none("joint", b_.joint_names.names());
-      case Of::force:
-        return of_list(ElementList::forces, r) || none("force", names_of(ElementList::forces));
+      case Of::force: {
+        const int k = b_.element(ElementList::forces, r.name);
+        if (k < 0) return none("force", names_of(ElementList::forces));
+        const ElementType type = b_.model.elements[k].type;
+        return element_has(type, output_kind(o.type).needs) ||
+               wrong(ErrorCode::wrong_value,
+                     sentences::load_without(element_type_name(type), r.function));
+      }
       case Of::controller:
         return of_list(ElementList::controllers, r) ||
                none("controller", names_of(ElementList::controllers));
@@ -166,6 +174,10 @@ class FormulaConnection {
       return wrong(ErrorCode::wrong_value,
                    sentences::formula_component(r.function, r.detail, words));
     }
+    if (output_kind(o.type).of == OutputOf::controller) {
+      o.value = r.detail;
+      return true;
+    }
     const bool joint = output_kind(o.type).of == OutputOf::joint;
     if (!joint)
       return r.detail.empty() || wrong(ErrorCode::wrong_count, sentences::one_argument(r.function));
@@ -180,20 +192,21 @@ class FormulaConnection {
 
   const Origin& origin_;
   std::string path_;
+  SourceMark mark_;
 };
 
 /// Of an element, within an iteration: measures by its markers, results by signals.
 class ElementConnection final : public FormulaConnection {
  public:
   ElementConnection(ModelBuilder& builder, int element, const Origin& origin,
-                    const std::string& path)
-      : FormulaConnection(builder, origin, path), element_(element) {}
+                    const std::string& path, const std::string& key)
+      : FormulaConnection(builder, origin, path, key), element_(element) {}
 
  private:
   Element& element() const { return b_.model.elements[element_]; }
   void take(const Output& out, FormulaOperand& x) override {
     const OutputKind& kind = output_kind(out.type);
-    if (kind.is_signal) return link(out.element, kind.needs, x);
+    if (kind.is_signal) return link(out, kind.needs, x);
     FormulaConnection::take(out, x);
     x.kind = FormulaOperand::Kind::measure;
     if (!kind.value) {
@@ -205,14 +218,14 @@ class ElementConnection final : public FormulaConnection {
       markers(measure_markers(b_.model, out), x);
     }
   }
-  void link(int from, ElementQuantity quantity, FormulaOperand& x) {
+  void link(const Output& out, ElementQuantity quantity, FormulaOperand& x) {
     Element& e = element();
     x.kind = FormulaOperand::Kind::link;
     x.index = std::ssize(e.signals);
     Signal& signal = e.signals.emplace_back();
     signal.link = std::ssize(b_.model.links);
     signal.given = true;
-    b_.model.links.push_back({from, element_, x.index, quantity, 1.0});
+    b_.model.links.push_back({out.element, element_, x.index, quantity, 1.0, out.component});
   }
   int port_of(int marker) {
     std::vector<int>& ports = element().markers;
@@ -282,7 +295,11 @@ void ModelBuilder::connect_formulas() {
     const SharedFormula f = formula_of(model.elements[k]);
     if (!f) continue;
     const auto& [origin, path] = written.at(model.elements[k].name);
-    model.elements[k].operands = ElementConnection(*this, k, *origin, path).connect(*f);
+    const std::string& name = model.elements[k].name;
+    const auto slash = name.find('/');  // of an inner formula: its key, which may have a number
+    const std::string key =
+        slash == std::string::npos ? "formula" : name.substr(slash + 1, name.find('[') - slash - 1);
+    model.elements[k].operands = ElementConnection(*this, k, *origin, path, key).connect(*f);
   }
   const auto outputs_of = [&](std::vector<Output>& built,
                               const std::vector<OutputDescription>& described,
@@ -295,8 +312,8 @@ void ModelBuilder::connect_formulas() {
       if (it == with_formula.end()) continue;
       const OutputDescription& o = *it->second;
       out.formula = std::make_shared<OutputFormula>(OutputFormula{
-          o.formula,
-          FormulaConnection(*this, o.origin, list + o.name + ".formula").connect(*o.formula)});
+          o.formula, FormulaConnection(*this, o.origin, list + o.name + ".formula", "formula")
+                         .connect(*o.formula)});
     }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");

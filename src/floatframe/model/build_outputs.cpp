@@ -81,8 +81,15 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       return of_list(ElementList::rods);
     case OutputOf::coupling:
       return of_list(ElementList::couplings);
-    case OutputOf::controller:
-      return of_list(ElementList::controllers);
+    case OutputOf::controller: {
+      if (!of_list(ElementList::controllers)) return false;
+      const std::vector<std::string>& values = model.elements[out.element].values;
+      out.component = value_index(values, o.value);
+      if (out.component < 0)
+        errors.add(ErrorCode::not_found, o.origin.mark,
+                   what + ": " + sentences::no_such_value(o.value, values));
+      return out.component >= 0;
+    }
     case OutputOf::motion:
       return of_list(ElementList::motions);
     case OutputOf::state: {

@@ -79,6 +79,9 @@ struct SignalLink {
   int port = 0;            ///< the signal of the second one
   ElementQuantity quantity{};
   double factor = 1.0;
+  int value = 0;  ///< of `EffortsOf::further`, from 1, in place of the force
+  /// Among the results of an element: force, length, rate and further values.
+  int result() const noexcept { return value > 0 ? 2 + value : static_cast<int>(quantity); }
 };
 
 /// A coordinate of a joint that an element acts on or holds, measured at the two markers of the
@@ -136,6 +139,7 @@ struct Element {
   std::vector<Signal> signals;              ///< those of its keys, in their order
   std::vector<CoordinatePort> coordinates;  ///< of joints, in the order of its kind
   std::vector<FormulaOperand> operands;     ///< of the references of its formula
+  std::vector<std::string> values;          ///< the names of its values, if it has several
   int road = -1;
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
@@ -152,6 +156,8 @@ struct Element {
   bool counts_turns() const noexcept { return exerts() && rotational; }
   /// It holds bodies to each other, as a joint does.
   bool links() const noexcept { return holds && coordinates.empty(); }
+  /// Values beside the force, which is the first one.
+  int further() const noexcept { return std::max<int>(1, std::ssize(values)) - 1; }
   /// It exerts forces, as everything that acts but controllers.
   bool exerts() const noexcept { return acts && !reads && !markers.empty(); }
 };

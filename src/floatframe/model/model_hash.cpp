@@ -74,7 +74,7 @@ class ModelHash {
   void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
   void add(const SignalDescription& s) {
     add(static_cast<const TimeFunction&>(s));
-    all(s.input, s.source, s.element, s.factor);
+    all(s.input, s.source, s.element, s.value, s.factor);
   }
   void add(const SharedFormula& f) {
     if (!f) return;
@@ -89,16 +89,16 @@ class ModelHash {
     all(function, input, link, given);
   }
   void add(const SignalLink& l) {
-    const auto& [from, to, port, quantity, factor] = l;
-    all(from, to, port, quantity, factor);
+    const auto& [from, to, port, quantity, factor, value] = l;
+    all(from, to, port, quantity, factor, value);
   }
   void add(const FormulaOperand& x) {
     const auto& [kind, index, output, ports, angle] = x;
     all(kind, index, output);
   }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, coordinates, operands, road, states, kept,
-                 start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
+    const auto& [name, type, markers, laws, signals, coordinates, operands, values, road, states,
+                 kept, start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))

@@ -82,7 +82,7 @@ class OutputReader {
       case OutputOf::coupling:
         return put(self_.reference(EntityKind::coupling, what), o.entity);
       case OutputOf::controller:
-        return put(self_.reference(EntityKind::controller, what), o.entity);
+        return controller(s, what, o);
       case OutputOf::motion:
         return put(self_.reference(EntityKind::joint, what), o.entity);
     }
@@ -106,7 +106,7 @@ class OutputReader {
     for (const OutputType type : output_types)
       if (const char* key = output_kind(type).components.key) s.get(key);
     for (const char* key : {"mode", "coordinate", "number", "about", "in", "relative_to",
-                            "direction", "inertia_loads", "unit"})
+                            "direction", "inertia_loads", "output", "unit"})
       s.get(key);
     s.finish();
     if (found == 0 && misspelt_quantity(s)) return;  // already reported
@@ -189,6 +189,12 @@ class OutputReader {
         !self_.resolve(EntityKind::force, *name) && self_.resolve(EntityKind::controller, *name);
     const EntityKind kind = controller ? EntityKind::controller : EntityKind::force;
     return put(self_.reference(kind, what), o.entity) && good;
+  }
+
+  bool controller(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const auto value = s.get("output");
+    const bool good = !value || put(value->text("a name or number"), o.value);
+    return put(self_.reference(EntityKind::controller, what), o.entity) && good;
   }
 
   /// The keys `relative_to` and `in` of a motion, after its subject.
