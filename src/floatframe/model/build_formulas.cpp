@@ -52,7 +52,8 @@ class FormulaConnection {
 
  private:
   bool connected(const Output& out, FormulaOperand& x) {
-    if (output_kind(out.type).of == OutputOf::formula)
+    const OutputOf of = output_kind(out.type).of;
+    if (of == OutputOf::formula || of == OutputOf::crossing)
       return wrong(ErrorCode::unsupported, sentences::formula_of_a_formula(out.name));
     take(out, x);
     return true;
@@ -131,7 +132,7 @@ class FormulaConnection {
         return of_list(ElementList::couplings, r) ||
                none("coupling", names_of(ElementList::couplings));
       case Of::motion:
-        return of_list(ElementList::motions, r) || none("motion", names_of(ElementList::motions));
+        return (b_.joint_names.find(r.name) && of_list(ElementList::motions, r)) || none("motion", names_of(ElementList::motions));
       case Of::mass:
         o.whole = r.name == "model";
         if (o.whole) return true;
@@ -284,6 +285,16 @@ void ModelBuilder::connect_formulas() {
     const auto& [origin, path] = written.at(model.elements[k].name);
     model.elements[k].operands = ElementConnection(*this, k, *origin, path).connect(*f);
   }
+  const auto connected = [&](const SharedFormula& f, const Origin& origin,
+                             const std::string& path) {
+    return std::make_shared<OutputFormula>(
+        OutputFormula{f, FormulaConnection(*this, origin, path).connect(*f)});
+  };
+  if (const SharedFormula& until = d.simulation.until) {
+    model.until.emplace().name = "until";
+    const Origin at{d.simulation.origin.of("until")};
+    model.until->formula = connected(until, at, "simulation.until");
+  }
   const auto outputs_of = [&](std::vector<Output>& built,
                               const std::vector<OutputDescription>& described,
                               const std::string& list) {
@@ -294,9 +305,7 @@ void ModelBuilder::connect_formulas() {
       const auto it = with_formula.find(out.name);
       if (it == with_formula.end()) continue;
       const OutputDescription& o = *it->second;
-      out.formula = std::make_shared<OutputFormula>(OutputFormula{
-          o.formula,
-          FormulaConnection(*this, o.origin, list + o.name + ".formula").connect(*o.formula)});
+      out.formula = connected(o.formula, o.origin, list + o.name + "." + output_type_name(o.type));
     }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");

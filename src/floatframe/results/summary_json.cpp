@@ -4,6 +4,7 @@
 
 #include "floatframe/results/json_values.hpp"
 #include "floatframe/results/verification_report.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {
@@ -48,6 +49,15 @@ Json edges(const RunSummary& s) {
   return {{"located", s.edges}, {"steps_with_too_many", s.edges_passed}};
 }
 
+/// Null without a formula that ends the run.
+Json until(const RunSummary& s) {
+  if (s.until.empty()) return nullptr;
+  return {{"formula", s.until},
+          {"reached", s.crossed_at.has_value()},
+          {"time_s", s.crossed_at ? Json(*s.crossed_at) : Json()},
+          {"sentence", until_text(s)}};
+}
+
 /// Null without a step.
 Json step_times(const StepTimes& t) {
   if (t.steps == 0) return nullptr;
@@ -61,6 +71,7 @@ Json step_times(const StepTimes& t) {
 Json measured(const RunSummary& s) {
   const EnergySummary& e = s.energy;
   return {{"duration_s", s.duration},
+          {"until", until(s)},
           {"steps", s.steps},
           {"substeps", s.substeps},
           {"iterations", s.iterations},
