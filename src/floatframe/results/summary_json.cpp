@@ -49,9 +49,7 @@ Json edges(const RunSummary& s) {
   return {{"located", s.edges}, {"steps_with_too_many", s.edges_passed}};
 }
 
-/// Null without a formula that ends the run.
 Json until(const RunSummary& s) {
-  if (s.until.empty()) return nullptr;
   return {{"formula", s.until},
           {"reached", s.crossed_at.has_value()},
           {"time_s", s.crossed_at ? Json(*s.crossed_at) : Json()},
@@ -71,7 +69,6 @@ Json step_times(const StepTimes& t) {
 Json measured(const RunSummary& s) {
   const EnergySummary& e = s.energy;
   return {{"duration_s", s.duration},
-          {"until", until(s)},
           {"steps", s.steps},
           {"substeps", s.substeps},
           {"iterations", s.iterations},
@@ -105,6 +102,7 @@ std::string summary_json(const RunSummary& s) {
                  {"inertia", s.inertia},
                  {"step_s", s.step}});
   if (began) json.update(measured(s));
+  if (began && !s.until.empty()) json["until"] = until(s);
   if (s.verification) json["verification"] = verification_json(*s.verification);
   json.update({{"status", s.status}, {"message", s.message}});
   if (!s.files.empty()) {

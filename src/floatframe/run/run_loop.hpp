@@ -179,7 +179,7 @@ class Run {
 
   /// Between steps. Returns false if the data cannot be written.
   bool flush_if_due() {
-    if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
+    if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && !is_last(made_))
       return write_checkpoint();
     const bool rows = block_ && block_->due(), states = state_block_ && state_block_->due();
     return (!rows && !states) || flush();

@@ -124,12 +124,15 @@ bool Stepper::advance(const PlannedStep& step) noexcept {
   assert(step.size > 0.0 && step.to > state_.t);
   least_ = min_step_ * std::max(1.0, step.size / grid_.step());
   if (before_) keep(*before_);
-  if (!cover(step.size)) {
+  bool good = cover(step.size);
+  if (good) {
+    state_.t = step.to;
+    good = watched_.empty() || look_for_crossings(step);
+  }
+  if (!good) {
     if (may_throw_ && has_thrown()) undo();
     return false;
   }
-  state_.t = step.to;
-  if (!watched_.empty() && !look_for_crossings(step)) return false;
   if (!ended_) grid_.made(step);
   return true;
 }
