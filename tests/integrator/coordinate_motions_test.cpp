@@ -14,13 +14,13 @@
 namespace floatframe::test {
 namespace {
 
-enum class Place { tree, reversed, cut };
+enum class DrivePlace { tree, reversed, cut };
 
-using Parameters = std::tuple<std::pair<JointType, int>, Place, Coordinates>;
+using DriveParameters = std::tuple<std::pair<JointType, int>, DrivePlace, Coordinates>;
 
-class DrivenCoordinate : public ::testing::TestWithParam<Parameters> {};
+class DrivenCoordinate : public ::testing::TestWithParam<DriveParameters> {};
 
-TimeFunction function() {
+TimeFunction driven_by() {
   TimeFunction f;
   f.pieces = PiecewisePolynomial::polynomial({0.2, 0.8});
   f.sines = {{.amplitude = 0.3, .frequency = 2.0, .phase = 0.7}};
@@ -34,12 +34,12 @@ TEST_P(DrivenCoordinate, FollowsTheFunction) {
   s.add_body("base", 0);
   s.add_body("arm", 2);
   s.add_body("tail", 0);
-  const bool reversed = place == Place::reversed;
+  const bool reversed = place == DrivePlace::reversed;
   s.add_joint("hang", JointType::spherical, ground_name, 0, "base", 0);
   JointDescription& drive =
       s.add_joint("drive", type, reversed ? "arm" : "base", 1, reversed ? "base" : "arm", 2);
-  drive.motions = {{component, function()}};
-  drive.cut = place == Place::cut;
+  drive.motions = {{component, driven_by()}};
+  drive.cut = place == DrivePlace::cut;
   s.add_joint("ball", JointType::spherical, "arm", 3, "tail", 0);
   s.d.outputs = {make_output("q", OutputType::joint_position, "drive"),
                  make_output("v", OutputType::joint_velocity, "drive")};
@@ -51,7 +51,7 @@ TEST_P(DrivenCoordinate, FollowsTheFunction) {
   o.tolerance = 1e-12;
   o.position_tolerance = 1e-13;
   const RunResult r = completed_run(s.d);
-  const TimeFunction f = function();
+  const TimeFunction f = driven_by();
   double worst = 0.0;
   for (std::size_t k = 0; k < r.table.rows(); ++k) {
     const PiecewisePolynomial::Value v = evaluate(f, r.table.at(k, 0));
@@ -69,7 +69,7 @@ std::vector<std::pair<JointType, int>> drivable() {
   return all;
 }
 
-std::string case_name(const ::testing::TestParamInfo<Parameters>& c) {
+std::string drive_name(const ::testing::TestParamInfo<DriveParameters>& c) {
   const char* places[] = {"tree", "reversed", "cut"};
   const auto [type, component] = std::get<0>(c.param);
   return std::string(joint_type_name(type)) + std::to_string(component + 1) + "_" +
@@ -79,9 +79,9 @@ std::string case_name(const ::testing::TestParamInfo<Parameters>& c) {
 INSTANTIATE_TEST_SUITE_P(
     EveryCoordinate, DrivenCoordinate,
     ::testing::Combine(::testing::ValuesIn(drivable()),
-                       ::testing::Values(Place::tree, Place::reversed, Place::cut),
+                       ::testing::Values(DrivePlace::tree, DrivePlace::reversed, DrivePlace::cut),
                        ::testing::ValuesIn(both_coordinates)),
-    case_name);
+    drive_name);
 
 /// Both coordinates of a screw-like drive, all three of a plate, one body each.
 const std::string machine = R"(
@@ -89,8 +89,21 @@ bodies:
   drill: {rigid: {mass: 3, centre_of_mass: [0.1, 0, 1], inertia: [0.2, 0.3, 0.4]}}
   plate: {rigid: {mass: 2, centre_of_mass: [2, 0.1, 0], inertia: [0.2, 0.1, 0.3]}}
 joints:
-  spindle: {type: cylindrical, child: drill, at: [0, 0, 1], axis: z, motion: {displacement: {formula: '0.1 * sin(3 * t)'}, angle: {velocity: 20}}}
-  table: {type: planar, child: plate, at: [2, 0, 0], axis: z, axis_2: x, motion: {first displacement: {sine: {amplitude: 0.1, frequency: 2}}, angle: {polynomial: [0, 3]}}}
+  spindle:
+    type: cylindrical
+    child: drill
+    at: [0, 0, 1]
+    axis: z
+    motion: {displacement: {formula: '0.1 * sin(3 * t)'}, angle: {velocity: 20}}
+  table:
+    type: planar
+    child: plate
+    at: [2, 0, 0]
+    axis: z
+    axis_2: x
+    motion:
+      first displacement: {sine: {amplitude: 0.1, frequency: 2}}
+      angle: {polynomial: [0, 3]}
 outputs:
   lift: {motion_force: spindle, coordinate: 1}
   torque: {motion_force: spindle, coordinate: 2}
@@ -125,7 +138,15 @@ TEST(CoordinateMotions, AreThoseOfTheirTorques) {
 )";
   const Model driven = model_of("bodies:" + body + R"(
 joints:
-  cross: {type: universal, child: wheel, at: [0, 0, 0], axis: z, axis_2: [1, 0, 0.2], motion: {angle about axis: {polynomial: [0, 0, 1]}, angle about axis_2: {sine: {amplitude: 0.4, frequency: 1}}}}
+  cross:
+    type: universal
+    child: wheel
+    at: [0, 0, 0]
+    axis: z
+    axis_2: [1, 0, 0.2]
+    motion:
+      angle about axis: {polynomial: [0, 0, 1]}
+      angle about axis_2: {sine: {amplitude: 0.4, frequency: 1}}
 outputs:
   a: {motion_force: cross, coordinate: 1}
   b: {motion_force: cross, coordinate: 2}
@@ -136,7 +157,13 @@ simulation: {step: 0.001, duration: 1}
   link: {rigid: {mass: 0, centre_of_mass: [0, 0, 0]}}
 joints:
   first: {type: revolute, child: link, at: [0, 0, 0], axis: z, motion: {polynomial: [0, 0, 1]}}
-  second: {type: revolute, parent: link, child: wheel, at: [0, 0, 0], axis: [1, 0, 0.2], motion: {sine: {amplitude: 0.4, frequency: 1}}}
+  second:
+    type: revolute
+    parent: link
+    child: wheel
+    at: [0, 0, 0]
+    axis: [1, 0, 0.2]
+    motion: {sine: {amplitude: 0.4, frequency: 1}}
 outputs:
   a: {motion_force: first}
   b: {motion_force: second}
@@ -159,7 +186,9 @@ points: {pin: [0, 0, 0], eye: [0.5, 0, 0.1], foot: [0.2, 0, -0.6]}
 bodies: {arm: {rigid: {mass: 20, centre_of_mass: [0.6, 0, 0], inertia: [0.1, 4, 4]}}}
 joints: {hinge: {type: revolute, child: arm, at: pin, axis: y}}
 parameters: {drawn: '${sqrt(0.3^2 + 0.7^2)}'}
-)" + held + "outputs:\n  distance: {distance: {from: {body: ground, at: foot}, to: {body: arm, at: eye}}}\n" +
+)" + held +
+         "outputs:\n  distance: {distance: {from: {body: ground, at: foot}, to: {body: arm, at: "
+         "eye}}}\n" +
          outputs + "simulation: {step: 0.001, duration: 1}\n";
 }
 
@@ -167,7 +196,8 @@ TEST(DrivenRods, HaveTheLengthOfTheirMotion) {
   const Model model = model_of(arm(
       "rods: {lift: {from: {body: ground, at: foot}, to: {body: arm, at: eye}, motion: {formula: "
       "'drawn + 0.1 * sin(4 * t)^2'}}}\n",
-      "  force: {rod_force: lift}\n  angle: {joint_position: hinge}\n  about: {joint_torque: hinge, "
+      "  force: {rod_force: lift}\n  angle: {joint_position: hinge}\n  about: {joint_torque: "
+      "hinge, "
       "axis: y}\n"));
   for (const Coordinates c : both_coordinates) {
     SimulationDescription o = with(model.simulation, c);
@@ -209,9 +239,10 @@ TEST(Cylinders, PullToTheirTarget) {
 TEST(CoordinateMotions, WhatCannotBeDrivenIsOneError) {
   const auto error = [](const std::string& joint, const std::string& rest = "") {
     return error_of([&] {
-      model_of("bodies: {b: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}}\n"
-               "joints: {j: {child: b, at: [0, 0, 0], " +
-               joint + "}}\n" + rest);
+      model_of(
+          "bodies: {b: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}}\n"
+          "joints: {j: {child: b, at: [0, 0, 0], " +
+          joint + "}}\n" + rest);
     });
   };
   EXPECT_EQ(error("type: spherical, motion: {rotation vector x: 1}"),

@@ -1,6 +1,6 @@
-// Runs that end where a formula crosses zero, and times of first crossings: against motions that the
-// steps make exactly, and against the closed form with the order of the step; undisturbed motions,
-// saved and resumed runs, no allocation.
+// Runs that end where a formula crosses zero, and times of first crossings: against motions that
+// the steps make exactly, and against the closed form with the order of the step; undisturbed
+// motions, saved and resumed runs, no allocation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace floatframe::test {
 namespace {
 
 /// A ball that falls from a height: the trapezoidal rule makes its parabola exactly.
-std::string ball(double height, const std::string& until) {
+std::string falling_ball(double height, const std::string& until) {
   return R"(
 bodies: {ball: {rigid: {mass: 2, centre_of_mass: [0, 0, )" +
          std::to_string(height) + R"(], inertia: [1, 1, 1]}}}
@@ -29,7 +29,7 @@ simulation: {step: 0.01, duration: 2, output_interval: 0.1, until: ')" +
          until + "'}\n";
 }
 
-double last(const RunResult& r, std::size_t column) {
+double at_end(const RunResult& r, std::size_t column) {
   return r.table.at(r.table.rows() - 1, column);
 }
 
@@ -39,27 +39,27 @@ TEST_P(Until, AFallEndsAtTheGround) {
   // Within a step, at the end of one, at its beginning, where an explicit move leads.
   for (const double t : {0.637, 0.64, 0.64005, 0.6400001}) {
     const double height = 0.5 * 9.81 * t * t;
-    const Model model = model_of(ball(height, "position(ball, z)"));
+    const Model model = model_of(falling_ball(height, "position(ball, z)"));
     const RunResult r = completed_run(model, with(model.simulation, GetParam()));
     const double exact = std::sqrt(2.0 * (std::stod(std::to_string(height))) / 9.81);
     ASSERT_TRUE(r.summary.crossed_at.has_value()) << t;
     EXPECT_NEAR(*r.summary.crossed_at, exact, 1e-9);
-    EXPECT_EQ(last(r, 0), *r.summary.crossed_at);
+    EXPECT_EQ(at_end(r, 0), *r.summary.crossed_at);
     EXPECT_EQ(r.summary.duration, *r.summary.crossed_at);
-    EXPECT_NEAR(last(r, 1), 0.0, 1e-8);
-    EXPECT_NEAR(last(r, 2), -9.81 * exact, 1e-8);
+    EXPECT_NEAR(at_end(r, 1), 0.0, 1e-8);
+    EXPECT_NEAR(at_end(r, 2), -9.81 * exact, 1e-8);
     EXPECT_EQ(r.table.rows(), 8u);
-    EXPECT_NEAR(last(r, 3), std::sqrt(exact * exact - 2.0 / 9.81), 1e-9);
-    EXPECT_TRUE(std::isnan(last(r, 4)));
+    EXPECT_NEAR(at_end(r, 3), std::sqrt(exact * exact - 2.0 / 9.81), 1e-9);
+    EXPECT_TRUE(std::isnan(at_end(r, 4)));
     EXPECT_TRUE(std::isnan(r.table.at(0, 3)));
   }
 }
 
 TEST_P(Until, WithoutACrossingTheDurationEndsIt) {
-  const Model model = model_of(ball(1.5, "position(ball, z) + 100"));
+  const Model model = model_of(falling_ball(1.5, "position(ball, z) + 100"));
   const RunResult r = completed_run(model, with(model.simulation, GetParam()));
   EXPECT_FALSE(r.summary.crossed_at.has_value());
-  EXPECT_EQ(last(r, 0), 2.0);
+  EXPECT_EQ(at_end(r, 0), 2.0);
   EXPECT_TRUE(contains(until_text(r.summary), "did not cross zero"));
 }
 
@@ -78,7 +78,7 @@ simulation: {step: 0.01, duration: 5, until: 'rate(slide)'}
   // 4 m/s2 for 0.504 s, then -1 m/s2.
   ASSERT_TRUE(r.summary.crossed_at.has_value());
   EXPECT_NEAR(*r.summary.crossed_at, 5.0 * 0.504, 1e-9);
-  EXPECT_NEAR(last(r, 1), 10.0 * 0.504 * 0.504, 1e-8);
+  EXPECT_NEAR(at_end(r, 1), 10.0 * 0.504 * 0.504, 1e-8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Until, ::testing::ValuesIn(both_coordinates),
@@ -91,7 +91,8 @@ joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x, position: 
 forces: {s: {type: joint_spring, joint: slide, spring: 40}}
 outputs:
   x: {joint_position: slide}
-)" + rest + "simulation: {step: 0.02, duration: 2" +
+)" + rest +
+         "simulation: {step: 0.02, duration: 2" +
          (until.empty() ? "" : ", until: '" + until + "'") + "}\n";
 }
 const std::string crossings = R"(
@@ -114,14 +115,14 @@ TEST(FirstCrossing, ConvergesWithTheStepAndLeavesTheMotionAsItIs) {
   const double exact[] = {0.5 * pi / w, 1.5 * pi / w, pi / w};
   // The rate falls through zero at a full period only; at half of one it rises.
   for (const std::size_t k : {0u, 1u}) {
-    const double coarse = std::abs(last(b, 2 + k) - exact[k]);
+    const double coarse = std::abs(at_end(b, 2 + k) - exact[k]);
     EXPECT_LT(coarse, 1e-3);
-    EXPECT_NEAR(coarse / std::abs(last(fine, 2 + k) - exact[k]), 4.0, 0.1);
+    EXPECT_NEAR(coarse / std::abs(at_end(fine, 2 + k) - exact[k]), 4.0, 0.1);
   }
-  EXPECT_NEAR(last(b, 4), 2.0 * exact[2], 5e-3);
+  EXPECT_NEAR(at_end(b, 4), 2.0 * exact[2], 5e-3);
   const RunResult ended = completed_run(model_of(swinging(crossings, "angle(slide)")));
-  EXPECT_NEAR(*ended.summary.crossed_at, last(b, 2), 2e-10);
-  EXPECT_NEAR(last(ended, 2), last(b, 2), 2e-10);
+  EXPECT_NEAR(*ended.summary.crossed_at, at_end(b, 2), 2e-10);
+  EXPECT_NEAR(at_end(ended, 2), at_end(b, 2), 2e-10);
 }
 
 TEST(FirstCrossing, SurvivesCheckpointsAndSavedStates) {
@@ -139,7 +140,7 @@ TEST(FirstCrossing, SurvivesCheckpointsAndSavedStates) {
     rest.resume = &c;
     const RunResult r = completed_run(model, model.simulation, rest);
     EXPECT_EQ(r.summary.crossed_at, whole.summary.crossed_at);
-    for (const std::size_t k : {1u, 2u}) EXPECT_EQ(last(r, k), last(whole, k));
+    for (const std::size_t k : {1u, 2u}) EXPECT_EQ(at_end(r, k), at_end(whole, k));
   }
   Simulation s(model);
   for (int k = 0; k < 30; ++k) ASSERT_TRUE(s.step());
@@ -148,7 +149,7 @@ TEST(FirstCrossing, SurvivesCheckpointsAndSavedStates) {
   for (int k = 0; k < 60; ++k) ASSERT_TRUE(s.step() && other.step());
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(std::memcmp(&s.outputs()[k], &other.outputs()[k], sizeof(double)), 0) << k;
-  EXPECT_NEAR(s.output("first"), last(whole, 2), 2e-10);
+  EXPECT_NEAR(s.output("first"), at_end(whole, 2), 2e-10);
 }
 
 TEST(FirstCrossing, StepsDoNotAllocate) {

@@ -79,9 +79,10 @@ std::string summary_text(const RunSummary& s) {
       s.status == "completed" || s.strict ? ""
       : s.status == "interrupted"         ? ", then it was interrupted"
                                           : ", then it failed",
-      s.until.empty() ? "" : "  " + until_text(s) + "\n", s.coordinates, s.inertia, s.step, plural(s.steps, "step"), s.substeps,
-      plural(s.iterations, "Newton iteration"), plural(s.factorizations, "factorisation"),
-      edges_text(s), s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
+      s.until.empty() ? "" : "  " + until_text(s) + "\n", s.coordinates, s.inertia, s.step,
+      plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
+      plural(s.factorizations, "factorisation"), edges_text(s), s.max_position_violation,
+      s.max_velocity_violation, notes_text(s.start.notes));
 }
 
 std::string files_text(const RunPaths& paths, bool has_table, bool no_report) {

@@ -138,7 +138,7 @@ struct JointDescription {
   bool keep = false;
   std::optional<TimeFunction> motion;     ///< prescribed, if it is the only coordinate
   std::vector<CoordinateMotion> motions;  ///< the same of joints with several coordinates
-  bool cut = false;                    ///< named as a cut joint of the relative formulation
+  bool cut = false;                       ///< named as a cut joint of the relative formulation
   Origin origin;
 };
 

@@ -24,8 +24,8 @@ struct SpringDamper {
   AttachmentDescription a, b;
   PiecewisePolynomial
       spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
-  PiecewisePolynomial damper;                 ///< of the rate of the length [m/s] -> [N]
-  std::optional<SignalDescription> actuator;  ///< added to both [N]
+  PiecewisePolynomial damper;                         ///< of the rate of the length [m/s] -> [N]
+  std::optional<SignalDescription> actuator;          ///< added to both [N]
   std::optional<SignalDescription> target = {};       ///< [m]
   std::optional<SignalDescription> target_rate = {};  ///< [m/s]
 };

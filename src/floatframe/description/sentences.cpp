@@ -252,7 +252,8 @@ std::string target_without_law() {
 }
 
 std::string stop_with_target() {
-  return "found with a target, of which the spring is a law; remove this key, and write the stop as "
+  return "found with a target, of which the spring is a law; remove this key, and write the stop "
+         "as "
          "another force";
 }
 

@@ -71,8 +71,8 @@ void ModelBuilder::holding_elements() {
   for (const auto* list : {&d.rods, &d.couplings})
     for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
-    if (j.motion && add_element({j.name, PrescribedMotion{j.name, SignalDescription(*j.motion)},
-                                 j.origin}))
+    if (j.motion &&
+        add_element({j.name, PrescribedMotion{j.name, SignalDescription(*j.motion)}, j.origin}))
       model.joints[model.elements.back().coordinates[0].joint].motion =
           std::ssize(model.elements) - 1;
     for (const CoordinateMotion& m : j.motions) {

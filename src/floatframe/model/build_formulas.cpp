@@ -132,7 +132,8 @@ class FormulaConnection {
         return of_list(ElementList::couplings, r) ||
                none("coupling", names_of(ElementList::couplings));
       case Of::motion:
-        return (b_.joint_names.find(r.name) && of_list(ElementList::motions, r)) || none("motion", names_of(ElementList::motions));
+        return (b_.joint_names.find(r.name) && of_list(ElementList::motions, r)) ||
+               none("motion", names_of(ElementList::motions));
       case Of::mass:
         o.whole = r.name == "model";
         if (o.whole) return true;

@@ -52,8 +52,8 @@ struct Joint {
   int motion = -1;                         ///< the element that prescribes its only coordinate
   /// Of several coordinates those that prescribe them, -1: none; empty: none at all.
   std::vector<int> motions = {};
-  bool cut = false;                        ///< marked as cut by the user, for relative coordinates
-  bool automatic = false;                  ///< a free joint added for a body that no joint leads to
+  bool cut = false;        ///< marked as cut by the user, for relative coordinates
+  bool automatic = false;  ///< a free joint added for a body that no joint leads to
 };
 
 struct Road {

@@ -67,8 +67,8 @@ class ModelHash {
     all(body, node, X_NM, rotates);
   }
   void add(const Joint& j) {
-    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion,
-                 motions, cut, automatic] = j;
+    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, motions,
+                 cut, automatic] = j;
     all(name, type, parent, child, F, M, axis_2, motion, motions, cut, automatic);
   }
   void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
@@ -168,8 +168,8 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] =
-        model;
+                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation,
+                 hints] = model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
     if (until) add(*until);

@@ -94,9 +94,8 @@ void motion_output(const OutputDescription& o, const ModelDescription& d, const 
   const char* const word = output_type_name(o.type);
   if (!entity.reference(word, "joint", o.entity, names.joints)) return;
   const JointDescription& j = d.joints[*names.joints.find(o.entity)];
-  const bool driven = std::any_of(j.motions.begin(), j.motions.end(), [&](const auto& m) {
-    return m.coordinate == o.component;
-  });
+  const bool driven = std::any_of(j.motions.begin(), j.motions.end(),
+                                  [&](const auto& m) { return m.coordinate == o.component; });
   if (!j.motion && !driven)
     entity.error(ErrorCode::wrong_value, word, sentences::joint_without_motion());
 }

@@ -273,7 +273,8 @@ class OutputReader {
       const auto coordinate = s.get("coordinate");
       o.component = j.motions[0].coordinate;
       if (coordinate) {
-        const auto k = coordinate->integer(1, joint_velocities(j.type), "the number of a coordinate");
+        const auto k =
+            coordinate->integer(1, joint_velocities(j.type), "the number of a coordinate");
         if (k) o.component = *k - 1;
         return k.has_value();
       }

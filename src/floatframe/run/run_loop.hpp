@@ -156,8 +156,7 @@ class Run {
     if (good && sampled) sample_state(k);
     if (good) follow_joints();
     if (good && watch_) {
-      watch_->step(steps_.state(), steps_.reactions(), sampled,
-                    planned.whole && !steps_.ended());
+      watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole && !steps_.ended());
       watch_->attempt(steps_.state(), steps_.last());
       sample_health();
     }

@@ -1,12 +1,12 @@
-// Where formulas cross zero: the outputs that are times of crossings, and the formula `until`, which
-// ends a run. A formula whose sign has changed in a step is searched for its zero by steps of other
-// lengths from the same beginning (regula falsi with the Illinois weights, every fourth pass a
-// bisection), until a bracket of `close` is left: the crossing is that of the scheme of the steps,
-// not of an interpolation. The step is then made again, to its end or to the zero of `until`, behind
-// which the sign has changed. Substeps, edges and corners are those of any step; a length below
-// `shortest` is covered by an explicit move with the acceleration of its middle. Where the work of
-// a step is bounded, a secant through its ends gives the time. A formula that crosses zero and comes
-// back within a step is not seen.
+// Where formulas cross zero: the outputs that are times of crossings, and the formula `until`,
+// which ends a run. A formula whose sign has changed in a step is searched for its zero by steps of
+// other lengths from the same beginning (regula falsi with the Illinois weights, every fourth pass
+// a bisection), until a bracket of `close` is left: the crossing is that of the scheme of the
+// steps, not of an interpolation. The step is then made again, to its end or to the zero of
+// `until`, behind which the sign has changed. Substeps, edges and corners are those of any step; a
+// length below `shortest` is covered by an explicit move with the acceleration of its middle. Where
+// the work of a step is bounded, a secant through its ends gives the time. A formula that crosses
+// zero and comes back within a step is not seen.
 #include <algorithm>
 #include <limits>
 
@@ -109,9 +109,8 @@ double Stepper::crossing_in(const WatchedFormula& w, double h, double end) noexc
   int idle = 0;  // passes in a row that kept the other end: > 0 the upper one
   for (int pass = 0; pass < 100 && high - low > enough; ++pass) {
     const double secant = low + (high - low) * at_low / (at_low - at_high);
-    const double at = pass % 4 == 3
-                          ? 0.5 * (low + high)
-                          : std::clamp(secant, low + 0.4 * enough, high - 0.4 * enough);
+    const double at = pass % 4 == 3 ? 0.5 * (low + high)
+                                    : std::clamp(secant, low + 0.4 * enough, high - 0.4 * enough);
     return_to_begin();
     if (!reach(at, h)) break;
     const double value = value_of(w);

@@ -195,8 +195,8 @@ class Stepper {
     const Output* output;
     std::size_t place;  ///< among the states of elements
   };
-  std::vector<Sample> samples_;              ///< what formulas know of the last accepted instant
-  std::vector<WatchedFormula> watched_;      ///< `until` last
+  std::vector<Sample> samples_;          ///< what formulas know of the last accepted instant
+  std::vector<WatchedFormula> watched_;  ///< `until` last
   MotionNeeds watched_needs_;
   std::optional<ExplicitMove> move_;
   VecX a_end_, zd_end_;  ///< accelerations and rates at the end of the whole step

@@ -1,6 +1,6 @@
-// Prescribed angle of a joint with two axes, e = R_a e_a and n = R_b n_b, of which neither is common
-// to both markers (universal): about p, the other axis r turns by the angle. p = e, r = n with
-// c >= 0; p = n, r = e with c < 0, against the sense of r. With k = p.r and a body length l:
+// Prescribed angle of a joint with two axes, e = R_a e_a and n = R_b n_b, of which neither is
+// common to both markers (universal): about p, the other axis r turns by the angle. p = e, r = n
+// with c >= 0; p = n, r = e with c < 0, against the sense of r. With k = p.r and a body length l:
 //   phi        l (alpha - f(t)), within half a turn                          1 row
 //              alpha = +-atan2(r.(p x r0), r.(r0 - k p)), r0: r as drawn, fixed in the marker of p
 //   gradient   -l g on pi_a, l g on pi_b, g = (p - k r) / (1 - k^2)
@@ -49,8 +49,8 @@ void constraint_rows_of<ConstraintType::drive_axis_angle>(const ConstraintPart& 
   const DriveAxisAngle x(part, a, b);
   const Vec3 r0 = x.swapped ? Vec3(b.R * part.e_a) : Vec3(a.R * part.n_b);
   const double angle = std::atan2(x.r.dot(x.p.cross(r0)), x.r.dot(r0 - x.p.dot(r0) * x.p));
-  rows->phi = part.scale * std::remainder((x.swapped ? -angle : angle) - f.f,
-                                          2.0 * std::numbers::pi);
+  rows->phi =
+      part.scale * std::remainder((x.swapped ? -angle : angle) - f.f, 2.0 * std::numbers::pi);
   rows->gradient = {Vec3::Zero(), -part.scale * x.g, Vec3::Zero(), part.scale * x.g};
   Mat3 by_p, by_r;
   x.changes(by_p, by_r);

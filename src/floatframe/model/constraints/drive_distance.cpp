@@ -36,8 +36,7 @@ void constraint_curvature_of<ConstraintType::drive_distance>(const ConstraintPar
                                                              Mat12& K) noexcept {
   using namespace part_of;
   const Vec3 d = b.r - a.r;
-  const Mat3 P = (lambda[0] / d.norm()) *
-                 (Mat3::Identity() - d * d.transpose() / d.squaredNorm());
+  const Mat3 P = (lambda[0] / d.norm()) * (Mat3::Identity() - d * d.transpose() / d.squaredNorm());
   K.block<3, 3>(r_a, r_a) += P;
   K.block<3, 3>(r_b, r_b) += P;
   K.block<3, 3>(r_a, r_b) -= P;

@@ -37,7 +37,8 @@ void motion_rows(const Model& model, const Element& element, ConstraintPart part
   part.owner.joint = number;
   assert(!is_of_rotation_vector(joint.type, component));
   JointMotion drawn;
-  const double q[7] = {0.0, 0.0, 0.0, 1.0};  // of all joints without a quaternion zero is the design
+  const double q[7] = {0.0, 0.0, 0.0,
+                       1.0};  // of all joints without a quaternion zero is the design
   joint_motion(joint.type, {Vec3::UnitZ(), joint.axis_2}, joint_is_free(joint.type) ? q : q + 4,
                drawn);
   part.type = ConstraintType::drive_position;

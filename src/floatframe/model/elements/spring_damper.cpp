@@ -72,7 +72,8 @@ constexpr ElementKey spring_damper_keys[] = {
     rebound_stop_key,
     law_key("actuator", KeyKind::load, "tension added to both",
             described_by<&SpringDamper::actuator>),
-    law_key("target", KeyKind::target, "the length that `spring`, a law of length - target, pulls to",
+    law_key("target", KeyKind::target,
+            "the length that `spring`, a law of length - target, pulls to",
             described_by<&SpringDamper::target>),
     law_key("target_rate", KeyKind::target_rate, "the rate that `damper` pulls to",
             described_by<&SpringDamper::target_rate>)};
