@@ -23,6 +23,7 @@ std::string of(OutputOf what) {
                                       "[controller](#controllers)",
                                       "force element or controller",
                                       "[formula](#formulas)",
+                                      "[formula](#formulas)",
                                       "[gauge](#gauges)"};
   static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];

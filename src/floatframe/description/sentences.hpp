@@ -122,7 +122,13 @@ Complaint bearing_stiffness(const MatX& K);
 std::string function_in_file(const std::string& found);
 std::string law_on_what();
 std::string target_without_law();
+std::string stop_with_target();
 std::string motion_and_start_value();
+std::string length_of_driven_rod();
+std::string rod_motion(double length);
+std::string driven_twice(const std::string& coordinate);
+/// Components of rotation vectors.
+std::string undrivable_coordinate(const std::string& type);
 std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);

@@ -55,7 +55,7 @@ void ElementSet::count_turns_from(const Model& values, double t) noexcept {
     for (std::size_t i = 0; i < slots_[k].size(); ++i) {
       const CoordinatePort& c = model_.elements[k].coordinates[i];
       const Joint& joint = values.joints[c.joint];
-      const TimeFunction* motion = values.motion_of(joint);
+      const TimeFunction* motion = values.motion_of(joint, c.component);
       set_angle(slots_[k][i], motion                   ? floatframe::evaluate(*motion, t).f
                               : joint.position.empty() ? 0.0
                                                        : joint.position[c.component]);

@@ -71,11 +71,18 @@ void ModelBuilder::holding_elements() {
   for (const auto* list : {&d.rods, &d.couplings})
     for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
-    if (!j.motion) continue;
-    const PrescribedMotion keys{j.name, SignalDescription(*j.motion)};
-    if (add_element({j.name, keys, j.origin}))
+    if (j.motion &&
+        add_element({j.name, PrescribedMotion{j.name, SignalDescription(*j.motion)}, j.origin}))
       model.joints[model.elements.back().coordinates[0].joint].motion =
           std::ssize(model.elements) - 1;
+    for (const CoordinateMotion& m : j.motions) {
+      const std::string name = j.name + "/" + joint_coordinate_key(j.type, m.coordinate);
+      const PrescribedMotion keys{j.name, SignalDescription(m.motion), m.coordinate};
+      if (!add_element({name, keys, j.origin})) continue;
+      Joint& joint = model.joints[model.elements.back().coordinates[0].joint];
+      joint.motions.resize(joint_velocities(j.type), -1);
+      joint.motions[m.coordinate] = std::ssize(model.elements) - 1;
+    }
   }
 }
 
@@ -86,8 +93,11 @@ void ModelBuilder::forces() {
   for (const InnerFormula& inner : formulas) add_element(inner.element);
   const int acting = static_cast<int>(std::ssize(model.elements) - holding);
   std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());
-  for (Joint& joint : model.joints)
+  for (Joint& joint : model.joints) {
     if (joint.motion >= 0) joint.motion += acting;
+    for (int& motion : joint.motions)
+      if (motion >= 0) motion += acting;
+  }
 }
 
 void ModelBuilder::link_signals() {

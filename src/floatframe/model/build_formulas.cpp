@@ -54,7 +54,8 @@ class FormulaConnection {
 
  private:
   bool connected(const Output& out, FormulaOperand& x) {
-    if (output_kind(out.type).of == OutputOf::formula)
+    const OutputOf of = output_kind(out.type).of;
+    if (of == OutputOf::formula || of == OutputOf::crossing)
       return wrong(ErrorCode::unsupported, sentences::formula_of_a_formula(out.name));
     take(out, x);
     return true;
@@ -139,7 +140,8 @@ class FormulaConnection {
         return of_list(ElementList::couplings, r) ||
                none("coupling", names_of(ElementList::couplings));
       case Of::motion:
-        return of_list(ElementList::motions, r) || none("motion", names_of(ElementList::motions));
+        return (b_.joint_names.find(r.name) && of_list(ElementList::motions, r)) ||
+               none("motion", names_of(ElementList::motions));
       case Of::mass:
         o.whole = r.name == "model";
         if (o.whole) return true;
@@ -301,6 +303,16 @@ void ModelBuilder::connect_formulas() {
         slash == std::string::npos ? "formula" : name.substr(slash + 1, name.find('[') - slash - 1);
     model.elements[k].operands = ElementConnection(*this, k, *origin, path, key).connect(*f);
   }
+  const auto connected = [&](const SharedFormula& f, const Origin& origin, const std::string& path,
+                             const std::string& key) {
+    return std::make_shared<OutputFormula>(
+        OutputFormula{f, FormulaConnection(*this, origin, path, key).connect(*f)});
+  };
+  if (const SharedFormula& until = d.simulation.until) {
+    model.until.emplace().name = "until";
+    const Origin at{d.simulation.origin.of("until")};
+    model.until->formula = connected(until, at, "simulation.until", "until");
+  }
   const auto outputs_of = [&](std::vector<Output>& built,
                               const std::vector<OutputDescription>& described,
                               const std::string& list) {
@@ -311,9 +323,8 @@ void ModelBuilder::connect_formulas() {
       const auto it = with_formula.find(out.name);
       if (it == with_formula.end()) continue;
       const OutputDescription& o = *it->second;
-      out.formula = std::make_shared<OutputFormula>(OutputFormula{
-          o.formula, FormulaConnection(*this, o.origin, list + o.name + ".formula", "formula")
-                         .connect(*o.formula)});
+      const char* key = output_type_name(o.type);
+      out.formula = connected(o.formula, o.origin, list + o.name + "." + key, key);
     }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");

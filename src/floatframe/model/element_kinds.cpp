@@ -276,6 +276,12 @@ void validate_line(const ElementCheck& check) {
     check.error(ErrorCode::out_of_range, "", *complaint);
 }
 
+void validate_target(const ElementCheck& check) {
+  if (check.given("spring") || check.given("damper")) return;
+  for (const char* key : {"target", "target_rate"})
+    if (check.given(key)) check.error(ErrorCode::incomplete, key, sentences::target_without_law());
+}
+
 bool build_line(ElementBuild& build) {
   const bool from = build.connect("from", false), to = build.connect("to", false);
   return from && to;

@@ -49,9 +49,11 @@ struct Joint {
   Vec3 axis_2 = Vec3::UnitX();             ///< in the joint frame
   std::vector<double> position, velocity;  ///< start values, in the user's form
   bool keep = false;                       ///< they must not move when loops are closed
-  int motion = -1;                         ///< the element that prescribes its coordinate
-  bool cut = false;                        ///< marked as cut by the user, for relative coordinates
-  bool automatic = false;                  ///< a free joint added for a body that no joint leads to
+  int motion = -1;                         ///< the element that prescribes its only coordinate
+  /// Of several coordinates those that prescribe them, -1: none; empty: none at all.
+  std::vector<int> motions = {};
+  bool cut = false;        ///< marked as cut by the user, for relative coordinates
+  bool automatic = false;  ///< a free joint added for a body that no joint leads to
 };
 
 struct Road {
@@ -190,14 +192,16 @@ struct Model {
   std::vector<Marker> markers;
   std::vector<Output> outputs;
   std::vector<Output> measures;  ///< of formulas; no columns
+  std::optional<Output> until;   ///< the formula that ends runs where it crosses zero
   std::vector<Gauge> gauges;
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
   ModelHints hints;  ///< for checks of the model; nothing else depends on them
-  /// What prescribes the coordinate of a joint; nullptr: nothing.
-  const TimeFunction* motion_of(const Joint& joint) const noexcept {
-    return joint.motion < 0 ? nullptr : &elements[joint.motion].signals[0].function;
+  /// What prescribes a coordinate of a joint; nullptr: nothing.
+  const TimeFunction* motion_of(const Joint& joint, std::size_t component = 0) const noexcept {
+    const int by = joint.motions.empty() ? joint.motion : joint.motions[component];
+    return by < 0 ? nullptr : &elements[by].signals[0].function;
   }
 };
 

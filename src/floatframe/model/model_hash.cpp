@@ -67,9 +67,9 @@ class ModelHash {
     all(body, node, X_NM, rotates);
   }
   void add(const Joint& j) {
-    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, cut,
-                 automatic] = j;
-    all(name, type, parent, child, F, M, axis_2, motion, cut, automatic);
+    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, motions,
+                 cut, automatic] = j;
+    all(name, type, parent, child, F, M, axis_2, motion, motions, cut, automatic);
   }
   void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
   void add(const SignalDescription& s) {
@@ -168,10 +168,11 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 measures, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] =
-        model;
+                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation,
+                 hints] = model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
+    if (until) add(*until);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);

@@ -6,6 +6,7 @@
 
 #include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
 
@@ -21,18 +22,19 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
                       : std::isinf(x) ? "more than 1e+308"
                                       : fmt::format("{:.3g}", std::abs(x)));
   };
-  for (const Joint& j : model.joints) {
-    const TimeFunction* law = model.motion_of(j);
-    if (!law) continue;
-    const auto motion = evaluate(*law, t);
-    if (std::string why = law->formula ? fault_at(*law->formula, t) : ""; !why.empty())
-      return fmt::format("{}joint '{}': {}", undefined_mark, j.name, why);
-    for (const double x : {motion.f, motion.df, motion.ddf})
-      look(x, [&](const std::string& n) {
-        return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
-                           n);
-      });
-  }
+  for (const Joint& j : model.joints)
+    for (int k = 0; k < joint_velocities(j.type); ++k) {
+      const TimeFunction* law = model.motion_of(j, k);
+      if (!law) continue;
+      const auto motion = evaluate(*law, t);
+      if (std::string why = law->formula ? fault_at(*law->formula, t) : ""; !why.empty())
+        return fmt::format("{}joint '{}': {}", undefined_mark, j.name, why);
+      for (const double x : {motion.f, motion.df, motion.ddf})
+        look(x, [&](const std::string& n) {
+          return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
+                             n);
+        });
+    }
   kinematics_at(f, t, state.q, state.v);
   f.forces();
   const SystemMotion& motion = f.motion();
