@@ -54,7 +54,7 @@ class StateSpaceFile(RunCase):
 
     def poles(self, name):
         modes = json.loads(self.program("modes", name, "--json").stdout)["modes"]
-        return [complex(m["real"], m["imaginary"]) for m in modes]
+        return [complex(m["real_1_s"], m["imaginary_1_s"]) for m in modes]
 
     def test_poles_are_those_of_the_plant(self):
         expected = self.poles("plant.yaml")

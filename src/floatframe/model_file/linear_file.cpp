@@ -158,6 +158,11 @@ std::vector<SignalDescription> read_named_signals(const ModelInstance& self, con
   return all;
 }
 
+std::string read_value_name(const YamlValue& value) {
+  const auto name = value.parameter();
+  return name ? value_text(*name) : std::string();
+}
+
 std::optional<std::vector<std::string>> read_names(const YamlValue& value) {
   std::vector<std::string> names;
   for (const YamlValue& item : value.list("a list of names"))

@@ -22,6 +22,8 @@ bool names_inputs(const YamlValue& value, const std::vector<std::string>& inputs
 /// In the order of the file; those that are not given are zero.
 std::vector<SignalDescription> read_named_signals(const ModelInstance& self, const YamlValue& value,
                                                   const std::vector<std::string>& inputs);
+/// The name or number of one of several values; empty after an error.
+std::string read_value_name(const YamlValue& value);
 /// A list of names.
 std::optional<std::vector<std::string>> read_names(const YamlValue& value);
 

@@ -5,6 +5,7 @@
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/formulas/formula_evaluation.hpp"
+#include "floatframe/model_file/linear_file.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/time_terms.hpp"
 #include "floatframe/yaml/read_table.hpp"
@@ -307,8 +308,7 @@ bool read_source(const ModelInstance& self, YamlSection& section, SignalDescript
         source == SignalSource::controller ? EntityKind::controller : EntityKind::force, *value);
     signal.element = name.value_or("");
     if (source != SignalSource::controller) continue;
-    if (const auto v = section.get("output"))
-      signal.value = v->text("a name or number").value_or("");
+    if (const auto v = section.get("output")) signal.value = read_value_name(*v);
   }
   if (signal.source == SignalSource::none) return false;
   signal.factor = section.number("factor", any_number(""), 1.0);

@@ -6,6 +6,7 @@
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
+#include "floatframe/model_file/linear_file.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
@@ -193,9 +194,8 @@ class OutputReader {
   }
 
   bool controller(YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    const auto value = s.get("output");
-    const bool good = !value || put(value->text("a name or number"), o.value);
-    return put(self_.reference(EntityKind::controller, what), o.entity) && good;
+    if (const auto value = s.get("output")) o.value = read_value_name(*value);
+    return put(self_.reference(EntityKind::controller, what), o.entity);
   }
 
   /// The keys `relative_to` and `in` of a motion, after its subject.
