@@ -164,14 +164,16 @@ TEST(FirstCrossing, StepsDoNotAllocate) {
 }
 
 TEST(Crossings, RefersToWhatThereIs) {
-  const auto error = [](const std::string& text) { return error_of([&] { model_of(text); }); };
-  EXPECT_EQ(error(swinging("", "angle(slid)")), "model.yaml:7:45: simulation.until: not_found");
+  const auto error = [](const std::string& text) {
+    return without_folders(error_of([&] { model_of(text); }));
+  };
+  EXPECT_EQ(error(swinging("", "angle(slid)")), "model.yaml:8:46: not_found");
   EXPECT_EQ(error(swinging("  t: {first_crossing: 'x +'}\n")),
-            "model.yaml:7:23: outputs.t.first_crossing: wrong_value");
+            "model.yaml:8:23: outputs.t.first_crossing: wrong_value");
   EXPECT_EQ(error(swinging("  t: {first_crossing: 'x', direction: up}\n")),
-            "model.yaml:7:41: outputs.t.direction: wrong_value");
+            "model.yaml:8:39: outputs.t.direction: wrong_value");
   EXPECT_EQ(error(swinging("  t: {first_crossing: 'x'}\n  u: {formula: 't'}\n", "u")),
-            "model.yaml:9:45: simulation.until: unsupported");
+            "model.yaml:10:46: unsupported");
 }
 
 }  // namespace
