@@ -1,5 +1,5 @@
 // Reactions, motor torque, accelerations of bodies and modes against references: pendulums on
-// single joints by MSC Adams (tests/data/adams_joints), and the slider-crank with a flexible rod of
+// single joints by MSC Adams (examples/benchmarks), and the slider-crank with a flexible rod of
 // the Test Set for IVP Solvers (B. Simeon; crank.f, later revision).
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class AdamsJoints : public ::testing::TestWithParam<AdamsCase> {
   /// 0 time, 1 position, 4 velocity, 7 acceleration, 10 quaternion, 14 angular velocity, 17 angular
   /// acceleration, 20 force, 23 torque on the ground.
   static std::vector<std::array<double, 26>> reference(const std::string& name) {
-    std::ifstream file(std::string(FLOATFRAME_TEST_DATA) + "/adams_joints/" + name + ".csv");
+    std::ifstream file(std::string(FLOATFRAME_EXAMPLES "/benchmarks/adams_") + name + "/adams.csv");
     std::vector<std::array<double, 26>> rows;
     std::string line;
     std::getline(file, line);
@@ -65,7 +65,7 @@ outputs:
   F: {joint_force: joint}
   T: {joint_torque: joint}
   r: {rotation: bob}
-simulation: {step: 0.001, duration: 5, output_interval: 0.1}
+simulation: {step: 0.001, duration: 5, output_interval: 0.05}
 )");
   for (const Coordinates c : both_coordinates) {
     d.simulation.coordinates = c;
@@ -77,7 +77,7 @@ simulation: {step: 0.001, duration: 5, output_interval: 0.1}
     std::array<double, 26> worst{};
     double turned = 0.0;
     for (const auto& x : rows) {
-      const auto i = static_cast<std::size_t>(std::lround(x[0] / 0.1));
+      const auto i = static_cast<std::size_t>(std::lround(x[0] / 0.05));
       ASSERT_LT(i, t.rows());
       const auto ours = [&](std::size_t column) { return t.at(i, 1 + column); };
       const std::size_t of[] = {1, 4, 7, 14, 17, 20, 23};  // p, v, a, w, wd, F, T

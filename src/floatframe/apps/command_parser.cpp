@@ -74,7 +74,7 @@ void add_option(CLI::App& app, const Option& option) {
   if (option.required) added->required();
   if (option.commas) {
     added->delimiter(',');
-  } else if (repeated) {
+  } else if (repeated && option.name.starts_with('-')) {
     // One value per occurrence: `--set a=1 model.yaml` must not swallow the model.
     added->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -16,6 +16,7 @@ Command reduce_command();
 Command info_command();
 Command convert_command();
 Command compare_command();
+Command validate_command();
 Command outputs_command();
 Command export_command();
 Command stress_command();
@@ -24,9 +25,9 @@ Command rainflow_command();
 inline std::vector<Command> all_commands() {
   std::vector<Command> commands{run_command()};
   for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
-  for (const auto make :
-       {realtime_command, sweep_command, reduce_command, info_command, convert_command,
-        compare_command, outputs_command, export_command, stress_command, rainflow_command})
+  for (const auto make : {realtime_command, sweep_command, reduce_command, info_command,
+                          convert_command, compare_command, validate_command, outputs_command,
+                          export_command, stress_command, rainflow_command})
     commands.push_back(make());
   return commands;
 }
