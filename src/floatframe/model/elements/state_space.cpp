@@ -1,4 +1,4 @@
-// xdot = A x + B u, y = C x + D u, of the inputs u.
+// xdot = A x + B u, y = C x + D u, of the inputs u; sampled: x_k+1 = A x_k + B u_k.
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/linear_block.hpp"
 
@@ -25,7 +25,7 @@ constexpr ElementKey matrix_key(const char* name, const char* about, KeyMember m
           .required = required,
           .member = member};
 }
-constexpr ElementKey state_space_keys[] = {
+constexpr auto state_space_keys = with_sampling<StateSpaceBlock>({
     {.name = "inputs",
      .kind = KeyKind::signals,
      .about = "u; one need not be a list",
@@ -38,9 +38,10 @@ constexpr ElementKey state_space_keys[] = {
     matrix_key("C", "a row of n numbers", described_by<&StateSpaceBlock::C>),
     matrix_key("D", "a number for each input; without it 0", described_by<&StateSpaceBlock::D>,
                false),
-    block_start_key(described_by<&StateSpaceBlock::initial>)};
+    block_start_key(described_by<&StateSpaceBlock::initial>)});
 
 void state_space_validate(const ElementCheck& check) {
+  validate_sampling(check);
   const auto& keys = std::get<StateSpaceBlock>(check.description().kind);
   const Eigen::Index n = keys.A.rows(), m = std::ssize(keys.inputs);
   const auto expect = [&](const char* key, Eigen::Index rows, Eigen::Index columns) {
@@ -69,10 +70,10 @@ void state_space_states(Element& element) {
                      keys.C,
                      keys.D.size() > 0 ? keys.D : MatX(MatX::Zero(1, m)),
                      {}},
-                    keys.initial);
+                    keys.initial, keys);
 }
 
-ElementExample state_space_example(std::size_t, ExampleNumbers& numbers) {
+ElementExample state_space_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
   StateSpaceBlock f;
   f.inputs = {x.linked_signal(numbers), x.signal(numbers), x.linked_signal(numbers)};
@@ -82,6 +83,7 @@ ElementExample state_space_example(std::size_t, ExampleNumbers& numbers) {
   f.D = MatX(1, 3);
   for (MatX* M : {&f.A, &f.B, &f.C, &f.D})
     for (Eigen::Index i = 0; i < M->size(); ++i) (*M)(i) = numbers(-3.0, 3.0);
+  if (regime == 1) f.period = 0.1, f.delay = 0.25;
   return block_example(std::move(x), std::move(f), numbers);
 }
 
@@ -94,7 +96,9 @@ constinit const ElementKind state_space_element = [] {
   kind.validate = state_space_validate;
   kind.states = state_space_states;
   kind.start = start_linear_block;
+  kind.sample = sample_linear_block;
   kind.dual = state_space_law<Dual>;
+  kind.regimes = sampled_regimes;
   return kind;
 }();
 
