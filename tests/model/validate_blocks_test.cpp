@@ -117,5 +117,32 @@ TEST(ValidateBlocks, FiltersAndLimits) {
         "controllers.b.initial: out_of_range"}});
 }
 
+TEST(ValidateBlocks, Sampled) {
+  ZeroOrderHold hold;
+  hold.period = 0.01;
+  hold.delay = 10.0;
+  expect_errors(
+      with_block(hold),
+      {{[](D& d) { block<ZeroOrderHold>(d).period.reset(); }, "controllers.b: missing"},
+       {[](D& d) { block<ZeroOrderHold>(d).period = 0.0; }, "controllers.b.period: out_of_range"},
+       {[](D& d) { block<ZeroOrderHold>(d).offset = -1.0; }, "controllers.b.offset: out_of_range"},
+       {[](D& d) { block<ZeroOrderHold>(d).delay = 10.01; }, "controllers.b.delay: too_large"},
+       {[](D& d) { block<ZeroOrderHold>(d).initial = nan; },
+        "controllers.b.initial: out_of_range"}});
+  Pid pid;
+  pid.derivative = 1.0;
+  pid.period = 0.01;
+  expect_errors(with_block(pid),
+                {{[](D& d) { block<Pid>(d).delay = -1.0; }, "controllers.b.delay: out_of_range"}});
+  StateSpaceBlock f;
+  f.inputs.resize(1);
+  f.A = f.B = f.C = MatX::Ones(1, 1);
+  expect_errors(
+      with_block(f),
+      {{[](D& d) { block<StateSpaceBlock>(d).delay = 0.1; }, "controllers.b.delay: incomplete"},
+       {[](D& d) { block<StateSpaceBlock>(d).offset = 0.1; },
+        "controllers.b.offset: incomplete"}});
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -1,6 +1,7 @@
 // Sentences about controllers and signals.
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/plural.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/description/sentences.hpp"
 
@@ -87,6 +88,27 @@ std::string leading_coefficient() {
 std::string improper(Eigen::Index numerator, Eigen::Index denominator) {
   return "found the degree " + std::to_string(numerator) +
          ", expected at most that of the denominator, " + std::to_string(denominator);
+}
+
+std::string held_samples(const std::vector<std::string>& names) {
+  return named_text("sampled controller", "sampled controllers", names) +
+         (names.size() == 1 ? " is held at its value" : " are held at their values") +
+         ": what follows from the next samples is left out";
+}
+
+std::string sample_off_step(const std::string& key, double value, double step) {
+  return "found the " + key + " " + number_text(value) + " s, expected a multiple of the step, " +
+         number_text(step) + " s, which is not divided in real time";
+}
+
+std::string step_over_samples(const std::string& element, double period, double step, double most) {
+  return element + ": found the period " + number_text(period) + " s, expected at least " +
+         number_text(most) + " of the step, " + number_text(step) + " s";
+}
+
+std::string long_delay(double delay, double period, int most) {
+  return "found " + number_text(delay) + " s, expected at most " + std::to_string(most) +
+         " periods of " + number_text(period) + " s";
 }
 
 std::string one_source(SignalSource first) {

@@ -181,11 +181,18 @@ struct ForceLaw {
   ForceFunction law;
 };
 
+/// A controller that computes a value at the instants offset + k period, k = 0, 1, ..., from the
+/// motion there. The value acts from `delay` later on, until the next one does.
+struct Sampling {
+  std::optional<double> period;         ///< [s]; absent: it acts continuously
+  std::optional<double> offset, delay;  ///< [s]; absent: 0
+};
+
 /// A controller with proportional, integral and derivative terms of the error e = target -
 /// measured: u = proportional e + i + derivative edot, clipped to [lower, upper]. edot is that of
 /// `rate`, the rate of `measured`, if it is given, and of the target; else that of e behind a
 /// filter of first order.
-struct Pid {
+struct Pid : Sampling {
   SignalDescription measured;
   std::optional<SignalDescription> target;  ///< absent: 0
   std::optional<SignalDescription> rate;
@@ -205,15 +212,16 @@ struct FormulaValue {
 /// there, zero if it has a pole at 0; or zero.
 enum class BlockStart { rest, zero };
 
-/// y = numerator(s) / denominator(s) u; 1 x n: coefficients of descending powers of s.
-struct TransferFunction {
+/// y = numerator(s) / denominator(s) u; 1 x n: coefficients of descending powers of s; of z if it
+/// is sampled.
+struct TransferFunction : Sampling {
   SignalDescription input;
   MatX numerator, denominator;
   BlockStart initial = BlockStart::rest;
 };
 
-/// xdot = A x + B u, y = C x + D u, of inputs u and values y.
-struct StateSpaceBlock {
+/// xdot = A x + B u, y = C x + D u, of inputs u and values y; sampled: x_k+1 = A x_k + B u_k.
+struct StateSpaceBlock : Sampling {
   std::vector<SignalDescription> inputs;
   MatX A, B, C, D;                   ///< D 0 x 0: zero
   std::vector<std::string> outputs;  ///< names of the values; empty: only their numbers from 1
@@ -262,6 +270,12 @@ struct Hysteresis {
   RelaySide initial = RelaySide::below;  ///< of an input between both
 };
 
+/// The input, sampled.
+struct ZeroOrderHold : Sampling {
+  SignalDescription input;
+  double initial = 0.0;  ///< value until the first one acts
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -287,7 +301,8 @@ struct Hysteresis {
   entry(filter, LowPass)                \
   entry(limiter, Limiter)               \
   entry(rate_limiter, RateLimiter)      \
-  entry(hysteresis, Hysteresis)
+  entry(hysteresis, Hysteresis)         \
+  entry(zero_order_hold, ZeroOrderHold)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -18,6 +18,7 @@
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/sampling.hpp"
 
 namespace floatframe {
 
@@ -128,24 +129,25 @@ class ElementSet {
       evaluate_linked(ports_at);
     z_.take_rates(states_);
   }
-  /// The states at a start that gives none: of each element when the signals to it are known.
+  /// The states at a start that gives none: of each element when the signals to it are known. Those
+  /// of sampled elements may depend on those of others, and the other way round.
   template <class PortsAt>
-  void start_states(const PortsAt& ports_at) noexcept {
-    if (links_.empty()) {
-      for (const std::size_t k : z_.elements()) z_.start(k, ports_at(k));
-      return;
+  void start_states(const PortsAt& ports_at, bool of_sampled_only) noexcept {
+    const auto others = [&] { of_sampled_only ? find_links(ports_at) : start_others(ports_at); };
+    for (const std::size_t k : order_.sampled) {
+      others();
+      z_.start(k, ports_at(k));
+      const Element& e = model_.elements[k];
+      if (e.start_states.size() == 0) sample_one(k, ports_at, 1e-6 * e.clock.period);
     }
-    measure(ports_at);
-    std::size_t ring = 0;
-    for (const SignalGroup& group : order_.groups) {
-      // In a ring a start may depend on the signals of the others.
-      constexpr int rounds = 50;
-      for (int round = 0; round < (group.links.empty() ? 1 : rounds); ++round) {
-        for (const std::size_t k : group.elements) z_.start(k, ports_at(k));
-        evaluate_group(group, ring, ports_at);
-      }
-      ring += !group.links.empty();
-    }
+    others();
+  }
+  /// Sampled elements at an instant: what begins to act, then what is computed, in the order of
+  /// their signals.
+  template <class PortsAt>
+  void sample(const PortsAt& ports_at, double width) noexcept {
+    for (const std::size_t k : order_.sampled) begin_to_act(ports_at(k), width, z_.of(k));
+    for (const std::size_t k : order_.sampled) sample_one(k, ports_at, width);
   }
   /// Signals between elements at other ports.
   template <class PortsAt>
@@ -168,6 +170,32 @@ class ElementSet {
     else
       evaluate_element(in, states_[k]);
     took(k);
+  }
+  /// Of the elements that are not sampled.
+  template <class PortsAt>
+  void start_others(const PortsAt& ports_at) noexcept {
+    const auto start = [&](std::size_t k) {
+      if (!model_.elements[k].clock.ticks()) z_.start(k, ports_at(k));
+    };
+    if (links_.empty()) return std::ranges::for_each(z_.elements(), start), void();
+    measure(ports_at);
+    std::size_t ring = 0;
+    for (const SignalGroup& group : order_.groups) {
+      // In a ring a start may depend on the signals of the others.
+      constexpr int rounds = 50;
+      for (int round = 0; round < (group.links.empty() ? 1 : rounds); ++round) {
+        std::ranges::for_each(group.elements, start);
+        evaluate_group(group, ring, ports_at);
+      }
+      ring += !group.links.empty();
+    }
+  }
+  template <class PortsAt>
+  void sample_one(std::size_t k, const PortsAt& ports_at, double width) noexcept {
+    const Ports in = ports_at(k);
+    if (!is_sampled_at(model_.elements[k], in.t, width)) return;
+    find_links(ports_at);
+    take_sample(in, z_.of(k));
   }
   /// The angles of the element are continued from the present ones.
   void take_angles(std::size_t k) noexcept {

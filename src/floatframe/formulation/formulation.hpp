@@ -66,12 +66,16 @@ class Formulation {
     element_set_.solve_states([this](std::size_t k) { return ports(k); });
   }
   /// At a start that gives none, and at the end of a step.
-  void start_element_states() noexcept {
-    element_set_.start_states([this](std::size_t k) { return ports(k); });
+  void start_element_states(bool of_sampled_only = false) noexcept {
+    element_set_.start_states([this](std::size_t k) { return ports(k); }, of_sampled_only);
   }
   void change_kept_states() noexcept {
     for (const std::size_t k : element_states().elements())
       element_states().after_step(k, ports(k));
+  }
+  /// Of sampled elements with an instant within `width` of the present one (model/sampling.hpp).
+  void sample_elements(double width) noexcept {
+    element_set_.sample([this](std::size_t k) { return ports(k); }, width);
   }
   /// What an element acts on at the present positions and velocities.
   virtual Ports ports(std::size_t element) const noexcept = 0;

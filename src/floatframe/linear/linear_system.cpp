@@ -99,6 +99,8 @@ LinearSystem linear_system_at(Formulation& f, const State& state, const InputMot
         fmt::format("the state is no {}: coordinates accelerate by up to {:.3g} [m/s2, rad/s2]; "
                     "the linear system holds for a short time only",
                     speed > 1e-6 ? "steady motion" : "equilibrium", system.acceleration));
+  if (std::string held = held_samples_note(f.model()); !held.empty())
+    system.notes.push_back(std::move(held));
   std::vector<std::string> owners;
   for (const int k : m.kinks) {
     std::string owner = f.coordinate_owner(k);

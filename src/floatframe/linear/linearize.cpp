@@ -26,6 +26,8 @@ Linearization linearized(const Model& model, const SimulationDescription& option
   l.state = system_state(f.motion(), joints);
   place_bodies(started.model(), options.inertia, l.state);
   l.start = started.report();
+  if (std::string held = held_samples_note(model); !held.empty())
+    l.start.notes.push_back(std::move(held));
   return l;
 }
 

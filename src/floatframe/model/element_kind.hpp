@@ -118,6 +118,9 @@ struct ElementKind {
   void (*start)(const Ports& in, double* states) noexcept = nullptr;
   /// Changes the kept numbers at the end of a step, at which the ports are. Step time.
   void (*after_step)(const Ports& in, double* states) noexcept = nullptr;
+  /// Of a sampled element (sampling.hpp): its values y at an instant, and its own kept numbers
+  /// behind those of `take_clock`. Step time.
+  void (*sample)(const Ports& in, double* own, double* y) noexcept = nullptr;
   /// For types that may measure a rotation vector, limited to half a turn: true if it does.
   bool (*ends_at_half_turn)(const Element& element) noexcept = nullptr;
   bool along_line = false;  ///< acts along the line between its ends, which is undefined if they

@@ -1,7 +1,7 @@
 #pragma once
 // A linear system as the law of an element, its data: zdot = A z + B u, y = C z + D u, with the
-// inputs u, its only signals, and the values y.
-#include "floatframe/model/element_kind.hpp"
+// inputs u, its only signals, and the values y; sampled (sampling.hpp) it is z_k+1 = A z_k + B u_k.
+#include "floatframe/model/sampling.hpp"
 
 namespace floatframe {
 
@@ -11,7 +11,8 @@ struct LinearBlock {
 };
 
 /// With A, B, C, D: the states of the element, and where they begin.
-void take_linear_block(Element& element, LinearBlock block, BlockStart initial);
+void take_linear_block(Element& element, LinearBlock block, BlockStart initial,
+                       const Sampling& sampling = {});
 
 template <class S>
 S& value_of_block(EffortsOf<S>& out, Eigen::Index k) noexcept {
@@ -19,6 +20,7 @@ S& value_of_block(EffortsOf<S>& out, Eigen::Index k) noexcept {
 }
 template <class S>
 void linear_block_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  if (holds_value(in, out)) return;
   const auto& block = in.template data<LinearBlock>();
   const Eigen::Index n = block.A.rows();
   for (Eigen::Index j = 0; j < block.B.cols(); ++j) {
@@ -38,6 +40,7 @@ void linear_block_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
 }
 
 void start_linear_block(const Ports& in, double* states) noexcept;
+void sample_linear_block(const Ports& in, double* own, double* y) noexcept;
 
 inline constexpr const char* block_start_words[] = {"rest", "zero"};
 constexpr ElementKey block_start_key(KeyMember member) {
@@ -60,6 +63,9 @@ constexpr ElementKey input_key(KeyMember member) {
 
 inline constexpr ElementRegime block_regimes[] = {
     {.name = "value", .conservative = false, .acts = false}};
+inline constexpr ElementRegime sampled_regimes[] = {
+    {.name = "value", .conservative = false, .acts = false},
+    {.name = "sampled", .conservative = false, .acts = false}};
 inline constexpr ElementRegime limit_regimes[] = {
     {.name = "between", .conservative = false, .acts = false},
     {.name = "limited", .conservative = false, .acts = false}};
@@ -68,7 +74,8 @@ template <class Keys>
 ElementExample block_example(ElementExample x, Keys keys, ExampleNumbers& numbers) {
   x.keys(std::move(keys));
   x.t = numbers(0.0, 1.0);
-  for (int i = 0; i < x.element.states; ++i) x.states.push_back(numbers(-2.0, 2.0));
+  while (std::ssize(x.states) < x.element.states + x.element.kept)
+    x.states.push_back(numbers(-2.0, 2.0));
   x.state_weight = numbers(0.5, 200.0);
   return x;
 }

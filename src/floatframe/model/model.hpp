@@ -131,6 +131,13 @@ struct OutputFormula {
   std::vector<FormulaOperand> operands;
 };
 
+/// A value is computed at the instants first + k period, k = 0, 1, ..., and acts `delay` later.
+struct SampleClock {
+  double first = 0.0, period = 0.0, delay = 0.0;  ///< [s]; no period: the element is not sampled
+  int waiting = 0;                                ///< values that do not act yet
+  bool ticks() const noexcept { return period > 0.0; }
+};
+
 /// An element: what it is connected to, by index, and what it does. The table of
 /// keys of its kind gives the key of each law and signal.
 struct Element {
@@ -145,6 +152,7 @@ struct Element {
   int road = -1;
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
+  SampleClock clock;          ///< of its value, if it is sampled (sampling.hpp)
   VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
   bool acts = true;           ///< by a law
   bool holds = false;         ///< its markers, by constraints

@@ -98,7 +98,7 @@ class ModelHash {
   }
   void add(const Element& e) {
     const auto& [name, type, markers, laws, signals, coordinates, operands, values, road, states,
-                 kept, start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
+                 kept, clock, start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))

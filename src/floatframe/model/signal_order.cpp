@@ -9,14 +9,16 @@ namespace {
 
 class Rings {
  public:
-  explicit Rings(const Model& model)
+  Rings(const Model& model, bool at_samples)
       : links_(model.links),
         before_(model.elements.size()),
         number_(model.elements.size(), -1),
         lowest_(model.elements.size(), -1),
         open_(model.elements.size(), false) {
     for (std::size_t l = 0; l < links_.size(); ++l)
-      if (links_[l].quantity == ElementQuantity::force) before_[links_[l].to].push_back(l);
+      if (links_[l].quantity == ElementQuantity::force &&
+          (at_samples || !model.elements[links_[l].to].clock.ticks()))
+        before_[links_[l].to].push_back(l);
     for (std::size_t k = 0; k < model.elements.size(); ++k)
       if (model.elements[k].acts && number_[k] < 0) visit(k);
   }
@@ -76,7 +78,10 @@ std::vector<std::size_t> ring_in(const Model& model, const SignalGroup& group) {
 
 }  // namespace
 
-SignalOrder::SignalOrder(const Model& model) : groups(Rings(model).groups) {
+SignalOrder::SignalOrder(const Model& model) : groups(Rings(model, false).groups) {
+  for (const SignalGroup& group : Rings(model, true).groups)
+    for (const std::size_t k : group.elements)
+      if (model.elements[k].clock.ticks()) sampled.push_back(k);
   for (const SignalLink& link : model.links)
     if (link.quantity != ElementQuantity::force) measured.push_back(link.from);
   std::sort(measured.begin(), measured.end());

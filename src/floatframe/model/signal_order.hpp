@@ -1,7 +1,7 @@
 #pragma once
 // The order in which elements are evaluated, so that signals from element to element are known when
 // they are needed. Lengths and rates follow from the motion alone: only forces and values of
-// controllers make an element depend on another one. Load time.
+// controllers make an element depend on another one; a sampled one only at its instants. Load time.
 #include <vector>
 
 #include "floatframe/model/model.hpp"
@@ -21,6 +21,8 @@ struct SignalOrder {
   std::vector<SignalGroup> groups;
   /// Elements whose length or rate is a signal.
   std::vector<std::size_t> measured;
+  /// Sampled elements in the order of their signals at an instant; in a ring, in that of the model.
+  std::vector<std::size_t> sampled;
   /// The first ring without a state, whose signals no law delays; empty: none.
   std::vector<std::size_t> ring;
 };

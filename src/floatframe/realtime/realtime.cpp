@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "floatframe/loops/run_error.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
@@ -48,6 +49,7 @@ void warm_up(const Stepper& model) {
 void run_with(const Model& given, const SimulationDescription& d, const RealTimeOptions& options,
               SignalPort* port, RealTimeReport& report) {
   Stepper steps(given, d, limits(d, options));
+  require_ticks_at_steps(steps.model(), steps.begin(), d.step);
   report.start = steps.start_report();
   RealTimeRunner runner(steps, options, port, report);
   MotionWatch watch(steps.model(), d.step);

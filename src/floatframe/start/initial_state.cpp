@@ -4,6 +4,7 @@
 
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/model/sampling.hpp"
 
 namespace floatframe {
 
@@ -44,10 +45,10 @@ StepOptions step_options(const Model& model, const SimulationDescription& o) {
   return s;
 }
 
-void set_element_states(Formulation& f, State& state) {
+void set_element_states(Formulation& f, State& state, bool of_sampled_only) {
   if (f.element_states().count() == 0) return;
   kinematics_at(f, state.t, state.q, state.v);
-  f.start_element_states();
+  f.start_element_states(of_sampled_only);
   state.z = f.element_states().values();
 }
 
@@ -65,7 +66,9 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
       if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
         report->notes.push_back(std::move(note));
     close_loops(f, state.q, state.v, false);
-    state.z = f.element_states().values();
+    set_element_states(f, state, true);
+    if (std::string note = held_samples_note(f.model()); report != nullptr && !note.empty())
+      report->notes.push_back(std::move(note));
   }
   if (report == nullptr) return state;
   kinematics_at(f, 0.0, state.q, state.v);

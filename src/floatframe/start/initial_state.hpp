@@ -49,7 +49,7 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report = 
 
 /// The states of elements at t, q, v of the state: those that the model gives, else those of each
 /// kind. Moves `f`.
-void set_element_states(Formulation& f, State& state);
+void set_element_states(Formulation& f, State& state, bool of_sampled_only = false);
 /// While this exists, states of elements follow every evaluation as they are at rest; afterwards
 /// they are those before it, or `keeps` the last ones.
 struct RestingStates {

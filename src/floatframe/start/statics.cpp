@@ -81,6 +81,7 @@ StaticsResult statics(const Model& model) {
   f.start(state.q, state.v);
   state.v.setZero();
   close_loops(f, state.q, state.v, true);
+  set_element_states(f, state);
   const Equilibrium e = find_equilibrium(f, state.q);
   const std::string unstable = unstable_equilibrium(f, state.q, e.lambda);
   const VecX zero = VecX::Zero(f.velocities());
@@ -95,6 +96,7 @@ StaticsResult statics(const Model& model) {
   if (!singular.empty()) s.notes.push_back(singular);
   if (!unstable.empty()) s.notes.push_back(unstable);
   if (std::string limited = limited_element(f); !limited.empty()) s.notes.push_back(limited);
+  if (std::string held = held_samples_note(model); !held.empty()) s.notes.push_back(held);
   s.iterations = e.iterations;
   s.residual = e.residual;
   const SystemMotion& motion = f.motion();

@@ -1,5 +1,6 @@
 #pragma once
-// Divides steps at the corners of functions of time (time_corners.hpp), whose instants are known:
+// Divides steps at the corners of functions of time (time_corners.hpp) and at the instants of
+// sampled elements (model/sampling.hpp) within them, all of which are known:
 // the step to a corner ends with the values before it, accelerations and multipliers of the forces
 // after it are solved for, and the rest of the step follows. An interval much shorter than a step
 // is bridged by an explicit formula, with the accelerations of its middle: between two corners so
@@ -17,6 +18,7 @@
 #include <limits>
 #include <vector>
 
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/stepping/edge_watch.hpp"
 #include "floatframe/stepping/explicit_move.hpp"
 #include "floatframe/stepping/time_corners.hpp"
@@ -27,11 +29,12 @@ class CornerSteps {
  public:
   /// `step`: the nominal step size [s].
   CornerSteps(Formulation& formulation, Integrator& integrator, std::vector<TimeCorner> corners,
-              double step)
+              std::vector<Ticks> ticks, double step)
       : f_(formulation),
         integrator_(integrator),
         move_(formulation, integrator),
         corners_(std::move(corners)),
+        ticks_(std::move(ticks)),
         slack_(time_corner_width * step) {
     assert(step > 0.0);
     assert(std::is_sorted(corners_.begin(), corners_.end(),
@@ -42,10 +45,7 @@ class CornerSteps {
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
 
   /// True if a step of size h from time t contains a corner.
-  bool within(double t, double h) const noexcept {
-    const auto next = after(t);
-    return next != corners_.end() && !(next->from > t + h + slack_);
-  }
+  bool within(double t, double h) const noexcept { return next(t, t + h).from < endless; }
 
   /// One step of size h. `smooth(size)` makes a step in which no function has a corner; `behind()`
   /// is called at a corner, before accelerations are solved for again. If the step is not accepted,
@@ -56,10 +56,10 @@ class CornerSteps {
     assert(h > 0.0);
     const double end = state.t + h;
     StepAttempt total;
-    for (auto c = after(state.t); c != corners_.end() && !(c->from > end + slack_); ++c) {
-      const double left = std::min(before(c->from, state.t, h), end);
+    for (TimeCorner c = next(state.t, end); c.from < endless; c = next(state.t, end)) {
+      const double left = std::min(before(c.from, state.t, h), end);
       if (!reach(state, left, h, smooth, total)) return total;
-      pass(state, *c, h, behind);
+      pass(state, c, h, behind);
       ++passed;
     }
     if (!reach(state, end, h, smooth, total)) return total;
@@ -72,12 +72,25 @@ class CornerSteps {
  private:
   /// Fractions of a step: the shortest that is made as a step, and the rounding of time.
   static constexpr double shortest = 0.02, rounding = 1e-10;
+  static constexpr double endless = std::numeric_limits<double>::infinity();
 
   enum class Made { nothing, moved, stepped };
 
-  std::vector<TimeCorner>::const_iterator after(double t) const noexcept {
-    return std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
-                            [](double x, const TimeCorner& c) { return x < c.to; });
+  /// The next corner after t, up to `end`; none: at infinity. An instant of samples that ends a step
+  /// does not divide it.
+  TimeCorner next(double t, double end) const noexcept {
+    const auto listed =
+        std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
+                         [](double x, const TimeCorner& c) { return x < c.to; });
+    TimeCorner c{endless, endless};
+    if (listed != corners_.end() && !(listed->from > end + slack_)) c = *listed;
+    for (const Ticks& x : ticks_) {
+      const double at = x.after(t + slack_);
+      if (!(at < end - slack_) || at > c.from + slack_) continue;
+      c = at < c.from - slack_ ? TimeCorner{at, at}
+                               : TimeCorner{std::min(at, c.from), std::max(at, c.to)};
+    }
+    return c;
   }
 
   /// The latest time before a corner that a step from t does not exceed by rounding.
@@ -134,6 +147,7 @@ class CornerSteps {
   Integrator& integrator_;
   ExplicitMove move_;
   std::vector<TimeCorner> corners_;
+  std::vector<Ticks> ticks_;
   double slack_;  ///< [s]
   EdgeWatch watch_;
   Made made_ = Made::nothing;

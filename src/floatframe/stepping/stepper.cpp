@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "floatframe/core/plural.hpp"
+#include "floatframe/description/sentences.hpp"
 
 namespace floatframe {
 namespace {
@@ -28,9 +29,11 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
       min_step_(limits.min_step.value_or(start_.min_step())),
       integrator_(make_integrator(f_, step_options_)),
       input_use_(options.input),
+      ticks_(ticks_of(model)),
       until_(limits.until && model.until),
       bounded_(limits.bounded),
       grid_(start_.state().t, options.step, limits.duration) {
+  check_ticks();
   find_corners(options, limits);
   begin_at_start(options.locate_edges && !limits.bounded);
   if (reactions_ && !reactions_->open_outputs().empty())
@@ -48,10 +51,11 @@ Stepper::Stepper(const Stepper& found, double duration)
       min_step_(found.min_step_),
       integrator_(make_integrator(f_, step_options_)),
       input_use_(found.input_use_),
+      ticks_(found.ticks_),
       until_(found.until_),
       bounded_(found.bounded_),
       grid_(start_.state().t, found.grid_.step(), duration) {
-  locate_corners({found.corners().begin(), found.corners().end()});
+  if (found.corners_) locate_corners({found.corners().begin(), found.corners().end()});
   begin_at_start(found.locator_.has_value());
 }
 
@@ -66,7 +70,18 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
 }
 
 void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
-  if (!corners.empty()) corners_.emplace(f_, *integrator_, corners, grid_.step());
+  if (!corners.empty() || !ticks_.empty())
+    corners_.emplace(f_, *integrator_, corners, ticks_, grid_.step());
+}
+
+/// Shorter parts of steps are not made as steps (corner_steps.hpp).
+void Stepper::check_ticks() const {
+  constexpr double shortest = 0.02;
+  for (const Element& e : model().elements)
+    if (e.clock.ticks() && e.clock.period < shortest * grid_.step())
+      throw InputError(ErrorCode::out_of_range,
+                       sentences::step_over_samples(element_name(e), e.clock.period, grid_.step(),
+                                                    shortest));
 }
 
 void Stepper::begin_at_start(bool locate_edges) {
@@ -163,12 +178,14 @@ void Stepper::undo() noexcept {
 bool Stepper::cover(double h) noexcept {
   assert(h > 0.0 && state_.q.size() == f_.configurations());
   asked_ = h;
+  ticked_ = -TimeGrid::endless;
   take_inputs(h);
   if (has_thrown()) return false;
   const double end = state_.t + h;
   const bool divided = locator_ || (corners_ && corners_->within(state_.t, h));
   count(last_ = part(h, true));
   if (last_.accepted()) {
+    sample_elements(h);
     take_samples();
     ++counters_.steps;
     return true;
@@ -179,6 +196,7 @@ bool Stepper::cover(double h) noexcept {
     const double now = std::min(sub, remaining);
     count(last_ = part(now, true));
     if (last_.accepted()) {
+      sample_elements(h);
       take_samples();
       remaining -= now;
       ++counters_.substeps;
@@ -204,7 +222,10 @@ StepAttempt Stepper::part(double h, bool may_meet_corner) noexcept {
   if (may_meet_corner && corners_ && corners_->within(state_.t, h))
     return corners_->step(
         state_, h, counters_.corners, [this](double size) { return part(size, false); },
-        [this] { hold_branches(); });
+        [this] {
+          take_ticks();
+          hold_branches();
+        });
   if (!locator_) return integrator_->attempt(state_, h);
   return locator_->step(state_, h, counters_.edges, counters_.edges_passed);
 }
@@ -225,6 +246,33 @@ void Stepper::take_inputs(double h) noexcept {
   hold_branches();
   integrator_->restart_in_course(state_, h);
   watch_(state_, integrator_->reactions());
+}
+
+/// At the end of a step of size h: forces jump there as those of inputs do.
+void Stepper::sample_elements(double h) noexcept {
+  const double width = time_corner_width * grid_.step();
+  const bool due = std::any_of(ticks_.begin(), ticks_.end(),
+                               [&](const Ticks& x) { return x.at(state_.t, width); });
+  if (!due || state_.t - ticked_ < width) return;
+  if (watch_.look) {
+    kinematics_at(f_, state_);
+    f_.forces();
+    watch_(state_, integrator_->reactions());
+  }
+  take_ticks();
+  hold_branches();
+  integrator_->restart_in_course(state_, h);
+  watch_(state_, integrator_->reactions());
+}
+
+/// Sampled elements at the present instant.
+void Stepper::take_ticks() noexcept {
+  if (ticks_.empty()) return;
+  take_samples();
+  ticked_ = state_.t;
+  kinematics_at(f_, state_);
+  f_.sample_elements(time_corner_width * grid_.step());
+  state_.z = f_.element_states().values();
 }
 
 void Stepper::count(const StepAttempt& r) noexcept {

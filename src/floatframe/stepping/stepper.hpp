@@ -124,6 +124,7 @@ class Stepper {
   void begin_at_start(bool locate_edges);
   void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void locate_corners(const std::vector<TimeCorner>& corners);
+  void check_ticks() const;
   void prepare_reactions();
 
   /// What a step changes, kept until it is made if the function of an element may throw or a
@@ -161,6 +162,8 @@ class Stepper {
   StepAttempt part(double h, bool may_meet_corner) noexcept;
   void hold_branches() noexcept;
   void take_inputs(double h) noexcept;
+  void sample_elements(double h) noexcept;
+  void take_ticks() noexcept;
   /// With what readers need, at the present state.
   const SystemMotion& present_motion(MotionNeeds needs) noexcept;
   void take_samples() noexcept;
@@ -185,6 +188,8 @@ class Stepper {
   InputUse input_use_ = InputUse::held;
   State state_;
   double least_ = 0.0, asked_ = 0.0;  ///< smallest substep and size of the last step [s]
+  std::vector<Ticks> ticks_;          ///< of sampled elements
+  double ticked_ = -TimeGrid::endless;  ///< the last of them in this step [s]
   StepAttempt last_;
   StepCounters counters_;
   std::vector<FollowedOutput> outputs_;

@@ -4,10 +4,15 @@
 //   d = derivative (rate of the target - rate), or behind a filter of first order             (3)
 //   d = derivative xdot,  xdot = (e - x) / filter                                              (4)
 // with the states i, if it integrates, and x, if it filters. (2) pulls i back while u is clipped.
+// Sampled with the period T (sampling.hpp), by the backward Euler rule (4) is
+//   d = derivative (e - x) / (filter + T),  then x += T (e - x) / (filter + T)                (5)
+// and i grows by T integral e before (1), and by min(T / unwind, 1) (u - raw) after it.      (6)
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/limits.hpp"
+#include "floatframe/model/sampling.hpp"
 
 namespace floatframe {
 
@@ -51,6 +56,7 @@ Limits limits_of(const Pid& keys) noexcept { return {keys.lower, keys.upper}; }
 
 template <class S>
 void pid_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  if (holds_value(in, out)) return;
   const Pid& keys = in.template keys<Pid>();
   const PidTerms<S> x = pid_terms(in);
   const Limits limits = limits_of(keys);
@@ -73,6 +79,7 @@ void pid_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
 }
 
 BranchSide pid_side(const Ports& in) noexcept {
+  if (in.element.clock.ticks()) return {-1.0, Limits::between};
   return limits_of(in.keys<Pid>()).side(in.branch, pid_terms(in).raw);
 }
 
@@ -86,7 +93,7 @@ constexpr ElementAxis bare = ElementAxis::none;
 constexpr ElementKey gain_key(const char* name, const char* about, KeyMember member) {
   return {.name = name, .kind = KeyKind::number, .about = about, .member = member};
 }
-constexpr ElementKey pid_keys[] = {
+constexpr auto pid_keys = with_sampling<Pid>({
     {.name = "measured",
      .kind = KeyKind::load,
      .about = "what is controlled",
@@ -103,8 +110,8 @@ constexpr ElementKey pid_keys[] = {
     gain_key("derivative", "times the rate of the error", described_by<&Pid::derivative>),
     {.name = "filter",
      .kind = KeyKind::number,
-     .about = "time constant of the rate of the error, needed for a `derivative` without `rate`, "
-              "not allowed with it",
+     .about = "time constant of the rate of the error, needed for a `derivative` without `rate` "
+              "that is not sampled, not allowed with it",
      .rule = positive_number("s"),
      .fallback = no_number,
      .member = described_by<&Pid::filter>},
@@ -116,9 +123,10 @@ constexpr ElementKey pid_keys[] = {
               "`proportional` / `integral`",
      .rule = positive_number("s"),
      .fallback = no_number,
-     .member = described_by<&Pid::unwind>}};
+     .member = described_by<&Pid::unwind>}});
 
 void pid_validate(const ElementCheck& check) {
+  validate_sampling(check);
   const auto number = [&](const char* key) { return check.good(key) ? check.number(key) : 0.0; };
   const auto required = [&](const char* key, const char* why) {
     check.error(ErrorCode::incomplete, "", sentences::controller_needs(key, why));
@@ -136,7 +144,7 @@ void pid_validate(const ElementCheck& check) {
     if (number("derivative") == 0.0) {
       unused("filter", "'derivative'");
       unused("rate", "'derivative'");
-    } else if (!check.given("rate") && !check.given("filter")) {
+    } else if (!check.given("rate") && !check.given("filter") && !check.given("period")) {
       required("filter", "'derivative' without 'rate'");
     }
   }
@@ -153,21 +161,47 @@ void pid_validate(const ElementCheck& check) {
 
 void pid_states(Element& element) {
   const Pid& keys = *std::get_if<Pid>(element.keys.get());
-  element.states = integrates(keys) + filters(element, keys);
+  take_clock(element, keys, 2);
+  if (!keys.period) element.states = integrates(keys) + filters(element, keys);
+}
+
+/// (5), (6); own: i, x.
+void pid_sample(const Ports& in, double* own, double* y) noexcept {
+  const Pid& keys = in.keys<Pid>();
+  const double T = in.element.clock.period;
+  const SignalValue<double> target = in.signal(target_port);
+  const double error = target.f - in.signal(measured_port).f;
+  own[0] += T * keys.integral * error;
+  double raw = keys.proportional * error + own[0];
+  if (filters(in.element, keys)) {
+    const double turn = (error - own[1]) / (keys.filter.value_or(0.0) + T);
+    raw += keys.derivative * turn;
+    own[1] += T * turn;
+  } else if (keys.derivative != 0.0) {
+    raw += keys.derivative * (target.df - in.signal(rate_port).f);
+  }
+  const Limits limits = limits_of(keys);
+  const double u = limits.clip(limits.branch(free_branch, raw), raw);
+  if (u != raw && integrates(keys)) own[0] += std::min(T / unwinding_time(keys), 1.0) * (u - raw);
+  *y = u;
 }
 
 /// The filter begins at the error.
 void pid_start(const Ports& in, double* states) noexcept {
   const Pid& keys = in.keys<Pid>();
   for (int i = 0; i < in.element.states; ++i) states[i] = 0.0;
-  if (filters(in.element, keys))
-    states[in.element.states - 1] = in.signal(target_port).f - in.signal(measured_port).f;
+  const double error = in.signal(target_port).f - in.signal(measured_port).f;
+  if (in.element.clock.ticks())
+    own_numbers(in.element, states)[1] = error;
+  else if (filters(in.element, keys))
+    states[in.element.states - 1] = error;
 }
 
 constexpr ElementRegime pid_regimes[] = {
     {.name = "between", .conservative = false, .acts = false},
     {.name = "clipped", .conservative = false, .acts = false},
-    {.name = "rate_is_measured", .conservative = false, .acts = false}};
+    {.name = "rate_is_measured", .conservative = false, .acts = false},
+    {.name = "sampled", .conservative = false, .acts = false}};
 
 ElementExample pid_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
@@ -180,9 +214,10 @@ ElementExample pid_example(std::size_t regime, ExampleNumbers& numbers) {
   c.filter = numbers(0.01, 0.1);
   if (regime == 1) c.lower = -1e-3, c.upper = 1e-3;
   if (regime == 2) c.rate = x.linked_signal(numbers);
+  if (regime == 3) c.period = 0.02;
   x.keys(c);
   x.t = numbers(0.0, 1.0);
-  for (int i = 0; i < x.element.states; ++i) x.states.push_back(numbers(-2.0, 2.0));
+  for (int i = 0; i < x.element.states + x.element.kept; ++i) x.states.push_back(numbers(-2.0, 2.0));
   x.state_weight = numbers(0.5, 200.0);
   return x;
 }
@@ -203,6 +238,7 @@ constinit const ElementKind pid_element = {
     .build = [](ElementBuild&) { return true; },
     .states = pid_states,
     .start = pid_start,
+    .sample = pid_sample,
     .dual = pid_law<Dual>,
     .side = pid_side,
     .resting_branch = Limits::between,

@@ -1,4 +1,5 @@
-// xdot = A x + B u, y = C x + D u, of the inputs u, with the values y: the first one is its force.
+// xdot = A x + B u, y = C x + D u, of the inputs u, with the values y: the first one is its force;
+// sampled: x_k+1 = A x_k + B u_k.
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/linear_block.hpp"
 
@@ -22,7 +23,7 @@ constexpr Eigen::Index most_block_states = 200;
 constexpr ElementKey matrix_key(const char* name, const char* about, KeyMember member) {
   return {.name = name, .kind = KeyKind::matrix, .about = about, .member = member};
 }
-constexpr ElementKey state_space_keys[] = {
+constexpr auto state_space_keys = with_sampling<StateSpaceBlock>({
     {.name = "file",
      .kind = KeyKind::linear_file,
      .about = "with A, B, C, D and the names of inputs and outputs; or ..."},
@@ -42,9 +43,10 @@ constexpr ElementKey state_space_keys[] = {
      .kind = KeyKind::names,
      .about = "of the values, without them their numbers from 1",
      .member = described_by<&StateSpaceBlock::outputs>},
-    block_start_key(described_by<&StateSpaceBlock::initial>)};
+    block_start_key(described_by<&StateSpaceBlock::initial>)});
 
 void state_space_validate(const ElementCheck& check) {
+  validate_sampling(check);
   const auto& keys = std::get<StateSpaceBlock>(check.description().kind);
   const Eigen::Index n = keys.A.rows(), m = std::ssize(keys.inputs), p = keys.C.rows();
   if (check.wrong.contains("file")) return;
@@ -93,10 +95,10 @@ void state_space_states(Element& element) {
                      keys.C,
                      keys.D.size() > 0 ? MatX(keys.D.reshaped(p, m)) : MatX(MatX::Zero(p, m)),
                      {}},
-                    keys.initial);
+                    keys.initial, keys);
 }
 
-ElementExample state_space_example(std::size_t, ExampleNumbers& numbers) {
+ElementExample state_space_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
   StateSpaceBlock f;
   f.inputs = {x.linked_signal(numbers), x.signal(numbers), x.linked_signal(numbers)};
@@ -106,6 +108,7 @@ ElementExample state_space_example(std::size_t, ExampleNumbers& numbers) {
   f.D = MatX(2, 3);
   for (MatX* M : {&f.A, &f.B, &f.C, &f.D})
     for (Eigen::Index i = 0; i < M->size(); ++i) (*M)(i) = numbers(-3.0, 3.0);
+  if (regime == 1) f.period = 0.1, f.delay = 0.25;
   return block_example(std::move(x), std::move(f), numbers);
 }
 
@@ -119,7 +122,9 @@ constinit const ElementKind state_space_element = [] {
   kind.states = state_space_states;
   kind.values = state_space_values;
   kind.start = start_linear_block;
+  kind.sample = sample_linear_block;
   kind.dual = state_space_law<Dual>;
+  kind.regimes = sampled_regimes;
   return kind;
 }();
 

@@ -2,6 +2,7 @@
 // coefficients a_k / w^k have similar sizes: w is the geometric mean of the poles other than 0.
 //   zdot_i = w (z_{i+1} - a_{i+1} / (a_0 w^{i+1}) z_0) + c_{i+1} / w^i u,  y = z_0 + d u        (1)
 //   d = b_0 / a_0,  c_k = b_k / a_0 - d a_k / a_0
+// Sampled it is of z in place of s, and z_i are the next ones in place of their rates.
 // A pole at 0 is the last equation of (1) without states: statics know it as an integral. States of
 // poles that are far apart are balanced.
 #include <cmath>
@@ -60,15 +61,16 @@ constexpr ElementKey coefficients_key(const char* name, const char* about, KeyMe
   return {
       .name = name, .kind = KeyKind::matrix, .about = about, .required = true, .member = member};
 }
-constexpr ElementKey transfer_function_keys[] = {
+constexpr auto transfer_function_keys = with_sampling<TransferFunction>({
     input_key(described_by<&TransferFunction::input>),
     coefficients_key("numerator", "coefficients of descending powers of s",
                      described_by<&TransferFunction::numerator>),
     coefficients_key("denominator", "the same; the first one is not 0",
                      described_by<&TransferFunction::denominator>),
-    block_start_key(described_by<&TransferFunction::initial>)};
+    block_start_key(described_by<&TransferFunction::initial>)});
 
 void transfer_function_validate(const ElementCheck& check) {
+  validate_sampling(check);
   const MatX a = check.matrix("denominator"), b = check.matrix("numerator");
   for (const auto& [key, x] : {std::pair("numerator", &b), std::pair("denominator", &a)})
     if (check.good(key) && x->size() > 0 && (x->rows() > 1 || x->cols() > most_coefficients))
@@ -83,7 +85,7 @@ void transfer_function_validate(const ElementCheck& check) {
                          sentences::improper(b.size() - 1 - i, a.size() - 1));
 }
 
-ElementExample transfer_function_example(std::size_t, ExampleNumbers& numbers) {
+ElementExample transfer_function_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
   TransferFunction f;
   f.input = x.linked_signal(numbers);
@@ -93,6 +95,7 @@ ElementExample transfer_function_example(std::size_t, ExampleNumbers& numbers) {
     f.denominator(i) = numbers(1.0, 3.0);
     f.numerator(i) = numbers(-3.0, 3.0);
   }
+  if (regime == 1) f.period = 0.1;
   return block_example(std::move(x), std::move(f), numbers);
 }
 
@@ -105,10 +108,12 @@ constinit const ElementKind transfer_function_element = [] {
   kind.validate = transfer_function_validate;
   kind.states = [](Element& element) {
     const auto& keys = *std::get_if<TransferFunction>(element.keys.get());
-    take_linear_block(element, realised(keys), keys.initial);
+    take_linear_block(element, realised(keys), keys.initial, keys);
   };
   kind.start = start_linear_block;
+  kind.sample = sample_linear_block;
   kind.dual = transfer_function_law<Dual>;
+  kind.regimes = sampled_regimes;
   return kind;
 }();
 
