@@ -255,6 +255,13 @@ struct Hysteresis {
   RelaySide initial = RelaySide::below;  ///< of an input between both
 };
 
+/// The input as it was `time` before; before the start it is that of the start.
+struct Delay {
+  SignalDescription input;
+  double time = 0.0;  ///< [s]
+  double pade = 2.0;  ///< order of its Pade approximation in linear systems, a whole number
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -280,7 +287,8 @@ struct Hysteresis {
   entry(filter, LowPass)                \
   entry(limiter, Limiter)               \
   entry(rate_limiter, RateLimiter)      \
-  entry(hysteresis, Hysteresis)
+  entry(hysteresis, Hysteresis)         \
+  entry(delay, Delay)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

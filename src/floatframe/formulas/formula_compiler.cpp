@@ -289,6 +289,11 @@ class Compiler {
       case Function::table:
       case Function::table2:
         return table(node, f == Function::table2);
+      case Function::delay:  // a value of the model, which keeps the past of another formula
+        return reference(
+            node,
+            {node.word, expression_text(node.parts[0]), expression_text(node.parts[1]),
+             compile_formula(node.parts[0], tables_, out_.mirror), positive_part(node, 1, "time")});
     }
     return Type::number;
   }
@@ -314,12 +319,15 @@ class Compiler {
     }
     return Type::number;
   }
+  double positive_part(const SyntaxNode& node, std::size_t k, const char* what) {
+    const double value = constant_part(node.parts[k], node.word);
+    if (value > 0.0) return value;
+    throw ExpressionError(std::string("found the ") + what + " " + number_text(value) + " of " +
+                          node.word + ", expected a positive number");
+  }
   Type noise(const SyntaxNode& node) {
     const double seed = constant_part(node.parts[0], node.word),
-                 dt = constant_part(node.parts[1], node.word);
-    if (!(dt > 0.0))
-      throw ExpressionError("found the interval " + number_text(dt) +
-                            " of noise, expected a positive number");
+                 dt = positive_part(node, 1, "interval");
     reference(node, {"", "t", ""});
     constant(dt);
     add(node, FormulaOp::divide, 2);
@@ -370,8 +378,10 @@ bool Formula::is_of_time() const noexcept {
                      [](const FormulaReference& r) { return r.is_time(); });
 }
 
-SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables) {
+SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables,
+                              const FormulaMirror& mirror) {
   auto out = std::make_shared<Formula>();
+  out->mirror = mirror;
   out->text = expression_text(tree);
   if (Compiler(*out, tables).emit(tree) != Type::number)
     throw ExpressionError("found a condition, expected a number: if(condition, a, b) chooses one");

@@ -107,7 +107,8 @@ constexpr std::array function_words{
     FunctionWord{Function::sum_of_sines, "sum_of_sines", 4, endless, true},
     FunctionWord{Function::noise, "noise", 2, 2, true},
     FunctionWord{Function::table, "table", 2, 2, true},
-    FunctionWord{Function::table2, "table2", 3, 3, true}};
+    FunctionWord{Function::table2, "table2", 3, 3, true},
+    FunctionWord{Function::delay, "delay", 2, 2, true}};
 constexpr std::array<std::string_view, 6> reserved_words{"pi", "true", "false", "and", "or", "not"};
 
 }  // namespace

@@ -89,7 +89,8 @@ class ElementSet {
             z_.of(k),
             z_.weight(),
             links_.data(),
-            at < 0 ? nullptr : &angles_[at]};
+            at < 0 ? nullptr : &angles_[at],
+            z_.of(k) + model_.elements[k].states};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }
@@ -130,9 +131,9 @@ class ElementSet {
   }
   /// The states at a start that gives none: of each element when the signals to it are known.
   template <class PortsAt>
-  void start_states(const PortsAt& ports_at) noexcept {
+  void start_states(const PortsAt& ports_at, bool found) noexcept {
     if (links_.empty()) {
-      for (const std::size_t k : z_.elements()) z_.start(k, ports_at(k));
+      for (const std::size_t k : z_.elements()) z_.start(k, ports_at(k), found);
       return;
     }
     measure(ports_at);
@@ -141,7 +142,7 @@ class ElementSet {
       // In a ring a start may depend on the signals of the others.
       constexpr int rounds = 50;
       for (int round = 0; round < (group.links.empty() ? 1 : rounds); ++round) {
-        for (const std::size_t k : group.elements) z_.start(k, ports_at(k));
+        for (const std::size_t k : group.elements) z_.start(k, ports_at(k), found);
         evaluate_group(group, ring, ports_at);
       }
       ring += !group.links.empty();

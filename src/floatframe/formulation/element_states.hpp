@@ -67,7 +67,8 @@ class ElementStates {
 
   /// (1) of an element, and its efforts there.
   void solve(std::size_t element, const Ports& in, Efforts& out) noexcept;
-  void start(std::size_t element, const Ports& in) noexcept;
+  /// At a start; or, if it has been `found`, what is known then only.
+  void start(std::size_t element, const Ports& in, bool found) noexcept;
   void after_step(std::size_t element, const Ports& in) noexcept;
   void take_rates(const std::vector<Efforts>& efforts) noexcept;
 

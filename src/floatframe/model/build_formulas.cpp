@@ -24,18 +24,30 @@ SharedFormula formula_of(const Element& element) {
   return nullptr;
 }
 
+/// Of the element of a delay in the formula of `owner`; no name of the user has a slash.
+std::string delay_name(const std::string& owner, const Formula& f, const FormulaReference& r) {
+  const auto number =
+      std::count_if(f.references.data(), &r, [](const FormulaReference& x) { return x.delayed; });
+  return owner + "/delay" + (number > 0 ? std::to_string(number + 1) : "");
+}
+
 /// Finds what the references of one formula are.
 class FormulaConnection {
  public:
-  FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path)
-      : b_(builder), origin_(origin), path_(std::move(path)) {}
+  /// `owner`: of the formula, in names of elements.
+  FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path,
+                    std::string owner)
+      : b_(builder), origin_(origin), path_(std::move(path)), owner_(std::move(owner)) {}
   virtual ~FormulaConnection() = default;
 
   std::vector<FormulaOperand> connect(const Formula& f) {
     std::vector<FormulaOperand> operands;
+    mirror_ = f.mirror;
     for (const FormulaReference& r : f.references) {
       FormulaOperand x;
-      if (r.is_time() || (r.function.empty() ? named(r, x) : called(r, x)))
+      if (r.is_time() || (r.delayed            ? delayed(delay_name(owner_, f, r), x)
+                          : r.function.empty() ? named(r, x)
+                                               : called(r, x)))
         operands.push_back(std::move(x));
     }
     return operands;
@@ -55,6 +67,28 @@ class FormulaConnection {
     if (output_kind(out.type).of == OutputOf::formula)
       return wrong(ErrorCode::unsupported, sentences::formula_of_a_formula(out.name));
     take(out, x);
+    return reflected(out, x);
+  }
+  /// The value that the subsystem of the formula would have without its mirrors.
+  bool reflected(const Output& out, FormulaOperand& x) const {
+    const OutputKind& kind = output_kind(out.type);
+    const Placement mirror{mirror_.P.asDiagonal(), mirror_.t};
+    if (mirror.identity()) return true;
+    if (kind.of == OutputOf::joint) {
+      x.factor = mirrored_sign(b_.model.joints[out.joint].type, out.component, mirror);
+      return true;
+    }
+    if (kind.reflects == Reflects::no) return true;
+    const auto c = out.component - (std::ssize(kind.components.words) - 3);  // -1: a scalar
+    const bool axial = kind.reflects == Reflects::axial;
+    if (c >= 0) x.factor = mirror_.P[c] * (axial ? mirror.det() : 1.0);
+    const bool of_origin = kind.reflects == Reflects::point
+                               ? out.relative < 0
+                               : kind.about_point && kind.of == OutputOf::mass && out.marker < 0;
+    if (!of_origin || mirror_.t.isZero(0.0)) return true;
+    if (axial || out.axes >= 0)
+      return wrong(ErrorCode::unsupported, sentences::off_the_mirror(out.name));
+    x.offset = -x.factor * mirror_.t[c];
     return true;
   }
   bool wrong(ErrorCode code, const std::string& sentence) const {
@@ -81,6 +115,11 @@ class FormulaConnection {
       }
     return wrong(ErrorCode::not_found,
                  sentences::formula_name(r.name) + did_you_mean(r.name, known));
+  }
+
+  /// The value of an element, which has an error if there is none.
+  bool delayed(const std::string& name, FormulaOperand& x) {
+    return b_.element(ElementList::controllers, name) >= 0 && called({"controller", name, ""}, x);
   }
 
   /// A short form or the word of an output, and the entity that it is of.
@@ -179,7 +218,8 @@ class FormulaConnection {
   }
 
   const Origin& origin_;
-  std::string path_;
+  std::string path_, owner_;
+  FormulaMirror mirror_;
 };
 
 /// Of an element, within an iteration: measures by its markers, results by signals.
@@ -187,7 +227,8 @@ class ElementConnection final : public FormulaConnection {
  public:
   ElementConnection(ModelBuilder& builder, int element, const Origin& origin,
                     const std::string& path)
-      : FormulaConnection(builder, origin, path), element_(element) {}
+      : FormulaConnection(builder, origin, path, builder.model.elements[element].name),
+        element_(element) {}
 
  private:
   Element& element() const { return b_.model.elements[element_]; }
@@ -272,6 +313,36 @@ ElementDescription ModelBuilder::with_formulas_apart(const ElementDescription& e
   return out;
 }
 
+void ModelBuilder::delays_apart(const Formula& f, const std::string& owner,
+                                const InnerFormula& inner) {
+  for (const FormulaReference& r : f.references) {
+    if (!r.delayed) continue;
+    Delay keys;
+    keys.input.formula = r.delayed;
+    keys.time = r.delay;
+    const ElementDescription e{delay_name(owner, f, r), keys, inner.element.origin};
+    const std::size_t before = formulas.size();
+    const ElementDescription apart = with_formulas_apart(e, ElementList::controllers);
+    if (formulas.size() > before) formulas.back().path = inner.path;
+    formulas.push_back({apart, inner.path});
+  }
+}
+
+void ModelBuilder::delays_apart() {
+  for (const ElementDescription& e : d.controllers)
+    if (const auto* value = std::get_if<FormulaValue>(&e.kind))
+      delays_apart(*value->formula, e.name, {e, "controllers." + e.name + ".formula"});
+  for (const auto& [list, name] : {std::pair(&d.outputs, "outputs."), {&d.measures, "measures."}})
+    for (const OutputDescription& o : *list)
+      if (o.formula)
+        delays_apart(*o.formula, name + o.name, {{"", {}, o.origin}, name + o.name + ".formula"});
+  for (std::size_t k = 0; k < formulas.size(); ++k) {  // also of those that are added: nested ones
+    const InnerFormula inner = formulas[k];
+    if (const auto* value = std::get_if<FormulaValue>(&inner.element.kind))
+      delays_apart(*value->formula, inner.element.name, inner);
+  }
+}
+
 void ModelBuilder::connect_formulas() {
   std::map<std::string, std::pair<const Origin*, std::string>> written;  // of controllers
   for (const ElementDescription& e : d.controllers)
@@ -295,8 +366,8 @@ void ModelBuilder::connect_formulas() {
       if (it == with_formula.end()) continue;
       const OutputDescription& o = *it->second;
       out.formula = std::make_shared<OutputFormula>(OutputFormula{
-          o.formula,
-          FormulaConnection(*this, o.origin, list + o.name + ".formula").connect(*o.formula)});
+          o.formula, FormulaConnection(*this, o.origin, list + o.name + ".formula", list + o.name)
+                         .connect(*o.formula)});
     }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");

@@ -53,6 +53,9 @@ struct ModelBuilder {
     std::string path;
   };
   std::vector<InnerFormula> formulas;
+  /// What formulas delay, as elements of their own.
+  void delays_apart();
+  void delays_apart(const Formula& f, const std::string& owner, const InnerFormula& inner);
   /// The element without the formulas of its signals, which become elements of their own.
   ElementDescription with_formulas_apart(const ElementDescription& e, ElementList list);
   /// What the references of formulas stand for.

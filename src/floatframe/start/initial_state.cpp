@@ -59,8 +59,8 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   set_element_states(f, state);
   if (start == Start::equilibrium) {
     const Equilibrium e = find_equilibrium(f, state.q);
-    if (std::string note = limited_element(f); report != nullptr && !note.empty())
-      report->notes.push_back(std::move(note));
+    if (report != nullptr)
+      for (std::string& note : equilibrium_notes(f)) report->notes.push_back(std::move(note));
     if (report != nullptr)
       if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
         report->notes.push_back(std::move(note));

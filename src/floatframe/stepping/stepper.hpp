@@ -23,6 +23,7 @@
 #include "floatframe/stepping/corner_steps.hpp"
 #include "floatframe/stepping/edge_locator.hpp"
 #include "floatframe/stepping/energies.hpp"
+#include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/step_report.hpp"
 #include "floatframe/stepping/time_grid.hpp"
 
@@ -165,12 +166,8 @@ class Stepper {
   std::vector<FollowedOutput> outputs_;
   std::vector<double> inputs_;  ///< those of the last step
   std::optional<Before> before_;
-  MotionNeeds needs_, sampled_;  ///< of the outputs; of formulas
-  struct Sample {
-    const Output* output;
-    std::size_t place;  ///< among the states of elements
-  };
-  std::vector<Sample> samples_;              ///< what formulas know of the last accepted instant
+  MotionNeeds needs_;  ///< of the outputs
+  Samples samples_;
   std::optional<ReactionSolver> reactions_;  ///< if an output needs them
   TimeGrid grid_;
   StepperMemory first_;

@@ -17,7 +17,7 @@ double output_value_of<OutputType::formula>(const SystemMotion& motion, const Ou
         const FormulaOperand& x = f.operands[i];
         if (x.kind == FormulaOperand::Kind::time) return motion.t;
         if (x.kind == FormulaOperand::Kind::input) return motion.inputs[x.index];
-        return output_value(motion, x.output, last.parts[i]);
+        return x.factor * output_value(motion, x.output, last.parts[i]) + x.offset;
       },
       switches, fault);
 }
