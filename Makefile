@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or 13 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-contracts test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-nightly test-contracts test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 VERSION := $(shell awk '/^project/ {print $$3}' CMakeLists.txt)
@@ -11,7 +11,8 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
-	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
+	@echo "make test-nightly  a thousand cases (CASES=1000) of each random suite and of attacks"
+	@echo "make test-all      make test, test-nightly and what takes longer: stairs, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
 	@echo "make test-contracts  the tests of the rooms of steps, with asserts; not part of test-all"
 	@echo "make attacks       hostile input of every kind, ATTACKS=5000 each, for a night; SEED=1 begins it"
@@ -46,9 +47,8 @@ test: build
 # What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
 # docs/validation.md has the figures.
 test-all: test
-	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
+	$(MAKE) --no-print-directory test-nightly
 	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
-	$(MAKE) --no-print-directory attacks ATTACKS=200
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
@@ -56,6 +56,15 @@ test-all: test
 	$(MAKE) --no-print-directory test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
+
+# The random suites of `make test` with so many cases each: mechanisms, formulas, loops, reactions, trees; and attacks.
+CASES ?= 1000
+NIGHTLY := mechanisms formulas loops reactions model
+test-nightly: build
+	cmake --build build --parallel $(JOBS) --target $(NIGHTLY:%=%_tests)
+	cd build && FLOATFRAME_RANDOM=$(CASES) $(CTEST) --timeout 20000 \
+	  -R '^(mechanisms\.RandomMechanisms|formulas\.Formula\..*Random|loops\.(LoopPath\.OfRandom|Snap\.Planar)|reactions\.Reactions\..*Random|model\.Topology\.IsThat)'
+	$(MAKE) --no-print-directory attacks ATTACKS=$(CASES)
 
 # The rooms of steps with their asserts, which a release build leaves out.
 ROOMS_OF_STEPS := math inertia model formulation integrator start reactions stepping run

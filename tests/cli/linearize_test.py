@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`floatframe linearize` from outside: the same matrices in JSON and in all files, read with the standard library and,
-where they are there, with NumPy and SciPy."""
+"""`floatframe linearize` from outside: the same matrices in JSON and in all files, read with the standard library (with NumPy
+and SciPy: python/tests/test_files_read.py)."""
 import ast
 import csv
 import io
@@ -126,21 +126,6 @@ class Linearize(RunCase):
         self.assertEqual(table[2][0], "derivative of rate of joint 'pin'")
         self.assertEqual([[float(x) for x in row[1:]] for row in table[1:]],
                          [a + b for a, b in zip(result["A"] + result["C"], result["B"] + result["D"])])
-
-    def test_readers_of_others(self):
-        try:
-            import numpy
-            import scipy.io
-        except ImportError:
-            self.skipTest("NumPy or SciPy is not there")
-        self.program("linearize", "sledge.yaml", "--npz", "s.npz", "--mat", "s.mat")
-        arrays, matlab = numpy.load(self.folder / "s.npz"), scipy.io.loadmat(
-            self.folder / "s.mat", uint16_codec="utf-16-le")  # needed for units beyond ASCII only
-        for name in arrays.files:
-            if arrays[name].dtype.kind == "U":
-                self.assertEqual([str(x[0]) for x in matlab[name].ravel()], list(arrays[name]))
-            else:
-                self.assertTrue((matlab[name].ravel() == arrays[name].ravel()).all(), name)
 
     def test_names_and_places(self):
         done = self.program("linearize", "sledge.yaml", "--inputs", "motion of slide", "--outputs", "motor,pin", "--at", "0.01")

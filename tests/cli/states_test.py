@@ -4,7 +4,6 @@ import csv
 import io
 import json
 import os
-import re
 import resource
 import signal
 import struct
@@ -12,8 +11,6 @@ import unittest
 import zlib
 
 from run_case import RunCase
-
-PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "result-file.md")
 
 
 def read_states(path):
@@ -89,30 +86,6 @@ class States(RunCase):
                       2 * (x * z - w * y) * local[0] + 2 * (y * z + w * x) * local[1] + (1 - 2 * (x * x + y * y)) * local[2])
             for k, origin in enumerate((x0, y0, z0)):
                 self.assertAlmostEqual(origin + turned[k], expected[4 + k], 12)
-
-    def test_the_page_reads_it_with_numpy(self):
-        try:
-            import numpy  # pylint: disable=import-outside-toplevel
-        except ImportError:
-            self.skipTest("numpy is not installed")
-        self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.05", "--quiet")
-        with open(PAGE, encoding="utf-8") as page:
-            code = [block for block in re.findall(r"```python\n(.*?)```", page.read(), re.S) if "def " in block]
-        names = {}
-        for block in code:
-            exec(block, names)  # pylint: disable=exec-used
-        header, arrays, rows, end = names["read_states"](self.folder / "out/states.ffr")
-        self.assertEqual(end["status"], "completed")
-        places = names["positions"](header, arrays, rows, "beam")
-        _, table = self.results("out")
-        health = names["health"](header, rows)
-        summary = self.summary("out")
-        self.assertEqual(health["iterations"].sum(), summary["iterations"])
-        self.assertEqual(health["position_violation"].max(), summary["max_position_violation"])
-        self.assertAlmostEqual(health["remainder"][-1], summary["energy"]["balance"]["remainder_J"], 9)
-        self.assertLess(0, health["beam.displacement"].max())
-        tip = header["shapes"][header["bodies"][3]["shape"]]["nodes"].index("tip")
-        self.assertLess(numpy.abs(places[:, tip] - numpy.array(table)[:, 4:7]).max(), 1e-12)
 
     def test_what_is_recorded_is_asked_for(self):
         short = ("--set", "duration=0.05", "--quiet")

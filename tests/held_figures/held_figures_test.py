@@ -53,6 +53,9 @@ COUNTS = {
 }
 
 
+# The same force in C++ and as a formula.
+LAWS = [["--coordinates", "relative"], ["--coordinates", "absolute"]]
+
 # Starts of systems with massless directions, which dense linear algebra took 20 s for, and of many loops; of the Iltis
 # with its equilibrium, which finite differences took 190 million for.
 STARTS = {
@@ -190,6 +193,9 @@ def instruction_figures(program):
         program, six_legs, ("  c: {position: crank}\n", "  c: {joint_force: crank}\n"))
     figures["steps with reactions of a chain of 36, of those without"] = cost_of_reactions(
         program, lambda outputs: chain(36, outputs), ("  c: {position: b0}\n", "  c: {joint_force: j0}\n"))
+    for options in LAWS:
+        by_formula, in_cpp = (collected(program, [model, *options])[0] for model in ("formulas", "laws"))
+        figures[f"steps with laws by formulas, of those with the same laws in C++, {options[1]}"] = round(by_formula / in_cpp, 3)
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")

@@ -16,6 +16,7 @@
 #include "support/completed_run.hpp"
 #include "support/contains.hpp"
 #include "support/model_text.hpp"
+#include "support/random_count.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -101,7 +102,8 @@ struct PlanarLinkage {
 TEST(Snap, PlanarLinkagesWithFewDigits) {
   constexpr std::array<int, 5> digits = {3, 4, 5, 6, 8};
   std::array<double, 5> worst{};
-  for (int seed = 0; seed < 200; ++seed) {
+  const int count = random_count();
+  for (int seed = 0; seed < count; ++seed) {
     const PlanarLinkage linkage(seed);
     const std::size_t d = static_cast<std::size_t>(seed / 2) % 5;
     const char* motion = ", motion: {polynomial: [0,2]}";

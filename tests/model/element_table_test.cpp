@@ -73,6 +73,10 @@ std::string value_text(const ElementKey& key) {
       return "list of [signals](#inputs)";
     case K::matrix:
       return "numbers, or rows of numbers";
+    case K::names:
+      return "list of names";
+    case K::linear_file:
+      return "a `.npz` or `.mat` of [`linearize`](vibrations.md)";
     case K::motion:
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:

@@ -23,6 +23,7 @@ std::string of(OutputOf what) {
                                       "[controller](#controllers)",
                                       "force element or controller",
                                       "[formula](#formulas)",
+                                      "[formula](#formulas)",
                                       "[gauge](#gauges)"};
   static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];
@@ -32,6 +33,7 @@ std::string component(OutputType type, const OutputKind& kind) {
   if (kind.of == OutputOf::joint) return "`coordinate`: 1, 2, ... (needed if there are several)";
   if (kind.of == OutputOf::mode) return "`mode`: 1, 2, ... (required)";
   if (kind.of == OutputOf::state) return "`number`: 1, 2, ... (default 1)";
+  if (kind.of == OutputOf::controller) return "`output`: a name or number (default 1)";
   if (type == OutputType::strain) return "`direction` (required)";
   if (!kind.components.key) return "";
   std::string words;

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "support/random_count.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -80,8 +81,9 @@ std::vector<int> joints_of_tree(const Model& m) {
 }
 
 TEST(Topology, IsThatOfTheDefinition) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
-    Random random(seed);
+  const int count = random_count();
+  for (int seed = 0; seed < count; ++seed) {
+    Random random(static_cast<unsigned>(seed));
     const auto whole = [&](int most) {
       return std::min(static_cast<int>(random(0.0, most + 1.0)), most);
     };

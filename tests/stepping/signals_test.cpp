@@ -143,7 +143,7 @@ TEST(SignalsStart, AnArmIsHeldByItsControllerAlone) {
   const LinearSystem linear = linear_system(model);
   ASSERT_EQ(linear.A.rows(), 3);
   for (const LinearMode& mode : linear_modes(linear))
-    EXPECT_LT((own.values.array() - mode.lambda).abs().minCoeff(), 1e-7 * 30.0);
+    EXPECT_LT((own.values.array() - mode.lambda).abs().minCoeff(), 1e-9 * 30.0);
 }
 
 // From a start at which the value is limited; and where the limit holds the arm back.

@@ -38,7 +38,8 @@ class Placed {
 };
 
 inline Efforts efforts(const ElementExample& x) {
-  Efforts out(x.markers.size(), static_cast<std::size_t>(x.element.states));
+  Efforts out(x.markers.size(), static_cast<std::size_t>(x.element.states),
+              static_cast<std::size_t>(x.element.further()));
   evaluate_element(Placed(x).ports(), out);
   return out;
 }
@@ -105,11 +106,12 @@ inline ElementExample changed(const ElementExample& x, const VecX& inner) {
 inline Eigen::Index inner_count(const ElementExample& x) {
   return x.element.states + std::ssize(x.links);
 }
-/// zdot, force, length, rate.
+/// zdot, force, length, rate, further values.
 inline VecX results(const ElementExample& x) {
   const Efforts e = efforts(x);
-  VecX out(x.element.states + 3);
-  out << state_rates(x), e.force, e.length, e.rate;
+  VecX out(x.element.states + 3 + x.element.further());
+  out << state_rates(x), e.force, e.length, e.rate,
+      VecX::Map(e.further.data(), x.element.further());
   return out;
 }
 inline double largest_entry(const MatX& X) { return X.size() > 0 ? X.cwiseAbs().maxCoeff() : 0.0; }

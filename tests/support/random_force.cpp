@@ -91,6 +91,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::terms:
       case K::signals:  // those of controllers
       case K::matrix:
+      case K::names:
+      case K::linear_file:
         return std::nullopt;
     }
     return std::nullopt;

@@ -10,6 +10,7 @@
 #include "floatframe/bench/bench_scaling.hpp"
 #include "floatframe/bench/bench_stepper.hpp"
 #include "floatframe/bench/chain_model.hpp"
+#include "floatframe/bench/law_model.hpp"
 #include "floatframe/bench/start_models.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
@@ -58,6 +59,7 @@ ModelDescription described(const StepArguments& a) {
     d.simulation.spectral_radius = chain_spectral_radius;
     return d;
   }
+  if (a.model == "laws" || a.model == "formulas") return law_model(a.model == "formulas");
   for (const StartKind kind : all_start_kinds)
     if (a.model == word(kind)) return start_model(kind, false, a.links);
   ModelArguments arguments;
@@ -122,8 +124,8 @@ Command bench_step_command() {
       .help = "Only the steps of a run, for a profiler or an instruction counter",
       .options =
           {text_position("MODEL", a->model,
-                         "chain (default), ladder or vehicles (rigid, as in bench start), iltis or "
-                         "a model file"),
+                         "chain (default), ladder or vehicles (rigid, as in bench start), laws or "
+                         "formulas (masses on the same springs), iltis or a model file"),
            repeated_option("--set", a->settings, "NAME=VALUE",
                            "Change a parameter of the model file; may be repeated"),
            whole_option("--links", a->links, 1, 4096,

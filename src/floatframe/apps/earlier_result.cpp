@@ -48,6 +48,13 @@ bool same_duration(const SummaryJson& found, double requested) {
   return found.is_number() && std::abs(found.get<double>() - requested) <= 1e-9 * requested;
 }
 
+/// It ended before the requested duration, where its formula crosses zero.
+bool ended_before(const SummaryJson& found, double requested) {
+  const auto until = found.find("until");
+  return until != found.end() && until->is_object() && until->value("reached", false) &&
+         found.value("duration_s", 0.0) <= requested;
+}
+
 }  // namespace
 
 std::string previous_folder(const RunPaths& paths) {
@@ -87,7 +94,8 @@ EarlierRun earlier_run(const std::string& summary, const RunSummary& requested) 
   const SummaryJson own = SummaryJson::parse(summary_json(requested));
   for (const char* key : {"model", "coordinates", "inertia", "step_s", "settings"})
     if (found.value(key, SummaryJson()) != own.value(key, SummaryJson())) return EarlierRun::other;
-  return same_duration(found.value("duration_s", SummaryJson()), requested.duration) &&
+  return (same_duration(found.value("duration_s", SummaryJson()), requested.duration) ||
+          ended_before(found, requested.duration)) &&
                  contents(found) == contents(own)
              ? EarlierRun::completed
              : EarlierRun::other;

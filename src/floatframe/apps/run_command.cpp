@@ -72,16 +72,17 @@ std::string summary_text(const RunSummary& s) {
   return fmt::format(
       "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time at steps of {:g} "
       "ms){}\n"
-      "  {} coordinates, inertia terms by {}, step {:g} s\n"
+      "{}  {} coordinates, inertia terms by {}, step {:g} s\n"
       "  {}, {} by halving, {}, {}\n"
       "{}  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
       s.model, s.duration, s.cpu, s.real_time_factor, 1e3 * s.step,
       s.status == "completed" || s.strict ? ""
       : s.status == "interrupted"         ? ", then it was interrupted"
                                           : ", then it failed",
-      s.coordinates, s.inertia, s.step, plural(s.steps, "step"), s.substeps,
-      plural(s.iterations, "Newton iteration"), plural(s.factorizations, "factorisation"),
-      edges_text(s), s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
+      s.until.empty() ? "" : "  " + until_text(s) + "\n", s.coordinates, s.inertia, s.step,
+      plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
+      plural(s.factorizations, "factorisation"), edges_text(s), s.max_position_violation,
+      s.max_velocity_violation, notes_text(s.start.notes));
 }
 
 std::string files_text(const RunPaths& paths, bool has_table, bool no_report) {

@@ -1,6 +1,7 @@
 // Sentences about controllers and signals.
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/description/sentences.hpp"
 
 namespace floatframe::sentences {
@@ -47,6 +48,32 @@ std::string none_given(const std::vector<const char*>& keys) {
 }
 
 std::string no_signals() { return "found an empty list, expected signals"; }
+
+std::string no_such_value(const std::string& found, const std::vector<std::string>& names) {
+  if (names.empty()) return "found the output '" + found + "' of a controller with one value";
+  std::vector<const char*> words;
+  for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), 20); ++k)
+    words.push_back(names[k].c_str());
+  return "found the output '" + found + "', expected " + alternatives(words) +
+         (names.size() > 20 ? " or another one" : "") + did_you_mean(found, names);
+}
+
+std::string signals_of_file(std::size_t found, const std::vector<std::string>& inputs) {
+  std::string names;
+  for (std::size_t k = 0; k < std::min<std::size_t>(inputs.size(), 20); ++k)
+    names += (k == 0 ? "" : ", ") + inputs[k];
+  return "found " + std::to_string(found) + (found == 1 ? " signal" : " signals") + ", expected " +
+         std::to_string(inputs.size()) + " for the inputs of the file: " + names;
+}
+
+std::string too_many_states(Eigen::Index states, Eigen::Index most) {
+  return "found " + std::to_string(states) + " states, expected at most " + std::to_string(most);
+}
+
+std::string names_of_values(std::size_t names, Eigen::Index rows) {
+  return "found " + std::to_string(names) + " names, expected " + std::to_string(rows) +
+         ", one for each row of C";
+}
 
 std::string matrix_size(Eigen::Index rows, Eigen::Index columns, Eigen::Index expected_rows,
                         Eigen::Index expected_columns) {

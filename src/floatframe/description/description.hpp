@@ -114,6 +114,12 @@ struct InputDescription {
   Origin origin;
 };
 
+/// A function of time that a coordinate of a joint follows.
+struct CoordinateMotion {
+  int coordinate = 0;  ///< its number from 0; no component of a rotation vector
+  TimeFunction motion;
+};
+
 struct JointDescription {
   std::string name;
   JointType type = JointType::free;
@@ -130,8 +136,9 @@ struct JointDescription {
   std::vector<double> velocity;
   /// The given start values must not change when loops are closed.
   bool keep = false;
-  std::optional<TimeFunction> motion;  ///< prescribed, if it is the only coordinate
-  bool cut = false;                    ///< named as a cut joint of the relative formulation
+  std::optional<TimeFunction> motion;     ///< prescribed, if it is the only coordinate
+  std::vector<CoordinateMotion> motions;  ///< the same of joints with several coordinates
+  bool cut = false;                       ///< named as a cut joint of the relative formulation
   Origin origin;
 };
 
@@ -192,6 +199,7 @@ struct OutputDescription {
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
   AttachmentDescription to;  ///< the second of two points
   std::string entity;        ///< joint, force, rod or coupling name
+  std::string value;         ///< of a controller with several: its name, or its number from 1
   bool rod = false;          ///< a reaction of a rod
   bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod
   OutputAxes in = OutputAxes::world;  ///< of a reaction; of a place: `to`
@@ -243,6 +251,8 @@ struct SimulationDescription {
   double step = 1e-3;            ///< [s]
   double duration = 1.0;         ///< [s]
   double output_interval = 0.0;  ///< [s]; 0: every step
+  /// Runs end before the duration where it crosses zero; null, or that of the model.
+  SharedFormula until = nullptr;
   Start start = Start::given;
   std::shared_ptr<const SystemState> state;   ///< initial state for Start::state
   std::map<std::string, StartOffset> offset;  ///< by body, from the equilibrium or the state

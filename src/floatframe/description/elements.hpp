@@ -17,13 +17,17 @@
 
 namespace floatframe {
 
-/// Along the line between two points. Tension positive: F = spring(length) + damper(rate).
+/// Along the line between two points. Tension positive: F = spring(length - target) + damper(rate -
+/// rate of the target) + actuator. With a target it is a cylinder that is driven; rates of targets
+/// are those of a JointSpring.
 struct SpringDamper {
   AttachmentDescription a, b;
   PiecewisePolynomial
       spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
-  PiecewisePolynomial damper;                 ///< of the rate of the length [m/s] -> [N]
-  std::optional<SignalDescription> actuator;  ///< added to both [N]
+  PiecewisePolynomial damper;                         ///< of the rate of the length [m/s] -> [N]
+  std::optional<SignalDescription> actuator;          ///< added to both [N]
+  std::optional<SignalDescription> target = {};       ///< [m]
+  std::optional<SignalDescription> target_rate = {};  ///< [m/s]
 };
 
 /// Springs in series with dampers along the line between two points, side by side: tension
@@ -140,16 +144,18 @@ struct UnilateralSpring {
   double least_speed = 0.01;  ///< slower contacts are damped as one at this speed [m/s]
 };
 
-/// Without mass, keeps the distance between two points.
+/// Without mass, keeps the distance between two points, or prescribes it: a stiff cylinder.
 struct Rod {
   AttachmentDescription a, b;
-  std::optional<double> length;  ///< [m]; as drawn if absent
+  std::optional<double> length;        ///< [m]; as drawn if absent
+  std::optional<TimeFunction> motion;  ///< instead: the distance [m], positive, without jumps
 };
 
-/// Prescribes the only coordinate of a joint [m or rad]: the key `motion` of joints.
+/// Prescribes a coordinate of a joint [m or rad]: the key `motion` of joints.
 struct PrescribedMotion {
   std::string joint;
   SignalDescription motion;
+  int coordinate = 0;  ///< its number from 0
 };
 
 /// A coordinate of a joint, times a factor.
@@ -206,10 +212,11 @@ struct TransferFunction {
   BlockStart initial = BlockStart::rest;
 };
 
-/// xdot = A x + B u, y = C x + D u, of several inputs u and one value y.
+/// xdot = A x + B u, y = C x + D u, of inputs u and values y.
 struct StateSpaceBlock {
   std::vector<SignalDescription> inputs;
-  MatX A, B, C, D;  ///< D 0 x 0: zero
+  MatX A, B, C, D;                   ///< D 0 x 0: zero
+  std::vector<std::string> outputs;  ///< names of the values; empty: only their numbers from 1
   BlockStart initial = BlockStart::rest;
 };
 

@@ -29,25 +29,23 @@ ForceFunction::ForceFunction(Law law, std::string label, int)
 
 ForceFunction ForceFunction::of(const SharedFormula& formula) {
   using Variable = DualNumber<2>;  // by x and v
-  std::vector<char> of_reference;
+  std::vector<int> of_reference;   // 0: x, 1: v, 2: the time
   for (const FormulaReference& r : formula->references) {
     const bool is_known = r.is_time() || (r.function.empty() && (r.name == "x" || r.name == "v"));
-    if (!is_known) throw InputError(ErrorCode::not_found, sentences::formula_of_law(r.name));
-    of_reference.push_back(r.name[0]);
+    if (!is_known)
+      throw InputError(
+          ErrorCode::not_found,
+          sentences::formula_of_law(r.function.empty() ? r.name : r.function + "(" + r.name + ")"));
+    of_reference.push_back(r.is_time() ? 2 : r.name == "v");
   }
   ForceFunction out(
       [formula, of_reference](double x, double v, double t) -> ForceLawValue {
         FormulaSwitches switches;
         FormulaFault fault;
+        const Variable all[] = {Variable::variable(x, 0), Variable::variable(v, 1), t};
         const Variable y = evaluate_formula<Variable>(
-            *formula,
-            [&](int i) -> Variable {
-              const char name = of_reference[i];
-              return name == 'x'   ? Variable::variable(x, 0)
-                     : name == 'v' ? Variable::variable(v, 1)
-                                   : Variable(t);
-            },
-            switches, fault);
+            *formula, [&](int i) -> const Variable& { return all[of_reference[i]]; }, switches,
+            fault);
         return {y.v, y.d[0], y.d[1]};
       },
       "formula " + formula->text);

@@ -44,7 +44,8 @@
   entry(momentum)                 \
   entry(angular_momentum)         \
   entry(state)                    \
-  entry(formula)
+  entry(formula)                  \
+  entry(first_crossing)
 // clang-format on
 
 namespace floatframe {

@@ -15,6 +15,7 @@ inline constexpr const char* axes[] = {"x", "y", "z"};
 inline constexpr const char* reaction_axes[] = {"world", "parent", "child", "place"};
 inline constexpr const char* shell_layers[] = {"top", "bottom"};
 inline constexpr const char* quaternion[] = {"w", "x", "y", "z"};
+inline constexpr const char* crossing_directions[] = {"any", "rising", "falling"};
 inline constexpr const char* angles[] = {"roll", "pitch", "yaw"};
 
 // Bodies.

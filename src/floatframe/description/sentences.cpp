@@ -251,8 +251,33 @@ std::string target_without_law() {
   return "found without spring and damper, expected a law that pulls to the target";
 }
 
+std::string stop_with_target() {
+  return "found with a target, of which the spring is a law; remove this key, and write the stop "
+         "as "
+         "another force";
+}
+
 std::string motion_and_start_value() {
   return "found with a prescribed motion, which decides it; remove this key";
+}
+
+std::string length_of_driven_rod() {
+  return "found with a motion, which decides it; remove one of them";
+}
+
+std::string rod_motion(double length) {
+  return "found a motion with the length " + number_text(length) +
+         " m at t = 0, expected a positive one";
+}
+
+std::string driven_twice(const std::string& coordinate) {
+  return "found two motions of the " + coordinate + ", expected one";
+}
+
+std::string undrivable_coordinate(const std::string& type) {
+  return "the rotation vector of a " + type +
+         " joint has no coordinates that a motion can prescribe: expected revolute joints in a "
+         "row, or a universal joint";
 }
 
 std::string keep_without_start_value() {

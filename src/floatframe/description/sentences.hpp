@@ -108,6 +108,11 @@ std::string excludes(const std::string& key);
 std::string none_given(const std::vector<const char*>& keys);
 /// An empty list of signals.
 std::string no_signals();
+/// Of a controller.
+std::string no_such_value(const std::string& found, const std::vector<std::string>& names);
+std::string signals_of_file(std::size_t found, const std::vector<std::string>& inputs);
+std::string too_many_states(Eigen::Index states, Eigen::Index most);
+std::string names_of_values(std::size_t names, Eigen::Index rows);
 std::string matrix_size(Eigen::Index rows, Eigen::Index columns, Eigen::Index expected_rows,
                         Eigen::Index expected_columns);
 /// Of a transfer function: a matrix, or too many; the first one; degrees.
@@ -122,7 +127,13 @@ Complaint bearing_stiffness(const MatX& K);
 std::string function_in_file(const std::string& found);
 std::string law_on_what();
 std::string target_without_law();
+std::string stop_with_target();
 std::string motion_and_start_value();
+std::string length_of_driven_rod();
+std::string rod_motion(double length);
+std::string driven_twice(const std::string& coordinate);
+/// Components of rotation vectors.
+std::string undrivable_coordinate(const std::string& type);
 std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);

@@ -55,9 +55,12 @@ enum class FormulaOp : std::uint8_t {
   add,
   subtract,
   multiply,
+  add_number,       ///< `number`
+  multiply_number,  ///< the same
   divide,
   power,
   power_of_number,  ///< exponent: `number`
+  small_power,      ///< the same, of 2, 3, ... `Formula::small_exponent`
   negative,
   unary,
   atan2,
@@ -106,11 +109,15 @@ struct Formula {
   int switches = 0;
 
   static constexpr int deepest_stack = 32;
+  static constexpr int small_exponent = 8;
   static constexpr int most_switches = 31;  ///< that can be held
   /// It depends on nothing but the time.
   bool is_of_time() const noexcept;
 };
 
+/// The place of a table, a grid or a curve, among those that a formula uses from now on. Throws
+/// ExpressionError.
+int used_table(Formula& f, const std::string& name, bool grid, const FormulaTables& tables);
 /// Throws ExpressionError. Its value is a number.
 SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables = {},
                               const FormulaMirror& mirror = {});

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <optional>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/number_rule.hpp"
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/formulas/formula.hpp"
 #include "floatframe/formulas/formula_evaluation.hpp"
 
@@ -22,7 +22,6 @@ class Compiler {
   Compiler(Formula& out, const FormulaTables& tables) : out_(out), tables_(tables) {}
 
   Type emit(const SyntaxNode& node) {
-    using Kind = SyntaxNode::Kind;
     switch (node.kind) {
       case Kind::number:
         return constant(node.number);
@@ -57,6 +56,7 @@ class Compiler {
   }
 
  private:
+  using Kind = SyntaxNode::Kind;
   void add(const SyntaxNode& node, FormulaOp op, int operands, int index = -1, double value = 0.0,
            const UnaryFunction* function = nullptr) {
     depth_ += 1 - operands;
@@ -73,13 +73,17 @@ class Compiler {
     Formula part;
     for (auto k = n - 1 - operands; k < n; ++k) {
       part.steps.push_back(out_.steps[k]);
+      part.sources.push_back(out_.sources[k]);
       if (k < n - 1 && out_.steps[k].op != FormulaOp::number) return;
     }
     FormulaSwitches switches;
     FormulaFault fault;
     const double value = evaluate_formula<double>(
         part, [](int) { return 0.0; }, switches, fault);
-    if (fault.kind != FormulaFault::Kind::none) return;
+    if (fault.kind != FormulaFault::Kind::none) {  // a branch may not be reached
+      if (branches_ == 0) throw ExpressionError(fault_text(part, fault));
+      return;
+    }
     out_.steps.resize(n - 1 - operands);
     std::string source = out_.sources.back();
     out_.sources.resize(n - 1 - operands);
@@ -100,37 +104,62 @@ class Compiler {
   }
   int new_switch() { return out_.switches++; }
 
+  /// If the steps from `first` on are one number that no jump leaves out: it, without the step.
+  std::optional<double> take_number(std::ptrdiff_t first) {
+    if (std::ssize(out_.steps) != first + 1 || out_.steps.back().op != FormulaOp::number ||
+        first < target_)
+      return std::nullopt;
+    const double value = out_.steps.back().number;
+    out_.steps.pop_back();
+    out_.sources.pop_back();
+    --depth_;
+    return value;
+  }
+  /// A number on either side of + and *, or behind -, is a part of the step.
   Type chain(const SyntaxNode& node) {
+    const auto first = std::ssize(out_.steps);
     number(node.parts[0], std::string(1, node.word[0]));
     for (std::size_t k = 1; k < node.parts.size(); ++k) {
       const char op = node.word[k - 1];
+      auto side = op == '*' || op == '+' ? take_number(first) : std::nullopt;
+      const auto second = std::ssize(out_.steps);
       number(node.parts[k], std::string(1, op));
+      if (side) {
+        if (const auto other = take_number(second)) {  // to be folded
+          constant(*side);
+          constant(*other);
+          side.reset();
+        }
+      } else if (op != '/' && out_.steps[second - 1].op != FormulaOp::number) {
+        side = take_number(second);
+        if (side && op == '-') side = -*side;
+      }
       SyntaxNode part{SyntaxNode::Kind::chain,
                       0.0,
                       node.word.substr(0, k),
                       {node.parts.begin(), node.parts.begin() + k + 1}};
-      add(part,
-          op == '+'   ? FormulaOp::add
-          : op == '-' ? FormulaOp::subtract
-          : op == '*' ? FormulaOp::multiply
-                      : FormulaOp::divide,
-          2);
+      if (side)
+        add(part, op == '*' ? FormulaOp::multiply_number : FormulaOp::add_number, 1, -1, *side);
+      else
+        add(part,
+            op == '+'   ? FormulaOp::add
+            : op == '-' ? FormulaOp::subtract
+            : op == '*' ? FormulaOp::multiply
+                        : FormulaOp::divide,
+            2);
     }
     return Type::number;
   }
   Type power(const SyntaxNode& node) {
     number(node.parts[0], "^");
-    const std::size_t before = out_.steps.size();
+    const auto before = std::ssize(out_.steps);
     number(node.parts[1], "^");
-    if (out_.steps.size() != before + 1 || out_.steps.back().op != FormulaOp::number) {
+    const auto n = take_number(before);
+    const bool small = n && *n >= 2.0 && *n <= Formula::small_exponent && *n == std::floor(*n);
+    if (n)
+      add(node, small ? FormulaOp::small_power : FormulaOp::power_of_number, 1, -1, *n);
+    else
       add(node, FormulaOp::power, 2);
-      return Type::number;
-    }
-    const double exponent = out_.steps.back().number;
-    out_.steps.pop_back();
-    out_.sources.pop_back();
-    --depth_;
-    add(node, FormulaOp::power_of_number, 1, -1, exponent);
     return Type::number;
   }
   Type comparison(const SyntaxNode& node) {
@@ -167,8 +196,10 @@ class Compiler {
       truth(node.parts[k], node.word);
       if (any) add(node.parts[k], FormulaOp::not_, 1);
       decided.push_back(leap(node, FormulaOp::jump_unless));
+      ++branches_;
     }
     truth(node.parts.back(), node.word);
+    branches_ -= std::ssize(decided);
     const std::size_t over = leap(node, FormulaOp::jump);
     for (const std::size_t from : decided) arrive(from);
     constant(any ? 1.0 : 0.0);
@@ -178,12 +209,14 @@ class Compiler {
   Type selection(const SyntaxNode& node) {
     truth(node.parts[0], "if");
     const std::size_t unless = leap(node, FormulaOp::jump_unless);
+    ++branches_;
     const Type type = emit(node.parts[1]);
     const std::size_t over = leap(node, FormulaOp::jump);
     arrive(unless);
     if (emit(node.parts[2]) != type)
       throw ExpressionError("found a number and a condition as the results of " +
                             in_quotes(expression_text(node)) + ", expected the same kind");
+    --branches_;
     arrive(over);
     return type;
   }
@@ -220,7 +253,6 @@ class Compiler {
   /// `angle(arm)`, `rotation(body, yaw)`, `force('front-left')`
   Type measure(const SyntaxNode& node) {
     const auto word_of = [&](const SyntaxNode& part) -> std::string {
-      using Kind = SyntaxNode::Kind;
       if (part.kind == Kind::name || part.kind == Kind::text) return part.word;
       if (part.kind == Kind::number) return number_text(part.number);
       throw ExpressionError("found " + in_quotes(expression_text(part)) + " in " +
@@ -231,21 +263,30 @@ class Compiler {
     return reference(node, {node.word, word_of(node.parts[0]),
                             node.parts.size() > 1 ? word_of(node.parts[1]) : ""});
   }
-  void numbers(const SyntaxNode& node) {
-    for (const SyntaxNode& part : node.parts) number(part, node.word);
+  static void complain(const SyntaxNode& node, const std::vector<double>& constants) {
+    if (const std::string why = constants_complaint(node.word, constants); !why.empty())
+      throw ExpressionError(why);
+  }
+  Type of_numbers(const SyntaxNode& node, FormulaOp op, int a_switch = -1) {
+    std::vector<double> constants;  // NaN: of another part
+    for (const SyntaxNode& part : node.parts) {
+      const auto before = std::ssize(out_.steps);
+      number(part, node.word);
+      const auto value = take_number(before);
+      constants.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+      if (value) constant(*value);
+    }
+    complain(node, constants);
+    add(node, op, std::ssize(node.parts), a_switch);
+    return Type::number;
   }
   /// A part that is the same number at any time.
   double constant_part(const SyntaxNode& part, const std::string& where) {
-    const std::size_t before = out_.steps.size();
+    const auto before = std::ssize(out_.steps);
     number(part, where);
-    if (out_.steps.size() != before + 1 || out_.steps.back().op != FormulaOp::number)
-      throw ExpressionError("found " + in_quotes(expression_text(part)) + " in " +
-                            in_quotes(where) + ", expected a constant number");
-    const double value = out_.steps.back().number;
-    out_.steps.pop_back();
-    out_.sources.pop_back();
-    --depth_;
-    return value;
+    if (const auto value = take_number(before)) return *value;
+    throw ExpressionError("found " + in_quotes(expression_text(part)) + " in " + in_quotes(where) +
+                          ", expected a constant number");
   }
 
   Type function(const SyntaxNode& node, Function f) {
@@ -261,25 +302,18 @@ class Compiler {
         }
         return Type::number;
       case Function::atan2:
-        numbers(node);
-        add(node, FormulaOp::atan2, 2);
-        return Type::number;
+        return of_numbers(node, FormulaOp::atan2);
       case Function::clip:
-        numbers(node);
-        add(node, FormulaOp::clip, 3, new_switch());
-        return Type::number;
+        return of_numbers(node, FormulaOp::clip, new_switch());
       case Function::smoothstep:
-        numbers(node);
-        add(node, FormulaOp::smoothstep, 5);
-        return Type::number;
+        return of_numbers(node, FormulaOp::smoothstep);
       case Function::sign:
-        numbers(node);
-        node.parts.size() > 1 ? add(node, FormulaOp::smooth_sign, 2)
-                              : add(node, FormulaOp::sign, 1, new_switch());
-        return Type::number;
+        return node.parts.size() > 1 ? of_numbers(node, FormulaOp::smooth_sign)
+                                     : of_numbers(node, FormulaOp::sign, new_switch());
       case Function::chirp:
         number(node.parts[0], node.word);
         for (std::size_t k = 1; k < 4; ++k) constant(constant_part(node.parts[k], node.word));
+        complain(node, {0.0, 0.0, 0.0, out_.steps.back().number});
         add(node, FormulaOp::chirp, 4);
         return Type::number;
       case Function::sum_of_sines:
@@ -289,11 +323,8 @@ class Compiler {
       case Function::table:
       case Function::table2:
         return table(node, f == Function::table2);
-      case Function::delay:  // a value of the model, which keeps the past of another formula
-        return reference(
-            node,
-            {node.word, expression_text(node.parts[0]), expression_text(node.parts[1]),
-             compile_formula(node.parts[0], tables_, out_.mirror), positive_part(node, 1, "time")});
+      case Function::delay:
+        return delay(node);
     }
     return Type::number;
   }
@@ -307,59 +338,38 @@ class Compiler {
       const double a = constant_part(node.parts[k], node.word),
                    f = constant_part(node.parts[k + 1], node.word),
                    p = constant_part(node.parts[k + 2], node.word);
-      constant(a);
-      constant(2.0 * std::numbers::pi * f);
       number(node.parts[0], node.word);
-      add(node, FormulaOp::multiply, 2);
-      constant(p);
-      add(node, FormulaOp::add, 2);
+      add(node, FormulaOp::multiply_number, 1, -1, 2.0 * std::numbers::pi * f);
+      add(node, FormulaOp::add_number, 1, -1, p);
       add(node, FormulaOp::unary, 1, -1, 0.0, unary_function("sin"));
-      add(node, FormulaOp::multiply, 2);
+      add(node, FormulaOp::multiply_number, 1, -1, a);
       if (k > 1) add(node, FormulaOp::add, 2);
     }
     return Type::number;
   }
-  double positive_part(const SyntaxNode& node, std::size_t k, const char* what) {
-    const double value = constant_part(node.parts[k], node.word);
-    if (value > 0.0) return value;
-    throw ExpressionError(std::string("found the ") + what + " " + number_text(value) + " of " +
-                          node.word + ", expected a positive number");
-  }
   Type noise(const SyntaxNode& node) {
     const double seed = constant_part(node.parts[0], node.word),
-                 dt = positive_part(node, 1, "interval");
+                 dt = constant_part(node.parts[1], node.word);
+    complain(node, {seed, dt});
     reference(node, {"", "t", ""});
     constant(dt);
     add(node, FormulaOp::divide, 2);
     add(node, FormulaOp::noise, 1, -1, seed);
     return Type::number;
   }
+  /// A value of the model, which keeps the past of another formula.
+  Type delay(const SyntaxNode& node) {
+    const double time = constant_part(node.parts[1], node.word);
+    complain(node, {time});
+    return reference(node, {node.word, expression_text(node.parts[0]), number_text(time),
+                            compile_formula(node.parts[0], tables_, out_.mirror), time});
+  }
   Type table(const SyntaxNode& node, bool grid) {
     const SyntaxNode& first = node.parts[0];
-    using Kind = SyntaxNode::Kind;
     if (first.kind != Kind::name && first.kind != Kind::text)
       throw ExpressionError("found " + in_quotes(expression_text(first)) + " in " +
                             in_quotes(node.word) + ", expected the name of a table");
-    const auto missing = [&](const auto& tables, bool other) {
-      std::vector<std::string> known;
-      for (const auto& [key, value] : tables) known.push_back(key);
-      throw ExpressionError(
-          other ? "the table " + in_quotes(first.word) + " has " +
-                      (grid ? "one variable, expected 'table'" : "two variables, expected 'table2'")
-                : "unknown table " + in_quotes(first.word) + did_you_mean(first.word, known));
-    };
-    int index = 0;
-    if (grid) {
-      const auto it = tables_.grids.find(first.word);
-      if (it == tables_.grids.end()) missing(tables_.grids, tables_.curves.contains(first.word));
-      index = std::ssize(out_.grids);
-      out_.grids.push_back(it->second);
-    } else {
-      const auto it = tables_.curves.find(first.word);
-      if (it == tables_.curves.end()) missing(tables_.curves, tables_.grids.contains(first.word));
-      index = std::ssize(out_.curves);
-      out_.curves.push_back(it->second);
-    }
+    const int index = used_table(out_, first.word, grid, tables_);
     for (std::size_t k = 1; k < node.parts.size(); ++k) number(node.parts[k], node.word);
     add(node, grid ? FormulaOp::grid : FormulaOp::curve, grid ? 2 : 1, index);
     return Type::number;
@@ -368,15 +378,11 @@ class Compiler {
   Formula& out_;
   const FormulaTables& tables_;
   int depth_ = 0;
+  int branches_ = 0;           ///< around, which may not be reached
   std::ptrdiff_t target_ = 0;  ///< steps before are not folded: a jump ends here
 };
 
 }  // namespace
-
-bool Formula::is_of_time() const noexcept {
-  return std::all_of(references.begin(), references.end(),
-                     [](const FormulaReference& r) { return r.is_time(); });
-}
 
 SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables,
                               const FormulaMirror& mirror) {
@@ -386,14 +392,6 @@ SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& table
   if (Compiler(*out, tables).emit(tree) != Type::number)
     throw ExpressionError("found a condition, expected a number: if(condition, a, b) chooses one");
   return out;
-}
-
-SharedFormula formula(std::string_view text, const FormulaTables& tables) {
-  try {
-    return compile_formula(parse_expression(text), tables);
-  } catch (const ExpressionError& e) {
-    throw InputError(ErrorCode::wrong_value, "formula '" + std::string(text) + "': " + e.what());
-  }
 }
 
 }  // namespace floatframe

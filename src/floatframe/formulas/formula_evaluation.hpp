@@ -1,9 +1,9 @@
 #pragma once
 // Evaluation of formulas. Step time: no heap, noexcept.
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "floatframe/formulas/formula.hpp"
@@ -76,26 +76,29 @@ class FormulaMachine {
     const int n = std::ssize(f_.steps);
     for (at_ = 0; at_ < n; ++at_) step(f_.steps[at_]);
     assert(top_ == 1);
-    return stack_[0];
+    return stack_.items[0];
   }
 
  private:
   void push(const S& x) noexcept {
     assert(top_ < Formula::deepest_stack);
-    stack_[top_++] = x;
+    std::construct_at(&stack_.items[top_++], x);
   }
   /// Operand k of the n that the step takes.
-  const S& operand(int n, int k) const noexcept { return stack_[top_ - n + k]; }
-  double number(int n, int k) const noexcept { return value_of(operand(n, k)); }
+  S& operand(int n, int k) noexcept { return stack_.items[top_ - n + k]; }
+  double number(int n, int k) noexcept { return value_of(operand(n, k)); }
   void leave(int n, const S& x) noexcept {
-    const S y = x;  // x may be an operand
-    top_ -= n;
-    push(y);
+    operand(n, 0) = x;
+    top_ -= n - 1;
   }
   void fail(FormulaFault::Kind kind, double argument) noexcept {
     if (fault_.kind == FormulaFault::Kind::none) fault_ = {kind, at_, argument};
   }
   void take(int n, const FunctionValue& g) noexcept { leave(n, composed(g, operand(n, 0))); }
+  /// Where it has no slope, that is taken as zero, as by `sqrt` of dual numbers.
+  void take_root(const FunctionValue& g) noexcept {
+    take(1, std::isfinite(g.df) ? g : FunctionValue{g.f});
+  }
 
   void step(const FormulaStep& s) noexcept {
     using Op = FormulaOp;
@@ -110,6 +113,16 @@ class FormulaMachine {
         return leave(2, operand(2, 0) - operand(2, 1));
       case Op::multiply:
         return leave(2, operand(2, 0) * operand(2, 1));
+      case Op::add_number:
+        return take(1, {number(1, 0) + s.number, 1.0, 0.0});
+      case Op::multiply_number:
+        return take(1, {number(1, 0) * s.number, s.number, 0.0});
+      case Op::small_power: {
+        const double x = number(1, 0), n = s.number;
+        double p = 1.0;  // x^(n - 2)
+        for (int k = 2; k < n; ++k) p *= x;
+        return take(1, {p * x * x, n * p * x, n * (n - 1.0) * p});
+      }
       case Op::divide:
         if (number(2, 1) == 0.0) fail(FormulaFault::Kind::division, 0.0);
         return leave(2, operand(2, 0) / operand(2, 1));
@@ -183,7 +196,7 @@ class FormulaMachine {
       case Op::unary: {
         const double x = number(1, 0);
         if (!s.function->defined(x)) fail(FormulaFault::Kind::domain, x);
-        return take(1, s.function->at(x));
+        return take_root(s.function->at(x));
       }
       case Op::power_of_number: {
         const double x = number(1, 0), n = s.number;
@@ -191,7 +204,7 @@ class FormulaMachine {
           fail(FormulaFault::Kind::domain, x);
         const double slope = n == 0.0 ? 0.0 : n * std::pow(x, n - 1.0);
         const double bend = n * (n - 1.0) == 0.0 ? 0.0 : n * (n - 1.0) * std::pow(x, n - 2.0);
-        return take(1, {std::pow(x, n), slope, bend});
+        return take_root({std::pow(x, n), slope, bend});
       }
       case Op::power: {  // a^b = exp(b log a)
         const double x = number(2, 0);
@@ -257,7 +270,12 @@ class FormulaMachine {
   const ValueOf& reference_;
   FormulaSwitches& switches_;
   FormulaFault& fault_;
-  std::array<S, Formula::deepest_stack> stack_;
+  /// Items are constructed as they are pushed.
+  union Stack {
+    Stack() noexcept {}
+    ~Stack() {}
+    S items[Formula::deepest_stack];
+  } stack_;
   int top_ = 0, at_ = 0;
 };
 

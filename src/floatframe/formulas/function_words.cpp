@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "floatframe/core/number_rule.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -193,6 +195,23 @@ std::string argument_complaint(const std::string& name, std::size_t fewest, std:
          (most > fewest && most != endless ? " or " + std::to_string(most) : "") +
          (fewest == 1 && (most == 1 || most == endless) ? " argument" : " arguments") + ", found " +
          std::to_string(found);
+}
+
+std::string constants_complaint(const std::string& name, const std::vector<double>& x) {
+  if (name == "clip" && x[1] > x[2])
+    return "found the limits " + number_text(x[1]) + " and " + number_text(x[2]) +
+           " of clip, expected ascending ones";
+  if (name == "smoothstep" && x[1] == x[3])
+    return "found x0 = x1 = " + number_text(x[1]) + " of smoothstep, expected two numbers";
+  if ((name == "chirp" || name == "noise" || name == "delay") && !(x.back() > 0.0))
+    return "found the " +
+           std::string(name == "chirp"   ? "duration "
+                       : name == "noise" ? "interval "
+                                         : "time ") +
+           number_text(x.back()) + " of " + name + ", expected a positive number";
+  if (name == "sign" && x.size() > 1 && x[1] == 0.0)
+    return "found the width 0 of sign, expected another number";
+  return "";
 }
 
 }  // namespace floatframe

@@ -62,5 +62,7 @@ FunctionValue smoothstep(double x, double x0, double y0, double x1, double y1) n
 /// "clip takes 3 arguments, found 2"; empty if the count is right.
 std::string argument_complaint(const std::string& name, std::size_t fewest, std::size_t most,
                                std::size_t found);
+/// Of arguments that are no numbers together; those that are not constant are NaN. Empty: none.
+std::string constants_complaint(const std::string& name, const std::vector<double>& x);
 
 }  // namespace floatframe

@@ -15,7 +15,7 @@ ElementSet::ElementSet(const Model& model)
   for (const SignalGroup& group : order_.groups)
     if (!group.links.empty()) rings_.emplace_back(model, group);
   for (const Element& e : model.elements) {
-    states_.emplace_back(e.acts ? e.markers.size() : 0, static_cast<std::size_t>(e.states));
+    states_.emplace_back(e.acts ? e.markers.size() : 0, e.states, e.further());
     std::vector<int>& slots = slots_.emplace_back();
     for (const CoordinatePort& c : e.coordinates) {
       slots.push_back(c.counted ? static_cast<int>(angles_.size()) : -1);
@@ -55,7 +55,7 @@ void ElementSet::count_turns_from(const Model& values, double t) noexcept {
     for (std::size_t i = 0; i < slots_[k].size(); ++i) {
       const CoordinatePort& c = model_.elements[k].coordinates[i];
       const Joint& joint = values.joints[c.joint];
-      const TimeFunction* motion = values.motion_of(joint);
+      const TimeFunction* motion = values.motion_of(joint, c.component);
       set_angle(slots_[k][i], motion                   ? floatframe::evaluate(*motion, t).f
                               : joint.position.empty() ? 0.0
                                                        : joint.position[c.component]);

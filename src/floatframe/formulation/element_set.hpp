@@ -220,10 +220,7 @@ class ElementSet {
   void publish(std::size_t k) noexcept {
     for (const std::size_t l : links_from_[k]) {
       const SignalLink& link = model_.links[l];
-      const Efforts& e = states_[k];
-      links_[l] = link.factor * (link.quantity == ElementQuantity::force    ? e.force
-                                 : link.quantity == ElementQuantity::length ? e.length
-                                                                            : e.rate);
+      links_[l] = link.factor * states_[k].result(link.result());
     }
   }
 

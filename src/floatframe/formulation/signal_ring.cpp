@@ -21,7 +21,8 @@ SignalRing::SignalRing(const Model& model, const SignalGroup& group) : newton_(0
     for (const std::size_t l : group.links) {
       const std::size_t from = model.links[l].from;
       const int link = l;
-      if (from == m.element) m.results.push_back({unknown_of[l], link, model.links[l].factor});
+      if (from == m.element)
+        m.results.push_back({unknown_of[l], link, model.links[l].result(), model.links[l].factor});
     }
   }
   y_ = VecX::Zero(count);
@@ -52,7 +53,7 @@ void SignalRing::find_gap(ElementStates& z, const std::vector<Efforts>& efforts)
     else
       newton_.gap.segment(m.first, m.states).setZero();
     for (const Result& r : m.results) {
-      newton_.gap[r.row] = y_[r.row] - r.factor * efforts[m.element].force;
+      newton_.gap[r.row] = y_[r.row] - r.factor * efforts[m.element].result(r.result);
       newton_.size[r.row] = std::max(newton_.size[r.row], std::abs(y_[r.row]));
     }
   }
@@ -70,7 +71,7 @@ void SignalRing::add_slopes(const Member& m, const EffortTangent& t,
     newton_.slopes(m.first + i, m.first + i) += z.follow() ? z.weight() : 1.0;
   }
   for (const Result& r : m.results) {
-    add(r.row, m.states, r.factor);
+    add(r.row, m.states + r.result, r.factor);
     newton_.slopes(r.row, r.row) += 1.0;
   }
 }

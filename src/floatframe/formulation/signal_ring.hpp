@@ -39,8 +39,9 @@ class SignalRing {
 
  private:
   struct Result {
-    int row;   ///< the unknown that is a link from the element
-    int link;  ///< of the model
+    int row;     ///< the unknown that is a link from the element
+    int link;    ///< of the model
+    int result;  ///< of the element
     double factor;
   };
   struct Member {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/formulation/formulation.hpp"
 
 namespace floatframe {
@@ -61,7 +60,7 @@ void SignalTangent::find_system(const Formulation& f) noexcept {
         transposed_(m.columns[j], m.first + z) -= slopes(z, j);
     }
     for (const int l : m.results) {
-      const Eigen::Index row = m.states + index_of(model_.links[l].quantity);
+      const Eigen::Index row = m.states + model_.links[l].result();
       for (Eigen::Index j = 0; j < std::ssize(m.columns); ++j)
         transposed_(m.columns[j], first_link_ + l) -= model_.links[l].factor * slopes(row, j);
     }
@@ -96,8 +95,7 @@ void SignalTangent::add_gains(Formulation& f, double damping, double s, const Ve
       };
       for (int z = 0; z < m.states && follow; ++z) add(z, a[m.first + z]);
       for (const int l : m.results)
-        add(m.states + index_of(model_.links[l].quantity),
-            model_.links[l].factor * a[first_link_ + l]);
+        add(m.states + model_.links[l].result(), model_.links[l].factor * a[first_link_ + l]);
       m.wrenches[i] = {sum.head<3>(), sum.tail<3>()};
     }
     f.add_wrenches(model_.elements[m.element].markers, m.wrenches, out);

@@ -89,11 +89,11 @@ void TreeKinematics::start(const Model& values, double t, VecX& q, VecX& v) cons
     for (std::size_t k = 0; k < static_cast<std::size_t>(b.nj); ++k) {
       if (k < joint.position.size()) position[k] = joint.position[k];
       if (k < joint.velocity.size()) velocity[k] = joint.velocity[k];
-    }
-    if (const TimeFunction* motion = values.motion_of(joint); motion && b.nj == 1) {
-      const PiecewisePolynomial::Value f = evaluate(*motion, t);
-      position[0] = f.f;
-      velocity[0] = f.df;
+      if (const TimeFunction* motion = values.motion_of(joint, k)) {
+        const PiecewisePolynomial::Value f = evaluate(*motion, t);
+        position[k] = f.f;
+        velocity[k] = f.df;
+      }
     }
     if (b.reversed) {
       JointDirections axes;

@@ -9,6 +9,7 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/linear/excited_system.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/start/mass_scale.hpp"
@@ -145,14 +146,17 @@ std::vector<LinearInput> linear_inputs(const Model& model) {
   for (std::size_t k = 0; k < model.inputs.size(); ++k)
     inputs.push_back(
         {model.inputs[k].name, model.inputs[k].unit, Kind::signal, static_cast<int>(k), {}, 0.0});
-  for (const Joint& joint : model.joints)
-    if (joint.motion >= 0)
-      inputs.push_back({"motion of " + joint.name,
-                        joint_unit_name(joint.type, 0),
-                        Kind::motion,
-                        joint.motion,
-                        {},
-                        0.0});
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& e = model.elements[k];
+    if (element_kind(e.type).list != ElementList::motions) continue;
+    const CoordinatePort& of = e.coordinates[0];
+    inputs.push_back({"motion of " + e.name,
+                      joint_unit_name(model.joints[of.joint].type, of.component),
+                      Kind::motion,
+                      static_cast<int>(k),
+                      {},
+                      0.0});
+  }
   std::vector<int> wheels;
   for (std::size_t k = 0; k < model.elements.size(); ++k)
     if (*lifted_by(model.elements[k].type)) wheels.push_back(static_cast<int>(k));

@@ -77,6 +77,7 @@ std::vector<LoopValue> loop_values(const RelativeFormulation& f, const LoopMembe
     const JointKind& kind = joint_kind(joint.type);
     const std::vector<double>& given = rates ? joint.velocity : joint.position;
     for (int k = 0; k < std::ssize(given); ++k) {
+      if (f.model().motion_of(joint, k)) continue;
       LoopValue v{j, -1, k, 1, Vec3(given[k], 0.0, 0.0), joint.keep};
       v.angle = kind.coordinates.all()[k].unit == JointUnit::rad;
       if (rates && joint_is_free(joint.type) && joint.parent < 0 && k < 3)

@@ -103,8 +103,9 @@ bool LoopPath::starts_as_drawn() const {
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const Joint& joint = model.joints[j];
     if (!members_.joint[j]) continue;
-    if (const TimeFunction* motion = model.motion_of(joint))
-      if (evaluate(*motion, t_).f != 0.0) return false;
+    for (int k = 0; k < joint_velocities(joint.type); ++k)
+      if (const TimeFunction* motion = model.motion_of(joint, k))
+        if (evaluate(*motion, t_).f != 0.0) return false;
     for (const double x : joint.position)
       if (x != 0.0) return false;
   }
@@ -138,9 +139,13 @@ VecX LoopPath::drawn() const {
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     if (!members_.joint[j]) continue;
     Joint& joint = model.joints[j];
-    if (const TimeFunction* motion = model.motion_of(joint))
-      joint.position.assign(1, evaluate(*motion, t_).f);
+    for (int k = 0; k < joint_velocities(joint.type); ++k)
+      if (const TimeFunction* motion = model.motion_of(joint, k)) {
+        joint.position.resize(joint_velocities(joint.type), 0.0);
+        joint.position[k] = evaluate(*motion, t_).f;
+      }
     joint.motion = -1;
+    joint.motions.clear();
     const JointKind& kind = joint_kind(joint.type);
     for (int k = 0; k < std::ssize(joint.position); ++k) {
       const bool turns =

@@ -73,11 +73,18 @@ void ModelBuilder::holding_elements() {
   for (const auto* list : {&d.rods, &d.couplings})
     for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
-    if (!j.motion) continue;
-    const PrescribedMotion keys{j.name, SignalDescription(*j.motion)};
-    if (add_element({j.name, keys, j.origin}))
+    if (j.motion &&
+        add_element({j.name, PrescribedMotion{j.name, SignalDescription(*j.motion)}, j.origin}))
       model.joints[model.elements.back().coordinates[0].joint].motion =
           std::ssize(model.elements) - 1;
+    for (const CoordinateMotion& m : j.motions) {
+      const std::string name = j.name + "/" + joint_coordinate_key(j.type, m.coordinate);
+      const PrescribedMotion keys{j.name, SignalDescription(m.motion), m.coordinate};
+      if (!add_element({name, keys, j.origin})) continue;
+      Joint& joint = model.joints[model.elements.back().coordinates[0].joint];
+      joint.motions.resize(joint_velocities(j.type), -1);
+      joint.motions[m.coordinate] = std::ssize(model.elements) - 1;
+    }
   }
 }
 
@@ -89,8 +96,11 @@ void ModelBuilder::forces() {
   for (const InnerFormula& inner : formulas) add_element(inner.element);
   const int acting = static_cast<int>(std::ssize(model.elements) - holding);
   std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());
-  for (Joint& joint : model.joints)
+  for (Joint& joint : model.joints) {
     if (joint.motion >= 0) joint.motion += acting;
+    for (int& motion : joint.motions)
+      if (motion >= 0) motion += acting;
+  }
 }
 
 void ModelBuilder::link_signals() {
@@ -107,7 +117,8 @@ void ModelBuilder::link_signals() {
       const int from = element(list_of(s->source), s->element);
       if (from < 0) continue;  // it has an error
       e.signals[port].link = std::ssize(model.links);
-      model.links.push_back({from, k, port, quantity_of(s->source), s->factor});
+      const int value = value_index(model.elements[from].values, s->value);
+      model.links.push_back({from, k, port, quantity_of(s->source), s->factor, value});
     }
   }
   const SignalOrder order(model);

@@ -24,20 +24,18 @@ SharedFormula formula_of(const Element& element) {
   return nullptr;
 }
 
-/// Of the element of a delay in the formula of `owner`; no name of the user has a slash.
-std::string delay_name(const std::string& owner, const Formula& f, const FormulaReference& r) {
-  const auto number =
-      std::count_if(f.references.data(), &r, [](const FormulaReference& x) { return x.delayed; });
-  return owner + "/delay" + (number > 0 ? std::to_string(number + 1) : "");
-}
-
 /// Finds what the references of one formula are.
 class FormulaConnection {
  public:
-  /// `owner`: of the formula, in names of elements.
+  /// `key`: that of the entity with this origin, which holds the formula; `owner`: of the formula,
+  /// in names of elements.
   FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path,
-                    std::string owner)
-      : b_(builder), origin_(origin), path_(std::move(path)), owner_(std::move(owner)) {}
+                    const std::string& key, std::string owner)
+      : b_(builder),
+        origin_(origin),
+        path_(std::move(path)),
+        owner_(std::move(owner)),
+        mark_(origin.of(key)) {}
   virtual ~FormulaConnection() = default;
 
   std::vector<FormulaOperand> connect(const Formula& f) {
@@ -64,7 +62,8 @@ class FormulaConnection {
 
  private:
   bool connected(const Output& out, FormulaOperand& x) {
-    if (output_kind(out.type).of == OutputOf::formula)
+    const OutputOf of = output_kind(out.type).of;
+    if (of == OutputOf::formula || of == OutputOf::crossing)
       return wrong(ErrorCode::unsupported, sentences::formula_of_a_formula(out.name));
     take(out, x);
     return reflected(out, x);
@@ -92,7 +91,7 @@ class FormulaConnection {
     return true;
   }
   bool wrong(ErrorCode code, const std::string& sentence) const {
-    b_.errors.add(code, origin_.mark, path_ + ": " + sentence);
+    b_.errors.add(code, mark_, path_ + ": " + sentence);
     return false;
   }
 
@@ -159,8 +158,14 @@ class FormulaConnection {
     switch (output_kind(o.type).of) {
       case Of::joint:
         return b_.joint_names.find(r.name) || none("joint", b_.joint_names.names());
-      case Of::force:
-        return of_list(ElementList::forces, r) || none("force", names_of(ElementList::forces));
+      case Of::force: {
+        const int k = b_.element(ElementList::forces, r.name);
+        if (k < 0) return none("force", names_of(ElementList::forces));
+        const ElementType type = b_.model.elements[k].type;
+        return element_has(type, output_kind(o.type).needs) ||
+               wrong(ErrorCode::wrong_value,
+                     sentences::load_without(element_type_name(type), r.function));
+      }
       case Of::controller:
         return of_list(ElementList::controllers, r) ||
                none("controller", names_of(ElementList::controllers));
@@ -170,7 +175,8 @@ class FormulaConnection {
         return of_list(ElementList::couplings, r) ||
                none("coupling", names_of(ElementList::couplings));
       case Of::motion:
-        return of_list(ElementList::motions, r) || none("motion", names_of(ElementList::motions));
+        return (b_.joint_names.find(r.name) && of_list(ElementList::motions, r)) ||
+               none("motion", names_of(ElementList::motions));
       case Of::mass:
         o.whole = r.name == "model";
         if (o.whole) return true;
@@ -205,6 +211,10 @@ class FormulaConnection {
       return wrong(ErrorCode::wrong_value,
                    sentences::formula_component(r.function, r.detail, words));
     }
+    if (output_kind(o.type).of == OutputOf::controller) {
+      o.value = r.detail;
+      return true;
+    }
     const bool joint = output_kind(o.type).of == OutputOf::joint;
     if (!joint)
       return r.detail.empty() || wrong(ErrorCode::wrong_count, sentences::one_argument(r.function));
@@ -219,6 +229,7 @@ class FormulaConnection {
 
   const Origin& origin_;
   std::string path_, owner_;
+  SourceMark mark_;
   FormulaMirror mirror_;
 };
 
@@ -226,15 +237,15 @@ class FormulaConnection {
 class ElementConnection final : public FormulaConnection {
  public:
   ElementConnection(ModelBuilder& builder, int element, const Origin& origin,
-                    const std::string& path)
-      : FormulaConnection(builder, origin, path, builder.model.elements[element].name),
+                    const std::string& path, const std::string& key)
+      : FormulaConnection(builder, origin, path, key, builder.model.elements[element].name),
         element_(element) {}
 
  private:
   Element& element() const { return b_.model.elements[element_]; }
   void take(const Output& out, FormulaOperand& x) override {
     const OutputKind& kind = output_kind(out.type);
-    if (kind.is_signal) return link(out.element, kind.needs, x);
+    if (kind.is_signal) return link(out, kind.needs, x);
     FormulaConnection::take(out, x);
     x.kind = FormulaOperand::Kind::measure;
     if (!kind.value) {
@@ -246,14 +257,14 @@ class ElementConnection final : public FormulaConnection {
       markers(measure_markers(b_.model, out), x);
     }
   }
-  void link(int from, ElementQuantity quantity, FormulaOperand& x) {
+  void link(const Output& out, ElementQuantity quantity, FormulaOperand& x) {
     Element& e = element();
     x.kind = FormulaOperand::Kind::link;
     x.index = std::ssize(e.signals);
     Signal& signal = e.signals.emplace_back();
     signal.link = std::ssize(b_.model.links);
     signal.given = true;
-    b_.model.links.push_back({from, element_, x.index, quantity, 1.0});
+    b_.model.links.push_back({out.element, element_, x.index, quantity, 1.0, out.component});
   }
   int port_of(int marker) {
     std::vector<int>& ports = element().markers;
@@ -313,36 +324,6 @@ ElementDescription ModelBuilder::with_formulas_apart(const ElementDescription& e
   return out;
 }
 
-void ModelBuilder::delays_apart(const Formula& f, const std::string& owner,
-                                const InnerFormula& inner) {
-  for (const FormulaReference& r : f.references) {
-    if (!r.delayed) continue;
-    Delay keys;
-    keys.input.formula = r.delayed;
-    keys.time = r.delay;
-    const ElementDescription e{delay_name(owner, f, r), keys, inner.element.origin};
-    const std::size_t before = formulas.size();
-    const ElementDescription apart = with_formulas_apart(e, ElementList::controllers);
-    if (formulas.size() > before) formulas.back().path = inner.path;
-    formulas.push_back({apart, inner.path});
-  }
-}
-
-void ModelBuilder::delays_apart() {
-  for (const ElementDescription& e : d.controllers)
-    if (const auto* value = std::get_if<FormulaValue>(&e.kind))
-      delays_apart(*value->formula, e.name, {e, "controllers." + e.name + ".formula"});
-  for (const auto& [list, name] : {std::pair(&d.outputs, "outputs."), {&d.measures, "measures."}})
-    for (const OutputDescription& o : *list)
-      if (o.formula)
-        delays_apart(*o.formula, name + o.name, {{"", {}, o.origin}, name + o.name + ".formula"});
-  for (std::size_t k = 0; k < formulas.size(); ++k) {  // also of those that are added: nested ones
-    const InnerFormula inner = formulas[k];
-    if (const auto* value = std::get_if<FormulaValue>(&inner.element.kind))
-      delays_apart(*value->formula, inner.element.name, inner);
-  }
-}
-
 void ModelBuilder::connect_formulas() {
   std::map<std::string, std::pair<const Origin*, std::string>> written;  // of controllers
   for (const ElementDescription& e : d.controllers)
@@ -353,7 +334,21 @@ void ModelBuilder::connect_formulas() {
     const SharedFormula f = formula_of(model.elements[k]);
     if (!f) continue;
     const auto& [origin, path] = written.at(model.elements[k].name);
-    model.elements[k].operands = ElementConnection(*this, k, *origin, path).connect(*f);
+    const std::string& name = model.elements[k].name;
+    const auto slash = name.find('/');  // of an inner formula: its key, which may have a number
+    const std::string key =
+        slash == std::string::npos ? "formula" : name.substr(slash + 1, name.find_first_of("[/", slash + 1) - slash - 1);
+    model.elements[k].operands = ElementConnection(*this, k, *origin, path, key).connect(*f);
+  }
+  const auto connected = [&](const SharedFormula& f, const Origin& origin, const std::string& path,
+                             const std::string& key, const std::string& owner) {
+    return std::make_shared<OutputFormula>(
+        OutputFormula{f, FormulaConnection(*this, origin, path, key, owner).connect(*f)});
+  };
+  if (const SharedFormula& until = d.simulation.until) {
+    model.until.emplace().name = "until";
+    const Origin at{d.simulation.origin.of("until")};
+    model.until->formula = connected(until, at, "simulation.until", "until", "simulation");
   }
   const auto outputs_of = [&](std::vector<Output>& built,
                               const std::vector<OutputDescription>& described,
@@ -365,9 +360,8 @@ void ModelBuilder::connect_formulas() {
       const auto it = with_formula.find(out.name);
       if (it == with_formula.end()) continue;
       const OutputDescription& o = *it->second;
-      out.formula = std::make_shared<OutputFormula>(OutputFormula{
-          o.formula, FormulaConnection(*this, o.origin, list + o.name + ".formula", list + o.name)
-                         .connect(*o.formula)});
+      const char* key = output_type_name(o.type);
+      out.formula = connected(o.formula, o.origin, list + o.name + "." + key, key, list + o.name);
     }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");

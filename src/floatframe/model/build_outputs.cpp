@@ -50,6 +50,7 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
   };
   switch (output_kind(o.type).of) {
     case OutputOf::formula:
+    case OutputOf::crossing:
       return true;
     case OutputOf::point:
       out.marker = point(o.at, what);
@@ -81,10 +82,20 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       return of_list(ElementList::rods);
     case OutputOf::coupling:
       return of_list(ElementList::couplings);
-    case OutputOf::controller:
-      return of_list(ElementList::controllers);
-    case OutputOf::motion:
-      return of_list(ElementList::motions);
+    case OutputOf::controller: {
+      if (!of_list(ElementList::controllers)) return false;
+      const std::vector<std::string>& values = model.elements[out.element].values;
+      out.component = value_index(values, o.value);
+      if (out.component < 0)
+        errors.add(ErrorCode::not_found, o.origin.mark,
+                   what + ": " + sentences::no_such_value(o.value, values));
+      return out.component >= 0;
+    }
+    case OutputOf::motion: {
+      const Joint& joint = model.joints[joint_names.index(o.entity)];
+      out.element = joint.motions.empty() ? joint.motion : joint.motions[o.component];
+      return out.element >= 0;
+    }
     case OutputOf::state: {
       if (!of_list(ElementList::forces) && !of_list(ElementList::controllers)) return false;
       const Element& e = model.elements[out.element];

@@ -13,7 +13,9 @@
   entry(drive_position)               \
   entry(drive_angle)                  \
   entry(coordinate_displacement)      \
-  entry(coordinate_angle)
+  entry(coordinate_angle)             \
+  entry(drive_axis_angle)             \
+  entry(drive_distance)
 // clang-format on
 
 namespace floatframe {

@@ -20,7 +20,8 @@ namespace floatframe {
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
   int a = -1, b = -1;  ///< markers
-  /// Perpendicular: the two directions, in axes of a and of b. Of a coordinate: its direction e_a.
+  /// Perpendicular, and an angle about one of two axes: the two directions, in axes of a and of b.
+  /// Of a coordinate: its direction e_a.
   Vec3 e_a = Vec3::UnitZ(), n_b = Vec3::UnitX();
   double c = 0.0;      ///< perpendicular: value of e_a.n_b to keep; of a coordinate: its factor
   double scale = 1.0;  ///< l, or L of a distance
@@ -33,7 +34,9 @@ struct ConstraintPart {
   ConstraintOwner owner;
   int rows() const noexcept;
   /// It prescribes the coordinate of its joint.
-  bool is_motion() const noexcept { return motion != nullptr && coordinate < 0; }
+  bool is_motion() const noexcept {
+    return motion != nullptr && coordinate < 0 && owner.joint >= 0;
+  }
 };
 
 struct ConstraintRow {

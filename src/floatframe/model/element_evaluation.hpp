@@ -37,7 +37,8 @@ struct EffortsOf {
   static constexpr int most_rows = 12;
   std::vector<WrenchOf<S>> wrench;  ///< on each marker
   S force = 0.0, length = 0.0, rate = 0.0;
-  S energy = 0.0;  ///< potential energy [J]
+  std::vector<S> further;  ///< values of an element that has more than one
+  S energy = 0.0;          ///< potential energy [J]
   /// For springs: rate of the energy in the present motion, including that of targets, and power
   /// dissipated by the damper [W]. Tyres leave both at zero: their energy jumps with the road.
   S energy_rate = 0.0, damping = 0.0;
@@ -55,12 +56,17 @@ struct EffortsOf {
   std::vector<WrenchOf<S>> gradients;  ///< of row r on marker i: [r markers + i]
 
   EffortsOf() = default;
-  explicit EffortsOf(std::size_t markers, std::size_t states = 0)
+  explicit EffortsOf(std::size_t markers, std::size_t states = 0, std::size_t values_further = 0)
       : wrench(markers),
+        further(values_further),
         state_rates(states),
         state_slopes(states * states),
         gradients(std::is_same_v<S, double> ? most_rows * markers : 0) {}
   std::size_t markers() const noexcept { return wrench.size(); }
+  /// In the order of `SignalLink::result`.
+  const S& result(int k) const noexcept {
+    return k > 2 ? further[k - 3] : k == 2 ? rate : k == 1 ? length : force;
+  }
   const WrenchOf<S>* gradient(int row) const noexcept {
     return gradients.data() + static_cast<std::size_t>(row) * wrench.size();
   }
@@ -71,6 +77,7 @@ struct EffortsOf {
   void clear() noexcept {
     for (WrenchOf<S>& w : wrench) w.F = w.T = Eigen::Matrix<S, 3, 1>::Zero();
     for (S& rate_of_state : state_rates) rate_of_state = 0.0;
+    for (S& value : further) value = 0.0;
     for (double& slope : state_slopes) slope = 0.0;
     row_count = 0;
     force = length = rate = energy = energy_rate = damping = 0.0;
@@ -165,7 +172,7 @@ struct EffortTangent {
   MatX C;  ///< -d(wrenches)/d(rates)
   /// Inner variables: the states, and the signals from other elements in the order of their ports.
   MatX of_inner;  ///< -d(wrenches)/d(inner)
-  /// Of zdot, and behind it of force, length and rate (ElementQuantity): d/d(motion), d/d(rates),
+  /// Of zdot, and behind it of the results (`SignalLink::result`): d/d(motion), d/d(rates),
   /// d/d(inner).
   MatX motion, rates, slopes;
 };

@@ -41,7 +41,9 @@ enum class KeyKind {
   formula,           ///< of what it refers to
   speed_table,       ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
   table,             ///< rows of numbers, named by `words`, each valid as in `rule`
-  matrix             ///< of any size; a list of numbers is a row
+  matrix,            ///< of any size; a list of numbers is a row
+  names,             ///< a list of names
+  linear_file        ///< its matrices and names are those of other keys (linear_file.hpp)
 };
 
 /// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of
@@ -57,13 +59,13 @@ constexpr AxisUnits axis_units(bool turning) noexcept {
 }
 
 /// A value of a key: number, word by its place in the list of words, flag, name, direction, place,
-/// law, signal, matrix, function of time, terms, function of a program, formula, signals.
+/// law, signal, matrix, function of time, terms, function of a program, formula, signals, names.
 using KeyValue =
     std::variant<double, int, bool, std::string, Vec3, AttachmentDescription, PiecewisePolynomial,
                  SignalDescription, MatX, TimeFunction, std::vector<CoordinateTerm>, ForceFunction,
-                 SharedFormula, std::vector<SignalDescription>>;
+                 SharedFormula, std::vector<SignalDescription>, std::vector<std::string>>;
 
-/// A member of the struct of a type; none: a stop, which is part of its spring.
+/// A member of the struct of a type; none: a stop, which is part of its spring, or a file.
 struct KeyMember {
   std::optional<KeyValue> (*read)(const ElementDescription&) = nullptr;
   void (*write)(ElementDescription&, const KeyValue&) = nullptr;

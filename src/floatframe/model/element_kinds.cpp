@@ -1,5 +1,6 @@
 // Dispatch of the elements: data for load time, direct calls for step time.
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -80,6 +81,19 @@ const char* element_output_unit(const Element& element, ElementQuantity quantity
                                      (axis == ElementAxis::coordinate && element.rotational));
   const char* of[] = {units.force, units.displacement, units.rate};
   return of[index_of(quantity)];
+}
+
+std::vector<std::string> value_names(const ElementKeys& keys) {
+  const auto values = element_list[keys.index()]->values;
+  return values ? values(keys) : std::vector<std::string>();
+}
+int value_index(const std::vector<std::string>& names, const std::string& word) noexcept {
+  const auto named = std::find(names.begin(), names.end(), word);
+  if (word.empty() || named != names.end()) return word.empty() ? 0 : named - names.begin();
+  int number = 0;
+  const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool whole = failed == std::errc() && end == word.data() + word.size();
+  return whole && number >= 1 && number <= std::max<int>(1, std::ssize(names)) ? number - 1 : -1;
 }
 
 ElementQuantity quantity_of(SignalSource source) noexcept {
@@ -181,6 +195,7 @@ void take_keys(Element& element, const Model& model) {
       element.signals.push_back(std::move(signal));
     }
   }
+  element.values = value_names(*element.keys);
   element.states = element.kept = 0;
   if (const auto states = element_kind(element.type).states) states(element);
   for (Signal& signal : element.signals)
@@ -259,6 +274,12 @@ void validate_line(const ElementCheck& check) {
   if (!check.from_file && (a.node || b.node)) return;
   if (const auto complaint = sentences::spring_ends(a.point, b.point))
     check.error(ErrorCode::out_of_range, "", *complaint);
+}
+
+void validate_target(const ElementCheck& check) {
+  if (check.given("spring") || check.given("damper")) return;
+  for (const char* key : {"target", "target_rate"})
+    if (check.given(key)) check.error(ErrorCode::incomplete, key, sentences::target_without_law());
 }
 
 bool build_line(ElementBuild& build) {

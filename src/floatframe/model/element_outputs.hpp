@@ -36,6 +36,11 @@ std::vector<ElementSignal> signals_of(const Element& element);
 /// What a source of a signal is of its element.
 ElementQuantity quantity_of(SignalSource source) noexcept;
 
+/// The names of the values of an element that has several, "1", "2", ... without names.
+std::vector<std::string> value_names(const ElementKeys& keys);
+/// The place of a name or number from 1 among them, 0 for an empty one; -1: there is none.
+int value_index(const std::vector<std::string>& names, const std::string& word) noexcept;
+
 /// How an element is drawn. Axes and anchors are those of its markers.
 struct Picture {
   enum class Symbol {

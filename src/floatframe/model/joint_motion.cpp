@@ -42,6 +42,17 @@ JointUnit joint_unit(JointType type, int component) noexcept {
   return k < all.size() ? all[k].unit : JointUnit::rad;
 }
 
+bool is_of_rotation_vector(JointType type, int component) noexcept {
+  const int first = quaternion_offset(type);
+  return first >= 0 && component >= first;
+}
+
+std::string joint_coordinate_key(JointType type, int component) {
+  std::string key = joint_coordinate_name(type, component);
+  std::erase(key, '`');
+  return key;
+}
+
 const char* joint_unit_name(JointType type, int component, bool rate) noexcept {
   if (joint_unit(type, component) == JointUnit::m) return rate ? "m/s" : "m";
   return rate ? "rad/s" : "rad";

@@ -53,6 +53,11 @@ JointUnit joint_unit(JointType type, int component) noexcept;
 /// "m", "rad", "m/s" or "rad/s".
 const char* joint_unit_name(JointType type, int component, bool rate = false) noexcept;
 
+/// A component of a rotation vector, which no motion can prescribe.
+bool is_of_rotation_vector(JointType type, int component) noexcept;
+/// The name in model files, as a key: "angle about axis_2".
+std::string joint_coordinate_key(JointType type, int component);
+
 /// Of a coordinate that elements may hold in a sum: a displacement along a direction that is fixed
 /// in F, or the angle about the z axis that F and M share.
 struct CoordinateAxis {

@@ -59,7 +59,9 @@ std::string element_name(const Element& element) {
 
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {
   const bool of_joint =
-      owner.joint >= 0 && (owner.element < 0 || owner.element == model.joints[owner.joint].motion);
+      owner.joint >= 0 &&
+      (owner.element < 0 ||
+       element_kind(model.elements[owner.element].type).list == ElementList::motions);
   if (of_joint) return "joint '" + model.joints[owner.joint].name + "'";
   return element_name(model.elements[owner.element]);
 }

@@ -1,6 +1,6 @@
 #pragma once
 // A linear system as the law of an element, its data: zdot = A z + B u, y = C z + D u, with the
-// inputs u, its only signals, and the value y.
+// inputs u, its only signals, and the values y.
 #include "floatframe/model/element_kind.hpp"
 
 namespace floatframe {
@@ -14,16 +14,21 @@ struct LinearBlock {
 void take_linear_block(Element& element, LinearBlock block, BlockStart initial);
 
 template <class S>
+S& value_of_block(EffortsOf<S>& out, Eigen::Index k) noexcept {
+  return k == 0 ? out.force : out.further[k - 1];
+}
+template <class S>
 void linear_block_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const auto& block = in.template data<LinearBlock>();
   const Eigen::Index n = block.A.rows();
   for (Eigen::Index j = 0; j < block.B.cols(); ++j) {
     const S u = in.signal(j).f;
-    out.force += block.D(j) * u;
+    for (Eigen::Index k = 0; k < block.D.rows(); ++k) value_of_block(out, k) += block.D(k, j) * u;
     for (Eigen::Index i = 0; i < n; ++i) out.state_rates[i] += block.B(i, j) * u;
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    out.force += block.C(i) * in.state(i);
+    for (Eigen::Index k = 0; k < block.C.rows(); ++k)
+      value_of_block(out, k) += block.C(k, i) * in.state(i);
     for (Eigen::Index j = 0; j < n; ++j) {
       if (block.A(i, j) == 0.0) continue;
       out.state_rates[i] += block.A(i, j) * in.state(j);

@@ -16,7 +16,7 @@ struct Edge {
   int index = -1;
 };
 
-/// Joints that constrain something, then elements that hold two bodies.
+/// Joints that constrain something, then elements that hold two bodies and are not driven.
 std::vector<Edge> edges_of(const Model& model) {
   const int ground = std::ssize(model.bodies);
   const auto vertex = [&](int body) { return body < 0 ? ground : body; };
@@ -27,7 +27,7 @@ std::vector<Edge> edges_of(const Model& model) {
       edges.push_back({vertex(joint.parent), vertex(joint.child), false, j});
   }
   for (int k = 0; k < std::ssize(model.elements); ++k)
-    if (const Element& e = model.elements[k]; e.links())
+    if (const Element& e = model.elements[k]; e.links() && !e.driven)
       for (std::size_t i = 1; i < e.markers.size(); ++i)
         edges.push_back({vertex(model.markers[e.markers[0]].body),
                          vertex(model.markers[e.markers[i]].body), true, k});

@@ -49,9 +49,11 @@ struct Joint {
   Vec3 axis_2 = Vec3::UnitX();             ///< in the joint frame
   std::vector<double> position, velocity;  ///< start values, in the user's form
   bool keep = false;                       ///< they must not move when loops are closed
-  int motion = -1;                         ///< the element that prescribes its coordinate
-  bool cut = false;                        ///< marked as cut by the user, for relative coordinates
-  bool automatic = false;                  ///< a free joint added for a body that no joint leads to
+  int motion = -1;                         ///< the element that prescribes its only coordinate
+  /// Of several coordinates those that prescribe them, -1: none; empty: none at all.
+  std::vector<int> motions = {};
+  bool cut = false;        ///< marked as cut by the user, for relative coordinates
+  bool automatic = false;  ///< a free joint added for a body that no joint leads to
 };
 
 struct Road {
@@ -79,6 +81,9 @@ struct SignalLink {
   int port = 0;            ///< the signal of the second one
   ElementQuantity quantity{};
   double factor = 1.0;
+  int value = 0;  ///< of `EffortsOf::further`, from 1, in place of the force
+  /// Among the results of an element: force, length, rate and further values.
+  int result() const noexcept { return value > 0 ? 2 + value : static_cast<int>(quantity); }
 };
 
 /// A coordinate of a joint that an element acts on or holds, measured at the two markers of the
@@ -137,6 +142,7 @@ struct Element {
   std::vector<Signal> signals;              ///< those of its keys, in their order
   std::vector<CoordinatePort> coordinates;  ///< of joints, in the order of its kind
   std::vector<FormulaOperand> operands;     ///< of the references of its formula
+  std::vector<std::string> values;          ///< the names of its values, if it has several
   int road = -1;
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
@@ -154,6 +160,8 @@ struct Element {
   bool counts_turns() const noexcept { return exerts() && rotational; }
   /// It holds bodies to each other, as a joint does.
   bool links() const noexcept { return holds && coordinates.empty(); }
+  /// Values beside the force, which is the first one.
+  int further() const noexcept { return std::max<int>(1, std::ssize(values)) - 1; }
   /// It exerts forces, as everything that acts but controllers.
   bool exerts() const noexcept { return acts && !reads && !markers.empty(); }
 };
@@ -186,15 +194,17 @@ struct Model {
   std::vector<Marker> markers;
   std::vector<Output> outputs;
   std::vector<Output> measures;  ///< of formulas; no columns
+  std::optional<Output> until;   ///< the formula that ends runs where it crosses zero
   std::vector<Gauge> gauges;
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
-  ModelHints hints;     ///< for checks of the model; nothing else depends on them
+  ModelHints hints;  ///< for checks of the model; nothing else depends on them
   bool linear = false;  ///< it is evaluated for a linear system: delays are approximated
-  /// What prescribes the coordinate of a joint; nullptr: nothing.
-  const TimeFunction* motion_of(const Joint& joint) const noexcept {
-    return joint.motion < 0 ? nullptr : &elements[joint.motion].signals[0].function;
+  /// What prescribes a coordinate of a joint; nullptr: nothing.
+  const TimeFunction* motion_of(const Joint& joint, std::size_t component = 0) const noexcept {
+    const int by = joint.motions.empty() ? joint.motion : joint.motions[component];
+    return by < 0 ? nullptr : &elements[by].signals[0].function;
   }
 };
 

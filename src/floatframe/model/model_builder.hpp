@@ -113,4 +113,7 @@ inline Vec3 unit_vector(const Vec3& v) {
                                                   : (v / v.cwiseAbs().maxCoeff()).normalized();
 }
 
+/// Of the element of a delay in the formula of `owner`; no name of the user has a slash.
+std::string delay_name(const std::string& owner, const Formula& f, const FormulaReference& r);
+
 }  // namespace floatframe

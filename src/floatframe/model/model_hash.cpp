@@ -67,14 +67,14 @@ class ModelHash {
     all(body, node, X_NM, rotates);
   }
   void add(const Joint& j) {
-    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, cut,
-                 automatic] = j;
-    all(name, type, parent, child, F, M, axis_2, motion, cut, automatic);
+    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, motions,
+                 cut, automatic] = j;
+    all(name, type, parent, child, F, M, axis_2, motion, motions, cut, automatic);
   }
   void add(const AttachmentDescription& a) { all(a.body, a.point, a.node.value_or("")); }
   void add(const SignalDescription& s) {
     add(static_cast<const TimeFunction&>(s));
-    all(s.input, s.source, s.element, s.factor);
+    all(s.input, s.source, s.element, s.value, s.factor);
   }
   void add(const SharedFormula& f) {
     if (!f) return;
@@ -89,8 +89,8 @@ class ModelHash {
     all(function, input, link, given);
   }
   void add(const SignalLink& l) {
-    const auto& [from, to, port, quantity, factor] = l;
-    all(from, to, port, quantity, factor);
+    const auto& [from, to, port, quantity, factor, value] = l;
+    all(from, to, port, quantity, factor, value);
   }
   void add(const FormulaOperand& x) {
     const auto& [kind, index, output, factor, offset, ports, angle] = x;
@@ -98,8 +98,9 @@ class ModelHash {
     if (factor != 1.0 || offset != 0.0) all(factor, offset);
   }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, coordinates, operands, road, states, kept,
-                 remembers, start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
+    const auto& [name, type, markers, laws, signals, coordinates, operands, values, road, states,
+                 kept, remembers, start, acts, holds, reads, rotational, driven, jumps, keys,
+                 data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
     if (remembers) all(kept);
     const ElementDescription described{name, *keys, {}};
@@ -170,10 +171,11 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 measures, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints,
-                 linear] = model;
+                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation,
+                 hints, linear] = model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
+    if (until) add(*until);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);

@@ -122,8 +122,9 @@ void hint_at_angles(const ModelDescription& description, const Model& model, Hin
         out.add("joint", joint.name, turns_text("its position", joint.position[k]));
         break;
       }
-    if (const TimeFunction* motion = model.motion_of(joint); motion && turns(0))
-      hint_at_angle_of_time("joint", joint.name, "its motion", *motion, out);
+    for (int k = 0; k < joint_velocities(joint.type); ++k)
+      if (const TimeFunction* motion = model.motion_of(joint, k); motion && turns(k))
+        hint_at_angle_of_time("joint", joint.name, "its motion", *motion, out);
   }
   for (const Element& e : model.elements) {
     if (!e.counts_turns()) continue;

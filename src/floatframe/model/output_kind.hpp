@@ -48,6 +48,7 @@ enum class OutputOf {
   controller,  ///< `element`
   state,       ///< an element, with the number of a state: `element`, `component`
   formula,     ///< `formula`
+  crossing,    ///< `formula`, with the direction in which it crosses zero: `component`
   gauge        ///< a location of a flexible body with stress data: `body`, `gauge`
 };
 
@@ -56,9 +57,12 @@ enum class OutputOf {
 struct OutputComponents {
   const char* key = nullptr;
   std::span<const char* const> words;
+  bool one = false;  ///< the first without the key, not a column each
 };
 inline constexpr OutputComponents world_axes{"axis", rules::axes};
 inline constexpr OutputComponents quaternion_components{"component", rules::quaternion};
+inline constexpr OutputComponents crossing_directions{"direction", rules::crossing_directions,
+                                                      true};
 inline constexpr OutputComponents roll_pitch_yaw_angles{"angle", rules::angles};
 
 /// How its components reflect in a mirror (description/placement.hpp); of coordinates of joints
@@ -103,6 +107,25 @@ inline MeasurePorts<double> measure_ports(const SystemMotion& motion, const Outp
 
 /// Of a body, or with -1 of all [kg].
 double mass_of(const Model& model, int body) noexcept;
+
+/// The value of a formula at a sample; `parts` is the memory of its references.
+double sampled_formula(const SystemMotion& motion, const OutputFormula& f,
+                       std::vector<FollowedOutput>& parts) noexcept;
+/// A formula whose crossing of zero is looked for after each step.
+struct Crossing {
+  /// In the memory of its output.
+  enum Memory : std::size_t {
+    value,  ///< the last one that is not zero
+    found,  ///< 1 after the crossing ...
+    time    ///< ... at this time
+  };
+  /// From a value to the next one, in the direction of the output.
+  static bool between(double before, double after, int direction) noexcept {
+    if (before == 0.0 || !(after == after) || (after != 0.0 && (after > 0.0) == (before > 0.0)))
+      return false;
+    return direction == 0 || (direction == 1) == (before < 0.0);
+  }
+};
 
 /// A measure that nothing is remembered of.
 #define FLOATFRAME_MEASURED(name)                                                            \

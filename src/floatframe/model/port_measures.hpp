@@ -79,6 +79,23 @@ void pull_back(const AxisMeasure<S>& m, const S& force, double k, double c,
   out.add_pair_row(m.g, k, c);
 }
 
+/// What spring and damper are laws of, if their element has a target in signal 1, with the rate in
+/// signal 2 or its own: they pull a measure s and its rate there.
+template <class S>
+struct TowardTarget {
+  S stretch;     ///< s - target
+  S rate;        ///< sdot - rate of the target
+  double moves;  ///< rate of the target in the present motion: an input is constant in a step
+};
+template <class S>
+TowardTarget<S> toward_target(const PortsOf<S>& in, const S& s, const S& s_dot) noexcept {
+  const SignalValue<S> at = in.signal(1);
+  const S rate = in.element.signals[2].given ? in.signal(2).f : S(at.df);
+  return {s - at.f, s_dot - rate, at.df};
+}
+/// Its keys `target` and `target_rate` need a law.
+void validate_target(const ElementCheck& check);
+
 // Of an element with the ends `from` and `to`, and of one with the key `joint`.
 void validate_line(const ElementCheck& check);
 bool build_line(ElementBuild& build);

@@ -265,7 +265,10 @@ void move_frames(Model& model, int index, const JointPlace& from, const JointPla
     model.markers.push_back(m);
   }
   joint.axis_2 = to.axis_2;
-  if (joint.motion >= 0) model.elements[joint.motion].markers = {joint.frame_F, joint.frame_M};
+  std::vector<int> motions = joint.motions;
+  motions.push_back(joint.motion);
+  for (const int motion : motions)
+    if (motion >= 0) model.elements[motion].markers = {joint.frame_F, joint.frame_M};
 }
 
 }  // namespace

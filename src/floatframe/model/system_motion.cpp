@@ -38,7 +38,7 @@ double SystemMotion::start_position(int joint, int component) const noexcept {
   for (const CountedAngle& c : counted)
     if (c.joint == joint && c.component == component) return *c.angle;
   const Joint& j = model.joints[joint];
-  if (const TimeFunction* f = model.motion_of(j)) return evaluate(*f, t).f;
+  if (const TimeFunction* f = model.motion_of(j, component)) return evaluate(*f, t).f;
   const std::size_t k = component;
   return k < j.position.size() ? j.position[k] : 0.0;
 }

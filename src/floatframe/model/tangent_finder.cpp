@@ -25,16 +25,15 @@ MarkerMotion<Dual> moving(const MarkerState& m) {
   return out;
 }
 
-constexpr Eigen::Index quantities = 3;  // of ElementQuantity
-
 }  // namespace
 
 TangentFinder::TangentFinder(const Model& model, const Element& element)
-    : efforts_(element.markers.size(), element.states),
+    : efforts_(element.markers.size(), element.states, element.further()),
       motions_(element.markers.size()),
       states_(element.states + (element.remembers ? 0 : element.kept)),
       links_(model.links.size()) {
-  const Eigen::Index n = 6 * std::ssize(element.markers), results = element.states + quantities,
+  const Eigen::Index n = 6 * std::ssize(element.markers),
+                     results = element.states + 3 + element.further(),
                      inner = element.states + link_count(element);
   out_ = {MatX::Zero(n, n),       MatX::Zero(n, n),       MatX::Zero(n, inner),
           MatX::Zero(results, n), MatX::Zero(results, n), MatX::Zero(results, inner)};
@@ -84,7 +83,7 @@ const Dual::Directions& TangentFinder::wrench(Eigen::Index row) const noexcept {
 const Dual::Directions& TangentFinder::result(Eigen::Index row) const noexcept {
   const auto states = std::ssize(efforts_.state_rates);
   if (row < states) return efforts_.state_rates[row].d;
-  return (row == states ? efforts_.force : row == states + 1 ? efforts_.length : efforts_.rate).d;
+  return efforts_.result(row - states).d;
 }
 
 const EffortTangent& TangentFinder::find_inner(const Ports& in) noexcept {

@@ -91,9 +91,7 @@ struct ElementValidation {
         if (!std::get<SharedFormula>(*x))
           entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
         break;
-      case K::flag:
-      case K::bump_stop:
-      case K::rebound_stop:
+      default:  // flags, stops, names and files of linear systems
         break;
     }
     return entity.errors.size() == before;
@@ -101,6 +99,12 @@ struct ElementValidation {
 
   void signal(const std::string& path, const SignalDescription& s) const {
     entity.signal(path, s, names);
+    if (s.source == SignalSource::controller)
+      if (const auto k = names.controllers.find(s.element)) {
+        const std::vector<std::string> values = value_names(d.controllers[*k].kind);
+        if (value_index(values, s.value) < 0)
+          entity.error(ErrorCode::not_found, path, sentences::no_such_value(s.value, values));
+      }
     const auto k = s.source == SignalSource::none || s.source == SignalSource::controller
                        ? std::nullopt
                        : names.forces.find(s.element);

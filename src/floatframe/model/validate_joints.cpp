@@ -25,6 +25,26 @@ void start_values(const Entity& joint, const char* key, const std::vector<double
   }
 }
 
+/// Of a joint with several coordinates.
+void motions(const JointDescription& j, const Entity& entity) {
+  const int n = joint_velocities(j.type);
+  std::set<int> taken;
+  for (const CoordinateMotion& m : j.motions) {
+    const bool there = n > 1 && m.coordinate >= 0 && m.coordinate < n;
+    if (!there)
+      entity.error(ErrorCode::out_of_range, "motions",
+                   sentences::number_of("the number of a coordinate", m.coordinate, n, false));
+    else if (is_of_rotation_vector(j.type, m.coordinate))
+      entity.error(ErrorCode::unsupported, "motions",
+                   sentences::undrivable_coordinate(joint_type_name(j.type)));
+    else if (!taken.insert(m.coordinate).second)
+      entity.error(ErrorCode::duplicate, "motions",
+                   sentences::driven_twice(joint_coordinate_key(j.type, m.coordinate)));
+    else
+      entity.function("motion." + joint_coordinate_key(j.type, m.coordinate), m.motion);
+  }
+}
+
 void joint(const JointDescription& j, const Names& names, const Entity& entity) {
   const bool type = entity.word("type", j.type, joint_words);
   if (j.parent.body != ground_name)
@@ -40,6 +60,7 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
   if (!type) return;
   joint_values(j, entity);
   if (j.motion && joint_has_one_coordinate(j.type)) entity.function("motion", *j.motion);
+  motions(j, entity);
 }
 
 }  // namespace

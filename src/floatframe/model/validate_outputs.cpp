@@ -1,4 +1,5 @@
 // Result columns: names, measured quantities, components.
+#include <algorithm>
 #include <set>
 
 #include "floatframe/core/enum_index.hpp"
@@ -92,7 +93,10 @@ void motion_output(const OutputDescription& o, const ModelDescription& d, const 
                    const Entity& entity) {
   const char* const word = output_type_name(o.type);
   if (!entity.reference(word, "joint", o.entity, names.joints)) return;
-  if (!d.joints[*names.joints.find(o.entity)].motion)
+  const JointDescription& j = d.joints[*names.joints.find(o.entity)];
+  const bool driven = std::any_of(j.motions.begin(), j.motions.end(),
+                                  [&](const auto& m) { return m.coordinate == o.component; });
+  if (!j.motion && !driven)
     entity.error(ErrorCode::wrong_value, word, sentences::joint_without_motion());
 }
 
@@ -138,6 +142,7 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
       reaction(o, names, entity);
       break;
     case OutputOf::formula:
+    case OutputOf::crossing:
       if (!o.formula) entity.error(ErrorCode::missing, what, sentences::missing_formula());
       break;
     case OutputOf::rod:

@@ -7,6 +7,26 @@
 
 namespace floatframe {
 
+namespace {
+
+TimeFunction negative(const TimeFunction& f) {
+  std::vector<PiecewisePolynomial::Piece> pieces = f.pieces.pieces();
+  for (PiecewisePolynomial::Piece& piece : pieces)
+    for (double& c : piece.coefficients) c = -c;
+  TimeFunction out = f;
+  out.pieces = PiecewisePolynomial(f.pieces.breaks(), std::move(pieces));
+  for (SineTerm& s : out.sines) s.amplitude = -s.amplitude;
+  if (!f.formula) return out;
+  auto formula = std::make_shared<Formula>(*f.formula);
+  formula->text = "-(" + formula->text + ")";
+  formula->steps.push_back({.op = FormulaOp::negative});
+  formula->sources.push_back(formula->text);
+  out.formula = std::move(formula);
+  return out;
+}
+
+}  // namespace
+
 void place(AttachmentDescription& a, const Placement& x) { a.point = x.point(a.point); }
 
 void place(BodyDescription& b, const Placement& x) {
@@ -26,6 +46,8 @@ void place(JointDescription& j, const Placement& x) {
   place(j.parent, x);
   place(j.child, x);
   joint_kind(j.type).mirror(j, x);
+  for (CoordinateMotion& m : j.motions)
+    if (mirrored_sign(j.type, m.coordinate, x) < 0.0) m.motion = negative(m.motion);
 }
 
 void place(ElementDescription& f, const Placement& x) {

@@ -7,6 +7,7 @@
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model_file/linear_file.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/yaml/read_table.hpp"
 
@@ -124,12 +125,16 @@ class ElementReader {
                : std::nullopt;
   }
 
-  /// A list of signals, or one.
+  /// A list of signals, or one, or those of inputs of a file.
   std::optional<KeyValue> signals(const YamlValue& value) const {
+    if (names_inputs(value, file_inputs_))
+      return KeyValue(read_named_signals(self_, value, file_inputs_));
     std::vector<SignalDescription> all;
     const auto items = value.is_list() ? value.list() : std::vector<YamlValue>{value};
     for (const YamlValue& item : items)
       all.push_back(read_signal(self_, item, "", Interpolation::linear));
+    if (!file_inputs_.empty() && all.size() != file_inputs_.size())
+      value.error(ErrorCode::wrong_count, sentences::signals_of_file(all.size(), file_inputs_));
     return KeyValue(std::move(all));
   }
 
@@ -211,6 +216,13 @@ class ElementReader {
         return matrix_of_any_size(*value, key);
       case K::signals:
         return signals(*value);
+      case K::names: {
+        auto names = read_names(*value);
+        return names ? std::optional(KeyValue(std::move(*names))) : std::nullopt;
+      }
+      case K::linear_file:
+        file_inputs_ = take_linear_file(self_, *value, s_, f_);
+        return std::nullopt;
       case K::motion:
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:
@@ -230,6 +242,7 @@ class ElementReader {
   YamlSection& s_;
   ElementDescription& f_;
   ElementCheck check_;
+  std::vector<std::string> file_inputs_;
 };
 
 /// Points [x, z] of a road; two with the same x are a step.

@@ -122,6 +122,21 @@ void read_axes(YamlSection& s, JointDescription& j) {
   j.axis_2 = b->stableNormalized();
 }
 
+/// {displacement: function, angle: function}, by the names of coordinates.
+void read_motions(const ModelInstance& self, const YamlValue& value, JointDescription& j) {
+  auto section = value.section("a map of coordinates to functions of time");
+  if (!section) return;
+  for (int k = 0; k < joint_velocities(j.type); ++k) {
+    const auto v = section->get(joint_coordinate_key(j.type, k).c_str());
+    if (v && is_of_rotation_vector(j.type, k))
+      v->error(ErrorCode::unsupported, sentences::undrivable_coordinate(joint_type_name(j.type)));
+    else if (v)
+      j.motions.push_back(
+          {k, read_motion(self, *v, joint_unit_name(j.type, k), Interpolation::cubic)});
+  }
+  section->finish();
+}
+
 void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
                 ReadModel& model) {
   JointDescription j;
@@ -147,13 +162,16 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   const JointAxes axes = joint_kind(j.type).axes;
   if (axes == JointAxes::none) unused("axis");
   if (axes != JointAxes::two) unused("axis_2");
-  if (!joint_has_one_coordinate(j.type)) unused("motion");
+  if (joint_velocities(j.type) == 0) unused("motion");
   j.position = start_values(s, "position", j.type);
   j.velocity = start_values(s, "velocity", j.type);
   j.keep = s.boolean("keep", false);
-  if (joint_has_one_coordinate(j.type))
-    if (const auto v = s.get("motion"))
+  if (const auto v = s.get("motion"); v && joint_velocities(j.type) > 0) {
+    if (joint_has_one_coordinate(j.type))
       j.motion = read_motion(self, *v, joint_unit_name(j.type, 0), Interpolation::cubic);
+    else
+      read_motions(self, *v, j);
+  }
   j.cut = s.boolean("cut", false);
   s.finish();
   validate_entity(s, j.origin,

@@ -4,6 +4,7 @@
 
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/time_terms.hpp"
 #include "floatframe/yaml/read_table.hpp"
@@ -147,6 +148,9 @@ TimeFunction time_terms(const ModelInstance& self, YamlSection& section, const c
   int laws = 0;
   const auto formula = section.get("formula");
   if (formula) f.formula = read_formula(self, *formula);
+  if (f.formula && f.formula->is_of_time())
+    if (const std::string why = fault_at(*f.formula, 0.0); !why.empty())
+      formula->error(ErrorCode::wrong_value, why + " at t = 0 s");
   if (const auto v = section.get("polynomial")) {
     ++laws;
     f.pieces = PiecewisePolynomial(
@@ -170,8 +174,12 @@ TimeFunction time_terms(const ModelInstance& self, YamlSection& section, const c
     if (const auto text = sentences::period(f, !no_jump(of)))
       section.get(section.has("period") ? "period" : "periodic")
           ->error(ErrorCode::contradiction, *text);
+  const auto& entries = section.value().node().entries;
+  const bool unknown_key = std::any_of(entries.begin(), entries.end(), [&](const YamlEntry& e) {
+    return !section.was_asked(e.key);
+  });
   section.finish();
-  if (laws > 1 || (laws == 0 && !sines && !formula && expected != nullptr))
+  if (laws > 1 || (laws == 0 && !sines && !formula && !unknown_key && expected != nullptr))
     section.error(ErrorCode::wrong_count, "found " + std::to_string(laws) + " laws, expected " +
                                               (expected != nullptr ? expected : time_laws));
   return f;
@@ -298,6 +306,9 @@ bool read_source(const ModelInstance& self, YamlSection& section, SignalDescript
     const auto name = self.reference(
         source == SignalSource::controller ? EntityKind::controller : EntityKind::force, *value);
     signal.element = name.value_or("");
+    if (source != SignalSource::controller) continue;
+    if (const auto v = section.get("output"))
+      signal.value = v->text("a name or number").value_or("");
   }
   if (signal.source == SignalSource::none) return false;
   signal.factor = section.number("factor", any_number(""), 1.0);

@@ -75,6 +75,7 @@ class OutputReader {
       case OutputOf::reaction:
         return reaction(s, what, o);
       case OutputOf::formula:
+      case OutputOf::crossing:
         o.formula = read_formula(self_, what);
         return o.formula != nullptr;
       case OutputOf::rod:
@@ -82,9 +83,9 @@ class OutputReader {
       case OutputOf::coupling:
         return put(self_.reference(EntityKind::coupling, what), o.entity);
       case OutputOf::controller:
-        return put(self_.reference(EntityKind::controller, what), o.entity);
+        return controller(s, what, o);
       case OutputOf::motion:
-        return put(self_.reference(EntityKind::joint, what), o.entity);
+        return put(self_.reference(EntityKind::joint, what), o.entity) && motion(s, o);
     }
     return false;
   }
@@ -106,7 +107,7 @@ class OutputReader {
     for (const OutputType type : output_types)
       if (const char* key = output_kind(type).components.key) s.get(key);
     for (const char* key : {"mode", "coordinate", "number", "about", "in", "relative_to",
-                            "direction", "inertia_loads", "unit"})
+                            "direction", "inertia_loads", "output", "unit"})
       s.get(key);
     s.finish();
     if (found == 0 && misspelt_quantity(s)) return;  // already reported
@@ -125,8 +126,8 @@ class OutputReader {
 
   /// One component, all of them, or a scalar quantity.
   void components(const std::string& name, YamlSection& s, OutputDescription o) {
-    const auto [key, words] = output_kind(o.type).components;
-    if (!key) {
+    const auto [key, words, one] = output_kind(o.type).components;
+    if (!key || (one && !s.has(key))) {
       add(name, o);
       return;
     }
@@ -189,6 +190,12 @@ class OutputReader {
         !self_.resolve(EntityKind::force, *name) && self_.resolve(EntityKind::controller, *name);
     const EntityKind kind = controller ? EntityKind::controller : EntityKind::force;
     return put(self_.reference(kind, what), o.entity) && good;
+  }
+
+  bool controller(YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const auto value = s.get("output");
+    const bool good = !value || put(value->text("a name or number"), o.value);
+    return put(self_.reference(EntityKind::controller, what), o.entity) && good;
   }
 
   /// The keys `relative_to` and `in` of a motion, after its subject.
@@ -263,6 +270,24 @@ class OutputReader {
       s.error(ErrorCode::missing, "missing key 'coordinate'");
     }
     return n == 1;
+  }
+
+  /// Of a joint with several driven coordinates the number of one.
+  bool motion(YamlSection& s, OutputDescription& o) {
+    for (const JointDescription& j : model_.description.joints) {
+      if (j.name != o.entity || j.motions.empty()) continue;
+      const auto coordinate = s.get("coordinate");
+      o.component = j.motions[0].coordinate;
+      if (coordinate) {
+        const auto k =
+            coordinate->integer(1, joint_velocities(j.type), "the number of a coordinate");
+        if (k) o.component = *k - 1;
+        return k.has_value();
+      }
+      if (j.motions.size() > 1) s.error(ErrorCode::missing, "missing key 'coordinate'");
+      return j.motions.size() == 1;
+    }
+    return true;
   }
 
   /// A joint by its name, a rod as {rod: name}; `about` a point, `in` some axes.

@@ -142,6 +142,7 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
     d.geometric_stiffening = s.boolean("geometric_stiffening", false);
   if (const auto v = s.get("start")) read_start(self, *v, d);
   s.vector("velocity", "m/s", d.velocity);
+  if (const auto v = s.get("until")) d.until = read_formula(self, *v);
   for (const SimulationNumber& n : simulation_numbers())
     d.*n.at = s.number(n.name, n.rule, d.*n.at);
   if (const auto v = s.get("max_iterations"))

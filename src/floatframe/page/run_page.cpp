@@ -34,6 +34,7 @@ std::vector<std::string> ending(const Report& report) {
     out.push_back(fmt::format(
         "{:g} s simulated in {:.3g} s of processor time{}.", s.duration, s.cpu,
         s.cpu > 0.0 ? fmt::format(", {:.3g} times real time", s.real_time_factor) : ""));
+    if (!s.until.empty()) out.push_back("It " + until_text(s) + ".");
   } else if (s.strict) {
     out.push_back("This run counts as failed: " + s.message);
   } else if (report.result.table.columns.empty()) {

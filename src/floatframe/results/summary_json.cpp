@@ -4,6 +4,7 @@
 
 #include "floatframe/results/json_values.hpp"
 #include "floatframe/results/verification_report.hpp"
+#include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {
@@ -46,6 +47,13 @@ Json balance(const EnergySummary& e) {
 Json edges(const RunSummary& s) {
   if (!s.locates_edges) return nullptr;
   return {{"located", s.edges}, {"steps_with_too_many", s.edges_passed}};
+}
+
+Json until(const RunSummary& s) {
+  return {{"formula", s.until},
+          {"reached", s.crossed_at.has_value()},
+          {"time_s", s.crossed_at ? Json(*s.crossed_at) : Json()},
+          {"sentence", until_text(s)}};
 }
 
 /// Null without a step.
@@ -94,6 +102,7 @@ std::string summary_json(const RunSummary& s) {
                  {"inertia", s.inertia},
                  {"step_s", s.step}});
   if (began) json.update(measured(s));
+  if (began && !s.until.empty()) json["until"] = until(s);
   if (s.verification) json["verification"] = verification_json(*s.verification);
   json.update({{"status", s.status}, {"message", s.message}});
   if (!s.files.empty()) {

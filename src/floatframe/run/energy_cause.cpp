@@ -116,8 +116,9 @@ std::string energy_cause(const Model& model, double from, double to, double step
                          std::span<const TimeCorner> corners) {
   CauseFinder finder(from, to, step, corners);
   for (const Joint& j : model.joints)
-    if (const TimeFunction* motion = model.motion_of(j))
-      finder.motion(j.name, *motion, joint_unit_name(j.type, 0));
+    for (int k = 0; k < joint_velocities(j.type); ++k)
+      if (const TimeFunction* motion = model.motion_of(j, k))
+        finder.motion(j.name, *motion, joint_unit_name(j.type, k));
   for (const Element& e : model.elements)
     for (const ElementSignal& s : signals_of(e))
       if (e.acts)

@@ -104,10 +104,12 @@ struct Verification {
 /// The steps are the output steps that were accepted.
 struct RunSummary : StepCounters {
   std::string model, coordinates, inertia;
-  double step = 0, duration = 0;  ///< [s]; duration actually reached
-  bool locates_edges = false;     ///< with `locate_edges`
-  double cpu = 0;                 ///< [s] of stepping, without input and output
-  double real_time_factor = 0;    ///< duration / cpu
+  double step = 0, duration = 0;     ///< [s]; duration actually reached
+  bool locates_edges = false;        ///< with `locate_edges`
+  std::string until;                 ///< the formula that ends the run; empty: none
+  std::optional<double> crossed_at;  ///< time at which it has crossed zero and ended the run [s]
+  double cpu = 0;                    ///< [s] of stepping, without input and output
+  double real_time_factor = 0;       ///< duration / cpu
   StepTimes step_times;
   EnergySummary energy;
   /// "completed", "failed" or "interrupted"; "running" in a summary that is written at the start.

@@ -32,7 +32,14 @@ RunSummary asked_summary(const std::string& model, const SimulationDescription& 
   s.inertia = rules::inertia_methods[index_of(o.inertia)];
   s.step = o.step;
   s.locates_edges = o.locate_edges;
+  if (o.until) s.until = o.until->text;
   return s;
+}
+
+std::string until_text(const RunSummary& s) {
+  if (s.until.empty() || s.status != "completed") return {};
+  if (!s.crossed_at) return "ended with its duration: " + s.until + " did not cross zero";
+  return fmt::format("ended at t = {:.10g} s, where {} crosses zero", *s.crossed_at, s.until);
 }
 
 RunSummary failed_summary(const std::string& model, const SimulationDescription& o,
@@ -46,6 +53,9 @@ RunSummary failed_summary(const std::string& model, const SimulationDescription&
 RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
   require_valid_run(o);
   check_step(o);
+  if (o.until && o.until != given.simulation.until)
+    throw InputError(ErrorCode::contradiction, o.origin.of("until"),
+                     "simulation.until: found a formula that the model was not built with");
   return Run(given, o, run_options).result();
 }
 

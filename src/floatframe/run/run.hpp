@@ -58,6 +58,8 @@ struct RunOptions {
   const RunCheckpoint* resume = nullptr;
 };
 
+/// "ended at t = 1.25 s, where x - 2 crosses zero", or that it never did; empty without `until`.
+std::string until_text(const RunSummary& summary);
 /// The contents of a summary before the first step.
 RunSummary asked_summary(const std::string& model, const SimulationDescription& options);
 /// The summary of a run that could not start.

@@ -25,7 +25,7 @@ class Run {
   Run(const Model& given, const SimulationDescription& o, const RunOptions& options)
       : o_(o),
         options_(options),
-        steps_(given, o, {.duration = o.duration}),
+        steps_(given, o, {.duration = o.duration, .until = o.until != nullptr}),
         planned_(steps_.grid().steps()),
         every_(steps_per_row(o)),
         checkpoint_every_(options.checkpoint && options.checkpoint_every > 0.0
@@ -54,7 +54,7 @@ class Run {
   RunResult result() {
     const long report_every = std::max(1L, planned_ / 100);
     bool good = options_.resume ? resume(*options_.resume) : begin();
-    while (good && made_ < planned_) {
+    while (good && made_ < planned_ && !steps_.ended()) {
       good = go_on() && step() && flush_if_due();
       if (good && options_.progress && made_ % report_every == 0)
         options_.progress(static_cast<double>(made_) / static_cast<double>(planned_));
@@ -111,10 +111,12 @@ class Run {
       --rows_;
   }
 
+  bool is_last(long step) const noexcept { return step == planned_ || steps_.ended(); }
+
   /// After `sample`, which has brought the formulation to the state.
   void sample_state(long step) noexcept {
     state_row_ = nullptr;
-    if (!state_block_ || (step != planned_ && step / every_ % states_every_ != 0)) return;
+    if (!state_block_ || (!is_last(step) && step / every_ % states_every_ != 0)) return;
     state_row_ = state_block_->next();
     states_->sample(steps_.state(), state_row_);
   }
@@ -144,7 +146,7 @@ class Run {
     const Nanoseconds before = thread_cpu_clock();
     const PlannedStep planned = steps_.grid().next();
     bool good = steps_.advance(planned);
-    const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
+    const bool sampled = good && options_.record && (k % every_ == 0 || is_last(k));
     if (sampled) sample();
     good = good && !steps_.has_thrown();
     if (sampled && !good) take_back();
@@ -154,7 +156,7 @@ class Run {
     if (good && sampled) sample_state(k);
     if (good) follow_joints();
     if (good && watch_) {
-      watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
+      watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole && !steps_.ended());
       watch_->attempt(steps_.state(), steps_.last());
       sample_health();
     }
@@ -176,7 +178,7 @@ class Run {
 
   /// Between steps. Returns false if the data cannot be written.
   bool flush_if_due() {
-    if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
+    if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && !is_last(made_))
       return write_checkpoint();
     const bool rows = block_ && block_->due(), states = state_block_ && state_block_->due();
     return (!rows && !states) || flush();
@@ -237,6 +239,7 @@ class Run {
     result_.table.data.resize(rows_ * result_.table.columns.size());
     s.StepCounters::operator=(steps_.counters());
     s.duration = steps_.state().t - steps_.begin();
+    if (steps_.ended()) s.crossed_at = steps_.state().t;
     s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
     s.step_times = step_times(step_times_);
     const Energies e = steps_.energies();

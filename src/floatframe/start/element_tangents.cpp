@@ -117,7 +117,7 @@ Borders borders(Formulation& f, const MatX& J, const MatX& V) {
     for (Eigen::Index l = 0; l < std::ssize(model.links); ++l) {
       const SignalLink& link = model.links[l];
       const std::size_t from = link.from;
-      if (from == k) add(first_link + l, ns + index_of(link.quantity), link.factor);
+      if (from == k) add(first_link + l, ns + link.result(), link.factor);
     }
     row += rows;
     at += ns;

@@ -4,7 +4,14 @@
 
 #include <cmath>
 
+#include "floatframe/formulas/formula_evaluation.hpp"
+#include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
+
 namespace floatframe {
+
+/// Begins what is no overflow but a formula without a value.
+constexpr std::string_view undefined_mark = "a formula has no value: ";
 
 std::string overflow_text(Formulation& f, const State& state, double t, double limit) {
   const Model& model = f.model();
@@ -15,16 +22,19 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
                       : std::isinf(x) ? "more than 1e+308"
                                       : fmt::format("{:.3g}", std::abs(x)));
   };
-  for (const Joint& j : model.joints) {
-    const TimeFunction* law = model.motion_of(j);
-    if (!law) continue;
-    const auto motion = evaluate(*law, t);
-    for (const double x : {motion.f, motion.df, motion.ddf})
-      look(x, [&](const std::string& n) {
-        return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
-                           n);
-      });
-  }
+  for (const Joint& j : model.joints)
+    for (int k = 0; k < joint_velocities(j.type); ++k) {
+      const TimeFunction* law = model.motion_of(j, k);
+      if (!law) continue;
+      const auto motion = evaluate(*law, t);
+      if (std::string why = law->formula ? fault_at(*law->formula, t) : ""; !why.empty())
+        return fmt::format("{}joint '{}': {}", undefined_mark, j.name, why);
+      for (const double x : {motion.f, motion.df, motion.ddf})
+        look(x, [&](const std::string& n) {
+          return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
+                             n);
+        });
+    }
   kinematics_at(f, t, state.q, state.v);
   f.forces();
   const SystemMotion& motion = f.motion();
@@ -48,6 +58,8 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
       look(force.laws[0](now.length).df, slope("spring", "N/m, N m/rad"));
       look(force.laws[1](now.rate).df, slope("damper", "N s/m, N m s/rad"));
     }
+    if (std::string why = std::isnan(now.force) ? formula_complaint_of(f, k) : ""; !why.empty())
+      return fmt::format("{}{}: {}", undefined_mark, element_name(force), why);
     look(now.force, [&](const std::string& n) {
       return force.exerts() ? fmt::format("the force of '{}' is {} [N, N m]", force.name, n)
                             : fmt::format("the value of {} is {}", element_name(force), n);
@@ -56,7 +68,19 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
   return text;
 }
 
+std::string formula_complaint_of(Formulation& f, std::size_t element) {
+  const Element& e = f.model().elements[element];
+  f.find_links();
+  const Ports ports = f.ports(element);
+  const auto complaint = element_kind(e.type).complaint;
+  std::string why = complaint ? complaint(ports) : std::string();
+  for (const Signal& signal : e.signals)
+    if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
+  return why;
+}
+
 std::string overflow_sentence(const std::string& text, double t, double limit) {
+  if (text.starts_with(undefined_mark)) return fmt::format("{} at t = {:.6g} s", text, t);
   return fmt::format(
       "the numbers of the model overflow: {} at t = {:.6g} s, expected less than {:g}", text, t,
       limit);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/start/light_motion.hpp"
@@ -40,12 +39,7 @@ std::string Stepper::undefined_formula() {
   const int k = largest_force();
   if (k < 0 || !std::isnan(f_.effort(k).force)) return {};
   const Element& e = model().elements[k];
-  f_.find_links();
-  const Ports ports = f_.ports(k);
-  const auto complaint = element_kind(e.type).complaint;
-  std::string why = complaint ? complaint(ports) : std::string();
-  for (const Signal& signal : e.signals)
-    if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
+  const std::string why = formula_complaint_of(f_, k);
   if (why.empty()) return {};
   return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}: {}",
                      state_.t, smallest(), element_name(e), why);

@@ -28,6 +28,8 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
       min_step_(limits.min_step.value_or(start_.min_step())),
       integrator_(make_integrator(f_, step_options_)),
       input_use_(options.input),
+      until_(limits.until && model.until),
+      bounded_(limits.bounded),
       grid_(start_.state().t, options.step, limits.duration) {
   if (std::string note = settle_samples(start_, options.step); !note.empty())
     start_.add_note(std::move(note));
@@ -35,6 +37,8 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
   begin_at_start(options.locate_edges && !limits.bounded);
   if (reactions_ && !reactions_->open_outputs().empty())
     start_.add_note(open_outputs_note(reactions_->open_outputs()));
+  if (options.until && limits.bounded)
+    start_.add_note("until is ignored here: steps go on where its formula crosses zero");
   if (options.locate_edges && limits.bounded)
     start_.add_note("locate_edges is ignored here: it would make the number of substeps unbounded");
 }
@@ -46,6 +50,8 @@ Stepper::Stepper(const Stepper& found, double duration)
       min_step_(found.min_step_),
       integrator_(make_integrator(f_, step_options_)),
       input_use_(found.input_use_),
+      until_(found.until_),
+      bounded_(found.bounded_),
       grid_(start_.state().t, found.grid_.step(), duration) {
   locate_corners({found.corners().begin(), found.corners().end()});
   begin_at_start(found.locator_.has_value());
@@ -73,19 +79,23 @@ void Stepper::begin_at_start(bool locate_edges) {
   inputs_.assign(f_.inputs().begin(), f_.inputs().end());
   state_ = start_.state();
   if (locate_edges) locator_.emplace(f_, *integrator_);
+  watch_formulas();
   prepare_reactions();
   hold_branches();
+  look_at_formulas();
+  note_crossings();
   first_ = memory();
-  for (const Element& e : model().elements)
-    if (calls_program(e.type))
-      before_ = {.state = state_,
-                 .angles = {f_.spring_angles().begin(), f_.spring_angles().end()},
-                 .branches = {f_.force_branches().begin(), f_.force_branches().end()},
-                 .outputs = outputs_};
+  for (const Element& e : model().elements) may_throw_ = may_throw_ || calls_program(e.type);
+  if (may_throw_ || !watched_.empty())
+    before_ = {.state = state_,
+               .angles = {f_.spring_angles().begin(), f_.spring_angles().end()},
+               .branches = {f_.force_branches().begin(), f_.force_branches().end()},
+               .outputs = outputs_,
+               .inputs = inputs_};
 }
 
 void Stepper::prepare_reactions() {
-  if (!(needs_ | samples_.needs()).reactions) return;
+  if (!(needs_ | samples_.needs() | watched_needs_).reactions) return;
   reactions_.emplace(f_.coordinates(), model(), start_.inertia(), start_.state(),
                      ReactionOptions{step_options_.penalty_mass, grid_.step(),
                                      !start_.report().redundant.empty()});
@@ -107,12 +117,16 @@ bool Stepper::advance(const PlannedStep& step) noexcept {
   assert(step.size > 0.0 && step.to > state_.t);
   least_ = min_step_ * std::max(1.0, step.size / grid_.step());
   if (before_) keep(*before_);
-  if (!cover(step.size)) {
-    if (before_ && has_thrown()) undo();
+  bool good = cover(step.size);
+  if (good) {
+    state_.t = step.to;
+    good = watched_.empty() || look_for_crossings(step);
+  }
+  if (!good) {
+    if (may_throw_ && has_thrown()) undo();
     return false;
   }
-  state_.t = step.to;
-  grid_.made(step);
+  if (!ended_) grid_.made(step);
   return true;
 }
 
@@ -121,6 +135,9 @@ void Stepper::keep(Before& before) const noexcept {
   before.base = grid_.base();
   before.since_base = grid_.since_base();
   std::copy(outputs_.begin(), outputs_.end(), before.outputs.begin());
+  std::copy(inputs_.begin(), inputs_.end(), before.inputs.begin());
+  before.tangent_reuse = integrator_->tangent_reuse();
+  before.counters = counters_;
   std::copy(f_.spring_angles().begin(), f_.spring_angles().end(), before.angles.begin());
   std::copy(f_.force_branches().begin(), f_.force_branches().end(), before.branches.begin());
 }
@@ -289,6 +306,7 @@ void Stepper::set_memory(const StepperMemory& m) {
   outputs_ = m.outputs;
   inputs_ = m.inputs;
   counters_ = m.counters;
+  ended_ = false;
 }
 
 }  // namespace floatframe

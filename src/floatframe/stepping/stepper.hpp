@@ -7,6 +7,7 @@
 //
 //   advance     one step of the grid
 //   cover       its attempts: substeps where one does not converge
+//   crossings   times at which formulas cross zero in it (crossings.cpp)
 //   part        one attempt, divided at corners (corner_steps.hpp) and edges (edge_locator.hpp)
 #include <cassert>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "floatframe/stepping/corner_steps.hpp"
 #include "floatframe/stepping/edge_locator.hpp"
 #include "floatframe/stepping/energies.hpp"
+#include "floatframe/stepping/explicit_move.hpp"
 #include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/step_report.hpp"
 #include "floatframe/stepping/time_grid.hpp"
@@ -36,6 +38,7 @@ struct StepLimits {
   int fixed_iterations = 0;             ///< see StepOptions
   double time_budget = 0.0;             ///< see StepOptions [s]
   bool bounded = false;                 ///< steps are not divided at edges and corners
+  bool until = false;                   ///< the steps end where `until` of the options says
 };
 
 /// Everything that determines the next steps and outputs, bit for bit, except the inputs.
@@ -73,6 +76,8 @@ class Stepper {
   /// failed iteration for diagnosis; the state is that of the last accepted substep, or the one
   /// before the step if the function of an element has thrown.
   bool advance() noexcept { return advance(grid_.next()); }
+  /// The last step was shortened to the instant at which the formula `until` crosses zero.
+  bool ended() const noexcept { return ended_; }
   /// A step planned by `grid()`. A step longer than those of the grid is not divided into more
   /// parts than one of them: its cost is bounded.
   bool advance(const PlannedStep& step) noexcept;
@@ -87,7 +92,7 @@ class Stepper {
   /// then fail.
   bool has_thrown() noexcept;
   /// The functions of programs are among the laws.
-  bool may_throw() const noexcept { return before_.has_value(); }
+  bool may_throw() const noexcept { return may_throw_; }
   /// Returns to the state before the last step, for a law that has thrown in the sample after it.
   void undo() noexcept;
   /// Index of the force element with the largest force at the last evaluation; -1: there is none.
@@ -122,7 +127,8 @@ class Stepper {
   void locate_corners(const std::vector<TimeCorner>& corners);
   void prepare_reactions();
 
-  /// What a step changes, kept until it is made if the function of an element may throw.
+  /// What a step changes, kept until it is made if the function of an element may throw or a
+  /// formula may cross zero.
   struct Before {
     State state;
     std::vector<double> angles;
@@ -130,8 +136,27 @@ class Stepper {
     std::vector<FollowedOutput> outputs;
     double base = 0.0;
     std::int64_t since_base = 0;  ///< of the grid
+    TangentReuse tangent_reuse;
+    std::vector<double> inputs;
+    StepCounters counters;
   };
   void keep(Before& before) const noexcept;
+
+  /// A formula, of an output or `until`, and its memory among those of outputs.
+  struct WatchedFormula {
+    const Output* output;
+    std::size_t memory;
+    double value = 0.0, at = 0.0;  ///< at the end of the step; time of the crossing [s]
+    bool crosses = false;          ///< in the step
+  };
+  void watch_formulas();
+  bool look_at_formulas() noexcept;
+  void note_crossings() noexcept;
+  double value_of(const WatchedFormula& w) noexcept;
+  bool look_for_crossings(const PlannedStep& step) noexcept;
+  double crossing_in(const WatchedFormula& w, double h, double end) noexcept;
+  void return_to_begin() noexcept;
+  bool reach(double dt, double h) noexcept;
 
   bool cover(double h) noexcept;
   StepAttempt part(double h, bool may_meet_corner) noexcept;
@@ -168,6 +193,11 @@ class Stepper {
   std::optional<Before> before_;
   MotionNeeds needs_;  ///< of the outputs
   Samples samples_;
+  std::vector<WatchedFormula> watched_;  ///< `until` last
+  MotionNeeds watched_needs_;
+  std::optional<ExplicitMove> move_;
+  VecX a_end_, zd_end_;  ///< accelerations and rates at the end of the whole step
+  bool may_throw_ = false, until_ = false, bounded_ = false, ended_ = false;
   std::optional<ReactionSolver> reactions_;  ///< if an output needs them
   TimeGrid grid_;
   StepperMemory first_;

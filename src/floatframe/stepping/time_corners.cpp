@@ -161,9 +161,10 @@ std::vector<Forcing> all_forcing(const Model& model) {
   using Kind = Forcing::Kind;
   std::vector<Forcing> out;
   for (const Joint& j : model.joints)
-    if (const TimeFunction* motion = model.motion_of(j))
-      out.push_back({Kind::motion, "the motion of joint '" + j.name + "'", motion, false,
-                     joint_unit_name(j.type, 0, true)});
+    for (int k = 0; k < joint_velocities(j.type); ++k)
+      if (const TimeFunction* motion = model.motion_of(j, k))
+        out.push_back({Kind::motion, "the motion of joint '" + j.name + "'", motion, false,
+                       joint_unit_name(j.type, k, true)});
   for (const Element& e : model.elements)
     for (const ElementSignal& s : signals_of(e)) {
       if (e.holds && element_kind(e.type).list != ElementList::motions)

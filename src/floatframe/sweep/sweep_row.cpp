@@ -24,8 +24,8 @@ Figures figures_of(const ResultTable& table, std::size_t column) {
   double integral = 0.0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double t = table.at(row, 0), x = table.at(row, column);
-    if (row == 0 || x < f.min) f.min = x, f.time_of_min = t;
-    if (row == 0 || x > f.max) f.max = x, f.time_of_max = t;
+    if (row == 0 || x < f.min || std::isnan(f.min)) f.min = x, f.time_of_min = t;
+    if (row == 0 || x > f.max || std::isnan(f.max)) f.max = x, f.time_of_max = t;
     if (row > 0) {
       const double before = table.at(row - 1, column);
       integral += 0.5 * (t - table.at(row - 1, 0)) * (before * before + x * x);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <limits>
 #include <optional>
@@ -202,7 +203,10 @@ std::string npy_texts(const std::vector<std::string>& texts) {
   return out;
 }
 
-NpyArray read_npy(std::string_view bytes) {
+namespace {
+
+/// The header, and the bytes of the values.
+std::pair<Header, std::string_view> npy_parts(std::string_view bytes) {
   if (bytes.substr(0, magic.size()) != magic || bytes.size() < magic.size() + 6)
     fail(ErrorCode::wrong_file, "found no array, expected the .npy format of NumPy");
   const auto byte = [&](std::size_t k) -> std::size_t {
@@ -219,8 +223,34 @@ NpyArray read_npy(std::string_view bytes) {
   if (length > bytes.size() - start)
     fail(ErrorCode::damaged, "found {} bytes of a header of {}: the array is truncated",
          bytes.size() - start, length);
-  const Header header(bytes.substr(start, length));
-  const std::string_view rest = bytes.substr(start + length);
+  return {Header(bytes.substr(start, length)), bytes.substr(start + length)};
+}
+
+}  // namespace
+
+std::vector<std::string> read_npy_texts(std::string_view bytes) {
+  const auto [header, rest] = npy_parts(bytes);
+  const std::size_t n = count_of(*header.shape);
+  std::size_t longest = 0;
+  const std::string& type = *header.descr;
+  if (type.starts_with("<U")) std::from_chars(type.data() + 2, type.data() + type.size(), longest);
+  if (longest == 0 || longest > 10000)
+    fail(ErrorCode::wrong_value, "found values of the type '{}', expected texts (<U)",
+         type.substr(0, 20));
+  if (rest.size() != 4 * longest * n)
+    fail(ErrorCode::wrong_count, "found {} bytes of values, expected {} for the shape {}",
+         rest.size(), 4 * longest * n, shape_text(*header.shape));
+  std::vector<std::string> texts;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::u32string wide(longest, U'\0');
+    std::memcpy(wide.data(), rest.data() + 4 * longest * k, 4 * longest);
+    texts.push_back(utf8_of(wide.substr(0, wide.find(U'\0'))));
+  }
+  return texts;
+}
+
+NpyArray read_npy(std::string_view bytes) {
+  const auto [header, rest] = npy_parts(bytes);
   if (*header.descr == "<f8") return values<double>(rest, header);
   if (*header.descr == "<i4") return values<std::int32_t>(rest, header);
   if (*header.descr == "<i8") return values<std::int64_t>(rest, header);

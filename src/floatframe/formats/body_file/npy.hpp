@@ -18,8 +18,10 @@ struct NpyArray {
 /// The bytes of a .npy file. The number of values must be that of the shape.
 std::string npy_bytes(const NpyArray& array);
 
-/// The bytes of a .npy file with a column of texts (UTF-8; unicode in NumPy). They are not read.
+/// The bytes of a .npy file with a column of texts (UTF-8; unicode in NumPy).
 std::string npy_texts(const std::vector<std::string>& texts);
+/// The texts of such a file, in any shape; errors as those of `read_npy`.
+std::vector<std::string> read_npy_texts(std::string_view bytes);
 
 /// Throws InputError with one sentence, without a location: wrong beginning, unknown type, a shape
 /// that does not fit the number of bytes.

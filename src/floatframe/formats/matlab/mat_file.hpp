@@ -1,5 +1,5 @@
 #pragma once
-// MATLAB files of version 7 (level 5, compressed), written: matrices of doubles and columns of
+// MATLAB files of version 7 (level 5, compressed): matrices of doubles and columns of
 // texts. A file is a header of 128 bytes, then of each variable an element
 //   miCOMPRESSED (15), number of bytes, a zlib stream of
 //     miMATRIX (14), number of bytes: flags, dimensions, name, values or cells

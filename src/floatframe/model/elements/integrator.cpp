@@ -67,7 +67,9 @@ constexpr ElementKey integrator_keys[] = {
 
 void integrator_validate(const ElementCheck& check) {
   validate_limits(check);
-  if (!check.good("initial")) return;
+  if (!check.good("initial") ||
+      (check.good("lower") && check.good("upper") && check.number("lower") > check.number("upper")))
+    return;
   const double initial = check.number("initial");
   if ((check.good("lower") && initial < check.number("lower")) ||
       (check.good("upper") && initial > check.number("upper")))

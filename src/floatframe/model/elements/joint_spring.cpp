@@ -4,7 +4,6 @@
 // The row of the step contains f_s g g^T and the damping f_sdot g g^T (port_measures.hpp).
 #include <numbers>
 
-#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/port_measures.hpp"
@@ -13,37 +12,20 @@ namespace floatframe {
 
 namespace {
 
-/// Ports of its signals.
-constexpr std::size_t actuator = 0, target = 1, target_rate = 2;
-
-/// What spring and damper are laws of: they act towards the target.
-template <class S>
-struct Toward {
-  S stretch;     ///< s - target
-  S rate;        ///< sdot - rate of the target
-  double moves;  ///< rate of the target in the present motion: an input is constant in a step
-};
-
-template <class S>
-Toward<S> toward_target(const PortsOf<S>& in, const AxisMeasure<S>& m) noexcept {
-  const SignalValue<S> at = in.signal(target);
-  const S rate = in.element.signals[target_rate].given ? in.signal(target_rate).f : S(at.df);
-  return {m.s - at.f, m.rate - rate, at.df};
-}
-
 template <class S>
 void joint_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const AxisMeasure<S> m = coordinate_measure(in);
-  const Toward<S> x = toward_target(in, m);
+  const TowardTarget<S> x = toward_target(in, m.s, m.rate);
   const LawValue<S> s = spring_of(in, x.stretch), c = damper_of(in, x.rate);
-  pull_back(m, S(s.f + c.f - in.signal(actuator).f), s.df, c.df, out);
+  pull_back(m, S(s.f + c.f - in.signal(0).f), s.df, c.df, out);
   out.energy = energy_of(in.element.laws[0], x.stretch);
   out.energy_rate = s.f * (m.rate - x.moves);
   out.damping = c.f * x.rate;
 }
 
 BranchSide joint_spring_side(const Ports& in) noexcept {
-  const Toward<double> x = toward_target(in, coordinate_measure(in));
+  const AxisMeasure<double> m = coordinate_measure(in);
+  const TowardTarget<double> x = toward_target(in, m.s, m.rate);
   return spring_side(in, x.stretch, x.rate);
 }
 
@@ -104,9 +86,7 @@ constexpr ElementKey joint_spring_keys[] = {
 void joint_spring_validate(const ElementCheck& check) {
   validate_coordinate(check);
   if (!check.given("target") && !check.given("target_rate")) check.some_law();
-  if (check.given("spring") || check.given("damper")) return;
-  for (const char* key : {"target", "target_rate"})
-    if (check.given(key)) check.error(ErrorCode::incomplete, key, sentences::target_without_law());
+  validate_target(check);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // Spring and damper along the line between two points: s = |d|, d = r_b - r_a, n = d/s,
-// f = spring(s) + damper(sdot) + actuator.
+// f = spring(s - target) + damper(sdot - rate of the target) + actuator: with a target a cylinder
+// that is driven.
 //   wrench       f n on a, -f n on b
 //   rows         f_s n n^T + f/s (I - n n^T) and the damping f_sdot n n^T, between the points
+#include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/port_measures.hpp"
 
@@ -12,11 +14,12 @@ namespace {
 template <class S>
 void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const LineMeasure<S> line = line_measure(in);
-  const LawValue<S> s = spring_of(in, line.length), c = damper_of(in, line.rate);
+  const TowardTarget<S> x = toward_target(in, line.length, line.rate);
+  const LawValue<S> s = spring_of(in, x.stretch), c = damper_of(in, x.rate);
   pull_along(line, S(s.f + c.f + in.signal(0).f), s.df, c.df, out);
-  out.energy = energy_of(in.element.laws[0], line.length);
-  out.energy_rate = s.f * line.rate;
-  out.damping = c.f * line.rate;
+  out.energy = energy_of(in.element.laws[0], x.stretch);
+  out.energy_rate = s.f * (line.rate - x.moves);
+  out.damping = c.f * x.rate;
 }
 
 }  // namespace
@@ -27,13 +30,15 @@ namespace {
 
 BranchSide spring_damper_side(const Ports& in) noexcept {
   const LineMeasure<double> line = line_measure(in);
-  return spring_side(in, line.length, line.rate);
+  const TowardTarget<double> x = toward_target(in, line.length, line.rate);
+  return spring_side(in, x.stretch, x.rate);
 }
 
 constexpr ElementRegime spring_damper_regimes[] = {{.name = "anywhere"},
                                                    {.name = "short"},
                                                    {.name = "points_coincide", .regular = false},
-                                                   {.name = "actuated", .conservative = false}};
+                                                   {.name = "actuated", .conservative = false},
+                                                   {.name = "driven", .conservative = false}};
 
 ElementExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
@@ -44,6 +49,14 @@ ElementExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers
   if (regime == 1) b.r = a.r + 0.1 * numbers.direction();
   if (regime == 2) b.r = a.r;
   if (regime == 3) f.actuator = x.linked_signal(numbers);
+  if (regime == 4) {
+    f.target = x.signal(numbers);
+    f.target->pieces = PiecewisePolynomial::polynomial({0.1, numbers(-1.0, 1.0)});
+    f.target->sines.clear();
+    f.target_rate = x.signal(numbers);
+    x.inputs[0] *= 0.01;
+    x.t = numbers(0.0, 1.0);
+  }
   x.markers = {a, b};
   x.keys(f);
   return x;
@@ -58,15 +71,26 @@ constexpr ElementKey spring_damper_keys[] = {
     bump_stop_key,
     rebound_stop_key,
     law_key("actuator", KeyKind::load, "tension added to both",
-            described_by<&SpringDamper::actuator>)};
+            described_by<&SpringDamper::actuator>),
+    law_key("target", KeyKind::target,
+            "the length that `spring`, a law of length - target, pulls to",
+            described_by<&SpringDamper::target>),
+    law_key("target_rate", KeyKind::target_rate, "the rate that `damper` pulls to",
+            described_by<&SpringDamper::target_rate>)};
 
+/// Of a file; a spring with a target is a law of the distance from it.
 double distance_in_design(const ElementView& values, const ElementKey&) {
+  if (values.description().origin.keys.contains("target")) return 0.0;
   return (values.place("from").point - values.place("to").point).norm();
 }
 
 void spring_damper_validate(const ElementCheck& check) {
   validate_line(check);
   check.some_law();
+  validate_target(check);
+  for (const char* stop : {"bump_stop", "rebound_stop"})
+    if (check.given("target") && check.given(stop))
+      check.error(ErrorCode::exclusive, stop, sentences::stop_with_target());
 }
 
 }  // namespace
