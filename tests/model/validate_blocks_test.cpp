@@ -115,6 +115,12 @@ TEST(ValidateBlocks, FiltersAndLimits) {
        {[](D& d) { block<Hysteresis>(d).above = nan; }, "controllers.b.above: out_of_range"},
        {[](D& d) { block<Hysteresis>(d).initial = static_cast<RelaySide>(-1); },
         "controllers.b.initial: out_of_range"}});
+  Delay delay;
+  delay.time = 0.1;
+  expect_errors(with_block(delay),
+                {{[](D& d) { block<Delay>(d).time = 0.0; }, "controllers.b.time: out_of_range"},
+                 {[](D& d) { block<Delay>(d).pade = 11.0; }, "controllers.b.pade: out_of_range"},
+                 {[](D& d) { block<Delay>(d).pade = 2.5; }, "controllers.b.pade: out_of_range"}});
 }
 
 TEST(ValidateBlocks, Sampled) {

@@ -16,9 +16,19 @@ class Placed {
     }
   }
   Ports ports() const {
-    return {x_.model,           element_,  markers_.data(), x_.origin,        x_.t,
-            x_.reference_angle, x_.inputs, free_branch,     x_.states.data(), x_.state_weight,
-            x_.links.data()};
+    return {x_.model,
+            element_,
+            markers_.data(),
+            x_.origin,
+            x_.t,
+            x_.reference_angle,
+            x_.inputs,
+            free_branch,
+            x_.states.data(),
+            x_.state_weight,
+            x_.links.data(),
+            nullptr,
+            x_.states.data() + x_.element.states};
   }
 
  private:

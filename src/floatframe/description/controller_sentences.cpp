@@ -27,6 +27,15 @@ std::string initial_beyond_limits(double initial) {
   return "found the start value " + number_text(initial) + ", expected one within the limits";
 }
 
+std::string not_whole(double number) {
+  return "found " + number_text(number) + ", expected a whole number";
+}
+
+std::string long_delay(double time, double step, double count, double most) {
+  return "found a delay of " + number_text(time) + " s, which keeps " + number_text(count) +
+         " numbers at steps of " + number_text(step) + " s, expected at most " + number_text(most);
+}
+
 std::string unused_without(const std::string& others) {
   return "is not used without " + others + "; remove it, or give that too";
 }

@@ -276,6 +276,13 @@ struct ZeroOrderHold : Sampling {
   double initial = 0.0;  ///< value until the first one acts
 };
 
+/// The input as it was `time` before; before the start it is that of the start.
+struct Delay {
+  SignalDescription input;
+  double time = 0.0;  ///< [s]
+  double pade = 2.0;  ///< order of its Pade approximation in linear systems, a whole number
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -302,7 +309,8 @@ struct ZeroOrderHold : Sampling {
   entry(limiter, Limiter)               \
   entry(rate_limiter, RateLimiter)      \
   entry(hysteresis, Hysteresis)         \
-  entry(zero_order_hold, ZeroOrderHold)
+  entry(zero_order_hold, ZeroOrderHold) \
+  entry(delay, Delay)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -93,6 +93,12 @@ std::string formula_of_a_formula(const std::string& name) {
          "which formulas may refer to";
 }
 
+std::string off_the_mirror(const std::string& name) {
+  return "found '" + name +
+         "' about the origin of the world, which is not on the mirror of the subsystem, expected "
+         "one about a point or relative to a body";
+}
+
 std::string formula_of_law(const std::string& name) {
   return "found '" + name + "', expected x, v, t, numbers and parameters in the formula of a law";
 }

@@ -74,6 +74,8 @@ std::string formula_component(const std::string& function, const std::string& fo
                               std::span<const char* const> words);
 std::string one_argument(const std::string& function);
 std::string formula_coordinate(const std::string& joint, const std::string& found, int count);
+/// A measure about the origin, in a subsystem with a mirror elsewhere.
+std::string off_the_mirror(const std::string& name);
 /// An output with a formula cannot be one of its references.
 std::string formula_of_a_formula(const std::string& name);
 /// Of a force law: another reference than x, v and t.
@@ -96,6 +98,9 @@ std::string controller_without_gain();
 std::string filter_and_rate();
 std::string controller_limits(double lower, double upper);
 std::string initial_beyond_limits(double initial);
+std::string not_whole(double number);
+/// Of a delay that would need more than `most` numbers of its past.
+std::string long_delay(double time, double step, double count, double most);
 /// Of a key that is used with others only.
 std::string unused_without(const std::string& others);
 std::string excludes(const std::string& key);

@@ -3,6 +3,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/formulas/formula_evaluation.hpp"
 
 namespace floatframe {
@@ -92,6 +93,24 @@ std::string fault_at(const Formula& f, double t) {
   FormulaFault fault;
   jet_at(f, t, fault);
   return fault_text(f, fault);
+}
+
+int used_table(Formula& f, const std::string& name, bool grid, const FormulaTables& tables) {
+  const auto find = [&](const auto& known, const auto& others, auto& used) -> int {
+    if (const auto it = known.find(name); it != known.end()) {
+      used.push_back(it->second);
+      return std::ssize(used) - 1;
+    }
+    std::vector<std::string> names;
+    for (const auto& [key, value] : known) names.push_back(key);
+    throw ExpressionError(
+        others.contains(name)
+            ? "the table '" + name + "' has " +
+                  (grid ? "one variable, expected 'table'" : "two variables, expected 'table2'")
+            : "unknown table '" + name + "'" + did_you_mean(name, names));
+  };
+  return grid ? find(tables.grids, tables.curves, f.grids)
+              : find(tables.curves, tables.grids, f.curves);
 }
 
 bool Formula::is_of_time() const noexcept {

@@ -33,13 +33,20 @@ struct FormulaTables {
   std::map<std::string, std::shared_ptr<const GridTable>> grids;
 };
 
+struct Formula;
+using SharedFormula = std::shared_ptr<const Formula>;
+
 /// What a formula reads of its model.
 struct FormulaReference {
   std::string function;  ///< empty: a name alone
-  std::string name;      ///< `t` for the time
-  std::string detail;    ///< second argument: a word, or the number of a coordinate
+  std::string name;      ///< `t` for the time; of a delay the text of what it delays
+  std::string detail;    ///< second argument: a word, a number of a coordinate, the time of a delay
+  SharedFormula delayed = nullptr;  ///< of a delay: the formula whose value at t - delay it is
+  double delay = 0.0;               ///< [s]
   bool is_time() const noexcept { return function.empty() && (name == "t" || name == "time"); }
-  bool operator==(const FormulaReference&) const = default;
+  bool operator==(const FormulaReference& other) const noexcept {
+    return function == other.function && name == other.name && detail == other.detail;
+  }
 };
 
 enum class FormulaOp : std::uint8_t {
@@ -76,6 +83,12 @@ enum class FormulaOp : std::uint8_t {
   jump_unless  ///< takes the condition
 };
 
+/// The mirror of the subsystem that a formula is written in: x' = P x + t, P diagonal. References
+/// have the values of the subsystem that is not mirrored.
+struct FormulaMirror {
+  Vec3 P = Vec3::Ones(), t = Vec3::Zero();
+};
+
 struct UnaryFunction;
 
 struct FormulaStep {
@@ -90,6 +103,7 @@ struct Formula {
   std::vector<FormulaStep> steps;
   std::vector<std::string> sources;  ///< the text of each step, for messages
   std::vector<FormulaReference> references;
+  FormulaMirror mirror;
   std::vector<std::shared_ptr<const PiecewisePolynomial>> curves;
   std::vector<std::shared_ptr<const GridTable>> grids;
   int switches = 0;
@@ -100,10 +114,13 @@ struct Formula {
   /// It depends on nothing but the time.
   bool is_of_time() const noexcept;
 };
-using SharedFormula = std::shared_ptr<const Formula>;
 
+/// The place of a table, a grid or a curve, among those that a formula uses from now on. Throws
+/// ExpressionError.
+int used_table(Formula& f, const std::string& name, bool grid, const FormulaTables& tables);
 /// Throws ExpressionError. Its value is a number.
-SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables = {});
+SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables = {},
+                              const FormulaMirror& mirror = {});
 /// The same from a text: InputError.
 SharedFormula formula(std::string_view text, const FormulaTables& tables = {});
 

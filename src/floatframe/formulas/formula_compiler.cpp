@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "floatframe/core/number_rule.hpp"
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/formulas/formula.hpp"
 #include "floatframe/formulas/formula_evaluation.hpp"
 
@@ -324,6 +323,8 @@ class Compiler {
       case Function::table:
       case Function::table2:
         return table(node, f == Function::table2);
+      case Function::delay:
+        return delay(node);
     }
     return Type::number;
   }
@@ -356,25 +357,19 @@ class Compiler {
     add(node, FormulaOp::noise, 1, -1, seed);
     return Type::number;
   }
+  /// A value of the model, which keeps the past of another formula.
+  Type delay(const SyntaxNode& node) {
+    const double time = constant_part(node.parts[1], node.word);
+    complain(node, {time});
+    return reference(node, {node.word, expression_text(node.parts[0]), number_text(time),
+                            compile_formula(node.parts[0], tables_, out_.mirror), time});
+  }
   Type table(const SyntaxNode& node, bool grid) {
     const SyntaxNode& first = node.parts[0];
     if (first.kind != Kind::name && first.kind != Kind::text)
       throw ExpressionError("found " + in_quotes(expression_text(first)) + " in " +
                             in_quotes(node.word) + ", expected the name of a table");
-    const auto find = [&](const auto& tables, bool other, auto& list) -> int {
-      std::vector<std::string> known;
-      for (const auto& [key, value] : tables) known.push_back(key);
-      if (const auto it = tables.find(first.word); it != tables.end()) {
-        list.push_back(it->second);
-        return std::ssize(list) - 1;
-      }
-      throw ExpressionError(
-          other ? "the table " + in_quotes(first.word) + " has " +
-                      (grid ? "one variable, expected 'table'" : "two variables, expected 'table2'")
-                : "unknown table " + in_quotes(first.word) + did_you_mean(first.word, known));
-    };
-    const int index = grid ? find(tables_.grids, tables_.curves.contains(first.word), out_.grids)
-                           : find(tables_.curves, tables_.grids.contains(first.word), out_.curves);
+    const int index = used_table(out_, first.word, grid, tables_);
     for (std::size_t k = 1; k < node.parts.size(); ++k) number(node.parts[k], node.word);
     add(node, grid ? FormulaOp::grid : FormulaOp::curve, grid ? 2 : 1, index);
     return Type::number;
@@ -389,8 +384,10 @@ class Compiler {
 
 }  // namespace
 
-SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables) {
+SharedFormula compile_formula(const SyntaxNode& tree, const FormulaTables& tables,
+                              const FormulaMirror& mirror) {
   auto out = std::make_shared<Formula>();
+  out->mirror = mirror;
   out->text = expression_text(tree);
   if (Compiler(*out, tables).emit(tree) != Type::number)
     throw ExpressionError("found a condition, expected a number: if(condition, a, b) chooses one");

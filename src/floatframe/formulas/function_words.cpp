@@ -109,7 +109,8 @@ constexpr std::array function_words{
     FunctionWord{Function::sum_of_sines, "sum_of_sines", 4, endless, true},
     FunctionWord{Function::noise, "noise", 2, 2, true},
     FunctionWord{Function::table, "table", 2, 2, true},
-    FunctionWord{Function::table2, "table2", 3, 3, true}};
+    FunctionWord{Function::table2, "table2", 3, 3, true},
+    FunctionWord{Function::delay, "delay", 2, 2, true}};
 constexpr std::array<std::string_view, 6> reserved_words{"pi", "true", "false", "and", "or", "not"};
 
 }  // namespace
@@ -202,8 +203,11 @@ std::string constants_complaint(const std::string& name, const std::vector<doubl
            " of clip, expected ascending ones";
   if (name == "smoothstep" && x[1] == x[3])
     return "found x0 = x1 = " + number_text(x[1]) + " of smoothstep, expected two numbers";
-  if ((name == "chirp" || name == "noise") && !(x.back() > 0.0))
-    return "found the " + std::string(name == "chirp" ? "duration " : "interval ") +
+  if ((name == "chirp" || name == "noise" || name == "delay") && !(x.back() > 0.0))
+    return "found the " +
+           std::string(name == "chirp"   ? "duration "
+                       : name == "noise" ? "interval "
+                                         : "time ") +
            number_text(x.back()) + " of " + name + ", expected a positive number";
   if (name == "sign" && x.size() > 1 && x[1] == 0.0)
     return "found the width 0 of sign, expected another number";

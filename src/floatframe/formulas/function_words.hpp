@@ -35,7 +35,8 @@ enum class Function {
   sum_of_sines,
   noise,
   table,
-  table2
+  table2,
+  delay
 };
 struct FunctionWord {
   Function function;

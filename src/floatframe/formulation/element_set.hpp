@@ -90,7 +90,8 @@ class ElementSet {
             z_.of(k),
             z_.weight(),
             links_.data(),
-            at < 0 ? nullptr : &angles_[at]};
+            at < 0 ? nullptr : &angles_[at],
+            z_.of(k) + model_.elements[k].states};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }
@@ -132,11 +133,15 @@ class ElementSet {
   /// The states at a start that gives none: of each element when the signals to it are known. Those
   /// of sampled elements may depend on those of others, and the other way round.
   template <class PortsAt>
-  void start_states(const PortsAt& ports_at, bool of_sampled_only) noexcept {
-    const auto others = [&] { of_sampled_only ? find_links(ports_at) : start_others(ports_at); };
+  void start_states(const PortsAt& ports_at, StateStart of) noexcept {
+    const auto others = [&] {
+      of == StateStart::sampled ? find_links(ports_at)
+                                : start_others(ports_at, of == StateStart::found);
+    };
     for (const std::size_t k : order_.sampled) {
+      if (of == StateStart::found) break;
       others();
-      z_.start(k, ports_at(k));
+      z_.start(k, ports_at(k), false);
       const Element& e = model_.elements[k];
       if (e.start_states.size() == 0) sample_one(k, ports_at, 1e-6 * e.clock.period);
     }
@@ -173,9 +178,9 @@ class ElementSet {
   }
   /// Of the elements that are not sampled.
   template <class PortsAt>
-  void start_others(const PortsAt& ports_at) noexcept {
+  void start_others(const PortsAt& ports_at, bool found) noexcept {
     const auto start = [&](std::size_t k) {
-      if (!model_.elements[k].clock.ticks()) z_.start(k, ports_at(k));
+      if (!model_.elements[k].clock.ticks()) z_.start(k, ports_at(k), found);
     };
     if (links_.empty()) return std::ranges::for_each(z_.elements(), start), void();
     measure(ports_at);

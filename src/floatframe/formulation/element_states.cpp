@@ -76,9 +76,13 @@ void ElementStates::solve(std::size_t element, const Ports& in, Efforts& out) no
   if (!solved) fail(element);
 }
 
-void ElementStates::start(std::size_t element, const Ports& in) noexcept {
+void ElementStates::start(std::size_t element, const Ports& in, bool found) noexcept {
   const Element& e = model_.elements[element];
   Eigen::Map<VecX> z(z_.data() + offsets_[element], e.states + e.kept);
+  if (found) {
+    if (const auto settle = element_kind(e.type).settle) settle(in, z.data());
+    return;
+  }
   z.setZero();
   if (e.start_states.size() == z.size())
     z = e.start_states;

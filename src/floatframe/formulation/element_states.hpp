@@ -18,6 +18,10 @@
 
 namespace floatframe {
 
+/// Which states and kept numbers begin: all that the model does not give; of sampled elements only;
+/// none, but pasts become those of a start that has been found.
+enum class StateStart { all, sampled, found };
+
 class ElementStates {
  public:
   /// Zero, given. Allocates.
@@ -67,7 +71,8 @@ class ElementStates {
 
   /// (1) of an element, and its efforts there.
   void solve(std::size_t element, const Ports& in, Efforts& out) noexcept;
-  void start(std::size_t element, const Ports& in) noexcept;
+  /// At a start; or, if it has been `found`, what is known then only.
+  void start(std::size_t element, const Ports& in, bool found) noexcept;
   void after_step(std::size_t element, const Ports& in) noexcept;
   void take_rates(const std::vector<Efforts>& efforts) noexcept;
 

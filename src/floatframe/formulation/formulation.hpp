@@ -65,9 +65,9 @@ class Formulation {
   void solve_element_states() noexcept {
     element_set_.solve_states([this](std::size_t k) { return ports(k); });
   }
-  /// At a start that gives none, and at the end of a step.
-  void start_element_states(bool of_sampled_only = false) noexcept {
-    element_set_.start_states([this](std::size_t k) { return ports(k); }, of_sampled_only);
+  /// At a start that gives none, or that has been found; and at the end of a step.
+  void start_element_states(StateStart of) noexcept {
+    element_set_.start_states([this](std::size_t k) { return ports(k); }, of);
   }
   void change_kept_states() noexcept {
     for (const std::size_t k : element_states().elements())

@@ -13,6 +13,7 @@
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/start/mass_scale.hpp"
+#include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/simulation_options.hpp"
 
 namespace floatframe {
@@ -96,6 +97,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   const std::vector<Output> outputs = chosen(model.outputs, ports.outputs, "output");
   for (const Output& output : outputs) linear.outputs.push_back({output.name, output.unit});
   InitialisedModel started(model, options);
+  const std::string unsettled = settle_samples(started, options.step);
   ExcitedSystem excited(started, outputs, options.step);
   Formulation& f = excited.formulation();
   const Eigen::Index n = excited.unknowns(), nc = f.constraints(),
@@ -127,6 +129,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   linear.output_values = excited.outputs(still, still, still);
   for (int k = 0; k < 3; ++k) linear.B[k] = moved.B[k];
   find_output_columns(excited, steps, moved, linear);
+  if (!unsettled.empty()) linear.system.notes.push_back(unsettled);
   for (const std::string& name : excited.open_outputs())
     linear.system.notes.push_back(
         fmt::format("output {} is not unique, since constraints are redundant: of the reactions "

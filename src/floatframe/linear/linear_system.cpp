@@ -11,8 +11,10 @@
 #include "floatframe/linear/linear_reduction.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/run/body_energy.hpp"
 #include "floatframe/start/start_up.hpp"
+#include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/simulation_options.hpp"
 
 namespace floatframe {
@@ -126,7 +128,11 @@ double LinearMode::damping() const noexcept {
 CountedStiffening counted_at(const Model& model, const SimulationOptions& options) {
   Model there = built(model);
   there.simulation = described(model, options);
-  return counted_stiffening(there);
+  CountedStiffening counted = counted_stiffening(there);
+  counted.model.linear = true;
+  for (const Element& e : counted.model.elements)
+    if (const auto note = element_kind(e.type).linear_note) counted.notes.push_back(note(e));
+  return counted;
 }
 
 void say_counted(const CountedStiffening& counted, LinearSystem& system) {
@@ -193,9 +199,11 @@ LinearSystem linear_system(const Model& model, const SimulationOptions& options,
   const CountedStiffening counted = counted_at(model, options);
   const SimulationDescription& d = counted.model.simulation;
   InitialisedModel started(counted.model, d);
+  const std::string unsettled = settle_samples(started, d.step);
   LinearSystem system =
       linear_system_at(started.formulation(), started.state(), nullptr, nullptr, slowest);
   say_counted(counted, system);
+  if (!unsettled.empty()) system.notes.push_back(unsettled);
   return system;
 }
 

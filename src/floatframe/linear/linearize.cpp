@@ -5,12 +5,15 @@
 #include "floatframe/start/small_motions.hpp"
 #include "floatframe/start/start_up.hpp"
 #include "floatframe/start/system_state.hpp"
+#include "floatframe/stepping/samples.hpp"
 
 namespace floatframe {
 namespace {
 
 Linearization linearized(const Model& model, const SimulationDescription& options) {
   InitialisedModel started(model, options);
+  if (std::string note = settle_samples(started, options.step); !note.empty())
+    started.add_note(std::move(note));
   Formulation& f = started.formulation();
   SmallMotions terms = small_motions(f, started.state());
   Linearization l;

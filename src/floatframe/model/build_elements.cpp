@@ -46,6 +46,8 @@ Vec3 ElementBuild::design_point(std::size_t port) const {
   return builder_.design_point(element.markers[port]);
 }
 
+double ElementBuild::step() const { return builder_.d.simulation.step; }
+
 void ElementBuild::error(ErrorCode code, const std::string& sentence) {
   builder_.errors.add(code, description().origin.mark, path() + ": " + sentence);
 }
@@ -90,6 +92,7 @@ void ModelBuilder::forces() {
   const auto holding = std::ssize(model.elements);
   for (const ElementList list : {ElementList::forces, ElementList::controllers})
     for (const ElementDescription& e : d.elements(list)) add_element(with_formulas_apart(e, list));
+  delays_apart();
   for (const InnerFormula& inner : formulas) add_element(inner.element);
   const int acting = static_cast<int>(std::ssize(model.elements) - holding);
   std::rotate(model.elements.begin(), model.elements.begin() + holding, model.elements.end());

@@ -27,17 +27,25 @@ SharedFormula formula_of(const Element& element) {
 /// Finds what the references of one formula are.
 class FormulaConnection {
  public:
-  /// `key`: that of the entity with this origin, which holds the formula.
+  /// `key`: that of the entity with this origin, which holds the formula; `owner`: of the formula,
+  /// in names of elements.
   FormulaConnection(ModelBuilder& builder, const Origin& origin, std::string path,
-                    const std::string& key)
-      : b_(builder), origin_(origin), path_(std::move(path)), mark_(origin.of(key)) {}
+                    const std::string& key, std::string owner)
+      : b_(builder),
+        origin_(origin),
+        path_(std::move(path)),
+        owner_(std::move(owner)),
+        mark_(origin.of(key)) {}
   virtual ~FormulaConnection() = default;
 
   std::vector<FormulaOperand> connect(const Formula& f) {
     std::vector<FormulaOperand> operands;
+    mirror_ = f.mirror;
     for (const FormulaReference& r : f.references) {
       FormulaOperand x;
-      if (r.is_time() || (r.function.empty() ? named(r, x) : called(r, x)))
+      if (r.is_time() || (r.delayed            ? delayed(delay_name(owner_, f, r), x)
+                          : r.function.empty() ? named(r, x)
+                                               : called(r, x)))
         operands.push_back(std::move(x));
     }
     return operands;
@@ -58,6 +66,28 @@ class FormulaConnection {
     if (of == OutputOf::formula || of == OutputOf::crossing)
       return wrong(ErrorCode::unsupported, sentences::formula_of_a_formula(out.name));
     take(out, x);
+    return reflected(out, x);
+  }
+  /// The value that the subsystem of the formula would have without its mirrors.
+  bool reflected(const Output& out, FormulaOperand& x) const {
+    const OutputKind& kind = output_kind(out.type);
+    const Placement mirror{mirror_.P.asDiagonal(), mirror_.t};
+    if (mirror.identity()) return true;
+    if (kind.of == OutputOf::joint) {
+      x.factor = mirrored_sign(b_.model.joints[out.joint].type, out.component, mirror);
+      return true;
+    }
+    if (kind.reflects == Reflects::no) return true;
+    const auto c = out.component - (std::ssize(kind.components.words) - 3);  // -1: a scalar
+    const bool axial = kind.reflects == Reflects::axial;
+    if (c >= 0) x.factor = mirror_.P[c] * (axial ? mirror.det() : 1.0);
+    const bool of_origin = kind.reflects == Reflects::point
+                               ? out.relative < 0
+                               : kind.about_point && kind.of == OutputOf::mass && out.marker < 0;
+    if (!of_origin || mirror_.t.isZero(0.0)) return true;
+    if (axial || out.axes >= 0)
+      return wrong(ErrorCode::unsupported, sentences::off_the_mirror(out.name));
+    x.offset = -x.factor * mirror_.t[c];
     return true;
   }
   bool wrong(ErrorCode code, const std::string& sentence) const {
@@ -84,6 +114,11 @@ class FormulaConnection {
       }
     return wrong(ErrorCode::not_found,
                  sentences::formula_name(r.name) + did_you_mean(r.name, known));
+  }
+
+  /// The value of an element, which has an error if there is none.
+  bool delayed(const std::string& name, FormulaOperand& x) {
+    return b_.element(ElementList::controllers, name) >= 0 && called({"controller", name, ""}, x);
   }
 
   /// A short form or the word of an output, and the entity that it is of.
@@ -193,8 +228,9 @@ class FormulaConnection {
   }
 
   const Origin& origin_;
-  std::string path_;
+  std::string path_, owner_;
   SourceMark mark_;
+  FormulaMirror mirror_;
 };
 
 /// Of an element, within an iteration: measures by its markers, results by signals.
@@ -202,7 +238,8 @@ class ElementConnection final : public FormulaConnection {
  public:
   ElementConnection(ModelBuilder& builder, int element, const Origin& origin,
                     const std::string& path, const std::string& key)
-      : FormulaConnection(builder, origin, path, key), element_(element) {}
+      : FormulaConnection(builder, origin, path, key, builder.model.elements[element].name),
+        element_(element) {}
 
  private:
   Element& element() const { return b_.model.elements[element_]; }
@@ -300,18 +337,18 @@ void ModelBuilder::connect_formulas() {
     const std::string& name = model.elements[k].name;
     const auto slash = name.find('/');  // of an inner formula: its key, which may have a number
     const std::string key =
-        slash == std::string::npos ? "formula" : name.substr(slash + 1, name.find('[') - slash - 1);
+        slash == std::string::npos ? "formula" : name.substr(slash + 1, name.find_first_of("[/", slash + 1) - slash - 1);
     model.elements[k].operands = ElementConnection(*this, k, *origin, path, key).connect(*f);
   }
   const auto connected = [&](const SharedFormula& f, const Origin& origin, const std::string& path,
-                             const std::string& key) {
+                             const std::string& key, const std::string& owner) {
     return std::make_shared<OutputFormula>(
-        OutputFormula{f, FormulaConnection(*this, origin, path, key).connect(*f)});
+        OutputFormula{f, FormulaConnection(*this, origin, path, key, owner).connect(*f)});
   };
   if (const SharedFormula& until = d.simulation.until) {
     model.until.emplace().name = "until";
     const Origin at{d.simulation.origin.of("until")};
-    model.until->formula = connected(until, at, "simulation.until", "until");
+    model.until->formula = connected(until, at, "simulation.until", "until", "simulation");
   }
   const auto outputs_of = [&](std::vector<Output>& built,
                               const std::vector<OutputDescription>& described,
@@ -324,7 +361,7 @@ void ModelBuilder::connect_formulas() {
       if (it == with_formula.end()) continue;
       const OutputDescription& o = *it->second;
       const char* key = output_type_name(o.type);
-      out.formula = connected(o.formula, o.origin, list + o.name + "." + key, key);
+      out.formula = connected(o.formula, o.origin, list + o.name + "." + key, key, list + o.name);
     }
   };
   outputs_of(model.outputs, d.outputs, "outputs.");

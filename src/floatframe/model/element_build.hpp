@@ -22,6 +22,8 @@ class ElementBuild : public ElementView {
   int road(const std::string& key) const;
   /// World position of a port in the design configuration.
   Vec3 design_point(std::size_t port) const;
+  /// Of the simulation that the model describes [s].
+  double step() const;
   /// Reports an error of the element.
   void error(ErrorCode code, const std::string& sentence);
   /// A change of the keys of the built element.

@@ -140,7 +140,8 @@ struct PortsOf {
   double state_weight = std::numeric_limits<double>::infinity();
   const S* links = nullptr;  ///< of model.links, times their factors
   const double* angles =
-      nullptr;  ///< the last ones of its coordinates whose turns are counted [rad]
+      nullptr;                   ///< the last ones of its coordinates whose turns are counted [rad]
+  const double* kept = nullptr;  ///< the kept numbers
 
   const S& state(std::size_t i) const noexcept { return states[i]; }
   /// dz/dp = zdot_p times this, of a state with the slope zdot_z that no other state enters.

@@ -116,6 +116,8 @@ struct ElementKind {
   /// Their values at a start that gives none: those of the element at rest in this motion. Null:
   /// zero.
   void (*start)(const Ports& in, double* states) noexcept = nullptr;
+  /// Changes the kept numbers when the start is found, at which the ports are.
+  void (*settle)(const Ports& in, double* states) noexcept = nullptr;
   /// Changes the kept numbers at the end of a step, at which the ports are. Step time.
   void (*after_step)(const Ports& in, double* states) noexcept = nullptr;
   /// Of a sampled element (sampling.hpp): its values y at an instant, and its own kept numbers
@@ -140,6 +142,8 @@ struct ElementKind {
   /// What is odd about its start, for notes of statics and checks.
   void (*note)(const Element& element, const SystemMotion& start,
                std::vector<std::string>& notes) = nullptr;
+  /// What linear systems put in the place of its law, one sentence without its full stop.
+  std::string (*linear_note)(const Element& element) = nullptr;
   std::span<const ElementRegime> regimes;
   /// A random element and motion in one of the regimes, away from the kinks of its laws.
   ElementExample (*example)(std::size_t regime, ExampleNumbers&);

@@ -120,6 +120,7 @@ struct FormulaOperand {
   } kind = Kind::time;
   int index = -1;
   Output output;
+  double factor = 1.0, offset = 0.0;  ///< of the output: those of a mirror
   std::array<int, 4> ports{-1, -1, -1,
                            -1};  ///< the markers of a measure among those of the element
   int angle = -1;                ///< its turns are counted: the coordinate of the element
@@ -153,6 +154,7 @@ struct Element {
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
   SampleClock clock;          ///< of its value, if it is sampled (sampling.hpp)
+  bool remembers = false;     ///< they are a past, which the law reads by `PortsOf::kept` alone
   VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
   bool acts = true;           ///< by a law
   bool holds = false;         ///< its markers, by constraints
@@ -206,6 +208,7 @@ struct Model {
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
   ModelHints hints;  ///< for checks of the model; nothing else depends on them
+  bool linear = false;  ///< it is evaluated for a linear system: delays are approximated
   /// What prescribes a coordinate of a joint; nullptr: nothing.
   const TimeFunction* motion_of(const Joint& joint, std::size_t component = 0) const noexcept {
     const int by = joint.motions.empty() ? joint.motion : joint.motions[component];

@@ -53,6 +53,9 @@ struct ModelBuilder {
     std::string path;
   };
   std::vector<InnerFormula> formulas;
+  /// What formulas delay, as elements of their own.
+  void delays_apart();
+  void delays_apart(const Formula& f, const std::string& owner, const InnerFormula& inner);
   /// The element without the formulas of its signals, which become elements of their own.
   ElementDescription with_formulas_apart(const ElementDescription& e, ElementList list);
   /// What the references of formulas stand for.
@@ -109,5 +112,8 @@ inline Vec3 unit_vector(const Vec3& v) {
   return std::isfinite(square) && square > 1e-280 ? v.normalized()
                                                   : (v / v.cwiseAbs().maxCoeff()).normalized();
 }
+
+/// Of the element of a delay in the formula of `owner`; no name of the user has a slash.
+std::string delay_name(const std::string& owner, const Formula& f, const FormulaReference& r);
 
 }  // namespace floatframe

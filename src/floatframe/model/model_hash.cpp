@@ -93,13 +93,16 @@ class ModelHash {
     all(from, to, port, quantity, factor, value);
   }
   void add(const FormulaOperand& x) {
-    const auto& [kind, index, output, ports, angle] = x;
+    const auto& [kind, index, output, factor, offset, ports, angle] = x;
     all(kind, index, output);
+    if (factor != 1.0 || offset != 0.0) all(factor, offset);
   }
   void add(const Element& e) {
     const auto& [name, type, markers, laws, signals, coordinates, operands, values, road, states,
-                 kept, clock, start, acts, holds, reads, rotational, driven, jumps, keys, data] = e;
+                 kept, clock, remembers, start, acts, holds, reads, rotational, driven, jumps, keys,
+                 data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
+    if (remembers) all(kept);
     const ElementDescription described{name, *keys, {}};
     for (const ElementKey& key : element_keys(type))
       if (const auto value = key_value(described, key))
@@ -169,7 +172,7 @@ class ModelHash {
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
                  measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation,
-                 hints] = model;
+                 hints, linear] = model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
     if (until) add(*until);

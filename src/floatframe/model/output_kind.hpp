@@ -65,6 +65,10 @@ inline constexpr OutputComponents crossing_directions{"direction", rules::crossi
                                                       true};
 inline constexpr OutputComponents roll_pitch_yaw_angles{"angle", rules::angles};
 
+/// How its components reflect in a mirror (description/placement.hpp); of coordinates of joints
+/// their kind knows it. An `axial` one may have a scalar before its three components.
+enum class Reflects { no, point, polar, axial };
+
 /// The keys for the frame that a motion is relative to and for axes: `relative`, `axes`.
 enum class OutputFrames { none, in, relative_to_and_in };
 
@@ -84,6 +88,7 @@ struct OutputKind {
   bool named_unit = false;   ///< its unit is any text of the user
   MotionNeeds needs_of_motion = {};
   OutputFrames frames = OutputFrames::none;
+  Reflects reflects = Reflects::no;
   /// Of measures: the value, and the same with its derivatives.
   double (*value)(const MeasurePorts<double>&) noexcept = nullptr;
   Dual (*dual)(const MeasurePorts<Dual>&) noexcept = nullptr;

@@ -30,7 +30,7 @@ MarkerMotion<Dual> moving(const MarkerState& m) {
 TangentFinder::TangentFinder(const Model& model, const Element& element)
     : efforts_(element.markers.size(), element.states, element.further()),
       motions_(element.markers.size()),
-      states_(element.states + element.kept),
+      states_(element.states + (element.remembers ? 0 : element.kept)),
       links_(model.links.size()) {
   const Eigen::Index n = 6 * std::ssize(element.markers),
                      results = element.states + 3 + element.further(),
@@ -47,7 +47,7 @@ void TangentFinder::evaluate(const Ports& in) noexcept {
   if (!in.element.acts) return;
   element_kind(in.element.type)
       .dual({in.model, in.element, markers_.data(), in.origin, in.t, in.reference_angle, in.inputs,
-             in.branch, states_.data(), in.state_weight, links_.data(), in.angles},
+             in.branch, states_.data(), in.state_weight, links_.data(), in.angles, in.kept},
             efforts_);
 }
 

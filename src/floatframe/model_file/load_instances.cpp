@@ -99,6 +99,7 @@ class Loader {
       Placement placement;
       if (const auto p = section->get("position"))
         if (const auto v = p->vector("m")) placement = translation(*v);
+      const Vec3 shift = self.shift + placement.t;
       if (const auto m = section->get("mirror")) placement = mirrors(*m) * placement;
       std::vector<std::pair<std::string, YamlValue>> connections;
       if (const auto c = section->get("connect"))
@@ -128,6 +129,7 @@ class Loader {
       child->prefix = self.prefix + name + ".";
       child->placement = placement;
       child->world = self.world * placement;
+      child->shift = shift;
       connect(self, *child, connections, *section);
       stack.push_back(canonical);
       fill(*child, given, stack);

@@ -31,9 +31,10 @@ struct ModelInstance {
   ModelInstance* outer = nullptr;
   std::string prefix;  ///< "" or "front_left."
   ParameterScope scope;
-  Placement placement;   ///< coordinates of this file -> coordinates of the outer file
-  Placement world;       ///< coordinates of this file -> world
-  FormulaTables tables;  ///< of the formulas in this file
+  Placement placement;        ///< coordinates of this file -> coordinates of the outer file
+  Placement world;            ///< coordinates of this file -> world
+  Vec3 shift = Vec3::Zero();  ///< of the world coordinates, if nothing were mirrored
+  FormulaTables tables;       ///< of the formulas in this file
   std::map<std::string, Vec3> points;  ///< coordinates of this file [m]
   /// Names defined in this file; false: switched off by `when`.
   std::array<std::map<std::string, bool>, entity_words.size()> names;

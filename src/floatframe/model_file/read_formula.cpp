@@ -109,7 +109,8 @@ SharedFormula compiled(const ModelInstance& self, const YamlValue& value, bool o
   try {
     SyntaxNode tree = parse_expression(value_text(*text));
     Binder(self, of_law).bind(tree);
-    return compile_formula(tree, self.tables);
+    const Placement& x = self.world;
+    return compile_formula(tree, self.tables, {x.P.diagonal(), x.t - x.P * self.shift});
   } catch (const ExpressionError& e) {
     value.error(ErrorCode::wrong_value, e.what());
     return nullptr;

@@ -3,6 +3,7 @@
 // lacks the stiffness of gravity; then a downhill search.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -242,6 +243,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   f.element_states().rest();
   const VecX r = evaluate(q);
   e.residual = largest(r);
+  f.start_element_states(StateStart::found);
   require_laws(f, 0.0);
   const int unsolved = f.element_states().unsolved();
   const int drifting = unsolved < 0 && !best.accepted() ? statics.drifting() : unsolved;
@@ -253,15 +255,21 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   return e;
 }
 
-std::string limited_element(RelativeFormulation& f) {
+std::vector<std::string> equilibrium_notes(RelativeFormulation& f) {
   const std::vector<Element>& elements = f.model().elements;
+  std::vector<std::string> notes;
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const std::int64_t branch = element_kind(elements[k].type).resting_branch;
     if (branch != free_branch && f.branch_side(k).next != branch)
-      return element_name(elements[k]) +
-             " rests at a limit: what it measures may be away from its target";
+      notes.push_back(element_name(elements[k]) +
+                      " rests at a limit: what it measures may be away from its target");
+    const auto& operands = elements[k].operands;
+    if (std::any_of(operands.begin(), operands.end(),
+                    [](const FormulaOperand& x) { return x.kind == FormulaOperand::Kind::sample; }))
+      notes.push_back(element_name(elements[k]) +
+                      " reads results of the end of a step, which are zero in the equilibrium");
   }
-  return "";
+  return notes;
 }
 
 }  // namespace floatframe

@@ -45,10 +45,10 @@ StepOptions step_options(const Model& model, const SimulationDescription& o) {
   return s;
 }
 
-void set_element_states(Formulation& f, State& state, bool of_sampled_only) {
+void set_element_states(Formulation& f, State& state, StateStart of) {
   if (f.element_states().count() == 0) return;
   kinematics_at(f, state.t, state.q, state.v);
-  f.start_element_states(of_sampled_only);
+  f.start_element_states(of);
   state.z = f.element_states().values();
 }
 
@@ -60,13 +60,13 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   set_element_states(f, state);
   if (start == Start::equilibrium) {
     const Equilibrium e = find_equilibrium(f, state.q);
-    if (std::string note = limited_element(f); report != nullptr && !note.empty())
-      report->notes.push_back(std::move(note));
+    if (report != nullptr)
+      for (std::string& note : equilibrium_notes(f)) report->notes.push_back(std::move(note));
     if (report != nullptr)
       if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
         report->notes.push_back(std::move(note));
     close_loops(f, state.q, state.v, false);
-    set_element_states(f, state, true);
+    set_element_states(f, state, StateStart::sampled);
     if (std::string note = held_samples_note(f.model()); report != nullptr && !note.empty())
       report->notes.push_back(std::move(note));
   }

@@ -34,9 +34,9 @@ struct Equilibrium {
 };
 /// Throws RunError naming the coordinate with the largest unbalanced force.
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q);
-/// Message about an element that rests at a limit in the equilibrium that `f` is at; empty: none
-/// does.
-std::string limited_element(RelativeFormulation& f);
+/// Messages about elements that rest at a limit in the equilibrium that `f` is at, and about those
+/// that read what is not known there.
+std::vector<std::string> equilibrium_notes(RelativeFormulation& f);
 /// Message about an equilibrium that a small disturbance would leave for good; empty: it is stable,
 /// or its matrices are too large to check. Moves `f`.
 std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const VecX& lambda);
@@ -49,7 +49,7 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report = 
 
 /// The states of elements at t, q, v of the state: those that the model gives, else those of each
 /// kind. Moves `f`.
-void set_element_states(Formulation& f, State& state, bool of_sampled_only = false);
+void set_element_states(Formulation& f, State& state, StateStart of = StateStart::all);
 /// While this exists, states of elements follow every evaluation as they are at rest; afterwards
 /// they are those before it, or `keeps` the last ones.
 struct RestingStates {

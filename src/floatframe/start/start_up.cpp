@@ -65,6 +65,11 @@ InitialisedModel::InitialisedModel(const Model& given, const SimulationDescripti
     static_cast<AbsoluteFormulation&>(*f_).start_from(tree, start.q, start.v, state_.q, state_.v);
   }
   f_->element_states().give(state_.z);
+  if (state_.z.size() > 0) {
+    kinematics_at(*f_, state_);
+    f_->start_element_states(StateStart::found);
+    state_.z = f_->element_states().values();
+  }
   double& spectral_radius = step_options_.spectral_radius;
   if (start_accelerations(*f_, state_, step_options_.penalty_mass) && spectral_radius >= 1.0)
     for (std::string& note : massless_notes(*f_, state_, step_options_.penalty_mass)) {

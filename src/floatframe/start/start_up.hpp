@@ -32,6 +32,8 @@ class InitialisedModel {
   Formulation& formulation() noexcept { return *f_; }
   InertiaMethod inertia() const noexcept { return inertia_; }
   const State& state() const noexcept { return state_; }
+  /// Another state of the same positions and velocities.
+  void move_to(State state) { state_ = std::move(state); }
   const StartReport& report() const noexcept { return report_; }
   /// Other information for the user about the start.
   void add_note(std::string note) { report_.notes.push_back(std::move(note)); }

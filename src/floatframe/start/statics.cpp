@@ -95,7 +95,7 @@ StaticsResult statics(const Model& model) {
   const std::string singular = singular_position(f, nearly_singular).sentence;
   if (!singular.empty()) s.notes.push_back(singular);
   if (!unstable.empty()) s.notes.push_back(unstable);
-  if (std::string limited = limited_element(f); !limited.empty()) s.notes.push_back(limited);
+  for (std::string& note : equilibrium_notes(f)) s.notes.push_back(std::move(note));
   if (std::string held = held_samples_note(model); !held.empty()) s.notes.push_back(held);
   s.iterations = e.iterations;
   s.residual = e.residual;

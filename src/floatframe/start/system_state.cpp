@@ -180,7 +180,7 @@ State start_state(RelativeFormulation& f, const SimulationDescription& o, StartR
   if (o.offset.empty() || o.start == Start::given) return state;
   apply_offsets(f, o.offset, state.t, state.q);
   close_loops(f, state.q, state.v, true, state.t, false);
-  set_element_states(f, state, true);
+  set_element_states(f, state, StateStart::sampled);
   return state;
 }
 

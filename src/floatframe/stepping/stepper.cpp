@@ -34,6 +34,8 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
       bounded_(limits.bounded),
       grid_(start_.state().t, options.step, limits.duration) {
   check_ticks();
+  if (std::string note = settle_samples(start_, options.step); !note.empty())
+    start_.add_note(std::move(note));
   find_corners(options, limits);
   begin_at_start(options.locate_edges && !limits.bounded);
   if (reactions_ && !reactions_->open_outputs().empty())
@@ -88,21 +90,12 @@ void Stepper::begin_at_start(bool locate_edges) {
   assert(min_step_ >= 0.0);
   needs_ = needs_of_outputs(model());
   outputs_ = followed_outputs(model().outputs);
-  std::size_t place = 0;
-  for (const Element& e : model().elements) {
-    for (const FormulaOperand& x : e.operands)
-      if (x.kind == FormulaOperand::Kind::sample) {
-        samples_.push_back({&x.output, place + e.states + x.index});
-        sampled_ = sampled_ | needs_of(x.output);
-      }
-    place += e.states + e.kept;
-  }
+  samples_ = Samples(model());
   inputs_.assign(f_.inputs().begin(), f_.inputs().end());
   state_ = start_.state();
   if (locate_edges) locator_.emplace(f_, *integrator_);
   watch_formulas();
   prepare_reactions();
-  take_samples();
   hold_branches();
   look_at_formulas();
   note_crossings();
@@ -117,7 +110,7 @@ void Stepper::begin_at_start(bool locate_edges) {
 }
 
 void Stepper::prepare_reactions() {
-  if (!(needs_ | sampled_ | watched_needs_).reactions) return;
+  if (!(needs_ | samples_.needs() | watched_needs_).reactions) return;
   reactions_.emplace(f_.coordinates(), model(), start_.inertia(), start_.state(),
                      ReactionOptions{step_options_.penalty_mass, grid_.step(),
                                      !start_.report().redundant.empty()});
@@ -312,10 +305,7 @@ const SystemMotion& Stepper::present_motion(MotionNeeds needs) noexcept {
 
 /// Of outputs that formulas refer to, which they keep until the end of the next step.
 void Stepper::take_samples() noexcept {
-  if (samples_.empty()) return;
-  const SystemMotion& motion = present_motion(sampled_);
-  FollowedOutput nothing;
-  for (const Sample& s : samples_) state_.z[s.place] = output_value(motion, *s.output, nothing);
+  if (!samples_.empty()) samples_.take(present_motion(samples_.needs()), state_.z);
 }
 
 Energies Stepper::energies() noexcept {

@@ -25,6 +25,7 @@
 #include "floatframe/stepping/edge_locator.hpp"
 #include "floatframe/stepping/energies.hpp"
 #include "floatframe/stepping/explicit_move.hpp"
+#include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/step_report.hpp"
 #include "floatframe/stepping/time_grid.hpp"
 
@@ -195,12 +196,8 @@ class Stepper {
   std::vector<FollowedOutput> outputs_;
   std::vector<double> inputs_;  ///< those of the last step
   std::optional<Before> before_;
-  MotionNeeds needs_, sampled_;  ///< of the outputs; of formulas
-  struct Sample {
-    const Output* output;
-    std::size_t place;  ///< among the states of elements
-  };
-  std::vector<Sample> samples_;          ///< what formulas know of the last accepted instant
+  MotionNeeds needs_;  ///< of the outputs
+  Samples samples_;
   std::vector<WatchedFormula> watched_;  ///< `until` last
   MotionNeeds watched_needs_;
   std::optional<ExplicitMove> move_;

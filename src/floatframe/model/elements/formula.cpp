@@ -21,6 +21,11 @@ Dual measured_value(const MeasurePorts<Dual>& in) noexcept {
 }
 
 template <class S>
+S mirrored_value(const FormulaOperand& x, const S& value) noexcept {
+  return x.factor == 1.0 && x.offset == 0.0 ? value : S(x.factor * value + x.offset);
+}
+
+template <class S>
 S operand_value(const PortsOf<S>& in, const FormulaOperand& x) noexcept {
   switch (x.kind) {
     case FormulaOperand::Kind::time:
@@ -30,14 +35,14 @@ S operand_value(const PortsOf<S>& in, const FormulaOperand& x) noexcept {
     case FormulaOperand::Kind::link:
       return in.links[in.element.signals[x.index].link];
     case FormulaOperand::Kind::sample:
-      return in.state(in.element.states + x.index);
+      return mirrored_value(x, in.state(in.element.states + x.index));
     case FormulaOperand::Kind::measure:
       break;
   }
   const auto at = [&](int k) { return x.ports[k] < 0 ? nullptr : &in.marker(x.ports[k]); };
   const double reference = x.angle < 0 ? 0.0 : in.angles[x.angle];
-  return measured_value(
-      MeasurePorts<S>{in.model, x.output, at(0), at(1), at(2), at(3), in.origin, reference});
+  return mirrored_value(x, measured_value(MeasurePorts<S>{in.model, x.output, at(0), at(1), at(2),
+                                                          at(3), in.origin, reference}));
 }
 
 template <class S>

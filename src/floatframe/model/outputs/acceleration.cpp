@@ -30,6 +30,7 @@ constinit const OutputKind acceleration_output = {
     .components = world_axes,
     .unit = "m/s2",
     .needs_of_motion = {.accelerations = true},
-    .frames = OutputFrames::relative_to_and_in};
+    .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::polar};
 
 }  // namespace floatframe

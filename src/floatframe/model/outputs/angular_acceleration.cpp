@@ -26,6 +26,7 @@ constinit const OutputKind angular_acceleration_output = {
     .components = world_axes,
     .unit = "rad/s2",
     .needs_of_motion = {.accelerations = true, .reactions = true},
-    .frames = OutputFrames::relative_to_and_in};
+    .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::axial};
 
 }  // namespace floatframe

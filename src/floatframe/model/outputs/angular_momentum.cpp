@@ -25,6 +25,7 @@ constinit const OutputKind angular_momentum_output = {
     .unit = "N m s",
     .about_point = true,
     .needs_of_motion = {.energies = true},
-    .frames = OutputFrames::in};
+    .frames = OutputFrames::in,
+    .reflects = Reflects::axial};
 
 }  // namespace floatframe

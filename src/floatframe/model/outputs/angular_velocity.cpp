@@ -19,6 +19,7 @@ constinit const OutputKind angular_velocity_output = {
     .components = world_axes,
     .unit = "rad/s",
     .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::axial,
     FLOATFRAME_MEASURE(angular_velocity)};
 
 }  // namespace floatframe

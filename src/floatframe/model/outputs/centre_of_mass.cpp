@@ -21,6 +21,7 @@ constinit const OutputKind centre_of_mass_output = {
     .components = world_axes,
     .unit = "m",
     .needs_of_motion = {.energies = true},
-    .frames = OutputFrames::relative_to_and_in};
+    .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::point};
 
 }  // namespace floatframe

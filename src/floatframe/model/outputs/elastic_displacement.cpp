@@ -31,6 +31,7 @@ constinit const OutputKind elastic_displacement_output = {
     .components = world_axes,
     .unit = "m",
     .frames = OutputFrames::in,
+    .reflects = Reflects::polar,
     FLOATFRAME_MEASURE(elastic_displacement)};
 
 }  // namespace floatframe

@@ -24,6 +24,7 @@ constinit const OutputKind elastic_rotation_output = {
     .components = world_axes,
     .unit = "rad",
     .frames = OutputFrames::in,
+    .reflects = Reflects::axial,
     FLOATFRAME_MEASURE(elastic_rotation)};
 
 }  // namespace floatframe

@@ -15,7 +15,7 @@ double sampled_formula(const SystemMotion& motion, const OutputFormula& f,
         const FormulaOperand& x = f.operands[i];
         if (x.kind == FormulaOperand::Kind::time) return motion.t;
         if (x.kind == FormulaOperand::Kind::input) return motion.inputs[x.index];
-        return output_value(motion, x.output, parts[i]);
+        return x.factor * output_value(motion, x.output, parts[i]) + x.offset;
       },
       switches, fault);
 }

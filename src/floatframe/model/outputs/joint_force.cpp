@@ -22,6 +22,7 @@ constinit const OutputKind joint_force_output = {
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N",
-    .needs_of_motion = {.reactions = true}};
+    .needs_of_motion = {.reactions = true},
+    .reflects = Reflects::polar};
 
 }  // namespace floatframe

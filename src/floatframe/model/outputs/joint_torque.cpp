@@ -33,6 +33,7 @@ constinit const OutputKind joint_torque_output = {
     .components = world_axes,
     .unit = "N m",
     .about_point = true,
-    .needs_of_motion = {.reactions = true}};
+    .needs_of_motion = {.reactions = true},
+    .reflects = Reflects::axial};
 
 }  // namespace floatframe

@@ -16,6 +16,7 @@ constinit const OutputKind momentum_output = {.about = "mass times velocity, of 
                                               .components = world_axes,
                                               .unit = "N s",
                                               .needs_of_motion = {.energies = true},
-                                              .frames = OutputFrames::in};
+                                              .frames = OutputFrames::in,
+                                              .reflects = Reflects::polar};
 
 }  // namespace floatframe

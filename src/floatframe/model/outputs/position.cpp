@@ -19,6 +19,7 @@ constinit const OutputKind position_output = {
     .components = world_axes,
     .unit = "m",
     .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::point,
     FLOATFRAME_MEASURE(position)};
 
 }  // namespace floatframe

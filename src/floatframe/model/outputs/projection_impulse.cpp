@@ -26,6 +26,7 @@ constinit const OutputKind projection_impulse_output = {
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N s",
-    .needs_of_motion = {.reactions = true}};
+    .needs_of_motion = {.reactions = true},
+    .reflects = Reflects::polar};
 
 }  // namespace floatframe

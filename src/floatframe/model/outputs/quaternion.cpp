@@ -42,6 +42,7 @@ constinit const OutputKind quaternion_output = {
     .components = quaternion_components,
     .unit = "-",
     .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::axial,
     FLOATFRAME_MEASURE(quaternion)};
 
 }  // namespace floatframe

@@ -73,6 +73,7 @@ constinit const OutputKind rotation_output = {
     .components = roll_pitch_yaw_angles,
     .unit = "rad",
     .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::axial,
     FLOATFRAME_MEASURE(rotation)};
 
 }  // namespace floatframe

@@ -21,6 +21,7 @@ constinit const OutputKind velocity_output = {
     .components = world_axes,
     .unit = "m/s",
     .frames = OutputFrames::relative_to_and_in,
+    .reflects = Reflects::polar,
     FLOATFRAME_MEASURE(velocity)};
 
 }  // namespace floatframe
