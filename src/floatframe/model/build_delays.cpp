@@ -6,8 +6,8 @@
 namespace floatframe {
 
 std::string delay_name(const std::string& owner, const Formula& f, const FormulaReference& r) {
-  const auto number = std::count_if(f.references.data(), &r,
-                                    [](const FormulaReference& x) { return x.delayed; });
+  const auto number =
+      std::count_if(f.references.data(), &r, [](const FormulaReference& x) { return x.delayed; });
   return owner + "/delay" + (number > 0 ? std::to_string(number + 1) : "");
 }
 

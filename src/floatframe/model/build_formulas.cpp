@@ -337,7 +337,9 @@ void ModelBuilder::connect_formulas() {
     const std::string& name = model.elements[k].name;
     const auto slash = name.find('/');  // of an inner formula: its key, which may have a number
     const std::string key =
-        slash == std::string::npos ? "formula" : name.substr(slash + 1, name.find_first_of("[/", slash + 1) - slash - 1);
+        slash == std::string::npos
+            ? "formula"
+            : name.substr(slash + 1, name.find_first_of("[/", slash + 1) - slash - 1);
     model.elements[k].operands = ElementConnection(*this, k, *origin, path, key).connect(*f);
   }
   const auto connected = [&](const SharedFormula& f, const Origin& origin, const std::string& path,

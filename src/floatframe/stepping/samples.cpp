@@ -24,7 +24,7 @@ Samples::Samples(const Model& model) {
 
 namespace {
 
-bool close(const VecX& a, const VecX& b) {
+bool nearly_equal(const VecX& a, const VecX& b) {
   constexpr double enough = 1e-10;
   return ((a - b).array().abs() <= enough * (1.0 + b.array().abs())).all();
 }
@@ -58,7 +58,7 @@ std::string settle_samples(InitialisedModel& started, double step) {
     start_accelerations(f, state, penalty_mass);
     const VecX before = state.z;
     take();
-    settled = close(state.z, before);
+    settled = nearly_equal(state.z, before);
   }
   State& out = settled ? state : first;
   dynamics_at(f, out);
