@@ -53,7 +53,8 @@ RunSummary failed_summary(const std::string& model, const SimulationDescription&
 RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
   require_valid_run(o);
   check_step(o);
-  if (o.until && o.until != given.simulation.until)
+  const SharedFormula& built_with = given.simulation.until;
+  if (o.until && (!given.until || !built_with || o.until->text != built_with->text))
     throw InputError(ErrorCode::contradiction, o.origin.of("until"),
                      "simulation.until: found a formula that the model was not built with");
   return Run(given, o, run_options).result();
