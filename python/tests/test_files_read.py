@@ -65,3 +65,27 @@ def test_states_as_the_page_reads_them(tmp_path):
     tip = header["shapes"][header["bodies"][3]["shape"]]["nodes"].index("tip")
     places = names["positions"](header, arrays, rows, "beam")
     assert np.abs(places[:, tip] - table[:, 4:7]).max() < 1e-12
+
+
+PLANT = """\
+floatframe: 1
+bodies: {box: {position: [0, 0, 0], rigid: {mass: 1}}}
+joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x}}
+controllers: {plant: {type: state_space, file: FILE, inputs: [3], initial: rest}}
+outputs: {y: {controller: plant, output: 2}}
+simulation: {step: 1.0e-3, duration: 0.01}
+"""
+
+
+@pytest.mark.parametrize("file", ["s.npz", "s.mat", "packed.mat"])
+def test_linear_systems_of_others(tmp_path, file):
+    """At rest y = -C A^-1 B u; whole numbers and columns first as others may write them."""
+    system = {"A": np.array([[-1.0, 2.0], [0.0, -4.0]], order="F"), "B": np.array([[1], [8]]), "C": np.eye(2)}
+    if file == "s.npz":
+        np.savez(tmp_path / file, **system)
+    else:
+        pytest.importorskip("scipy.io").savemat(tmp_path / file, system, do_compression=file == "packed.mat")
+    (tmp_path / "m.yaml").write_text(PLANT.replace("FILE", file))
+    run(tmp_path, "run", "m.yaml", "--out", "out", "--quiet", "--no-report")
+    table = np.loadtxt(tmp_path / "out/results.csv", delimiter=",", skiprows=1)
+    assert np.abs(table[:, 1] - 6.0).max() < 1e-12

@@ -33,7 +33,7 @@ inline std::string utf8_of(std::u32string_view text) {
   for (char32_t code : text) {
     if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) code = U'\ufffd';
     const int more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-    const char32_t lead = more == 0 ? 0 : 0xf00 >> more & 0xff;
+    const char32_t lead = more == 0 ? 0 : 0xff00 >> (more + 1) & 0xff;
     out += static_cast<char>(lead | code >> (6 * more));
     for (int k = more - 1; k >= 0; --k) out += static_cast<char>(0x80 | (code >> (6 * k) & 0x3f));
   }

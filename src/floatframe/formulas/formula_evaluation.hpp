@@ -73,16 +73,61 @@ class FormulaMachine {
       : f_(f), reference_(value_of_reference), switches_(switches), fault_(fault) {}
 
   S run() noexcept {
+    const FormulaStep* const steps = f_.steps.data();
     const int n = std::ssize(f_.steps);
-    for (at_ = 0; at_ < n; ++at_) step(f_.steps[at_]);
-    assert(top_ == 1);
+    S* top = stack_.items;  // behind the last item: a local variable stays in a register
+    for (int at = 0; at < n; ++at) {
+      if (arithmetic(steps[at], top)) continue;
+      top_ = top - stack_.items;
+      at_ = at;
+      step(steps[at]);
+      top = stack_.items + top_;
+      at = at_;
+    }
+    assert(top == stack_.items + 1);
     return stack_.items[0];
   }
 
  private:
-  void push(const S& x) noexcept {
-    assert(top_ < Formula::deepest_stack);
-    std::construct_at(&stack_.items[top_++], x);
+  /// The steps that most formulas are made of; false: another one.
+  [[gnu::always_inline]] bool arithmetic(const FormulaStep& s, S*& top) const noexcept {
+    using Op = FormulaOp;
+    const auto put = [&](const FunctionValue& g) { top[-1] = composed(g, top[-1]); };
+    switch (s.op) {
+      case Op::number:
+        std::construct_at(top++, s.number);
+        return true;
+      case Op::reference:
+        std::construct_at(top++, reference_(s.index));
+        return true;
+      case Op::add:
+        --top;
+        top[-1] = top[-1] + *top;
+        return true;
+      case Op::subtract:
+        --top;
+        top[-1] = top[-1] - *top;
+        return true;
+      case Op::multiply:
+        --top;
+        top[-1] = top[-1] * *top;
+        return true;
+      case Op::add_number:
+        put({value_of(top[-1]) + s.number, 1.0, 0.0});
+        return true;
+      case Op::multiply_number:
+        put({value_of(top[-1]) * s.number, s.number, 0.0});
+        return true;
+      case Op::small_power: {
+        const double x = value_of(top[-1]), m = s.number;
+        double p = 1.0;  // x^(m - 2)
+        for (int k = 2; k < m; ++k) p *= x;
+        put({p * x * x, m * p * x, m * (m - 1.0) * p});
+        return true;
+      }
+      default:
+        return false;
+    }
   }
   /// Operand k of the n that the step takes.
   S& operand(int n, int k) noexcept { return stack_.items[top_ - n + k]; }
@@ -103,26 +148,6 @@ class FormulaMachine {
   void step(const FormulaStep& s) noexcept {
     using Op = FormulaOp;
     switch (s.op) {
-      case Op::number:
-        return push(s.number);
-      case Op::reference:
-        return push(reference_(s.index));
-      case Op::add:
-        return leave(2, operand(2, 0) + operand(2, 1));
-      case Op::subtract:
-        return leave(2, operand(2, 0) - operand(2, 1));
-      case Op::multiply:
-        return leave(2, operand(2, 0) * operand(2, 1));
-      case Op::add_number:
-        return take(1, {number(1, 0) + s.number, 1.0, 0.0});
-      case Op::multiply_number:
-        return take(1, {number(1, 0) * s.number, s.number, 0.0});
-      case Op::small_power: {
-        const double x = number(1, 0), n = s.number;
-        double p = 1.0;  // x^(n - 2)
-        for (int k = 2; k < n; ++k) p *= x;
-        return take(1, {p * x * x, n * p * x, n * (n - 1.0) * p});
-      }
       case Op::divide:
         if (number(2, 1) == 0.0) fail(FormulaFault::Kind::division, 0.0);
         return leave(2, operand(2, 0) / operand(2, 1));

@@ -119,10 +119,11 @@ std::optional<std::vector<MatVariable>> read_linear_file(const ModelInstance& se
 std::vector<std::string> take_linear_file(const ModelInstance& self, const YamlValue& value,
                                           const YamlSection& section, ElementDescription& element) {
   std::vector<std::string> inputs;
-  const std::size_t before = self.context.errors->size();
-  for (const char* key : {"A", "B", "C", "D", "outputs"})
-    if (section.has(key)) value.error(ErrorCode::exclusive, sentences::excludes(key));
-  if (self.context.errors->size() != before) return inputs;
+  for (const char* key : {"A", "B", "C", "D", "outputs"}) {
+    if (!section.has(key)) continue;
+    value.error(ErrorCode::exclusive, sentences::excludes(key));
+    return inputs;
+  }
   const auto file = read_linear_file(self, value);
   if (!file) return inputs;
   const ElementView view(element);

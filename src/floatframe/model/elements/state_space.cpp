@@ -59,6 +59,9 @@ void state_space_validate(const ElementCheck& check) {
   };
   if (m == 0 && !check.wrong.contains("inputs"))
     check.error(ErrorCode::missing, "inputs", sentences::no_signals());
+  const bool none = keys.A.size() == 0 && keys.B.size() == 0 && keys.C.size() == 0;
+  if (none && check.wrong.empty())
+    return check.error(ErrorCode::incomplete, "", sentences::none_given({"file", "A"}));
   for (const char* key : {"A", "B", "C"})
     if (!check.wrong.contains(key) && check.matrix(key).size() == 0)
       check.error(ErrorCode::missing, "", std::string("missing key '") + key + "'");
