@@ -48,7 +48,7 @@ FORMULAS = ("actuator", "motion", "measure", "output")  # whose value is {formul
 LARGE = {"NEST": lambda n: "(" * n + "t" + ")" * n, "CALLS": lambda n: "sin(" * n + "t" + ")" * n, "MINUS": lambda n: "-" * n + "t",
          "POWERS": lambda n: "t^" * n + "t", "RIGHT": lambda n: "t+(" * n + "t" + ")" * n, "SUM": lambda n: "+".join(["t"] * n),
          "CHIRPS": lambda n: "chirp(0, " * n + "1" + ", 1, 1)" * n, "NAME": lambda n: "a" * n,
-         "LIST": lambda n: "[" + ", ".join(["1"] * n) + "]", "POINTS": lambda n: "[" + ", ".join(f"[{k}, 0]" for k in range(n)) + "]"}
+         "LIST": lambda n: "[" + ", ".join(["1"] * n) + "]"}
 
 
 def cases():
