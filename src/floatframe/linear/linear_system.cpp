@@ -11,6 +11,7 @@
 #include "floatframe/linear/linear_reduction.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/run/body_energy.hpp"
 #include "floatframe/start/start_up.hpp"
 #include "floatframe/stepping/simulation_options.hpp"

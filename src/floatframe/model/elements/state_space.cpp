@@ -25,20 +25,20 @@ constexpr ElementKey matrix_key(const char* name, const char* about, KeyMember m
           .required = required,
           .member = member};
 }
-constexpr auto state_space_keys = with_sampling<StateSpaceBlock>({
-    {.name = "inputs",
-     .kind = KeyKind::signals,
-     .about = "u; one need not be a list",
-     .required = true,
-     .axis = ElementAxis::none,
-     .member = described_by<&StateSpaceBlock::inputs>},
-    matrix_key("A", "n x n, of n states", described_by<&StateSpaceBlock::A>),
-    matrix_key("B", "a row for each state, a column for each input; of one input also a list",
-               described_by<&StateSpaceBlock::B>),
-    matrix_key("C", "a row of n numbers", described_by<&StateSpaceBlock::C>),
-    matrix_key("D", "a number for each input; without it 0", described_by<&StateSpaceBlock::D>,
-               false),
-    block_start_key(described_by<&StateSpaceBlock::initial>)});
+constexpr auto state_space_keys = with_sampling<StateSpaceBlock>(
+    {{.name = "inputs",
+      .kind = KeyKind::signals,
+      .about = "u; one need not be a list",
+      .required = true,
+      .axis = ElementAxis::none,
+      .member = described_by<&StateSpaceBlock::inputs>},
+     matrix_key("A", "n x n, of n states", described_by<&StateSpaceBlock::A>),
+     matrix_key("B", "a row for each state, a column for each input; of one input also a list",
+                described_by<&StateSpaceBlock::B>),
+     matrix_key("C", "a row of n numbers", described_by<&StateSpaceBlock::C>),
+     matrix_key("D", "a number for each input; without it 0", described_by<&StateSpaceBlock::D>,
+                false),
+     block_start_key(described_by<&StateSpaceBlock::initial>)});
 
 void state_space_validate(const ElementCheck& check) {
   validate_sampling(check);
