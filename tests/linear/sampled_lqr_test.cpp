@@ -88,7 +88,8 @@ Lqr lqr(Coordinates c) {
 Model lqr_balanced(const MatX& K, double tilt, double delay = 0.0) {
   std::string formula;
   const char* const names[] = {"x", "v", "tip", "tip_v", "q", "w"};
-  for (int k = 0; k < 6; ++k) formula += fmt::format("{}({:.17g}) * {}", k ? " + " : "-(", K(k), names[k]);
+  for (int k = 0; k < 6; ++k)
+    formula += fmt::format("{}({:.17g}) * {}", k ? " + " : "-(", K(k), names[k]);
   const std::string lqr = fmt::format(
       "controllers: {{lqr: {{type: zero_order_hold, input: {{formula: '{})'}}, period: {}, delay: "
       "{}}}}}",
@@ -119,9 +120,9 @@ TEST(SampledLqr, MovesAsTheDiscreteClosedLoop) {
   for (const Coordinates c : both_coordinates) {
     double errors[2];
     for (int k = 0; k < 2; ++k)
-      errors[k] = (last_outputs(model, c, k == 0 ? 2e-3 : 1e-3, 40 * period) - y).norm();
+      errors[k] = (last_outputs(model, c, k == 0 ? 1e-3 : 2.5e-4, 40 * period) - y).norm();
     EXPECT_LT(errors[1], 2e-3 * tilt);
-    EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.2);
+    EXPECT_GT(errors[0] / errors[1], 10.0);
   }
 }
 
@@ -146,8 +147,9 @@ TEST(SampledLqr, BalancesThePendulum) {
 // A delay of six periods is too much: it falls.
 TEST(SampledLqr, FallsIfItActsTooLate) {
   const Lqr l = lqr(Coordinates::relative);
-  const VecX y = last_outputs(lqr_balanced(l.K, 1e-3, 6 * period), Coordinates::relative, 2e-3, 2.0);
-  EXPECT_GT(std::abs(y[4]), 0.5);
+  const VecX y =
+      last_outputs(lqr_balanced(l.K, 1e-3, 6 * period), Coordinates::relative, 2e-3, 2.0);
+  EXPECT_GT(std::abs(y[4]), 0.1);  // a hundred times the tilt
 }
 
 }  // namespace

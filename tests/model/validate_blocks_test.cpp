@@ -146,8 +146,7 @@ TEST(ValidateBlocks, Sampled) {
   expect_errors(
       with_block(f),
       {{[](D& d) { block<StateSpaceBlock>(d).delay = 0.1; }, "controllers.b.delay: incomplete"},
-       {[](D& d) { block<StateSpaceBlock>(d).offset = 0.1; },
-        "controllers.b.offset: incomplete"}});
+       {[](D& d) { block<StateSpaceBlock>(d).offset = 0.1; }, "controllers.b.offset: incomplete"}});
 }
 
 }  // namespace

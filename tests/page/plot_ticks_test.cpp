@@ -32,7 +32,7 @@ TEST(NiceTicks, AreRoundAndInside) {
                                                                         {1e-12, 3e-12},
                                                                         {-5e6, 3e7},
                                                                         {0.56291, 0.56295}}) {
-    const PlotTicks ticks = nice_ticks(low, high, 5);
+    const Ticks ticks = nice_ticks(low, high, 5);
     // Inside, and no tick more would be.
     EXPECT_GE(ticks.first, low - 1e-6 * ticks.step);
     EXPECT_LT(ticks.first, low + 1.000001 * ticks.step);
@@ -45,7 +45,7 @@ TEST(NiceTicks, AreRoundAndInside) {
     EXPECT_LT(std::min({std::abs(mantissa - 1), std::abs(mantissa - 2), std::abs(mantissa - 5)}),
               1e-9);
   }
-  const PlotTicks inside = nice_ticks(0.3, 7.9, 8);
+  const Ticks inside = nice_ticks(0.3, 7.9, 8);
   EXPECT_DOUBLE_EQ(inside.first, 1.0);
   EXPECT_DOUBLE_EQ(inside.at(inside.count - 1), 7.0);
 }

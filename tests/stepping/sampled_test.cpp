@@ -142,8 +142,8 @@ TEST(SampledPoles, GiveTheMotion) {
   for (int k = 1; k <= 40; ++k) {
     ASSERT_TRUE(s.step()) << s.failure();
     const Eigen::VectorXcd z = e.values.array().pow(k);
-    EXPECT_NEAR(s.output("x"), (e.vectors.row(0).transpose().array() * c.array() * z.array()).sum().real(),
-                1e-10);
+    EXPECT_NEAR(s.output("x"),
+                (e.vectors.row(0).transpose().array() * c.array() * z.array()).sum().real(), 1e-10);
   }
 }
 
@@ -178,7 +178,8 @@ std::vector<double> values_at(const std::string& controllers, const std::vector<
 }
 
 TEST(SampledValues, AreHeldFromTheirOffsetAndDelayOn) {
-  const std::string ramp = "  b: {type: zero_order_hold, input: {polynomial: [0, 1]}, period: 0.1, ";
+  const std::string ramp =
+      "  b: {type: zero_order_hold, input: {polynomial: [0, 1]}, period: 0.1, ";
   const std::vector<double> times{0.0, 0.02, 0.031, 0.099, 0.13, 0.15, 0.31};
   const auto expect = [&](const std::string& keys, const std::vector<double>& expected) {
     const std::vector<double> found = values_at(ramp + keys + "}", times);
@@ -227,11 +228,11 @@ TEST(SampledValues, OfLinearBlocksAreThoseOfThePid) {
   SampledLoop loop{.kp = 60.0, .ki = 20.0};
   loop.kd = 0.0;
   const std::string in = "{length: motor, factor: -1}, period: 0.05, ";
-  const Model models[] = {
-      model_of(loop.text()),
-      model_of(sampled_box("  b: {type: transfer_function, input: " + in +
-                           "numerator: [61, -60], denominator: [1, -1]}\n")),
-      model_of(sampled_box("  b: {type: state_space, inputs: " + in + "A: 1, B: 1, C: 1, D: 61}\n"))};
+  const Model models[] = {model_of(loop.text()),
+                          model_of(sampled_box("  b: {type: transfer_function, input: " + in +
+                                               "numerator: [61, -60], denominator: [1, -1]}\n")),
+                          model_of(sampled_box("  b: {type: state_space, inputs: " + in +
+                                               "A: 1, B: 1, C: 1, D: 61}\n"))};
   double ends[3];
   for (int k = 0; k < 3; ++k) {
     Simulation s(models[k], {.step = 0.02});
@@ -306,7 +307,8 @@ TEST(SampledStart, ValuesAreHeldByAnalysesAndSayIt) {
 bodies: {arm: {rigid: {mass: 2, centre_of_mass: [0.3, 0, 0], inertia: [0.001, 0.06, 0.06]}}}
 joints: {hinge: {type: revolute, child: arm, at: [0, 0, 0], axis: [0, -1, 0]}}
 forces: {motor: {type: joint_spring, joint: hinge, spring: 80, actuator: {controller: hold}}}
-controllers: {hold: {type: pid, measured: {length: motor}, target: 0.2, proportional: 10, period: 0.01}}
+controllers:
+  hold: {type: pid, measured: {length: motor}, target: 0.2, proportional: 10, period: 0.01}
 outputs: {q: {joint_position: hinge}, u: {controller: hold}}
 simulation: {step: 0.001, duration: 0.3, start: equilibrium}
 )");

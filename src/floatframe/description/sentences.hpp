@@ -119,7 +119,8 @@ std::string matrix_size(Eigen::Index rows, Eigen::Index columns, Eigen::Index ex
 std::string coefficients(Eigen::Index rows, Eigen::Index columns, Eigen::Index most);
 std::string leading_coefficient();
 std::string improper(Eigen::Index numerator, Eigen::Index denominator);
-/// Of sampled controllers: values that linear systems hold; in real time; too many values that wait.
+/// Of sampled controllers: values that linear systems hold; steps that do not fit; too many values
+/// that wait.
 std::string held_samples(const std::vector<std::string>& names);
 std::string sample_off_step(const std::string& key, double value, double step);
 std::string step_over_samples(const std::string& element, double period, double step, double most);

@@ -12,6 +12,7 @@
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/run/body_energy.hpp"
 #include "floatframe/start/start_up.hpp"
 #include "floatframe/stepping/samples.hpp"

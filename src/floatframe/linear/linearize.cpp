@@ -2,6 +2,7 @@
 
 #include "floatframe/formulation/owners.hpp"
 #include "floatframe/linear/linear_reduction.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/start/small_motions.hpp"
 #include "floatframe/start/start_up.hpp"
 #include "floatframe/start/system_state.hpp"

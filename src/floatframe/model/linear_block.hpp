@@ -1,7 +1,7 @@
 #pragma once
 // A linear system as the law of an element, its data: zdot = A z + B u, y = C z + D u, with the
 // inputs u, its only signals, and the values y; sampled (sampling.hpp) it is z_k+1 = A z_k + B u_k.
-#include "floatframe/model/sampling.hpp"
+#include "floatframe/model/sampling_keys.hpp"
 
 namespace floatframe {
 

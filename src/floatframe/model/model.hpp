@@ -153,7 +153,7 @@ struct Element {
   int road = -1;
   int states = 0;             ///< variables of first order of its law
   int kept = 0;               ///< numbers that change between steps only
-  SampleClock clock;          ///< of its value, if it is sampled (sampling.hpp)
+  SampleClock clock;          ///< of its value, if it is sampled
   bool remembers = false;     ///< they are a past, which the law reads by `PortsOf::kept` alone
   VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
   bool acts = true;           ///< by a law

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/model/sampling_keys.hpp"
 
 namespace floatframe {
 
@@ -18,14 +19,12 @@ bool is_multiple(double of, double x, double width) noexcept {
   return std::abs(n - std::round(n)) <= width * std::max(1.0, std::abs(n));
 }
 /// At which it computes a value, and begins to act with one.
-Ticks samples_of(const SampleClock& c) noexcept { return {c.first, c.period}; }
-Ticks acting_of(const SampleClock& c) noexcept {
-  return {c.first + c.delay, c.period};
-}
+SampleTicks samples_of(const SampleClock& c) noexcept { return {c.first, c.period}; }
+SampleTicks acting_of(const SampleClock& c) noexcept { return {c.first + c.delay, c.period}; }
 
 }  // namespace
 
-double Ticks::after(double t) const noexcept {
+double SampleTicks::after(double t) const noexcept {
   if (t < first) return first;
   const double k = std::floor((t - first) / period);
   double at = first + k * period;  // rounding may leave it on either side of t
@@ -33,12 +32,13 @@ double Ticks::after(double t) const noexcept {
   return at;
 }
 
-std::vector<Ticks> ticks_of(const Model& model) {
-  std::vector<Ticks> out;
-  const auto add = [&](const Ticks& x) {
-    for (const Ticks& o : out)
-      if (o.period == x.period && (o.first == x.first || (o.first < x.first && is_multiple(
-          x.period, x.first - o.first, multiple_width))))
+std::vector<SampleTicks> ticks_of(const Model& model) {
+  std::vector<SampleTicks> out;
+  const auto add = [&](const SampleTicks& x) {
+    for (const SampleTicks& o : out)
+      if (o.period == x.period &&
+          (o.first == x.first ||
+           (o.first < x.first && is_multiple(x.period, x.first - o.first, multiple_width))))
         return;
     out.push_back(x);
   };

@@ -1,17 +1,18 @@
 #pragma once
 // Sampled elements. At the instants t_k = first + k period their values are computed from the motion
 // there; they act as constants from t_k + delay on until the next ones do. Kept numbers: the values
-// that act, those that wait, the oldest first, and what the kind keeps from one sample to the next.
+// that act, those that wait, the oldest first, and what the kind keeps from one sample to the next. The
+// keys: sampling_keys.hpp.
 #include <span>
 #include <string>
 #include <vector>
 
-#include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/element_evaluation.hpp"
 
 namespace floatframe {
 
 /// The instants first + k period, k = 0, 1, ... [s], without drift.
-struct Ticks {
+struct SampleTicks {
   double first = 0.0, period = 0.0;
   /// The first one later than t.
   double after(double t) const noexcept;
@@ -19,11 +20,11 @@ struct Ticks {
   bool at(double t, double width) const noexcept { return !(after(t - width) > t + width); }
 };
 /// At which some element of the model computes a value or begins to act with one, each once.
-std::vector<Ticks> ticks_of(const Model& model);
+std::vector<SampleTicks> ticks_of(const Model& model);
 
 /// With `own` kept numbers of its kind. Does nothing without a period.
 void take_clock(Element& element, const Sampling& sampling, int own = 0);
-/// Instants within `width` of in.t, at which the ports are: what begins to act, and what is computed.
+/// Instants within `width` of in.t, where the ports are: what begins to act, what is computed.
 void begin_to_act(const Ports& in, double width, double* kept) noexcept;
 bool is_sampled_at(const Element& element, double t, double width) noexcept;
 void take_sample(const Ports& in, double* kept) noexcept;
@@ -44,38 +45,5 @@ std::string held_samples_note(const Model& model);
 /// Throws InputError, naming an element, if steps of this size from `begin` on do not end at the
 /// instants of all of them.
 void require_ticks_at_steps(const Model& model, double begin, double step);
-
-/// Keys of the struct S of a kind.
-template <class S>
-constexpr std::array<ElementKey, 3> sampling_keys(bool required = false) {
-  return {{{.name = "period",
-            .kind = KeyKind::number,
-            .about = required ? "between two samples" : "between two samples; without it it acts "
-                                                        "continuously",
-            .required = required,
-            .rule = positive_number("s"),
-            .fallback = no_number,
-            .member = member<S, &Sampling::period>},
-           {.name = "offset",
-            .kind = KeyKind::number,
-            .about = "time of the first sample",
-            .rule = non_negative_number("s"),
-            .fallback = no_number,
-            .member = member<S, &Sampling::offset>},
-           {.name = "delay",
-            .kind = KeyKind::number,
-            .about = "from a sample to when its value acts",
-            .rule = non_negative_number("s"),
-            .fallback = no_number,
-            .member = member<S, &Sampling::delay>}}};
-}
-template <class S, std::size_t n>
-constexpr std::array<ElementKey, n + 3> with_sampling(const ElementKey (&keys)[n]) {
-  std::array<ElementKey, n + 3> out{};
-  std::copy(keys, keys + n, out.begin());
-  std::ranges::copy(sampling_keys<S>(), out.begin() + n);
-  return out;
-}
-void validate_sampling(const ElementCheck& check);
 
 }  // namespace floatframe

@@ -66,7 +66,7 @@ void draw_axes(Out out, const CampbellFrame& f, const std::string& title) {
   const double right = picture_width - frame_right, bottom = picture_height - frame_bottom;
   fmt::format_to(out, "<text x=\"{}\" y=\"26\" font-size=\"17\">{}</text>\n", frame_left,
                  html_escape(title));
-  const PlotTicks frequencies = nice_ticks(0.0, f.top, 6),
+  const Ticks frequencies = nice_ticks(0.0, f.top, 6),
               speeds = nice_ticks(f.speed_low, f.speed_high, 8);
   for (int i = 0; i < frequencies.count; ++i) {
     const double y = f.y(frequencies.at(i));

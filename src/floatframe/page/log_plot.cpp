@@ -97,7 +97,7 @@ std::pair<double, double> panel_range(const LogPanel& panel) {
 using Out = std::back_insert_iterator<fmt::memory_buffer>;
 
 std::vector<Tick> linear_ticks(double low, double high) {
-  const PlotTicks ticks = nice_ticks(low, high, 9);
+  const Ticks ticks = nice_ticks(low, high, 9);
   std::vector<Tick> found;
   for (int k = 0; k < ticks.count; ++k)
     found.push_back({ticks.at(k), fmt::format("{:g}", ticks.at(k))});

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// One curve: (number in the row - start) / divisor.
 struct TrustCurve {
@@ -132,7 +132,7 @@ void add_trust_curves(const StateHistory& history, Json& trust, PageBuffer& buff
         const double made = steps > 0 ? row[steps] : 0.0;
         for (const TrustCurve& c : curves) {
           const double x = (row[c.column] - c.start) / (c.per_step ? made : c.divisor);
-          *out++ = c.since_last && !(made > 0.0) ? not_known : x;
+          *out++ = c.since_last && !(made > 0.0) ? no_number : x;
         }
       });
   const double noise = energy_noise(curves, values);

@@ -5,7 +5,7 @@
 
 namespace floatframe {
 
-PlotTicks nice_ticks(double low, double high, int about) {
+Ticks nice_ticks(double low, double high, int about) {
   const double rough = (high - low) / std::max(about, 1);
   if (!(rough > 0.0) || !std::isfinite(rough)) return {low, 1.0, 1};
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));

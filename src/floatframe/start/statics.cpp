@@ -4,6 +4,7 @@
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/loops/singular_position.hpp"
 #include "floatframe/model/joint_measure.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/system_state.hpp"
 
@@ -83,9 +84,10 @@ StaticsResult statics(const Model& model) {
   close_loops(f, state.q, state.v, true);
   set_element_states(f, state);
   const Equilibrium e = find_equilibrium(f, state.q);
+  state.z = f.element_states().values();
   const std::string unstable = unstable_equilibrium(f, state.q, e.lambda);
   const VecX zero = VecX::Zero(f.velocities());
-  VecX r(f.velocities());
+  VecX r = zero;
   kinematics_at(f, 0.0, state.q, zero);
   f.dynamics();
   f.residual(zero, e.lambda, 0.0, r);
@@ -93,10 +95,9 @@ StaticsResult statics(const Model& model) {
   StaticsResult s;
   for (const LockedLoops& locked : model.hints.locked) s.notes.push_back(locked.sentence);
   const std::string singular = singular_position(f, nearly_singular).sentence;
-  if (!singular.empty()) s.notes.push_back(singular);
-  if (!unstable.empty()) s.notes.push_back(unstable);
+  for (const std::string& note : {singular, unstable, held_samples_note(model)})
+    if (!note.empty()) s.notes.push_back(note);
   for (std::string& note : equilibrium_notes(f)) s.notes.push_back(std::move(note));
-  if (std::string held = held_samples_note(model); !held.empty()) s.notes.push_back(held);
   s.iterations = e.iterations;
   s.residual = e.residual;
   const SystemMotion& motion = f.motion();
@@ -109,12 +110,11 @@ StaticsResult statics(const Model& model) {
   tree.joints.resize(model.joints.size());
   f.add_tree_wrenches(tree);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    StaticsJoint joint;
+    StaticsJoint& joint = s.joints.emplace_back();
     joint.name = model.joints[k].name;
     joint.type = joint_type_name(model.joints[k].type);
     joint.force = tree.joints[k].force;
     joint.torque = tree.joints[k].torque;
-    s.joints.push_back(joint);
   }
   for (std::size_t k = 0; k < f.constraint_set().parts().size();
        ++k) {  // multipliers of cut joints, motions and elements

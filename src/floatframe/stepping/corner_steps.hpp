@@ -29,7 +29,7 @@ class CornerSteps {
  public:
   /// `step`: the nominal step size [s].
   CornerSteps(Formulation& formulation, Integrator& integrator, std::vector<TimeCorner> corners,
-              std::vector<Ticks> ticks, double step)
+              std::vector<SampleTicks> ticks, double step)
       : f_(formulation),
         integrator_(integrator),
         move_(formulation, integrator),
@@ -76,15 +76,14 @@ class CornerSteps {
 
   enum class Made { nothing, moved, stepped };
 
-  /// The next corner after t, up to `end`; none: at infinity. An instant of samples that ends a step
-  /// does not divide it.
+  /// The next corner after t, up to `end`; none: at infinity. An instant of samples at the end of
+  /// a step does not divide it.
   TimeCorner next(double t, double end) const noexcept {
-    const auto listed =
-        std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
-                         [](double x, const TimeCorner& c) { return x < c.to; });
+    const auto listed = std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
+                                         [](double x, const TimeCorner& c) { return x < c.to; });
     TimeCorner c{endless, endless};
     if (listed != corners_.end() && !(listed->from > end + slack_)) c = *listed;
-    for (const Ticks& x : ticks_) {
+    for (const SampleTicks& x : ticks_) {
       const double at = x.after(t + slack_);
       if (!(at < end - slack_) || at > c.from + slack_) continue;
       c = at < c.from - slack_ ? TimeCorner{at, at}
@@ -147,7 +146,7 @@ class CornerSteps {
   Integrator& integrator_;
   ExplicitMove move_;
   std::vector<TimeCorner> corners_;
-  std::vector<Ticks> ticks_;
+  std::vector<SampleTicks> ticks_;
   double slack_;  ///< [s]
   EdgeWatch watch_;
   Made made_ = Made::nothing;

@@ -81,9 +81,9 @@ void Stepper::check_ticks() const {
   constexpr double shortest = 0.02;
   for (const Element& e : model().elements)
     if (e.clock.ticks() && e.clock.period < shortest * grid_.step())
-      throw InputError(ErrorCode::out_of_range,
-                       sentences::step_over_samples(element_name(e), e.clock.period, grid_.step(),
-                                                    shortest));
+      throw InputError(
+          ErrorCode::out_of_range,
+          sentences::step_over_samples(element_name(e), e.clock.period, grid_.step(), shortest));
 }
 
 void Stepper::begin_at_start(bool locate_edges) {
@@ -245,7 +245,7 @@ void Stepper::take_inputs(double h) noexcept {
 void Stepper::sample_elements(double h) noexcept {
   const double width = time_corner_width * grid_.step();
   const bool due = std::any_of(ticks_.begin(), ticks_.end(),
-                               [&](const Ticks& x) { return x.at(state_.t, width); });
+                               [&](const SampleTicks& x) { return x.at(state_.t, width); });
   if (!due || state_.t - ticked_ < width) return;
   if (watch_.look) {
     kinematics_at(f_, state_);

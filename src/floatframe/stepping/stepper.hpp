@@ -188,8 +188,8 @@ class Stepper {
   EdgeWatch watch_;
   InputUse input_use_ = InputUse::held;
   State state_;
-  double least_ = 0.0, asked_ = 0.0;  ///< smallest substep and size of the last step [s]
-  std::vector<Ticks> ticks_;          ///< of sampled elements
+  double least_ = 0.0, asked_ = 0.0;    ///< smallest substep and size of the last step [s]
+  std::vector<SampleTicks> ticks_;      ///< of sampled elements
   double ticked_ = -TimeGrid::endless;  ///< the last of them in this step [s]
   StepAttempt last_;
   StepCounters counters_;

@@ -12,7 +12,7 @@
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/limits.hpp"
-#include "floatframe/model/sampling.hpp"
+#include "floatframe/model/sampling_keys.hpp"
 
 namespace floatframe {
 
@@ -93,37 +93,37 @@ constexpr ElementAxis bare = ElementAxis::none;
 constexpr ElementKey gain_key(const char* name, const char* about, KeyMember member) {
   return {.name = name, .kind = KeyKind::number, .about = about, .member = member};
 }
-constexpr auto pid_keys = with_sampling<Pid>({
-    {.name = "measured",
-     .kind = KeyKind::load,
-     .about = "what is controlled",
-     .required = true,
-     .axis = bare,
-     .member = described_by<&Pid::measured>},
-    law_key("target", KeyKind::target, "what it shall be; without it 0", described_by<&Pid::target>,
-            bare),
-    law_key("rate", KeyKind::load, "the rate of `measured`; without it that of the filtered error",
-            described_by<&Pid::rate>, bare),
-    gain_key("proportional", "times the error, target - measured",
-             described_by<&Pid::proportional>),
-    gain_key("integral", "times the integral of the error", described_by<&Pid::integral>),
-    gain_key("derivative", "times the rate of the error", described_by<&Pid::derivative>),
-    {.name = "filter",
-     .kind = KeyKind::number,
-     .about = "time constant of the rate of the error, needed for a `derivative` without `rate` "
-              "that is not sampled, not allowed with it",
-     .rule = positive_number("s"),
-     .fallback = no_number,
-     .member = described_by<&Pid::filter>},
-    lower_key(described_by<&Pid::lower>),
-    upper_key(described_by<&Pid::upper>),
-    {.name = "unwind",
-     .kind = KeyKind::number,
-     .about = "time in which the integral returns while the value is limited; without it "
-              "`proportional` / `integral`",
-     .rule = positive_number("s"),
-     .fallback = no_number,
-     .member = described_by<&Pid::unwind>}});
+constexpr auto pid_keys = with_sampling<Pid>(
+    {{.name = "measured",
+      .kind = KeyKind::load,
+      .about = "what is controlled",
+      .required = true,
+      .axis = bare,
+      .member = described_by<&Pid::measured>},
+     law_key("target", KeyKind::target, "what it shall be; without it 0",
+             described_by<&Pid::target>, bare),
+     law_key("rate", KeyKind::load, "the rate of `measured`; without it that of the filtered error",
+             described_by<&Pid::rate>, bare),
+     gain_key("proportional", "times the error, target - measured",
+              described_by<&Pid::proportional>),
+     gain_key("integral", "times the integral of the error", described_by<&Pid::integral>),
+     gain_key("derivative", "times the rate of the error", described_by<&Pid::derivative>),
+     {.name = "filter",
+      .kind = KeyKind::number,
+      .about = "time constant of the rate of the error, needed for a `derivative` without `rate` "
+               "that is not sampled, not allowed with it",
+      .rule = positive_number("s"),
+      .fallback = no_number,
+      .member = described_by<&Pid::filter>},
+     lower_key(described_by<&Pid::lower>),
+     upper_key(described_by<&Pid::upper>),
+     {.name = "unwind",
+      .kind = KeyKind::number,
+      .about = "time in which the integral returns while the value is limited; without it "
+               "`proportional` / `integral`",
+      .rule = positive_number("s"),
+      .fallback = no_number,
+      .member = described_by<&Pid::unwind>}});
 
 void pid_validate(const ElementCheck& check) {
   validate_sampling(check);
@@ -217,7 +217,8 @@ ElementExample pid_example(std::size_t regime, ExampleNumbers& numbers) {
   if (regime == 3) c.period = 0.02;
   x.keys(c);
   x.t = numbers(0.0, 1.0);
-  for (int i = 0; i < x.element.states + x.element.kept; ++i) x.states.push_back(numbers(-2.0, 2.0));
+  for (int i = 0; i < x.element.states + x.element.kept; ++i)
+    x.states.push_back(numbers(-2.0, 2.0));
   x.state_weight = numbers(0.5, 200.0);
   return x;
 }

@@ -61,13 +61,13 @@ constexpr ElementKey coefficients_key(const char* name, const char* about, KeyMe
   return {
       .name = name, .kind = KeyKind::matrix, .about = about, .required = true, .member = member};
 }
-constexpr auto transfer_function_keys = with_sampling<TransferFunction>({
-    input_key(described_by<&TransferFunction::input>),
-    coefficients_key("numerator", "coefficients of descending powers of s",
-                     described_by<&TransferFunction::numerator>),
-    coefficients_key("denominator", "the same; the first one is not 0",
-                     described_by<&TransferFunction::denominator>),
-    block_start_key(described_by<&TransferFunction::initial>)});
+constexpr auto transfer_function_keys = with_sampling<TransferFunction>(
+    {input_key(described_by<&TransferFunction::input>),
+     coefficients_key("numerator", "coefficients of descending powers of s",
+                      described_by<&TransferFunction::numerator>),
+     coefficients_key("denominator", "the same; the first one is not 0",
+                      described_by<&TransferFunction::denominator>),
+     block_start_key(described_by<&TransferFunction::initial>)});
 
 void transfer_function_validate(const ElementCheck& check) {
   validate_sampling(check);

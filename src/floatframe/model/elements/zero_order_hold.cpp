@@ -17,15 +17,14 @@ FLOATFRAME_LAW(zero_order_hold)
 namespace {
 
 constexpr auto zero_order_hold_sampling = sampling_keys<ZeroOrderHold>(true);
-constexpr ElementKey zero_order_hold_keys[] = {
-    input_key(described_by<&ZeroOrderHold::input>),
-    {.name = "initial",
-     .kind = KeyKind::number,
-     .about = "value until the first sample acts",
-     .member = described_by<&ZeroOrderHold::initial>},
-    zero_order_hold_sampling[0],
-    zero_order_hold_sampling[1],
-    zero_order_hold_sampling[2]};
+constexpr ElementKey zero_order_hold_keys[] = {input_key(described_by<&ZeroOrderHold::input>),
+                                               {.name = "initial",
+                                                .kind = KeyKind::number,
+                                                .about = "value until the first sample acts",
+                                                .member = described_by<&ZeroOrderHold::initial>},
+                                               zero_order_hold_sampling[0],
+                                               zero_order_hold_sampling[1],
+                                               zero_order_hold_sampling[2]};
 
 ElementExample zero_order_hold_example(std::size_t, ExampleNumbers& numbers) {
   ElementExample x;
