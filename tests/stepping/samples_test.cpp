@@ -12,7 +12,7 @@ namespace floatframe::test {
 namespace {
 
 /// A box of 3 kg that slides along x with 1 m/s, and a force on it.
-Model sampled_box(const std::string& force) {
+Model weighed_box(const std::string& force) {
   return model_of(R"(
 bodies: {box: {position: [0, 0, 0], rigid: {mass: 3}}}
 joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x, velocity: 1}}
@@ -29,7 +29,7 @@ simulation: {step: 0.001, duration: 0.1}
 
 // a = (6 - a) / 3
 TEST(SamplesAtTheStart, AreConsistentWithTheForces) {
-  const Model model = sampled_box("6 - box.x");
+  const Model model = weighed_box("6 - box.x");
   for (const Coordinates c : both_coordinates) {
     Simulation s(model, {.coordinates = c});
     EXPECT_NEAR(s.output("a"), 1.5, 1e-9);
@@ -41,7 +41,7 @@ TEST(SamplesAtTheStart, AreConsistentWithTheForces) {
 
 // A friction that knows the reaction brakes from the first instant.
 TEST(SamplesAtTheStart, KnowReactions) {
-  const Model model = sampled_box("-0.2 * N.z * tanh(rate(slide) / 0.1)");
+  const Model model = weighed_box("-0.2 * N.z * tanh(rate(slide) / 0.1)");
   for (const Coordinates c : both_coordinates)
     EXPECT_NEAR(Simulation(model, {.coordinates = c}).output("a"), -0.2 * 9.81 * std::tanh(10.0),
                 1e-9);
@@ -49,13 +49,13 @@ TEST(SamplesAtTheStart, KnowReactions) {
 
 // 6 - 6 a against 3 a: each round would double the acceleration.
 TEST(SamplesAtTheStart, SayThatTheyDoNotSettle) {
-  const Simulation s(sampled_box("6 - 6 * box.x"), {});
+  const Simulation s(weighed_box("6 - 6 * box.x"), {});
   EXPECT_TRUE(contains(s.start_report().notes, "'push/actuator'"));
 }
 
 // The pole is -mu g / w for a speed of zero.
 TEST(SamplesInLinearSystems, AreThoseOfTheOperatingPoint) {
-  Model model = sampled_box("-0.2 * N.z * tanh(rate(slide) / 0.1)");
+  Model model = weighed_box("-0.2 * N.z * tanh(rate(slide) / 0.1)");
   model.joints[0].velocity = {0.0};
   for (const Coordinates c : both_coordinates) {
     const std::vector<LinearMode> modes = linear_modes(linear_system(model, {.coordinates = c}));
@@ -64,7 +64,7 @@ TEST(SamplesInLinearSystems, AreThoseOfTheOperatingPoint) {
 }
 
 TEST(SamplesInEquilibria, AreZeroAndSaidToBe) {
-  const StaticsResult s = statics(sampled_box("-40 * angle(slide) + 0.1 * N.z"));
+  const StaticsResult s = statics(weighed_box("-40 * angle(slide) + 0.1 * N.z"));
   EXPECT_NEAR(s.forces[0].force, 0.0, 1e-9);
   EXPECT_TRUE(contains(s.notes, "'push/actuator'"));
 }

@@ -349,7 +349,7 @@ void ModelBuilder::connect_formulas() {
   };
   if (const SharedFormula& until = d.simulation.until) {
     model.until.emplace().name = "until";
-    const Origin at{d.simulation.origin.of("until")};
+    const Origin& at = d.simulation.origin;
     model.until->formula = connected(until, at, "simulation.until", "until", "simulation");
   }
   const auto outputs_of = [&](std::vector<Output>& built,

@@ -1,8 +1,8 @@
 #pragma once
-// Sampled elements. At the instants t_k = first + k period their values are computed from the motion
-// there; they act as constants from t_k + delay on until the next ones do. Kept numbers: the values
-// that act, those that wait, the oldest first, and what the kind keeps from one sample to the next. The
-// keys: sampling_keys.hpp.
+// Sampled elements. At the instants t_k = first + k period their values are computed from the
+// motion there; they act as constants from t_k + delay on until the next ones do. Kept numbers: the
+// values that act, those that wait, the oldest first, and what the kind keeps from sample to
+// sample. The keys: sampling_keys.hpp.
 #include <span>
 #include <string>
 #include <vector>

@@ -116,8 +116,8 @@ StaticsResult statics(const Model& model) {
     joint.force = tree.joints[k].force;
     joint.torque = tree.joints[k].torque;
   }
-  for (std::size_t k = 0; k < f.constraint_set().parts().size();
-       ++k) {  // multipliers of cut joints, motions and elements
+  // multipliers of cut joints, motions and elements
+  for (std::size_t k = 0; k < f.constraint_set().parts().size(); ++k) {
     const ConstraintPart& p = f.constraint_set().parts()[k];
     for (int row = 0; row < p.rows(); ++row) {
       const double lambda = e.lambda[f.constraint_set().offset(k) + row];

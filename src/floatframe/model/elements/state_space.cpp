@@ -23,27 +23,27 @@ constexpr Eigen::Index most_block_states = 200;
 constexpr ElementKey matrix_key(const char* name, const char* about, KeyMember member) {
   return {.name = name, .kind = KeyKind::matrix, .about = about, .member = member};
 }
-constexpr auto state_space_keys = with_sampling<StateSpaceBlock>({
-    {.name = "file",
-     .kind = KeyKind::linear_file,
-     .about = "with A, B, C, D and the names of inputs and outputs; or ..."},
-    {.name = "inputs",
-     .kind = KeyKind::signals,
-     .about = "u; one need not be a list; of a file also a map of its inputs, others are 0",
-     .required = true,
-     .axis = ElementAxis::none,
-     .member = described_by<&StateSpaceBlock::inputs>},
-    matrix_key("A", "... n x n, of n states", described_by<&StateSpaceBlock::A>),
-    matrix_key("B", "a row for each state, a column for each input; of one input also a list",
-               described_by<&StateSpaceBlock::B>),
-    matrix_key("C", "a row of n numbers for each value", described_by<&StateSpaceBlock::C>),
-    matrix_key("D", "a row for each value, a number for each input; without it 0",
-               described_by<&StateSpaceBlock::D>),
-    {.name = "outputs",
-     .kind = KeyKind::names,
-     .about = "of the values, without them their numbers from 1",
-     .member = described_by<&StateSpaceBlock::outputs>},
-    block_start_key(described_by<&StateSpaceBlock::initial>)});
+constexpr auto state_space_keys = with_sampling<StateSpaceBlock>(
+    {{.name = "file",
+      .kind = KeyKind::linear_file,
+      .about = "with A, B, C, D and the names of inputs and outputs; or ..."},
+     {.name = "inputs",
+      .kind = KeyKind::signals,
+      .about = "u; one need not be a list; of a file also a map of its inputs, others are 0",
+      .required = true,
+      .axis = ElementAxis::none,
+      .member = described_by<&StateSpaceBlock::inputs>},
+     matrix_key("A", "... n x n, of n states", described_by<&StateSpaceBlock::A>),
+     matrix_key("B", "a row for each state, a column for each input; of one input also a list",
+                described_by<&StateSpaceBlock::B>),
+     matrix_key("C", "a row of n numbers for each value", described_by<&StateSpaceBlock::C>),
+     matrix_key("D", "a row for each value, a number for each input; without it 0",
+                described_by<&StateSpaceBlock::D>),
+     {.name = "outputs",
+      .kind = KeyKind::names,
+      .about = "of the values, without them their numbers from 1",
+      .member = described_by<&StateSpaceBlock::outputs>},
+     block_start_key(described_by<&StateSpaceBlock::initial>)});
 
 void state_space_validate(const ElementCheck& check) {
   validate_sampling(check);
