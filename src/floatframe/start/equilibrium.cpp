@@ -9,6 +9,7 @@
 
 #include "floatframe/core/work_progress.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/start/statics_equations.hpp"
 
 namespace floatframe {
@@ -269,6 +270,8 @@ std::vector<std::string> equilibrium_notes(RelativeFormulation& f) {
       notes.push_back(element_name(elements[k]) +
                       " reads results of the end of a step, which are zero in the equilibrium");
   }
+  if (std::string held = held_samples_note(f.model()); !held.empty())
+    notes.push_back(std::move(held));
   return notes;
 }
 

@@ -4,7 +4,6 @@
 
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/model/sampling.hpp"
 
 namespace floatframe {
 
@@ -67,8 +66,6 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
         report->notes.push_back(std::move(note));
     close_loops(f, state.q, state.v, false);
     set_element_states(f, state, StateStart::sampled);
-    if (std::string note = held_samples_note(f.model()); report != nullptr && !note.empty())
-      report->notes.push_back(std::move(note));
   }
   if (report == nullptr) return state;
   kinematics_at(f, 0.0, state.q, state.v);

@@ -4,7 +4,6 @@
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/loops/singular_position.hpp"
 #include "floatframe/model/joint_measure.hpp"
-#include "floatframe/model/sampling.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/system_state.hpp"
 
@@ -95,8 +94,8 @@ StaticsResult statics(const Model& model) {
   StaticsResult s;
   for (const LockedLoops& locked : model.hints.locked) s.notes.push_back(locked.sentence);
   const std::string singular = singular_position(f, nearly_singular).sentence;
-  for (const std::string& note : {singular, unstable, held_samples_note(model)})
-    if (!note.empty()) s.notes.push_back(note);
+  if (!singular.empty()) s.notes.push_back(singular);
+  if (!unstable.empty()) s.notes.push_back(unstable);
   for (std::string& note : equilibrium_notes(f)) s.notes.push_back(std::move(note));
   s.iterations = e.iterations;
   s.residual = e.residual;
