@@ -37,7 +37,7 @@ inline JointDescription make_joint(const std::string& name, JointType type,
 inline ElementDescription make_rod(const std::string& name, const AttachmentDescription& a,
                                    const AttachmentDescription& b,
                                    std::optional<double> length = {}) {
-  return {name, Rod{a, b, length}, {}};
+  return {name, Rod{a, b, length, {}}, {}};
 }
 
 /// Of a joint or a force.

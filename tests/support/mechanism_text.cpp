@@ -18,6 +18,9 @@ std::string text(const Vec3& v) {
 std::string text(const std::vector<double>& values) {
   return fmt::format("[{:.17g}]", fmt::join(values, ", "));
 }
+std::string text(const std::vector<std::string>& words) {
+  return fmt::format("[{}]", fmt::join(words, ", "));
+}
 std::string text(const PiecewisePolynomial& p) {
   std::string s;
   for (std::size_t k = 0; k < p.pieces().size(); ++k)

@@ -86,7 +86,7 @@ bool MechanismBuilder::close_somewhere() {
   const AttachmentDescription on_b = somewhere(b), on_a = somewhere(a);
   if (chance(0.4)) {
     if ((on_a.point - on_b.point).norm() < 0.05) return false;
-    d.rods.push_back({"rod_" + std::to_string(d.rods.size()), Rod{on_a, on_b, {}}, {}});
+    d.rods.push_back({"rod_" + std::to_string(d.rods.size()), Rod{on_a, on_b, {}, {}}, {}});
     return true;
   }
   if (is_flexible(a) && is_flexible(b)) return false;

@@ -50,8 +50,9 @@ class Builder {
     d_.joints.push_back(j);
   }
   void rod(const std::string& a, const Vec3& at_a, const std::string& b, const Vec3& at_b) {
-    d_.rods.push_back(
-        {"rod_" + std::to_string(d_.rods.size() + 1), Rod{place(a, at_a), place(b, at_b), {}}, {}});
+    d_.rods.push_back({"rod_" + std::to_string(d_.rods.size() + 1),
+                       Rod{place(a, at_a), place(b, at_b), {}, {}},
+                       {}});
   }
   void spring(const std::string& a, const Vec3& at_a, const std::string& b, const Vec3& at_b) {
     ElementDescription f;

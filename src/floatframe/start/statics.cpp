@@ -109,11 +109,9 @@ StaticsResult statics(const Model& model) {
   tree.joints.resize(model.joints.size());
   f.add_tree_wrenches(tree);
   for (std::size_t k = 0; k < model.joints.size(); ++k) {
-    StaticsJoint& joint = s.joints.emplace_back();
-    joint.name = model.joints[k].name;
-    joint.type = joint_type_name(model.joints[k].type);
-    joint.force = tree.joints[k].force;
-    joint.torque = tree.joints[k].torque;
+    const auto& [force, torque] = tree.joints[k];
+    s.joints.push_back(
+        {model.joints[k].name, joint_type_name(model.joints[k].type), force, torque});
   }
   // multipliers of cut joints, motions and elements
   for (std::size_t k = 0; k < f.constraint_set().parts().size(); ++k) {

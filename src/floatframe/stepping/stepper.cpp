@@ -106,7 +106,9 @@ void Stepper::begin_at_start(bool locate_edges) {
                .angles = {f_.spring_angles().begin(), f_.spring_angles().end()},
                .branches = {f_.force_branches().begin(), f_.force_branches().end()},
                .outputs = outputs_,
-               .inputs = inputs_};
+               .tangent_reuse = integrator_->tangent_reuse(),
+               .inputs = inputs_,
+               .counters = counters_};
 }
 
 void Stepper::prepare_reactions() {
