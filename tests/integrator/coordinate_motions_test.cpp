@@ -230,8 +230,9 @@ TEST(Cylinders, PullToTheirTarget) {
       const double target = std::sqrt(0.58) + 0.1 * wave * wave;
       // k (length - target) is the force, as far as the damper is at rest relative to the target.
       ASSERT_NEAR(r.table.at(k, 1), target, 2e-4);
-      if (std::abs(std::sin(8.0 * t)) < 0.01)
+      if (std::abs(std::sin(8.0 * t)) < 0.01) {
         EXPECT_NEAR(2e7 * (r.table.at(k, 1) - target), r.table.at(k, 2), 40.0);
+      }
     }
   }
 }

@@ -100,7 +100,8 @@ void require_ticks_at_steps(const Model& model, double begin, double step) {
 
 void validate_sampling(const ElementCheck& check) {
   for (const char* key : {"offset", "delay"})
-    if (!check.given("period") && check.given(key) && !check.wrong.contains(key))
+    if (!check.given("period") && !check.wrong.contains("period") && check.given(key) &&
+        !check.wrong.contains(key))
       check.error(ErrorCode::incomplete, key, sentences::unused_without("'period'"));
   if (check.good("period") && check.good("delay") &&
       check.number("delay") > most_waiting * check.number("period"))

@@ -197,7 +197,7 @@ ElementExample delay_example(std::size_t regime, ExampleNumbers& numbers) {
   f.pade = 3.0;
   x = block_example(std::move(x), std::move(f), numbers);
   x.t = 1.02;
-  x.states.resize(x.element.states + x.element.kept);
+  std::fill(x.states.begin() + x.element.states, x.states.end(), 0.0);
   const Past past(x.element, x.states.data() + x.element.states);
   for (int i = 0; i < past.points(); ++i) {
     past.time(i) = 1.0 - 0.02 * (past.points() - 1 - i);

@@ -77,7 +77,8 @@ void transfer_function_validate(const ElementCheck& check) {
       return check.error(ErrorCode::wrong_count, key,
                          sentences::coefficients(x->rows(), x->cols(), most_coefficients));
   if (!check.good("denominator") || a.size() == 0) return;
-  if (a.size() < 2 || a(0) == 0.0 || !(a / a(0)).allFinite() || !(b / a(0)).allFinite())
+  if (a.size() < 2 || a(0) == 0.0 || !(a / a(0)).allFinite() ||
+      (check.good("numerator") && !(b / a(0)).allFinite()))
     return check.error(ErrorCode::out_of_range, "denominator", sentences::leading_coefficient());
   for (Eigen::Index i = 0; check.good("numerator") && i < b.size() - a.size(); ++i)
     if (b(i) != 0.0)
