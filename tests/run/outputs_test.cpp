@@ -61,6 +61,7 @@ std::string columns_of_type(OutputType type) {
                                            "hold",
                                            "dash",
                                            "3 * length(coil) + 2",
+                                           "t - 0.0025",
                                            "{body: arm, at: tip, toward: [0.3, 1, 0.5]}"};
   static_assert(std::size(references) == index_of(OutputOf::gauge) + 1);
   const std::string word = output_type_name(type);
@@ -89,6 +90,10 @@ TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {
     EXPECT_EQ(a.columns[k].unit, b.columns[k].unit);
     EXPECT_FALSE(a.columns[k].unit.empty());
     const double x = a.at(0, k), y = b.at(0, k);
+    if (a.columns[k].name == "first_crossing") {
+      EXPECT_TRUE(std::isnan(x) && std::isnan(y));
+      continue;
+    }
     EXPECT_TRUE(std::isfinite(x)) << a.columns[k].name;
     EXPECT_NEAR(x, y, 1e-8 * (1.0 + std::abs(x))) << a.columns[k].name;
     // Rotations begin at the design orientation.

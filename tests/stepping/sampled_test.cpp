@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "floatframe/linear/linear_system.hpp"
 #include "floatframe/linear/linearize.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/start/statics.hpp"
