@@ -15,10 +15,11 @@
 namespace floatframe {
 namespace {
 
-/// The estimated error relative to the range of the output.
+/// The estimated error relative to the range of the output, or to its size if it is constant.
 double relative_error(const VerifiedOutput& o) noexcept {
   if (o.convergence == Convergence::round_off) return 0.0;
-  return o.range > 0.0 ? o.error / o.range : std::numeric_limits<double>::infinity();
+  const double size = o.range > 0.0 ? o.range : o.magnitude;
+  return size > 0.0 ? o.error / size : std::numeric_limits<double>::infinity();
 }
 
 /// Relative to the range, or to 1e-6 of the largest output of the same unit: an output that is
