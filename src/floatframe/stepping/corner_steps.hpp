@@ -45,7 +45,9 @@ class CornerSteps {
   void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
 
   /// True if a step of size h from time t contains a corner.
-  bool within(double t, double h) const noexcept { return next(t, t + h).from < endless; }
+  bool within(double t, double h) const noexcept {
+    return next(listed_after(t), t, t + h).from < endless;
+  }
 
   /// One step of size h. `smooth(size)` makes a step in which no function has a corner; `behind()`
   /// is called at a corner, before accelerations are solved for again. If the step is not accepted,
@@ -56,10 +58,12 @@ class CornerSteps {
     assert(h > 0.0);
     const double end = state.t + h;
     StepAttempt total;
-    for (TimeCorner c = next(state.t, end); c.from < endless; c = next(state.t, end)) {
+    auto listed = listed_after(state.t);
+    for (TimeCorner c; (c = next(listed, state.t, end)).from < endless;) {
       const double left = std::min(before(c.from, state.t, h), end);
       if (!reach(state, left, h, smooth, total)) return total;
       pass(state, c, h, behind);
+      while (listed != corners_.end() && !(listed->to > c.to)) ++listed;
       ++passed;
     }
     if (!reach(state, end, h, smooth, total)) return total;
@@ -76,11 +80,14 @@ class CornerSteps {
 
   enum class Made { nothing, moved, stepped };
 
-  /// The next corner after t, up to `end`; none: at infinity. An instant of samples at the end of
-  /// a step does not divide it.
-  TimeCorner next(double t, double end) const noexcept {
-    const auto listed = std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
-                                         [](double x, const TimeCorner& c) { return x < c.to; });
+  using Listed = std::vector<TimeCorner>::const_iterator;
+  Listed listed_after(double t) const noexcept {
+    return std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
+                            [](double x, const TimeCorner& c) { return x < c.to; });
+  }
+  /// The next corner up to `end`: `listed`, or an instant of samples after t; none: at infinity. An
+  /// instant of samples at the end of a step does not divide it.
+  TimeCorner next(Listed listed, double t, double end) const noexcept {
     TimeCorner c{endless, endless};
     if (listed != corners_.end() && !(listed->from > end + slack_)) c = *listed;
     for (const SampleTicks& x : ticks_) {
