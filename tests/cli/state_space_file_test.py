@@ -97,12 +97,12 @@ class StateSpaceFile(RunCase):
             new.writestr("A.npy", bytes(1000))
         both = "plant.npz, A: [[1]]"
         for file, inputs, sentence in (
-                ("none.npz", "0", "'none.npz': the file does not exist"),
+                ("none.npz", "0", "'none.npz'"),
                 ("text.npz", "0", "'text.npz': found neither an .npz nor a .mat file"),
                 ("short.npz", "0", "'short.npz': "), ("flipped.npz", "0", "'flipped.npz': "),
                 ("packed.npz", "0", "'packed.npz': "), ("short.mat", "0", "'short.mat': the MATLAB file is damaged"),
                 ("new.mat", "0", "version 7.3"), ("without_a.npz", "0", "found no matrix A"),
-                ("without_c.npz", "0", "found no matrix C"), ("[1]", "0", "found a list of 1"),
+                ("without_c.npz", "0", "found no matrix C"), ("[1]", "0", "a list of 1"),
                 (both, "[0, 0]", "excludes 'A'"), ("plant.npz", "[0, 0, 0]", "found 3 signals, expected 2 for the inputs of the file: push, pull"),
                 ("plant.npz", "{pusch: 0}", "found no input of this name in the file, did you mean 'push'?"),
                 ("plant.npz", "{push: {input: nothing}}", "unknown input 'nothing'")):

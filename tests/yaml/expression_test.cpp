@@ -11,6 +11,8 @@
 namespace floatframe {
 namespace {
 
+std::string meant(const std::string& word) { return ", did you mean '" + word + "'?"; }
+
 const ParameterScope scope{
     {"ne", 10.0}, {"mass", 2.5}, {"flexible", true}, {"road", std::string("stairs")}};
 
@@ -169,12 +171,12 @@ TEST(PlainScalars, AreClassified) {
 
 TEST(Suggestion, NearestKnownName) {
   const std::vector<std::string> known{"clamped", "static_modes", "normal_modes"};
-  EXPECT_EQ(did_you_mean("clampd", known), ", did you mean 'clamped'?");
-  EXPECT_EQ(did_you_mean("Clamped", known), ", did you mean 'clamped'?");
-  EXPECT_EQ(did_you_mean("calmped", known), ", did you mean 'clamped'?");
+  EXPECT_EQ(did_you_mean("clampd", known), meant("clamped"));
+  EXPECT_EQ(did_you_mean("Clamped", known), meant("clamped"));
+  EXPECT_EQ(did_you_mean("calmped", known), meant("clamped"));
   EXPECT_EQ(did_you_mean("colour", known), "");
-  EXPECT_EQ(did_you_mean("mas", {"masses", "mass_model"}), ", did you mean 'masses'?");
-  EXPECT_EQ(did_you_mean("mas", {"material", "mass"}), ", did you mean 'mass'?");
+  EXPECT_EQ(did_you_mean("mas", {"masses", "mass_model"}), meant("masses"));
+  EXPECT_EQ(did_you_mean("mas", {"material", "mass"}), meant("mass"));
   EXPECT_EQ(did_you_mean("ma", {"masses"}), "");
   EXPECT_EQ(edit_distance("abcd", "abdc"), 1);
   EXPECT_EQ(edit_distance("", "abc"), 3);
