@@ -12,7 +12,7 @@ help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
 	@echo "make test-nightly  a thousand cases (CASES=1000) of each random suite and of attacks"
-	@echo "make test-all      make test, test-nightly and what takes longer: stairs, twenty kills of each kind,"
+	@echo "make test-all      make test, then what takes longer: a thousand random mechanisms, stairs, attacks, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
 	@echo "make test-contracts  the tests of the rooms of steps, with asserts; not part of test-all"
 	@echo "make attacks       hostile input of every kind, ATTACKS=5000 each, for a night; SEED=1 begins it"
@@ -47,7 +47,8 @@ test: build
 # What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
 # docs/validation.md has the figures.
 test-all: test
-	$(MAKE) --no-print-directory test-nightly
+	FLOATFRAME_RANDOM=1000 build/tests/mechanisms_tests --gtest_brief=1
+	$(MAKE) --no-print-directory attacks ATTACKS=200
 	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
