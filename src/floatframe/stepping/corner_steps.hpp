@@ -27,6 +27,8 @@ namespace floatframe {
 
 class CornerSteps {
  public:
+  static constexpr double shortest = 0.02;  ///< fraction of a step that is made as a step
+
   /// `step`: the nominal step size [s].
   CornerSteps(Formulation& formulation, Integrator& integrator, std::vector<TimeCorner> corners,
               std::vector<SampleTicks> ticks, double step)
@@ -74,8 +76,7 @@ class CornerSteps {
   }
 
  private:
-  /// Fractions of a step: the shortest that is made as a step, and the rounding of time.
-  static constexpr double shortest = 0.02, rounding = 1e-10;
+  static constexpr double rounding = 1e-10;  ///< of time, as a fraction of a step
   static constexpr double endless = std::numeric_limits<double>::infinity();
 
   enum class Made { nothing, moved, stepped };

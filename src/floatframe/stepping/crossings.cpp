@@ -15,8 +15,7 @@
 namespace floatframe {
 namespace {
 
-constexpr double shortest = 0.02;  // of the step, as of edges and corners
-constexpr double close = 1e-10;    // [s], and less of steps below 1 ms
+constexpr double close = 1e-10;  // [s], and less of steps below 1 ms
 
 }  // namespace
 
@@ -142,7 +141,8 @@ void Stepper::return_to_begin() noexcept {
 
 /// A part of the step from its beginning. False if it is not accepted.
 bool Stepper::reach(double dt, double h) noexcept {
-  if (!(dt < shortest * h) || (corners_ && corners_->within(state_.t, dt))) return cover(dt);
+  if (!(dt < CornerSteps::shortest * h) || (corners_ && corners_->within(state_.t, dt)))
+    return cover(dt);
   take_inputs(h);
   const double middle = 0.5 * dt / h;  // of the whole step
   state_.a += middle * (a_end_ - state_.a);

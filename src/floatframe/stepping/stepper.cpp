@@ -78,7 +78,7 @@ void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
 
 /// Shorter parts of steps are not made as steps (corner_steps.hpp).
 void Stepper::check_ticks() const {
-  constexpr double shortest = 0.02;
+  constexpr double shortest = CornerSteps::shortest;
   for (const Element& e : model().elements)
     if (e.clock.ticks() && e.clock.period < shortest * grid_.step())
       throw InputError(
