@@ -112,6 +112,16 @@ bool loses_mass(const Outcome& o) {
   return !o.finished && o.reason.find("almost without mass") != std::string::npos;
 }
 
+/// Refused because something can move without mass.
+bool refused_for_mass(const Outcome& o) {
+  return !o.started && o.reason.find("can move without mass") != std::string::npos;
+}
+
+/// Stopped in its first step for the same.
+bool stops_at_once(const Outcome& o) {
+  return o.started && loses_mass(o) && o.result.summary.duration == 0.0;
+}
+
 /// How far a run says it may be judged: until it leaves the range of small deformations, and half
 /// the way to where a body turns too far in one step or a freedom has lost its mass. Nothing if it
 /// stops for another reason before it has said so.
@@ -181,6 +191,19 @@ bool only_massless_differ(const Model& model, const std::vector<Level>& levels) 
   return falling;
 }
 
+/// Whether the formulations agree in the first half of what both run, at some step.
+bool agree_before_stops(const Model& model, const std::vector<Level>& levels) {
+  double before = 0.0;
+  for (const Level& l : levels) {
+    const double until =
+        0.5 * std::min(l.relative.result.summary.duration, l.absolute.result.summary.duration);
+    const double now = difference(model, l.relative.result.table, l.absolute.result.table, until);
+    if (until > 0.0 && (now < nothing || (before > 0.0 && falls(before, now)))) return true;
+    before = now;
+  }
+  return false;
+}
+
 std::string list(const std::vector<double>& values) {
   return fmt::format("{:.3g}", fmt::join(values, ", "));
 }
@@ -238,6 +261,8 @@ Judgement judge(const Mechanism& mechanism) {
     Outcome a = run_once(model, o, mechanism, Coordinates::absolute);
     if (!r.known || !a.known) return verdict(Verdict::no_reason, r.reason + " / " + a.reason);
     if (!r.started || !a.started) {
+      if ((refused_for_mass(r) && stops_at_once(a)) || (refused_for_mass(a) && stops_at_once(r)))
+        return verdict(Verdict::refused, r.reason + " / " + a.reason);
       if (r.started || a.started)
         return verdict(Verdict::split,
                        (r.started ? "absolute: " : "relative: ") + r.reason + a.reason);
@@ -301,7 +326,8 @@ Judgement judge(const Mechanism& mechanism) {
     const auto apart = [](double d) { return std::isfinite(d) && d > same; };
     const auto agrees = [](double d) { return d <= same; };
     const bool agree = std::none_of(j.differences.begin(), j.differences.end(), apart) &&
-                       std::any_of(j.differences.begin(), j.differences.end(), agrees);
+                       (std::any_of(j.differences.begin(), j.differences.end(), agrees) ||
+                        agree_before_stops(model, levels));
     return verdict(at_singular_position && (alike || agree) ? Verdict::stopped : Verdict::split,
                    stops);
   }

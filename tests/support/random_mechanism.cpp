@@ -321,10 +321,18 @@ std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed
 std::optional<Mechanism> with_coupling(Mechanism m, unsigned seed) {
   ModelDescription& d = m.description;
   ExampleNumbers numbers(seed);
+  const auto without_mass = [&](const std::string& name) {
+    return std::any_of(d.bodies.begin(), d.bodies.end(), [&](const BodyDescription& b) {
+      const auto* rigid = std::get_if<RigidDescription>(&b.kind);
+      return b.name == name && rigid && rigid->mass == 0.0;
+    });
+  };
   std::vector<CoordinateTerm> all;
   for (const JointDescription& j : d.joints)
     for (int k = 0; k < joint_velocities(j.type) && !j.motion; ++k)
-      if (coordinate_axis(j.type, Vec3::UnitX(), k)) all.push_back({j.name, k});
+      if (!without_mass(j.parent.body) && !without_mass(j.child.body) &&
+          coordinate_axis(j.type, Vec3::UnitX(), k))
+        all.push_back({j.name, k});
   Coupling coupling;
   while (!all.empty() && coupling.terms.size() < 3) {
     const auto k = static_cast<std::ptrdiff_t>(numbers(0.0, static_cast<double>(all.size())));
