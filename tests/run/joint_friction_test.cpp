@@ -66,7 +66,7 @@ simulation: {step: 1.0e-3, duration: 11, spectral_radius: 0.8}
 )";
 }
 
-double drift(const Model& model, Coordinates c) {
+double drift_of_friction(const Model& model, Coordinates c) {
   const RunResult r = completed_run(model, with(model.simulation, c));
   return std::abs(r.table.at(11000, 1) - r.table.at(1000, 1));
 }
@@ -74,11 +74,12 @@ double drift(const Model& model, Coordinates c) {
 TEST(JointFriction, DoesNotDriftBelowBreakaway) {
   const Model still = model_of(pulled("", 0.0)), shaken = model_of(pulled("", 6.0));
   for (const Coordinates c : both_coordinates) {
-    EXPECT_LT(drift(still, c), 1e-9);
-    EXPECT_LT(drift(shaken, c), 1e-9);
+    EXPECT_LT(drift_of_friction(still, c), 1e-9);
+    EXPECT_LT(drift_of_friction(shaken, c), 1e-9);
   }
   // The choice that creeps, as docs/model-file.md says.
-  const double creep = drift(model_of(pulled(", elastic: 0", 6.0)), Coordinates::relative);
+  const double creep =
+      drift_of_friction(model_of(pulled(", elastic: 0", 6.0)), Coordinates::relative);
   figure("creep of the LuGre model in 10 s [m]", creep);
   EXPECT_GT(creep, 1e-5);
 }
