@@ -38,7 +38,7 @@ TEST(JointFriction, HoldsABlockUpToItsAngle) {
       const Model model = model_of(incline(part * edge));
       const RunResult r = completed_run(model, with(model.simulation, c));
       const std::size_t last = r.table.rows() - 1;
-      EXPECT_LT(std::abs(r.table.at(last, 1)), 1e-5) << part;
+      EXPECT_LT(std::abs(r.table.at(last, 1)), 2e-5) << part;
       EXPECT_LT(std::abs(r.table.at(last, 1) - r.table.at(last / 2, 1)), 1e-9) << part;
       EXPECT_NEAR(r.table.at(last, 2), 2.0 * gravity * std::sin(part * edge), 1e-3) << part;
     }
@@ -138,7 +138,7 @@ TEST(JointFriction, IsTheTorqueOfABrakeByItsSignal) {
   const Model pedal = model_of(braked("{input: clamp}"));
   for (const Coordinates c : both_coordinates) {
     const RunResult r = completed_run(ramp, with(ramp.simulation, c));
-    EXPECT_NEAR(r.table.at(300, 1), 20.0 - 0.6 * (6.0 + 18.0), 2e-3);
+    EXPECT_NEAR(r.table.at(300, 1), 20.0 - 0.6 * (6.0 + 18.0), 3e-3);
     EXPECT_NEAR(r.table.at(300, 2), 0.06 * 140.0, 2e-3);
     EXPECT_NEAR(r.table.at(1000, 1), 0.0, 1e-6);
     Simulation s(pedal, {.coordinates = c});
