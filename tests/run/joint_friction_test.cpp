@@ -118,7 +118,7 @@ simulation: {step: 2.0e-5, duration: 1.3, spectral_radius: 0.8}
   }
 }
 
-/// A disc of 0.1 kg m2 with a disc brake of the radius 0.15 m, the coefficient 0.4, 20 N of preload.
+/// A disc of 0.1 kg m2 with a brake of the radius 0.15 m, the coefficient 0.4, 20 N of preload.
 std::string braked(const std::string& clamp) {
   return R"(
 inputs: {clamp: {unit: N}}

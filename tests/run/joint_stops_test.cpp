@@ -86,6 +86,18 @@ TEST(JointStops, RestitutionIsThatOfTheKeyWithTwentyStepsInAContact) {
   figure("error of the restitution with 20 steps in a contact", worst);
 }
 
+TEST(JointStops, FewerStepsInAContactAreWarned) {
+  const Contact contact{1e4, 1.0, 0.6};
+  const Model model = model_of(buffered(contact.keys()));
+  for (const Coordinates c : both_coordinates)
+    for (const double steps : {6.0, 25.0}) {
+      const double h = contact.duration() / steps;
+      const RunResult r = completed_run(model, with(model.simulation, c, h, 200.0 * h));
+      const auto is_contact = [](const RangeWarning& w) { return w.limit == RangeLimit::contact; };
+      EXPECT_EQ(std::ranges::count_if(r.summary.warnings, is_contact), steps < 20.0 ? 1 : 0);
+    }
+}
+
 // With the keys of an element in `forces` the same bits.
 TEST(JointStops, AreTheElement) {
   const std::string keys = "lower: 0, stiffness: 1e4, restitution: 0.6";

@@ -132,6 +132,8 @@ struct ElementKind {
   bool along_line = false;  ///< acts along the line between its ends, which is undefined if they
                             ///< coincide, unless it has a joint
   bool bears = false;       ///< `is_bearing`
+  bool contact = false;     ///< with a restitution at the speed of a touch, which is its first kept
+                            ///< number, and the key `least_speed`
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
   /// Why its force is not a number there; for messages.

@@ -179,6 +179,7 @@ constinit const ElementKind joint_stop_element = {
     .reverse = joint_stop_reverse,
     .states = [](Element& element) { element.kept = 1; },
     .after_step = keep_stop_speed,
+    .contact = true,
     .dual = joint_stop_law<Dual>,
     .side = joint_stop_side,
     .picture = picture_of_coordinate,

@@ -99,6 +99,7 @@ constinit const ElementKind unilateral_spring_element = {
     .states = [](Element& element) { element.kept = 1; },
     .after_step = keep_touch_speed,
     .along_line = true,
+    .contact = true,
     .dual = unilateral_spring_law<Dual>,
     .side = unilateral_spring_side,
     .picture = picture_of_line,
